@@ -11,14 +11,15 @@ from rich.table import Table
 
 from ..cli.exits import guarded, standing_streams
 from .backends.files import project_files, shared_files
-from .backends.report.markdown import (
-    block_diagram,
+from .backends.report.derivation import (
     bodies_of,
     cycles_line,
     joint_rows,
     mobility_line,
     path_rows,
+    transformation,
 )
+from .backends.report.markdown import block_diagram
 from .equations.outputs import generate
 from .mechanisms import MODELS
 from .planning.plan import Plan
@@ -129,7 +130,9 @@ def show_topology(plan: Plan) -> None:
         cycles.add_row(bodies_of(graph, cycle), str(cycle.length), mark)
     console.print(cycles)
     for transformer in plan.transformers:
-        console.print(block_diagram(graph, transformer), highlight=False, soft_wrap=True)
+        console.print(
+            block_diagram(transformation(graph, transformer)), highlight=False, soft_wrap=True
+        )
 
 
 if __name__ == "__main__":

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     )
     from .suspension.rigid import RigidAxle
     from .suspension.rigid.model import RigidAxleModel
-    from .systems.compile import CompilerError, MechanismError, proposals
+    from .systems.compile import CompilerError, MechanismError, proposals, write_derivation
     from .systems.compile import compile_mechanism as compile  # noqa: A004 (what the user calls it)
     from .systems.derivatives import derivative, design_derivative, gradient
     from .systems.linearisation import Linearisation, linearise
@@ -95,6 +95,7 @@ __all__ = [
     "simulate",
     "state_at_height",
     "travel_range",
+    "write_derivation",
 ]
 
 # Names are loaded when they are first used: the generator is part of this package, and must run
@@ -114,7 +115,13 @@ _MODULES = {
     ".systems.rest": ("rest",),
     ".suspension.model": ("Model",),
     ".systems.modes": ("Mode",),
-    ".systems.compile": ("CompilerError", "MechanismError", "compile_mechanism", "proposals"),
+    ".systems.compile": (
+        "CompilerError",
+        "MechanismError",
+        "compile_mechanism",
+        "proposals",
+        "write_derivation",
+    ),
     ".suspension.positions": (
         "PositionError",
         "Range",

@@ -43,7 +43,7 @@ def test_every_joint_and_fictitious_body_is_in_the_graph(
 ) -> None:
     plan, words, _ = drawn
     found, joints = Counter(words["graph"]), plan.formulation.mechanism.joints
-    assert {found[f"{j.name}: {j.freedoms}"] for j in joints} == {1}
+    assert {found[f"{j.name.replace('_', ' ')}: {j.freedoms}"] for j in joints} == {1}
     assert all(len(ELEMENTS[j.kind]) == j.freedoms for j in joints)
     assert found["R"] + found["P"] == sum(j.freedoms for j in joints)
     assert found["P"] == sum(j.kind in ("prismatic", "cylindrical") for j in joints)

@@ -15,7 +15,7 @@ from kintrafo.generator import (
     Spherical,
     combined,
 )
-from kintrafo.generator.backends.report.markdown import joint_rows, mobility_line
+from kintrafo.generator.backends.report.derivation import joint_rows, mobility_line
 from kintrafo.generator.closed_forms.free import PlaceFree
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.loops.graph import Topology

@@ -13,6 +13,7 @@ from . import (
     compare,
     compliance,
     deflection,
+    derivation,
     export_points,
     fit,
     generate,
@@ -94,7 +95,7 @@ _PANELS = {
         compare,
     ),
     "Design": (sensitivity, tolerance, optimise, pareto, fit, sweep),
-    "Hand over": (report, animate, paper, generate),
+    "Hand over": (report, animate, derivation, paper, generate),
 }
 for panel, modules in _PANELS.items():
     for module in modules:

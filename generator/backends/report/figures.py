@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
 INK, GREY, PALE = "#222222", "#8a8a8a", "#d9d9d9"
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#7b5ea7", "#56a0d3", "#a6761d")
+HELD = "\N{NO-BREAK SPACE}"
 ELEMENTS = {
     "revolute": "R",
     "prismatic": "P",
@@ -61,6 +62,7 @@ def draw_figures(plan: Plan, folder: Path, *, force: bool = False) -> list[Path]
     for name, drawn in (("bodies", bodies), ("graph", graph), ("transformers", transformers)):
         path = folder / f"{plan.formulation.name}_{name}.svg"
         figure = drawn(plan)
+        figure.suptitle(plan.formulation.mechanism.title, fontsize=14)
         with mpl.rc_context({"svg.hashsalt": "kintrafo", "svg.fonttype": "none"}):
             for target in (path, path.with_suffix(".png")):
                 facts: dict[str, Any] = {"Date": None} if target.suffix == ".svg" else {}
@@ -68,6 +70,34 @@ def draw_figures(plan: Plan, folder: Path, *, force: bool = False) -> list[Path]
                     figure.savefig(temporary, dpi=160, metadata=facts)
                 written.append(target)
     return written
+
+
+def print_figures(plan: Plan, text: Path, *, force: bool = False) -> dict[str, str]:
+    """Write the figures of a mechanism as they are printed in a text; return their files' names.
+
+    They are PDF, without titles, since a caption says what they show.
+
+    Parameters
+    ----------
+    plan
+        The analysed mechanism.
+    text
+        The file of the text, beside which they are written under its name.
+    force
+        Whether files that somebody else wrote are replaced, see `kintrafo.core.files`.
+    """
+    drawn = {
+        "bodies": bodies(plan),
+        "graph": graph(plan, (False,)),
+        "elementary": graph(plan, (True,)),
+        "transformers": transformers(plan, numbered=True),
+    }
+    names = {name: f"{text.stem}_{name}.pdf" for name in drawn}
+    facts = {"CreationDate": None, "Producer": None, "Creator": None}
+    for name, figure in drawn.items():
+        with replacing(text.with_name(names[name]), force=force) as temporary:
+            figure.savefig(temporary, metadata=facts)
+    return names
 
 
 def _axes(figure: Figure, *place: int) -> Axes:
@@ -99,7 +129,9 @@ def bodies(plan: Plan) -> Figure:
             body = joint.other(mechanism.ground)
             shift = 0.12 * size * (view @ along)
             held[body] += [p + sign * shift for p in held[body][:1] for sign in (1, -1)]
-    figure = Figure(figsize=(7.2, 7.2), layout="constrained")
+    span = np.ptp(np.array([p for points in held.values() for p in points]), axis=0)
+    tall = float(np.clip(span[1] / span[0], 0.4, 1.0)) if span[0] > 0 else 1.0
+    figure = Figure(figsize=(6.2, 5.4 * tall + 1.0), layout="constrained")
     axes = _axes(figure)
     axes.set_aspect("equal")
     marks, obstacles = [], []
@@ -136,13 +168,16 @@ def bodies(plan: Plan) -> Figure:
         axes.text(
             at[0], at[1], text if short else place_of, ha="center", va="center", size=13, zorder=6
         )
-        legend += [] if short else [f"{place_of} {text.replace('_', ' ')}"]
-    names = ", ".join(f"{n} {b.replace('_', ' ')}" for b, n in mechanism.numbers.items())
-    axes.set_title(mechanism.title, fontsize=13)
-    lines = [fill(names, 70), *([fill("; ".join(legend), 70)] if legend else [])]
+        legend += [] if short else [f"{place_of}{HELD}{text.replace('_', HELD)}"]
+    names = ", ".join(f"{n}{HELD}{b.replace('_', HELD)}" for b, n in mechanism.numbers.items())
+    lines = [_filled(names), *([_filled("; ".join(legend))] if legend else [])]
     figure.supxlabel("\n".join(lines), fontsize=10)
     axes.margins(0.08)
     return figure
+
+
+def _filled(text: str) -> str:
+    return fill(text, 70).replace(HELD, " ")
 
 
 def _held(mechanism: Mechanism, ends: dict[str, list[Any]]) -> dict[str, list[Any]]:
@@ -208,26 +243,28 @@ def _view(points: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
 # -- Figure 2 -------------------------------------------------------------------------------------
 
 
-def graph(plan: Plan) -> Figure:
-    """Draw the joint graph, and beside it that of the elementary joints."""
-    figure = Figure(figsize=(15.0, 7.2), layout="constrained")
+_SHOWN = {
+    False: "physical joints\non each joint its number of freedoms",
+    True: "elementary joints\n"
+    "R hinges, P guides; between those of one joint, white, its fictitious bodies",
+}
+
+
+def graph(plan: Plan, shown: tuple[bool, ...] = (False, True)) -> Figure:
+    """Draw the joint graph (False), that of the elementary joints (True), or both of them."""
+    side = min(2.0 + 0.5 * len(plan.formulation.mechanism.numbers), 7.5)
+    figure = Figure(figsize=(1.04 * side * len(shown), side), layout="constrained")
     places = _layout(plan)
-    for index, elementary in enumerate((False, True), 1):
-        axes = _axes(figure, 1, 2, index)
+    for index, elementary in enumerate(shown, 1):
+        axes = _axes(figure, 1, len(shown), index)
         for joint in plan.formulation.mechanism.joints:
             _edge(axes, joint, *(places[b] for b in joint.bodies), elementary=elementary)
         for body, number in plan.formulation.mechanism.numbers.items():
             words = body.replace("_", "\n")
             _node(axes, places[body], f"{number} {words}", PALE, "round,pad=0.4", 11)
-        what = "elementary joints" if elementary else "physical joints"
-        beside = (
-            "R hinges, P guides; between those of one joint, white, its fictitious bodies"
-            if elementary
-            else "on each joint its number of freedoms"
-        )
-        axes.set_title(f"{what}\n{beside}", fontsize=12)
+        if len(shown) > 1:
+            axes.set_title(_SHOWN[elementary], fontsize=12)
         axes.margins(0.1)
-    figure.suptitle(plan.formulation.mechanism.title, fontsize=14)
     return figure
 
 
@@ -235,9 +272,12 @@ def _layout(plan: Plan) -> dict[str, Any]:
     """Return places without crossings, where there are such, drawn out evenly."""
     joints = plan.topology.graph
     layouts: list[dict[str, Any]] = [nx.kamada_kawai_layout(joints, weight=None)]
-    for seed in range(6):  # from other starts it finds others, some of them without crossings
+    for seed in range(6):  # from other starts there are others, some of them without crossings
         start = nx.random_layout(joints, seed=seed)
         layouts.append(nx.kamada_kawai_layout(joints, pos=start, weight=None))
+        layouts.append(nx.spring_layout(joints, seed=seed, iterations=100))
+    if nx.check_planarity(joints)[0]:
+        layouts.append(nx.planar_layout(joints))
     return min(layouts, key=lambda at: 0.1 * _crossings(joints, at) - _nearest(joints, at))
 
 
@@ -265,7 +305,8 @@ def _edge(axes: Axes, joint: Joint, start: Any, end: Any, *, elementary: bool) -
     start, end = np.array(start), np.array(end)
     axes.plot(*zip(start, end, strict=True), color=GREY, lw=1.2, zorder=1)
     if not elementary:
-        _node(axes, (start + end) / 2, f"{joint.name}: {joint.freedoms}", "white", "round", 10)
+        words = _wrapped(f"{joint.name}: {joint.freedoms}")
+        _node(axes, (start + end) / 2, words, "white", "round", 10)
         return
     letters = ELEMENTS[joint.kind]
     shares = np.linspace(0.0, 1.0, 2 * len(letters) + 1)[1:-1]
@@ -277,17 +318,22 @@ def _edge(axes: Axes, joint: Joint, start: Any, end: Any, *, elementary: bool) -
         else:
             _node(axes, at, letters[place // 2], "white", "circle,pad=0.15", 8)
     across = np.array([end[1] - start[1], start[0] - end[0]])
-    across = across / max(float(np.hypot(*across)), 1e-9) * 15
+    across = across / max(float(np.hypot(*across)), 1e-9)
     axes.annotate(
-        joint.name,
+        _wrapped(joint.name),
         (start + end) / 2,
-        (across[0], across[1]),
+        (13 * across[0], (13 + 6 * _wrapped(joint.name).count("\n")) * across[1]),
         textcoords="offset points",
-        ha="center",
+        ha="left" if across[0] > 0.5 else "right" if across[0] < -0.5 else "center",
         va="center",
         fontsize=11,
         color=COLOURS[0],
     )
+
+
+def _wrapped(name: str) -> str:
+    """Return a long name in several lines; a joint's number stays behind it."""
+    return fill(name.replace(": ", f":{HELD}").replace("_", " "), 12).replace(HELD, " ")
 
 
 def _node(axes: Axes, at: Any, text: str, colour: str, shape: str, size: int) -> None:
@@ -305,10 +351,11 @@ WIDE, PITCH = 3.4, 0.5
 class _Wires:
     """Names of coordinates at the two ends of a wire, as the mechanism reports them."""
 
-    def __init__(self, plan: Plan) -> None:
+    def __init__(self, plan: Plan, *, numbered: bool = False) -> None:
         self.names: dict[str, list[str]] = {}
-        for c in plan.formulation.mechanism.coordinates:
-            self.names.setdefault(f"{c.joint.name}.{c.kind}", []).append(c.name)
+        for number, c in enumerate(plan.formulation.mechanism.coordinates, 1):
+            name = f"beta{number}" if numbered else c.name
+            self.names.setdefault(f"{c.joint.name}.{c.kind}", []).append(name)
 
     def leaving(self, wire: str) -> str | None:
         """Return the name under which a coordinate is known where it is found."""
@@ -326,27 +373,57 @@ def _sign(name: str) -> str:
     return f"$\\beta_{{{number}}}$" if number != name and number.isdigit() else name
 
 
-def transformers(plan: Plan) -> Figure:
-    """Draw the transformers as blocks, and the relative coordinates as the wires between them."""
-    wires, blocks = _Wires(plan), plan.transformers
+def _plain(name: str) -> str:
+    """Return a name as wide as it is drawn: betaN is a letter with its number."""
+    return name.removeprefix("beta") + "b" if name.removeprefix("beta").isdigit() else name
+
+
+def _columns(plan: Plan) -> list[int]:
+    """Return behind how many others in a row each transformer stands, by what it takes."""
+    found: dict[str, int] = {}
+    columns = []
+    for t in plan.transformers:
+        columns.append(max((found.get(wire, -1) + 1 for wire in t.inputs), default=0))
+        found |= dict.fromkeys(t.outputs, columns[-1])
+    return columns
+
+
+def transformers(plan: Plan, *, numbered: bool = False) -> Figure:
+    """Draw the transformers as blocks, and the relative coordinates as the wires between them.
+
+    Parameters
+    ----------
+    plan
+        The analysed mechanism.
+    numbered
+        Whether coordinates are written as the report numbers them, rather than by their names.
+    """
+    wires, blocks = _Wires(plan, numbered=numbered), plan.transformers
     heights = [max(len(t.inputs), len(_shown(t, wires)) + 1, 3) * PITCH for t in blocks]
     tops = np.concatenate([[0.0], -np.cumsum(np.array(heights) + PITCH)])
-    gap = max(3.0, 1.4 + 0.34 * max(len(n[0]) for n in wires.names.values()))
-    lefts = [i * (WIDE + gap) for i in range(len(blocks))]
+    columns = _columns(plan)
+    many = max(sum(len(t.inputs) for t, c in zip(blocks, columns, strict=True) if c == column)
+               for column in columns)  # fmt: skip
+    longest = max(len(_plain(n[0])) for n in wires.names.values())
+    gap = max(3.0, 1.6 + 0.34 * longest + 0.22 * many)
+    lefts = [column * (WIDE + gap) for column in columns]
+    wide = max(columns) + 1
     figure = Figure(
-        figsize=(0.8 * (WIDE + gap) * len(blocks), 1.8 + 0.8 * -tops[-1]), layout="constrained"
+        figsize=(0.8 * (WIDE + gap) * wide, 1.2 + 0.8 * -tops[-1]), layout="constrained"
     )
     axes = _axes(figure)
     sources: dict[str, tuple[float, float]] = {}
     used: set[str] = set()
-    for t, left, top, height in zip(blocks, lefts, tops, heights, strict=False):
+    channels = dict.fromkeys(columns, 0)
+    for t, column, left, top, height in zip(blocks, columns, lefts, tops, heights, strict=False):
         axes.add_patch(Rectangle((left, top - height), WIDE, height, fc=PALE, ec=INK, lw=1.5))
         numbers = "-".join(str(plan.formulation.mechanism.numbers[b]) for b in t.cycle.bodies)
         words = f"transformer {t.number}\nbodies {numbers}"
         axes.text(left + WIDE / 2, top - height / 2, words, ha="center", va="center", fontsize=12)
         for place, wire in enumerate(t.inputs):
             y = top - (place + 0.5) * height / max(len(t.inputs), 1)
-            channel = left - _room(t, wires) - 0.22 * place
+            channel = left - _room(t, wires) - 0.22 * channels[column]
+            channels[column] += wire in sources
             _enter(axes, sources, wires, wire, (channel, left, y))
             used.add(wire)
         shown = _shown(t, wires)
@@ -370,8 +447,7 @@ def transformers(plan: Plan) -> Figure:
                 color=GREY,
             )
     _others(axes, wires, {*sources, *used}, tops[-1])
-    axes.set_title(plan.formulation.mechanism.title, fontsize=13)
-    axes.set_xlim(-gap / 2, lefts[-1] + WIDE + gap / 2)
+    axes.set_xlim(-gap / 2, max(lefts) + WIDE + gap / 2)
     axes.set_ylim(tops[-1] - 0.8, 0.2)
     return figure
 

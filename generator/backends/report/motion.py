@@ -16,7 +16,7 @@ from ...declare.joints import Cylindrical, Prismatic, Revolute, Universal, Weld
 from ...kinematics.chain import before_telescope, chain_to, reported
 from ...program.steps import ancestors
 from ...program.symbols import symbols_of
-from .tables import table
+from .document import Equation, Heading, Paragraph, Table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from ...declare.formulation import Formulation
     from ...declare.joints import Joint, RelativeCoordinate
     from ...equations.outputs import Derivation
+    from .document import Block
 
 
 @dataclass(frozen=True)
@@ -48,11 +49,10 @@ class Equations:
     def __init__(self) -> None:
         self._count = 0
 
-    def __call__(self, formula: str, paper: str = "") -> str:
+    def __call__(self, formula: str, paper: str = "") -> Equation:
         """Return a displayed equation under the next number."""
         self._count += 1
-        beside = rf";\ \text{{paper: {paper}}}" if paper else ""
-        return f"```math\n{formula} \\tag{{{self._count}{beside}}}\n```"
+        return Equation(formula, self._count, paper)
 
 
 class Motion:
@@ -311,7 +311,7 @@ _SHAFTS = (
 )
 
 
-def motion_sections(derivation: Derivation) -> list[str]:
+def motion_sections(derivation: Derivation) -> list[Block]:
     """Return the sections from the relative coordinates to M, B and Q."""
     motion, number = Motion(derivation), Equations()
     return [
@@ -323,18 +323,18 @@ def motion_sections(derivation: Derivation) -> list[str]:
     ]
 
 
-def _coordinates(motion: Motion) -> list[str]:
+def _coordinates(motion: Motion) -> list[Block]:
     return [
-        "## Relative coordinates",
-        (
+        Heading(2, "Relative coordinates"),
+        Paragraph(
             "The coordinates in which everything below is written (Figure 3), and where the value "
             "of each comes from."
         ),
-        table(("", "name", "joint", "value", "meaning"), motion.coordinate_rows()),
+        Table(("", "name", "joint", "value", "meaning"), motion.coordinate_rows()),
     ]
 
 
-def _relative(motion: Motion, number: Equations) -> list[str]:
+def _relative(motion: Motion, number: Equations) -> list[Block]:
     read = closure_reads(motion.derivation)
     rows = [
         (
@@ -345,13 +345,15 @@ def _relative(motion: Motion, number: Equations) -> list[str]:
         for name, (others, given) in read.items()
     ]
     return [
-        "## Relative Jacobian",
-        (
+        Heading(2, "Relative Jacobian"),
+        Paragraph(
             "For each coordinate there is one closure equation (`residuals`). What it reads, "
             "beside hardpoints, is where its row of the derivative is not zero:"
         ),
-        table(("equation", "relative coordinates", "independent and given"), rows),
-        "Differentiated with respect to time, where u are the inputs that prescribe a motion:",
+        Table(("equation", "relative coordinates", "independent and given"), rows),
+        Paragraph(
+            "Differentiated with respect to time, where u are the inputs that prescribe a motion:"
+        ),
         number(
             r"\mathbf{g}(\boldsymbol{\beta}, \mathbf{q}, \mathbf{u}) = \mathbf{0}",
             "Eqs. 4 to 13",
@@ -368,7 +370,7 @@ def _relative(motion: Motion, number: Equations) -> list[str]:
             r"\frac{\partial\mathbf{g}}{\partial\mathbf{q}}",
             "section 4.2",
         ),
-        (
+        Paragraph(
             "No matrix is inverted for it: the closed forms give beta explicitly, and "
             "`relative_jacobian` is their exact derivative with respect to q."
         ),
@@ -390,23 +392,21 @@ def closure_reads(derivation: Derivation) -> dict[str, tuple[list[str], list[str
     return found
 
 
-def _absolute(motion: Motion, number: Equations) -> list[str]:
+def _absolute(motion: Motion, number: Equations) -> list[Block]:
     cites = motion.formulation.cites
-    sections = [
-        "## Absolute kinematics",
-    ]
+    sections: list[Block] = [Heading(2, "Absolute kinematics")]
     if motion.bodies:
-        screws = table(("coordinate", "axis a", "through p"), motion.screw_rows())
-        sections += [_SIGNS, screws]
+        screws = Table(("coordinate", "axis a", "through p"), motion.screw_rows())
+        sections += [Paragraph(_SIGNS), screws]
     shafts = list(motion.shaft_equations())
     if shafts:
-        sections.append(_SHAFTS)
+        sections.append(Paragraph(_SHAFTS))
         sections += [number(text) for text in shafts]
     for body in motion.bodies:
         angular, linear = motion.twist_of(body)
         *turned, place = motion.pose_of(body)
         sections += [
-            f"Body {motion.mechanism.numbers[body]}, `{body}`:",
+            Paragraph(f"Body {motion.mechanism.numbers[body]}, `{body}`:"),
             *map(number, turned),
             number(place, cites.get(f"position of {body}", "")),
             number(angular, cites.get(f"omega of {body}", "")),
@@ -415,14 +415,16 @@ def _absolute(motion: Motion, number: Equations) -> list[str]:
     missing = [b for b in motion.derivation.massive_bodies if b not in motion.bodies]
     if missing:
         sections.append(
-            f"No chain of coordinates of this table leads to {', '.join(f'`{b}`' for b in missing)}"
-            ": a joint is on the way whose coordinates are not all reported. Their velocities "
-            "follow from their pose as the closed form gives it, by exact differentiation "
-            "(`global_jacobian`)."
+            Paragraph(
+                "No chain of coordinates of this table leads to "
+                f"{', '.join(f'`{b}`' for b in missing)}: a joint is on the way whose coordinates "
+                "are not all reported. Their velocities follow from their pose as the closed form "
+                "gives it, by exact differentiation (`global_jacobian`)."
+            )
         )
     else:
         sections += [
-            (
+            Paragraph(
                 "The coefficients of the relative rates, body by body, are the rows of the "
                 "absolute Jacobian (`absolute_jacobian`):"
             ),
@@ -435,29 +437,29 @@ def _absolute(motion: Motion, number: Equations) -> list[str]:
     return sections
 
 
-def _global(number: Equations) -> list[str]:
+def _global(number: Equations) -> list[Block]:
     return [
-        "## Global Jacobian",
+        Heading(2, "Global Jacobian"),
         number(
             r"\mathbf{J}_b = \begin{bmatrix}\mathbf{W}_b\\ \mathbf{V}_b\end{bmatrix}"
             r" = \mathbf{J}_{abs,b}\,\mathbf{J}_{rel}",
             "section 4.3",
         ),
-        (
+        Paragraph(
             "W has the angular, V the linear velocity of the centre of mass per rate of each "
             "independent coordinate (`global_jacobian`)."
         ),
     ]
 
 
-def _dynamics(motion: Motion, number: Equations) -> list[str]:
+def _dynamics(motion: Motion, number: Equations) -> list[Block]:
     numbers = motion.mechanism.numbers
     bodies = ", ".join(f"{numbers[b]} `{b}`" for b in motion.derivation.massive_bodies)
     inertia = r"\boldsymbol{\Theta}_b"
     turned = r"\mathbf{A}_b\,\boldsymbol{\Theta}_b^0\,\mathbf{A}_b^T"
-    sections = [
-        "## Equations of motion",
-        (
+    sections: list[Block] = [
+        Heading(2, "Equations of motion"),
+        Paragraph(
             f"The sums are over the bodies with mass: {bodies}. "
             f"{inline(rf'{inertia} = {turned}')} is the inertia of a body about its centre of mass."
         ),
@@ -482,7 +484,7 @@ def _dynamics(motion: Motion, number: Equations) -> list[str]:
             rf"{inertia}\boldsymbol{{\omega}}_b\right)\right]",
             "Eq. 3",
         ),
-        (
+        Paragraph(
             "The barred accelerations are those at q'' = 0: what changes of the Jacobian with "
             "the pose, and what prescribed motions accelerate. The compiled `mass_matrix`, `bias` "
             "and `forces` return these three."
@@ -491,17 +493,19 @@ def _dynamics(motion: Motion, number: Equations) -> list[str]:
     for rotor in motion.rotors():
         name = inline(rf"\boldsymbol{{\Theta}}_{{{numbers[rotor.name]}}}")
         sections.append(
-            f"Body {numbers[rotor.name]}, `{rotor.name}`, is a body of revolution: {name} has "
-            f"`{rotor.name}_inertia_spin` about its axis and `{rotor.name}_inertia_diametral` "
-            "across it, however far it has turned."
+            Paragraph(
+                f"Body {numbers[rotor.name]}, `{rotor.name}`, is a body of revolution: {name} has "
+                f"`{rotor.name}_inertia_spin` about its axis and `{rotor.name}_inertia_diametral` "
+                "across it, however far it has turned."
+            )
         )
     rows = _force_rows(motion.formulation)
     sections += [
-        (
+        Paragraph(
             "Each force that acts adds its share to Q, the coefficient of its power in the rate of "
             "each independent coordinate:"
         ),
-        table(("force", "acts", "share of Q", "paper"), rows),
+        Table(("force", "acts", "share of Q", "paper"), rows),
     ]
     return sections
 

@@ -2,6 +2,7 @@
 
 `build`        from a declaration to a module, by way of the cache
 `declaration`  what a person wrote: a file, a mechanism or a model
+`derivation`   how the equations were derived, to be printed
 `choices`      which coordinates can be independent
 `cache`        where compiled mechanisms are kept, and under which name
 `compiler`     the C compiler of this machine
@@ -13,5 +14,6 @@ from .build import compile_mechanism
 from .choices import proposals
 from .compiler import CompilerError
 from .declaration import MechanismError
+from .derivation import write_derivation
 
-__all__ = ["CompilerError", "MechanismError", "compile_mechanism", "proposals"]
+__all__ = ["CompilerError", "MechanismError", "compile_mechanism", "proposals", "write_derivation"]

@@ -1,0 +1,267 @@
+"""The derivation report: what was found, chosen and solved, with operation counts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ...declare.world import WORLD
+from ...program.floors import ROUNDING
+from ..counting import OPERATIONS, operations_of
+from ..text import formula
+from ..words import FORMULA, iteration_note
+from .document import Heading, Paragraph, Picture, Table, Transformation
+from .motion import motion_sections
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ...declare.mechanism import Mechanism
+    from ...equations.outputs import Derivation
+    from ...loops.graph import Cycle, Topology
+    from ...loops.planner import Transformer
+    from .document import Block
+
+
+def bodies_of(topology: Topology, cycle: Cycle) -> str:
+    """Return a cycle as the numbers and names of its bodies."""
+    return " - ".join(_numbered(topology.mechanism, body) for body in cycle.bodies)
+
+
+def _numbered(mechanism: Mechanism, body: str) -> str:
+    """Return the number and the name of a body; the world has no number."""
+    return body if body == WORLD.name else f"{mechanism.numbers[body]} {body}"
+
+
+def joint_rows(topology: Topology) -> list[tuple[str, ...]]:
+    """Return the rows of the joint table (Table 1)."""
+    mechanism = topology.mechanism
+    return [
+        (
+            j.name,
+            j.kind,
+            *(_numbered(mechanism, body) for body in j.bodies),
+            str(j.freedoms),
+            j.shared,
+        )
+        for j in mechanism.joints
+    ]
+
+
+def path_rows(topology: Topology) -> list[tuple[str, ...]]:
+    """Return the rows of the table of shortest paths (Table 2), ties included."""
+    numbers = topology.mechanism.numbers.values()
+    return [
+        (f"**{number}**", *(" or ".join(paths) for paths in row))
+        for number, row in zip(numbers, topology.path_table(), strict=True)
+    ]
+
+
+def mobility_line(topology: Topology) -> str:
+    """Return Eq. 1 with the numbers of the mechanism."""
+    moving = len(topology.mechanism.moving)
+    closed = [str(6 - j.freedoms) for j in topology.mechanism.joints]
+    planar = topology.planar_loop_count
+    extra = f" + 3 x {planar} planar loops" if planar else ""
+    central = topology.central_loop_count
+    extra += f" + 3 x {central} loops about a point" if central else ""
+    redundant = topology.redundant
+    extra += f" + {redundant} for parallel links" if redundant else ""
+    gears = len(topology.mechanism.geared)
+    extra += f" - {gears} gear{'s' if gears > 1 else ''}" if gears else ""
+    return f"f = 6 x {moving} - ({' + '.join(closed)}){extra} = {topology.mobility}"
+
+
+def cycles_line(topology: Topology) -> str:
+    """Say how many cycles Horton's construction tries, and what is left of them."""
+    bodies, joints = len(topology.mechanism.bodies), len(topology.mechanism.joints)
+    return (
+        "Horton's construction closes a path over each joint from each body that the joint does "
+        f"not touch: {joints} x ({bodies} - 2) = {topology.pair_count} candidates. Where the "
+        f"shortest ways to the two ends share a body, nothing closes; {topology.closing_pairs} "
+        f"candidates do close. A pair counts once for each way where several are equally short, "
+        f"which makes {len(topology.horton_candidates())} simple cycles with repetitions; "
+        f"{len(topology.candidate_cycles)} of them are distinct:"
+    )
+
+
+def _cut(transformer: Transformer) -> str:
+    """Return where a loop is cut."""
+    if transformer.pair is None:
+        return "none: solved together with others, in the unknowns of all"
+    a, b = transformer.pair.joints
+    return (
+        f"{a.name} ({a.kind}) and {b.name} ({b.kind}): "
+        f"{transformer.pair.eliminated} of {transformer.unknowns} unknowns eliminated, "
+        f"{transformer.pair.equations} equation left"
+    )
+
+
+def transformation(topology: Topology, transformer: Transformer) -> Transformation:
+    """Return a transformer as a block with its inputs and outputs."""
+    closure, solution = transformer.step.words(transformer.closing)
+    cycle = transformer.cycle
+    inside = {
+        "loop": f"{bodies_of(topology, cycle)} (length {cycle.length})",
+        "pair": _cut(transformer),
+        "equation": closure,
+        "solution": solution,
+    }
+    return Transformation(transformer.number, transformer.inputs, inside, transformer.outputs)
+
+
+def mermaid(topology: Topology) -> str:
+    """Return the joint graph as a Mermaid diagram, which forges draw as a picture."""
+    numbers = topology.mechanism.numbers
+    bodies = [f'    {body}(["{number} {body}"])' for body, number in numbers.items()]
+    joints = [
+        f'    {j.first.name} ---|"{j.name}: {j.kind}, {j.freedoms}"| {j.second.name}'
+        for j in topology.mechanism.joints
+    ]
+    return "\n".join(["graph LR", *bodies, *joints])
+
+
+def preference(topology: Topology, transformer: Transformer) -> str:
+    """Say why a loop was taken before others of the same length."""
+    if not transformer.rivals:
+        return "It is the only shortest cycle that extends the basis."
+    others = "; ".join(
+        f"{bodies_of(topology, cycle)} would leave {unknowns}"
+        for cycle, unknowns in transformer.rivals
+    )
+    if transformer.unknowns == min(unknowns for _, unknowns in transformer.rivals):
+        return (
+            f"No cycle of the same length has fewer than {transformer.unknowns} unknown relative "
+            f"coordinates at this point; of those with as many it is the first by the numbers of "
+            f"its bodies: {others}."
+        )
+    return (
+        f"Preferred over cycles of the same length because only {transformer.unknowns} of its "
+        f"relative coordinates are unknown at this point: {others}."
+    )
+
+
+def derivation_report(derivation: Derivation) -> list[Block]:
+    """Return the whole report."""
+    topology = derivation.plan.topology
+    note = iteration_note(derivation)
+    return [
+        Heading(1, derivation.formulation.title),
+        *([Paragraph(note)] if note else []),
+        *_structure(topology),
+        Heading(2, "Kinematic transformers"),
+        *_transformers(derivation),
+        *motion_sections(derivation),
+        Heading(2, "Functions"),
+        _counts(derivation),
+        Paragraph("A leading sign counts as an addition; guards are comparisons and do not count."),
+        *_validity(derivation),
+    ]
+
+
+def _structure(topology: Topology) -> list[Block]:
+    """Return bodies and joints, mobility, paths and cycles."""
+    mechanism = topology.mechanism
+    return [
+        Heading(2, "Bodies and joints"),
+        Picture("bodies", "Bodies with their numbers, and joints, at the design position."),
+        Table(
+            ("joint", "type", "first body", "second body", "freedoms", "leaves in common"),
+            joint_rows(topology),
+        ),
+        Paragraph(f"Mobility (Grübler, Eq. 1): {mobility_line(topology)}."),
+        Paragraph(
+            f"Independent loops: {len(mechanism.joints)} - "
+            f"({len(mechanism.bodies)} - 1) = {topology.loop_count}."
+        ),
+        Picture(
+            "graph",
+            "Joint graph: bodies, joints, and on each joint its number of freedoms (Figure 2).",
+            mermaid(topology),
+        ),
+        Picture(
+            "elementary",
+            "The same with elementary joints: hinges (R) and guides (P), and between those of one "
+            "joint, white, its fictitious bodies.",
+        ),
+        Heading(2, "Shortest paths in the joint graph"),
+        Paragraph(
+            "An edge is as long as its joint has freedoms. Where several paths are equally short, "
+            "all are listed."
+        ),
+        Table(("", *map(str, mechanism.numbers.values())), path_rows(topology)),
+        Heading(2, "Cycles"),
+        Paragraph(cycles_line(topology)),
+        Table(
+            ("bodies", "length"),
+            [(bodies_of(topology, c), str(c.length)) for c in topology.candidate_cycles],
+        ),
+    ]
+
+
+def _transformers(derivation: Derivation) -> Iterator[Block]:
+    topology = derivation.plan.topology
+    yield Picture("transformers", "Kinematic transformers, and the coordinates between them.")
+    for transformer in derivation.plan.transformers:
+        pairs = [
+            (
+                f"{p.joints[0].name}, {p.joints[1].name}",
+                str(p.eliminated),
+                str(p.equations),
+                "chosen" if p == transformer.pair else "",
+            )
+            for p in transformer.candidates
+        ]
+        yield Heading(3, f"Transformer {transformer.number}")
+        yield transformation(topology, transformer)
+        yield Paragraph(preference(topology, transformer))
+        yield Table(
+            ("pair with a common distance", "unknowns eliminated", "equations left", ""), pairs
+        )
+
+
+def _validity(derivation: Derivation) -> Iterator[Block]:
+    """Yield where the formulas end, and which parameters are refused."""
+    yield Heading(2, "Validity")
+    yield Paragraph("Each function reports, by a status bit, which of these has left its range:")
+    yield Table(
+        ("quantity", "floor", "unit", "meaning when it is not over the floor"),
+        [
+            (f"`{g.name}`", f"`{formula(g.floor, FORMULA)}`", g.unit, g.meaning)
+            for g in derivation.guards
+        ],
+    )
+    if derivation.assumptions:
+        yield Paragraph(
+            "Parameters are refused for which one of these is not zero (an angle by its sine; to "
+            f"{ROUNDING}, of a distance relative to a length):"
+        )
+        yield Table(
+            ("quantity", "unit", "meaning when it is not zero"),
+            [(f"`{a.quantity}`", a.unit, a.meaning) for a in derivation.assumptions],
+        )
+    if derivation.conditions:
+        yield Paragraph(
+            "Parameters are refused for which one of these is not more than its least amount:"
+        )
+        yield Table(
+            ("quantity", "least", "unit", "meaning when it is less"),
+            [
+                (f"`{c.quantity}`", f"`{formula(c.least, FORMULA)}`", c.unit, c.meaning)
+                for c in derivation.conditions
+            ],
+        )
+
+
+def _counts(derivation: Derivation) -> Table:
+    rows = []
+    for function in (derivation.prepare, derivation.design, *derivation.emitted.values()):
+        counts = operations_of(function)
+        rows.append(
+            (
+                f"`{function.name}`",
+                ", ".join(" x ".join(map(str, member.shape)) for member in function.members),
+                str(counts.total()),
+                *(str(counts[name]) for name in OPERATIONS),
+            )
+        )
+    return Table(("function", "results", "operations", *OPERATIONS), rows)

@@ -1,0 +1,93 @@
+"""What a report is made of, whatever it is written in.
+
+Texts within a line are marked as forges read them: ``code`` between backticks, formulas between
+$` and `$, and what is strong between two stars. `pieces` takes them apart.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+_MARKED = re.compile(r"\$`(?P<formula>.+?)`\$|`(?P<code>.+?)`|\*\*(?P<strong>.+?)\*\*")
+
+
+@dataclass(frozen=True)
+class Heading:
+    """The title of the report (level 1), of a section (2) or of a part of one (3)."""
+
+    level: int
+    text: str
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    """A paragraph."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of texts below a header."""
+
+    header: tuple[str, ...]
+    rows: Sequence[tuple[str, ...]]
+
+
+@dataclass(frozen=True)
+class Equation:
+    """A displayed formula under its number, and the paper's number of it."""
+
+    formula: str
+    number: int
+    paper: str = ""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """One of the figures of a mechanism, see `figures`; or a diagram, where text draws it.
+
+    Attributes
+    ----------
+    name
+        Which of the figures.
+    caption
+        What it shows.
+    mermaid
+        The diagram as text, if there is one.
+    """
+
+    name: str
+    caption: str
+    mermaid: str = ""
+
+
+@dataclass(frozen=True)
+class Transformation:
+    """A kinematic transformer: what enters, what is inside, and what leaves."""
+
+    number: int
+    inputs: Sequence[str]
+    inside: dict[str, str]
+    outputs: Sequence[str]
+
+
+Block = Heading | Paragraph | Table | Equation | Picture | Transformation
+
+
+def pieces(text: str) -> Iterator[tuple[str, str]]:
+    """Yield the pieces of a text with what they are: 'words', 'code', 'formula' or 'strong'."""
+    end = 0
+    for found in _MARKED.finditer(text):
+        if found.start() > end:
+            yield "words", text[end : found.start()]
+        kind = str(found.lastgroup)
+        yield kind, found[kind]
+        end = found.end()
+    if end < len(text):
+        yield "words", text[end:]

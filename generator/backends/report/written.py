@@ -1,0 +1,45 @@
+"""The derivation report as files, for a person to read or to print."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ....core.files import refuse, replacing
+from .latex import latex
+from .markdown import markdown
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from pathlib import Path
+
+    from ...equations.outputs import Derivation
+
+
+def write_report(
+    derivation: Derivation, path: Path, *, force: bool = False, inputs: Iterable[Path] = ()
+) -> list[Path]:
+    """Write the report of a derivation; return the files.
+
+    Parameters
+    ----------
+    derivation
+        What was derived.
+    path
+        Ends in .md, or in .tex: the figures are written beside that, as PDF.
+    force
+        Whether files that somebody else wrote are replaced, see `kintrafo.core.files`.
+    inputs
+        Files that are read, and never replaced.
+    """
+    refuse([path], force=force, inputs=inputs, endings=(".tex", ".md"))
+    figures: dict[str, str] = {}
+    if path.suffix.lower() == ".tex":
+        from .figures import print_figures  # noqa: PLC0415 (matplotlib is slow to import)
+
+        figures = print_figures(derivation.plan, path, force=force)
+        text = latex(derivation, figures)
+    else:
+        text = markdown(derivation)
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+    return [path, *(path.with_name(name) for name in figures.values())]

@@ -1,0 +1,65 @@
+"""``kintrafo derivation``: how the equations were derived, as a chapter to print."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from .console import problems
+from .options import Force, complete_file, load
+from .outputs import name_files
+
+if TYPE_CHECKING:
+    from ..generator import Formulation
+
+EXAMPLES = (
+    "kintrafo derivation four_bar --out derivation.tex",
+    "kintrafo derivation my_car.toml --out derivation.md",
+    "kintrafo derivation my_mechanism.py --model crane --out crane.tex",
+)
+
+
+def command(
+    file: Annotated[
+        str,
+        typer.Argument(
+            metavar="FILE",
+            help="Hardpoint file, Python file with a mechanism of your own, or the name of a model "
+            "that comes with kintrafo: macpherson, four_bar, andrews, excavator.",
+            autocompletion=complete_file,
+        ),
+    ],
+    *,
+    out: Annotated[
+        Path,
+        typer.Option(
+            "--out", "-o", metavar="PATH", help="What to write: .tex, with its figures, or .md."
+        ),
+    ],
+    model: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="Which model, where a Python file has several."),
+    ] = None,
+    force: Force = False,
+) -> None:
+    """Write how the equations of motion are derived: from the joints to M, B and Q.
+
+    A chapter with the figures of the mechanism and numbered equations, for LaTeX (pdflatex, twice)
+    or as Markdown. Needs the packages of the extra "generator": pip install "kintrafo[generator]".
+    """
+    from ..systems.compile.build import require_generator
+    from ..systems.compile.derivation import write_derivation
+
+    require_generator()
+    declared = file if file.endswith(".py") else _shipped(file)
+    with problems.status("deriving the equations"):
+        written = write_derivation(declared, out, name=model, force=force)
+    name_files(written)
+
+
+def _shipped(file: str) -> "Formulation":
+    """Return the model of a name, or that of the suspension in a file."""
+    from ..generator.mechanisms import MODELS, model_named
+
+    known = {model.name: model for model in MODELS}
+    return known[file] if file in known else model_named(load(file).equations.NAME)

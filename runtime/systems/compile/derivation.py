@@ -1,0 +1,74 @@
+"""The derivation of a mechanism's equations, to be read and printed."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ...core.arguments import Arguments
+from ...core.files import refuse
+from .build import require_generator
+from .declaration import model_of, translated_errors
+
+if TYPE_CHECKING:
+    from ...generator import Formulation, Mechanism
+
+
+def write_derivation(
+    declared: "Formulation | Mechanism | str | Path",
+    path: str | Path,
+    *,
+    name: str | None = None,
+    force: bool = False,
+) -> list[Path]:
+    """Write how the equations of a mechanism are derived: a chapter, from its joints to M, B and Q.
+
+    Nothing is compiled. What is written in LaTeX asks for the packages of a small installation
+    (on Debian: texlive-latex-recommended), and is compiled by ``pdflatex`` or ``lualatex``.
+
+    Parameters
+    ----------
+    declared : Formulation, Mechanism, str or Path
+        A declaration, or a Python file with one at its top level, as for `kintrafo.compile`.
+    path : str or Path
+        The file: .tex, beside which four figures are written as PDF, or .md.
+    name : str, optional
+        Which model or mechanism, where the file has several.
+    force : bool, optional
+        Whether files that somebody else wrote are replaced.
+
+    Returns
+    -------
+    list of Path
+        The files that were written, the text first.
+
+    Raises
+    ------
+    InputError
+        If the declaration cannot be read or the files must not be written.
+    MechanismError
+        If the declaration contradicts itself, or a loop does not close in closed form.
+    MissingPackageError
+        If the packages of the extra "generator" are not installed.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import kintrafo
+    >>> from kintrafo.generator.mechanisms.slider_crank import SLIDER_CRANK
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     files = kintrafo.write_derivation(SLIDER_CRANK, f"{folder}/crank.tex")
+    >>> [file.name for file in files][:2]
+    ['crank.tex', 'crank_bodies.pdf']
+    """
+    with Arguments("write_derivation") as given:
+        given.path("path", path)
+        force = given.flag("force", force)
+    inputs = [Path(declared)] if isinstance(declared, str | Path) else []
+    refuse([path], force=force, inputs=inputs, endings=(".tex", ".md"))
+    require_generator()
+    from ...generator.backends.report.written import write_report
+    from ...generator.equations.outputs import generate
+
+    model = model_of(declared, name)
+    with translated_errors(model):
+        derived = generate(model)
+    return write_report(derived, Path(path), force=force, inputs=inputs)
