@@ -21,7 +21,8 @@ from ..declare.joints import Revolute
 from ..kinematics.hinge_angles import positive_axis_at_design
 from ..kinematics.motion import BodyMotion, to_axes
 from ..program.floors import POSITIVE
-from ..program.vectors import ELEMENTS, SymmetricTensor, Twist, Vector
+from ..program.functions import Frozen
+from ..program.vectors import ELEMENTS, NO_TWIST, ZERO, SymmetricTensor, Twist, Vector
 from .surroundings import Seen
 
 if TYPE_CHECKING:
@@ -34,6 +35,12 @@ if TYPE_CHECKING:
     from .surroundings import Momenta
 
 NONE = sp.Integer(0)
+
+MANY = 4
+"""From how many coordinates on, spins of rotors apart, q'' is differentiated without derivatives of
+the mass matrix, whose elements are as many as pairs of coordinates. Of the operations of the
+Jacobian of an open chain that saves a twelfth with four coordinates and a sixth with six, of that
+of a Stewart platform a quarter; with two it takes more."""
 
 
 @dataclass
@@ -58,6 +65,11 @@ class Inertia:
     def linear_momentum(self, twist: Twist) -> Vector:
         """Return ``m v + omega x mc``."""
         momentum: Vector = twist.linear * self.mass + twist.angular.cross(self.moment)
+        return momentum
+
+    def spin_momentum(self, twist: Twist) -> Vector:
+        """Return ``I omega + mc x v``."""
+        momentum: Vector = self.tensor @ twist.angular + self.moment.cross(twist.linear)
         return momentum
 
 
@@ -94,6 +106,8 @@ class Dynamics:
         self._bias: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
         self._force: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
         self._momentum: Momenta = {}
+        self._wrenches: list[tuple[BodyMotion, Inertia, Twist]] = []
+        self._factors: dict[tuple[str, str], sp.Expr] = {}
         self._actions: list[Action] = []
         self._add_bodies()
         self._add_forces()
@@ -259,6 +273,7 @@ class Dynamics:
             inertia.tensor @ bias.angular + omega.cross(spin) + inertia.moment.cross(bias.linear),
             "123",
         )
+        self._wrenches.append((placed, inertia, Twist(couple, force)))
         for k in columns:
             twist = placed.motion[k]
             self._bias[k] += twist.angular.dot(couple) + twist.linear.dot(force)
@@ -272,6 +287,7 @@ class Dynamics:
         momentum = self.program.define(f"{rotor.body.name}_spin_momentum", rotor.inertia * spin)
         swing = omega.cross(rotor.axis)
         couple = self.program.vector(f"{rotor.body.name}_gyroscopic", swing * momentum, "123")
+        self._wrenches.append((rotor.carrier, Inertia.none(), Twist(couple, ZERO)))
         for k in self._carried(rotor):
             self._bias[k] += rotor.carrier.motion[k].angular.dot(couple)
 
@@ -327,21 +343,25 @@ class Dynamics:
             for i, k in enumerate(rest)
             for other in rest[i:]
         }
-        right = {k: program.define(f"net_{k}", self._net(k)) for k in rest}
-        solution = self._cholesky(rest, matrix, right)
+        bias = {k: self._bias[k] * self.coordinates.rate_scale(k) ** 2 for k in rest}
+        right = {k: program.define(f"net_{k}", self._net(k, bias[k])) for k in rest}
+        return self._with_spins(self._cholesky(rest, matrix, right), "acceleration")
+
+    def _with_spins(self, solution: dict[str, sp.Expr], label: str) -> dict[str, sp.Expr]:
+        """Return accelerations in the order of the coordinates, those of rotors among them."""
         for rotor in self.rotors:
-            solution[rotor.coordinate] = program.define(
-                f"{rotor.coordinate}_acceleration",
+            solution[rotor.coordinate] = self.program.define(
+                f"{rotor.coordinate}_{label}",
                 self._force[rotor.coordinate] / rotor.inertia - self._spin_bias(rotor, solution),
             )
         return {k: solution[k] for k in self.names}
 
-    def _net(self, k: str) -> sp.Expr:
-        """Return force less bias; a torque on a rotor's bearing acts back on its carrier."""
+    def _net(self, k: str, inertial: sp.Expr) -> sp.Expr:
+        """Return force less inertia; a torque on a rotor's bearing acts back on its carrier."""
         back = sum(
             (self._rotor_share(r, k) * self._force[r.coordinate] for r in self._driven_on(k)), NONE
         )
-        return self._force[k] - self._bias[k] * self.coordinates.rate_scale(k) ** 2 - back
+        return self._force[k] - inertial - back
 
     def _driven_on(self, k: str) -> list[Rotor]:
         """Return the rotors with a torque on their bearing whose carrier a coordinate moves."""
@@ -381,9 +401,10 @@ class Dynamics:
                 "kg m^2 or kg",
                 POSITIVE,
             )
-            inverse[k] = program.define(f"inverse_pivot_{k}", 1 / pivot)
+            self._factors[k, k] = inverse[k] = program.define(f"inverse_pivot_{k}", 1 / pivot)
             for j, row in enumerate(names[i + 1 :], i + 1):
                 factor = program.define(f"factor_{row}_{k}", work[k, row] * inverse[k])
+                self._factors[row, k] = factor
                 for column in names[j:]:
                     work[row, column] = program.define(
                         f"reduced_{row}_{column}_{k}", work[row, column] - factor * work[k, column]
@@ -393,6 +414,64 @@ class Dynamics:
         for i, k in reversed(list(enumerate(names))):
             known = sum((work[k, c] * solution[c] for c in names[i + 1 :]), NONE)
             solution[k] = program.define(f"{k}_acceleration", (right[k] - known) * inverse[k])
+        return solution
+
+    # -- derivatives ----------------------------------------------------------------------------
+
+    def to_differentiate(self) -> dict[str, sp.Expr]:
+        """Return q'' once more, of few operations when it is differentiated.
+
+        With a for the values of q'', ``q'' = a + M^-1 (Q - B - M a)``, in which a and M^-1 are
+        frozen: the bracket vanishes, and by the implicit function theorem its derivative at a
+        constant a is M times that of q''. ``B + M a`` is projected from what moves every body at
+        these accelerations (d'Alembert), so that no element of M is differentiated.
+        """
+        spins = {rotor.coordinate for rotor in self.rotors}
+        rest = [k for k in self.names if k not in spins]
+        if len(rest) < MANY or self.coordinates.single_coordinate:
+            return self.accelerations
+        values = {k: self.program.define(f"{k}_value", Frozen(self.accelerations[k])) for k in rest}
+        inertial = self._inertial(values)
+        left = {k: self.program.define(f"{k}_imbalance", self._net(k, inertial[k])) for k in rest}
+        more = self._solved_again(rest, left)
+        return self._with_spins({k: values[k] + more[k] for k in rest}, "acceleration_again")
+
+    def _inertial(self, accelerations: dict[str, sp.Expr]) -> dict[str, sp.Expr]:
+        """Return ``B + M a``: what moves the bodies at some accelerations, on each column."""
+        total = dict.fromkeys(self.names, NONE)
+        for placed, inertia, wrench in self._wrenches:
+            columns = [k for k in self.names if k in placed.motion]
+            more = NO_TWIST
+            for k in columns:
+                more += placed.motion[k] * accelerations.get(k, NONE)
+            angular = self.program.vector(f"{placed.body}_driven_alpha", more.angular, "123")
+            linear = self.program.vector(f"{placed.body}_driven_acceleration", more.linear, "123")
+            moved = Twist(angular, linear)
+            couple = wrench.angular + inertia.spin_momentum(moved)
+            force = wrench.linear + inertia.linear_momentum(moved)
+            couple = self.program.vector(f"{placed.body}_couple", couple, "123")
+            force = self.program.vector(f"{placed.body}_force", force, "123")
+            for k in columns:
+                twist = placed.motion[k]
+                total[k] += twist.angular.dot(couple) + twist.linear.dot(force)
+        return total
+
+    def _solved_again(self, names: list[str], right: dict[str, sp.Expr]) -> dict[str, sp.Expr]:
+        """Solve the symmetric system with its factors, as constants."""
+        factors = {
+            pair: self.program.define(f"factor_{pair[0]}_{pair[1]}_value", Frozen(factor))
+            for pair, factor in self._factors.items()
+        }
+        right = dict(right)
+        for i, k in enumerate(names):
+            for row in names[i + 1 :]:
+                right[row] = self.program.define(
+                    f"imbalance_{row}_{k}", right[row] - factors[row, k] * right[k]
+                )
+        solution: dict[str, sp.Expr] = {}
+        for i, k in reversed(list(enumerate(names))):
+            known = sum((factors[row, k] * solution[row] for row in names[i + 1 :]), NONE)
+            solution[k] = self.program.define(f"{k}_more", right[k] * factors[k, k] - known)
         return solution
 
     # -- M, B and Q as the paper writes them ----------------------------------------------------

@@ -394,13 +394,20 @@ class _Builder:
         rhs, jacobian = ("_".join(filter(None, (n, variant))) for n in ("rhs", "rhs_jacobian"))
         self.variant_of |= dict.fromkeys((rhs, jacobian), variant)
         self.functions[rhs] = program.pruned(rhs, f"Time derivative of the state{what}.", rates)
-        self._add_derivatives(
-            dynamics.program, jacobian, f"of {rhs}", rates.values(), list(rates), "state"
-        )
-        if not variant:
-            self._add_derivatives(
-                program, "rhs_input_jacobian", "of rhs", rates.values(), list(rates), "inputs"
-            )
+        if self.derivatives:
+            self._add_derivatives_of_rates(dynamics, rhs, jacobian, list(rates))
+
+    def _add_derivatives_of_rates(
+        self, dynamics: Dynamics, rhs: str, jacobian: str, labels: Sequence[str]
+    ) -> None:
+        program = dynamics.program
+        program.section(f"derivatives of {rhs}")
+        rates = [sp.Symbol(f"{k}_rate") for k in self.motion.coordinates.independent]
+        values = [*rates, *dynamics.to_differentiate().values()]
+        self._add_derivatives(program, jacobian, f"of {rhs}", values, labels, "state")
+        if rhs == "rhs":
+            name = "rhs_input_jacobian"
+            self._add_derivatives(program, name, "of rhs", values, labels, "inputs")
 
     def _add_derivatives(
         self,

@@ -18,7 +18,7 @@ import sympy as sp
 from .derivatives import chain_rule
 from .floors import SMALLEST
 from .function import Block, Function
-from .functions import Component, Guarded, Iterated
+from .functions import Component, Frozen, Guarded, Iterated
 from .sharing import drop_dead
 from .steps import Guard, Step, ancestors, first_free
 from .symbols import symbols_of
@@ -146,9 +146,14 @@ class Program:
             message = f"{along} is a parameter; see `directions` for derivatives by parameters"
             raise ValueError(message)
         targets = list(targets)
-        needed = ancestors(self.steps, targets)
+        moving = {
+            symbol: step
+            for symbol, step in self.steps.items()
+            if not isinstance(step.expression, Frozen)
+        }
+        needed = ancestors(moving, targets)
         tangent: dict[sp.Symbol, sp.Expr] = {along: sp.Integer(1)}
-        for step in [s for s in self.steps.values() if s.symbol in needed]:
+        for step in [s for s in moving.values() if s.symbol in needed]:
             derivative = chain_rule(step.expression, tangent, step.symbol)
             if derivative != 0:
                 tangent[step.symbol] = self.define(f"{step.symbol}__{label}", derivative)
