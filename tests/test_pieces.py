@@ -39,5 +39,10 @@ def _arrays(found):
     return found if isinstance(found, tuple) else (found,)
 
 
-def test_short_functions_stay_in_one_piece():
-    assert "NOT_INLINED" not in source.Source(generate(n_four_bar(8))).text()
+def test_short_functions_stay_in_one_piece_and_so_does_what_comes_with_the_project():
+    derived = generate(n_four_bar(8))
+    for long, in_pieces, cut in ((10**9, True, False), (0, False, False), (0, True, True)):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(source, "LONG", long)
+            text = source.Source(derived, in_pieces=in_pieces).text()
+        assert ("NOT_INLINED" in text) == cut

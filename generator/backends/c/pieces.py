@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from ..schedule import Assignment, Operation
     from ..sharing import Part, Together
 
-LONG = 12_000
-"""From how many operations on the functions of a file are cut: all that come with the project have
-fewer, and are the fastest in one piece."""
+LONG = 5_000
+"""From how many operations on the functions of a file are cut. Up to there a compiler takes as long
+for an operation either way, and a call is faster by a twentieth or so in one piece."""
 
 PIECE = 800
 """At most so many operations in a piece, unless a single step has more."""

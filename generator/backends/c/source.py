@@ -5,6 +5,7 @@ No allocation, no global state, no ``pow``; every function returns a status word
 
 from __future__ import annotations
 
+import math
 import textwrap
 from typing import TYPE_CHECKING
 
@@ -25,6 +26,7 @@ from .statements import declared, in_all_lanes, printed, wrapped
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Mapping, Sequence
 
+    from ...equations.outputs import Derivation
     from ...program.function import Block, Function, Stage
     from ...program.steps import Guard
     from ..sharing import Part, Together
@@ -34,7 +36,10 @@ COMPUTE = (
     "/* All functions of this file: the steps, each once, and the results of the one wanted. */"
 )
 
-NOT_INLINED = """/* In pieces: what a compiler does to a function grows with its length squared. */
+NOT_INLINED = """/*
+ * In pieces: what a compiler does to a function grows with its length squared. Of what they hand
+ * over, GCC tries for minutes to make vectors; -fno-tree-slp-vectorize spares that.
+ */
 #ifdef __GNUC__
 #define NOT_INLINED __attribute__((noinline))
 #else
@@ -43,7 +48,19 @@ NOT_INLINED = """/* In pieces: what a compiler does to a function grows with its
 
 
 class Source(CText):
-    """The source files of one model."""
+    """The source files of one model.
+
+    Parameters
+    ----------
+    derivation
+    in_pieces
+        Cut long functions. Else a file has its derivation once and whole, to be read, and what is
+        called most is fastest; a compiler takes longer.
+    """
+
+    def __init__(self, derivation: Derivation, *, in_pieces: bool = False) -> None:
+        super().__init__(derivation)
+        self._cut_from = LONG if in_pieces else math.inf
 
     @property
     def parts(self) -> list[str]:
@@ -177,7 +194,7 @@ class Source(CText):
         own = {f"given_{e.name}" for e in self.derivation.relative}
         own.update(self.derivation.by_parameters.weights("inputs"))
         whole = together(functions, self.derivation.order, own)
-        if length_of(whole) > LONG:
+        if length_of(whole) > self._cut_from:
             return self._in_pieces(functions, whole)
         given = any(map(reads_given, functions))
         wanted = ", ".join(map(self._wanted, functions))
