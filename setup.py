@@ -89,6 +89,8 @@ class Lanes(Extension):
 
     Attributes
     ----------
+    wide : sequence of str
+        Sources that are compiled for each width.
     renamed : sequence of str
         Functions that are there once for each width; it is added to their names.
     fixed : sequence of str
@@ -96,18 +98,19 @@ class Lanes(Extension):
     """
 
     def __init__(
-        self, name: str, source: str, *, renamed: Sequence[str] = (), fixed: Sequence[str] = (),
-        macros: Sequence[tuple[str, str]] = (), depends: Sequence[str] = (),
+        self, name: str, sources: Sequence[str], *, renamed: Sequence[str] = (),
+        fixed: Sequence[str] = (), macros: Sequence[tuple[str, str]] = (),
+        depends: Sequence[str] = (),
     ) -> None:  # fmt: skip
         super().__init__(
             name,
             [],
             define_macros=list(macros),
             include_dirs=[SOURCES.as_posix()],
-            depends=[source, *fixed, *depends],
+            depends=[*sources, *fixed, *depends],
             optional=True,  # without it, everything but ensembles works
         )
-        self.source, self.renamed = source, renamed
+        self.wide, self.renamed = sources, renamed
         self.fixed = [*fixed, (LANES / "module.c").as_posix()]
 
     def compile(self, compiler: Any, folder: str) -> list[str]:
@@ -115,18 +118,18 @@ class Lanes(Extension):
         module = self.name.rpartition(".")[2]
         scheduled = SCHEDULED if _is_gcc(compiler.compiler_so[0]) else []
 
-        def objects(source: str, width: int, flags: list[str]) -> list[str]:
+        def objects(sources: Sequence[str], width: int, flags: list[str]) -> list[str]:
             names = [(function, f"{function}_{width}") for function in self.renamed]
             return compiler.compile(
-                [source],
+                [*sources],
                 output_dir=f"{folder}/{self.name}/{width}",
                 macros=[*self.define_macros, *names, ("WIDTH", str(width)), ("MODULE", module)],
                 include_dirs=self.include_dirs,
                 extra_postargs=[*FLAGS, *scheduled, *flags],
             )
 
-        made = [objects(self.source, width, flags) for width, flags in WIDTHS.items()]
-        made += [objects(source, 1, []) for source in self.fixed]
+        made = [objects(self.wide, width, flags) for width, flags in WIDTHS.items()]
+        made.append(objects(self.fixed, 1, []))
         return [path for paths in made for path in paths]
 
 
@@ -147,7 +150,7 @@ def lanes_extensions(wrappers: Iterable[Path]) -> Iterator[Lanes]:
         return
     yield Lanes(
         "kintrafo.simulation.lanes._integrate",
-        (LANES / "integrate.c").as_posix(),
+        [(LANES / name).as_posix() for name in ("integrate.c", "directions.c")],
         fixed=[(LANES / "width.c").as_posix()],
         depends=_headers(LANES, NATIVE),
     )
@@ -159,7 +162,7 @@ def lanes_extensions(wrappers: Iterable[Path]) -> Iterator[Lanes]:
         if not any("iterates" in function for function in manifest["functions"].values()):
             yield Lanes(
                 f"kintrafo.generated._{name}_lanes",
-                (LANES / "model.c").as_posix(),
+                [(LANES / "model.c").as_posix()],
                 renamed=[f"{name}_{function}" for function in functions],
                 macros=[("MODEL", f'"{name}.c"')],
                 depends=[

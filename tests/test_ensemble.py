@@ -237,7 +237,7 @@ def test_the_same_bits_in_eight_lanes(tmp_path: Path, monkeypatch: Any) -> None:
     names = ("prepare", "design_state", "rhs", "signals", "margins")
     addresses = {n: lanes.address(wide, f"four_bar_{n}") for n in names}
     monkeypatch.setattr(library, "widths", lambda: (8,))
-    monkeypatch.setattr(library, "solver", lambda _: wide.kt_integrate_8)
+    monkeypatch.setattr(library, "solver", lambda *_: wide.kt_integrate_8)
     monkeypatch.setattr(library, "functions", lambda *_: addresses)
     same(ensemble(model, crank, SPAN, **options, lanes=8), expected)
 

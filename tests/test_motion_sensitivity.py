@@ -1,10 +1,23 @@
-"""Derivatives of a motion over time, against motions beside it and the gradient backwards."""
+"""Derivatives of a motion over time.
+
+Against motions beside it, the gradient backwards, motions of complex numbers, and, where they are
+found in lanes, the same in NumPy and in other lanes.
+"""
+
+import sys
+from types import SimpleNamespace
+from typing import Any
 
 import kintrafo
 import numpy as np
 import pytest
 from kintrafo import InputError, Samples
 from kintrafo.generator.mechanisms import MODELS
+from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
+from kintrafo.simulation import forwards
+from kintrafo.simulation.lanes import directions
+from kintrafo.simulation.lanes.library import widths
+from scipy.integrate import solve_ivp
 
 CAR = kintrafo.Model("reference_car")
 SHIPPED = {model.name: model for model in MODELS}
@@ -77,6 +90,105 @@ def test_directions_of_several(system: kintrafo.System) -> None:
     wanted = sum(part * alone.by[name]["toe"] for name, part in together["raised"].items())
     np.testing.assert_allclose(found.by["raised"]["toe"], wanted, rtol=1e-9, atol=1e-12)
     assert set(found.values) == {*system.state_names, *system.signal_names}
+
+
+needs_lanes = pytest.mark.skipif(not widths(), reason="built without lanes")
+Changed = kintrafo.MotionSensitivity
+
+
+def in_lanes(monkeypatch: pytest.MonkeyPatch, width: int | None, *, done: bool = True) -> None:
+    """Let directions be followed in so many lanes, without any in NumPy; see that it is done."""
+
+    def found(*given: Any) -> Any:
+        followed = directions.followed(*given, width) if width else None
+        assert (followed is not None) is (done and bool(width))
+        return followed
+
+    monkeypatch.setattr(forwards, "in_lanes", found)
+
+
+def same(one: Changed, other: Changed, rounding: float = 0.0) -> None:
+    """Demand the same derivatives along the directions of one of them."""
+    for name, rows in one.by.items():
+        for wanted, row in rows.items():
+            most = rounding * np.abs(row).max()
+            np.testing.assert_allclose(other.by[name][wanted], row, rtol=0.0, atol=most)
+
+
+@needs_lanes
+def test_in_lanes_as_in_numpy(system: kintrafo.System, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Over a jump of the road, and a kink: the tyre leaves it."""
+    found = []
+    for width in (None, widths()[-1]):
+        in_lanes(monkeypatch, width)
+        found.append(
+            kintrafo.motion_sensitivity(system, SPAN, START, NAMES, inputs=ROAD, t_eval=TIMES)
+        )
+    assert found[0].values["tyre_force"].min() <= 0.0
+    same(*found, rounding=1e-11)  # of some hundred steps
+
+
+@pytest.fixture(scope="module")
+def four_bar() -> kintrafo.System:
+    return kintrafo.System(kintrafo.compile(FOUR_BAR, parameter_derivatives=True))
+
+
+@needs_lanes
+def test_the_same_bits_in_any_lanes(
+    four_bar: kintrafo.System, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whatever the width, and whatever stands beside a direction."""
+    start, names = four_bar.state(), [*four_bar.parameters][8:17]  # one more than the widest has
+    in_lanes(monkeypatch, widths()[0])
+    several = kintrafo.motion_sensitivity(four_bar, (0.0, 0.3), start, names)
+    for width in widths():
+        in_lanes(monkeypatch, width)
+        for group in (names, names[::-1], names[3:4]):
+            same(kintrafo.motion_sensitivity(four_bar, (0.0, 0.3), start, group), several)
+
+
+@needs_lanes
+def test_what_lanes_refuse_is_found_in_numpy(
+    four_bar: kintrafo.System, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """They have no sine of so great an angle."""
+    start = four_bar.state(crank_angle=0.3 + 2e6 * np.pi)
+    in_lanes(monkeypatch, widths()[-1], done=False)
+    found = kintrafo.motion_sensitivity(four_bar, (0.0, 0.1), start, ["crank_mass"])
+    start = four_bar.state(crank_angle=0.3)
+    in_lanes(monkeypatch, widths()[-1])
+    # the angle is rounded by 1e-9
+    same(kintrafo.motion_sensitivity(four_bar, (0.0, 0.1), start, ["crank_mass"]), found, 1e-5)
+
+
+def test_against_a_motion_of_complex_numbers(
+    four_bar: kintrafo.System, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By another method, of the printed NumPy: changes are imaginary, and too small to matter."""
+    equations = kintrafo.compile(FOUR_BAR, backend="numpy")
+    printed: Any = sys.modules[f"{equations.__name__.rpartition('.')[0]}._four_bar"]
+    sign = {"copysign": lambda size, of: np.copysign(size, of.real)}
+    monkeypatch.setattr(printed, "np", SimpleNamespace(**vars(np) | sign))
+    moved = {"crank_mass": 1.0, "rocker_bearing_x": 1e-2, "spring_rate": -30.0, "crank_angle": 0.1}
+    step = 1e-40j
+    parameters = np.array([v + step * moved.get(n, 0.0) for n, v in four_bar.parameters.items()])
+    start = four_bar.state(crank_angle=0.3) + step * np.array([moved["crank_angle"], 0.0])
+    constants, times = np.array(printed.prepare(parameters)[0]), np.linspace(0.0, 0.5, 11)
+
+    def rates(_: float, state: np.ndarray) -> np.ndarray:
+        return np.array(printed.rhs(constants, state, np.zeros(1))[0])
+
+    exact = solve_ivp(
+        rates, (0.0, 0.5), start, method="DOP853", t_eval=times, rtol=1e-13, atol=1e-14
+    )
+    found = kintrafo.motion_sensitivity(
+        four_bar, (0.0, 0.5), start.real, {"moved": moved}, t_eval=times, **TIGHT
+    )
+    for row, name in zip(exact.y, four_bar.state_names, strict=True):
+        along = row.imag / step.imag
+        # some hundred times what both tolerate
+        most = 1e-9 * np.abs(along).max()
+        np.testing.assert_allclose(found.by["moved"][name], along, rtol=0.0, atol=most)
 
 
 @pytest.mark.parametrize(

@@ -150,9 +150,11 @@ class Directions:
         parameters, direction : ndarray, shape (parameters,)
             The latter of what is `bound`: it would be too small to be seen beside the rest.
         """
+        if not self._zero or not direction.any():
+            return ""
         units = [entry["unit"] for entry in self._model.manifest["parameters"].values()]
         size = max((abs(d) for d, u in zip(direction, units, strict=True) if u in _GEOMETRY))
-        if not self._zero or size == 0.0:
+        if size == 0.0:
             return ""
         length = max(abs(p) for p, u in zip(parameters, units, strict=True) if u == "m")
         moved = parameters + _STEP * length / size * direction

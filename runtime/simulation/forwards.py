@@ -2,7 +2,7 @@
 
 The motion is integrated by Dormand and Prince's method as by `simulate`, with steps that are fit
 for derivatives (see `backwards`). What a small change does is followed beside it through the same
-steps, stage by stage: the tangent of the method, for any number of directions at once. So it is
+steps, stage by stage: the tangent of the method, each direction in a lane of its own. So it is
 exact for the numbers which the integration gives, and the transpose of what `motion_gradient` does.
 """
 
@@ -20,6 +20,8 @@ from ..systems.system import System
 from .accuracy import accuracy_of
 from .backwards import MOST_STEPS, followed, forward_span, told_at
 from .courses import Signal
+from .lanes.directions import Along
+from .lanes.directions import followed as in_lanes
 from .result import Simulation
 from .retraced import NODES, STAGES, Steps, weights_within
 from .signals import time_inputs
@@ -97,6 +99,11 @@ def motion_sensitivity(
     and shorter towards kinks, as of `motion_gradient`. This is for few directions and many results;
     for one number by everything there is `motion_gradient`.
 
+    Directions are followed in the lanes of vectors, where the equations can be had so. They are
+    compiled for that when they are first needed, which takes some seconds, and kept as they
+    themselves are. Each has the same bits whatever others there are. Where there is no compiler,
+    or equations iterate, NumPy does the same but for rounding, slower.
+
     Examples
     --------
     >>> import kintrafo
@@ -127,16 +134,15 @@ def motion_sensitivity(
     vary = {t for part in courses.segments for spline in part.splines for t in spline.targets}
     _refuse_varying(system, along, {system.input_names[place] for place in vary})
     motion, steps = followed(system, courses, np.array(y0, dtype=float), accuracy)
-    states, moved = tangents.followed(steps, times)
-    at_inputs = steps.point(*steps.places(times))[1]
-    found = tangents.of_signals(states, at_inputs, moved)
+    states, at_inputs = steps.point(*steps.places(times))
     values = dict(zip(system.state_names, states.T, strict=True))
-    values |= {name: system.signals(states, at_inputs)[name] for name in chosen}
-    names = (*system.state_names, *system.signal_names)
-    kept = [names.index(name) for name in (*system.state_names, *chosen)]
+    shown = system.signals(states, at_inputs)
+    values |= {name: shown[name] for name in chosen}
+    names = (*system.signal_names, *system.state_names)
+    moved = tangents.at(steps, times, [names.index(name) for name in values])
     by_direction = {
-        label: {names[i]: np.hstack([moved[which], found[which]])[:, i].copy() for i in kept}
-        for which, label in enumerate(along)
+        label: dict(zip(values, np.ascontiguousarray(rows.T), strict=True))
+        for label, rows in zip(along, moved, strict=True)
     }
     return MotionSensitivity(times, values, by_direction, motion)
 
@@ -183,30 +189,39 @@ class _Tangents:
     def __init__(self, system: System, along: Mapping[str, Mapping[str, float]]) -> None:
         self._system, self._directions = system, system.equations.DIRECTIONS
         parts = [direction_of(system, direction) for direction in along.values()]
-        of_parameters, self._start, self._inputs = (np.array(p) for p in zip(*parts, strict=True))
+        of_parameters, start, inputs = (np.array(p) for p in zip(*parts, strict=True))
         parameters = kept_together(system, self._directions, of_parameters)
-        self._constants = self._directions.of_parameters(
+        constants = self._directions.of_parameters(
             "prepare_tangent", parameters, of_parameters, system.constants.size
         )
+        self._along = Along(constants, start, inputs)
 
-    def _each(self) -> Iterator[tuple[Array, Array]]:
-        return zip(self._constants, self._inputs, strict=True)
+    def at(self, steps: Steps, times: Array, items: Sequence[int]) -> Array:
+        """Return how what is looked at changes, shape (directions, times, items).
 
-    def followed(self, steps: Steps, times: Array) -> tuple[Array, Array]:
-        """Return the states at some times, and their directions, (directions, times, elements)."""
+        Items are places of signals, and behind the last of them elements of the state.
+        """
+        found = in_lanes(self._system, steps, times, self._along, items)
+        # what cannot be done in lanes, or is refused there, which is told here
+        return self._one_by_one(steps, times)[..., items] if found is None else found
+
+    def _one_by_one(self, steps: Steps, times: Array) -> Array:
+        """Return how all signals and the state change, shape (directions, times, items)."""
         stages, after = self._through(steps)
-        count, size = steps.length.size, self._start.shape[1]
-        before = np.empty((count, size, len(self._start)))
-        moved = self._start.T.copy()
+        count, size = steps.length.size, self._along.start.shape[1]
+        before = np.empty((count, size, len(self._along.start)))
+        moved = self._along.start.T
         for which in range(count):
             before[which] = moved
             moved = after[which, :, :size] @ moved + after[which, :, size:]
         rates = stages[..., :size] @ before[:, None] + stages[..., size:]
         step, part = steps.places(times)
-        states, _ = steps.point(step, part)
         within = np.einsum("ts,tsnd->tnd", weights_within(part), rates[step])
-        found = before[step] + steps.length[step, None, None] * within
-        return states, np.moveaxis(found, -1, 0)
+        found = np.moveaxis(before[step] + steps.length[step, None, None] * within, -1, 0)
+        return np.concatenate([self._of_signals(*steps.point(step, part), found), found], axis=-1)
+
+    def _each(self) -> Iterator[tuple[Array, Array]]:
+        return zip(self._along.constants, self._along.inputs, strict=True)
 
     def _through(self, steps: Steps) -> tuple[Array, Array]:
         """Return how rates at the stages, and states after steps, depend on what was before.
@@ -233,7 +248,7 @@ class _Tangents:
             rates[:, stage] = jacobians[:, stage] @ moved + pushed[:, stage]
         return rates, columns + length * np.tensordot(rates, STAGES[-1], (1, 0))
 
-    def of_signals(self, states: Array, inputs: Array, moved: Array) -> Array:
+    def _of_signals(self, states: Array, inputs: Array, moved: Array) -> Array:
         """Return the derivatives of all signals at some times, (directions, times, signals)."""
         if not self._system.signal_names:
             return np.zeros((*moved.shape[:2], 0))

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ....equations import following
+from ...program.directions import TANGENT
 from ...program.floors import ROUNDING
 from ..schedule import schedule
 from ..sharing import scheduled, together
@@ -89,9 +90,10 @@ class Source(CText):
 
     @property
     def _in_lanes(self) -> frozenset[str]:
-        """The functions that a simulation evaluates, of many systems at once."""
+        """The functions that a simulation evaluates, of many systems or along many directions."""
         variants = (f"rhs_{variant}" for variant in self.derivation.held_inputs)
-        return frozenset({"rhs", *variants, "signals", "margins"})
+        tangents = (f"{name}_{TANGENT}" for name in ("rhs", "signals"))
+        return frozenset({"rhs", *variants, "signals", "margins", *tangents})
 
     def _bodies_of_parameters(self) -> list[str]:
         more = map(self._body_of_parameters, self.derivation.by_parameters.of_parameters)

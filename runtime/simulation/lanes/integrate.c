@@ -5,8 +5,7 @@
 #include "approach.h"
 #include "outputs.h"
 #include "powers.h"
-
-#include <stdlib.h>
+#include "solver.h"
 
 /* -- systems that wait ------------------------------------------------------------------------ */
 
@@ -396,7 +395,7 @@ static int open_crew(crew *w, const kt_problem *p)
     if (margins < p->input_count) {
         margins = p->input_count;
     }
-    const struct { real **place; int count; } parts[] = {
+    const part parts[] = {
         {&w->constants, p->constant_count}, {&w->queue.constants, p->constant_count},
         {&w->state, n}, {&w->end_state, n}, {&w->stage, n}, {&w->queue.state, n},
         {&w->rates, STAGES * n}, {&w->terms, 5 * n}, {&w->inputs, p->input_count},
@@ -406,28 +405,10 @@ static int open_crew(crew *w, const kt_problem *p)
         {&w->beyond, p->bound_count}, {&w->beyond_before, p->bound_count},
         {&w->limits, p->bound_count},
     };
-    const size_t part_count = sizeof parts / sizeof *parts;
-    size_t count = 0, courses = (size_t)p->course_count * sizeof *w->courses;
-    for (size_t i = 0; i < part_count; ++i) {
-        count += (size_t)parts[i].count;
-    }
-    size_t bytes = count * sizeof(real) + courses;
-    real *memory = aligned_alloc(sizeof(real), bytes + sizeof(real) - bytes % sizeof(real));
-    if (!memory) {
-        return 1;
-    }
-    memset(memory, 0, bytes);
-    for (size_t i = 0; i < part_count; ++i) {
-        *parts[i].place = memory;
-        memory += parts[i].count;
-    }
-    w->courses = (void *)memory;
-    return 0;
+    size_t courses = (size_t)p->course_count * sizeof *w->courses;
+    w->courses = reserve(parts, sizeof parts / sizeof *parts, courses);
+    return !w->courses;
 }
-
-/* The name of a function for this width. */
-#define JOINED(name, width) name##width
-#define NAME_OF(name, width) JOINED(name, width)
 
 int NAME_OF(kt_integrate_, WIDTH)(const kt_problem *p, long first, long last, const volatile int *stop)
 {

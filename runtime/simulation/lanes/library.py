@@ -6,7 +6,8 @@ from functools import cache
 from importlib import import_module
 from types import ModuleType
 
-from ...core.errors import InputError
+from ...core.errors import InputError, KintrafoError
+from ...equations.directions import TANGENTS
 from .options import OF_WIDTH
 from .own import is_own, library_of
 
@@ -22,9 +23,17 @@ def widths() -> tuple[int, ...]:
     return tuple(w for w in OF_WIDTH if w <= widest and hasattr(solver, f"kt_integrate_{w}"))
 
 
-def solver(width: int) -> Callable[..., int]:
-    """Return the C function that integrates in so many lanes; it is called without the lock."""
-    function: Callable[..., int] = getattr(_library(_SOLVER), f"kt_integrate_{width}")
+def solver(what: str, width: int) -> Callable[..., int]:
+    """Return a C function that solves in so many lanes; it is called without the lock.
+
+    Parameters
+    ----------
+    what : str
+        ``integrate``, of many systems; ``follow``, along many directions.
+    width : int
+        One of `widths`.
+    """
+    function: Callable[..., int] = getattr(_library(_SOLVER), f"kt_{what}_{width}")
     return function
 
 
@@ -61,6 +70,32 @@ def functions(equations: ModuleType, width: int, variant: str) -> Mapping[str, i
     names = {key: key for key in ("prepare", "design_state", "signals", "margins")}
     names["rhs"] = f"rhs{variant}"
     return {key: _address(library, f"{name}_{what}{end}") for key, what in names.items()}
+
+
+@cache
+def tangents(equations: ModuleType, width: int) -> Mapping[str, int] | None:
+    """Return the addresses of a model's functions along directions in so many lanes.
+
+    Parameters
+    ----------
+    equations : module
+    width : int
+        One of `widths`.
+
+    Returns
+    -------
+    mapping or None
+        ``rhs_tangent``, and ``signals_tangent``, zero where there are no signals. Nothing where the
+        equations cannot be had in lanes: they iterate, or nothing compiles them.
+    """
+    if equations.equations.iterates or not is_own(equations):
+        return None
+    try:
+        library = _loaded(str(library_of(equations, width, TANGENTS)))
+    except (KintrafoError, OSError):
+        return None
+    names = ("rhs_tangent", "signals_tangent")
+    return {what: _address(library, f"{equations.NAME}_{what}") for what in names}
 
 
 @cache

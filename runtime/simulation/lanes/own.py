@@ -21,7 +21,7 @@ def is_own(equations: ModuleType) -> bool:
     return not equations.__name__.startswith("kintrafo.")
 
 
-def library_of(equations: ModuleType, width: int) -> Path:
+def library_of(equations: ModuleType, width: int, part: str = "") -> Path:
     """Return the library of equations in so many lanes, compiled if that was not done before.
 
     Parameters
@@ -30,6 +30,8 @@ def library_of(equations: ModuleType, width: int) -> Path:
         As `kintrafo.compile` returns it.
     width : int
         How many lanes, of those that this processor has.
+    part : str, optional
+        Of the emitted code: what its file adds to the name.
 
     Raises
     ------
@@ -38,9 +40,10 @@ def library_of(equations: ModuleType, width: int) -> Path:
     CompilerError
         If it fails.
     """
-    compiler = _with_vectors(find_compiler(), str(equations.NAME), width)
+    file = "_".join(filter(None, (equations.NAME, part)))
+    compiler = _with_vectors(find_compiler(), file, width)
     folder = Path(str(equations.__file__)).parent
-    name = f"{equations.NAME}_lanes_{width}"
+    name = f"{file}_lanes_{width}"
     key = fingerprint(f"{folder.name} {_digest()}", built_by=" ".join(compiler.command))
     target = folder.parent / f"{name}-{key}"
     library = f"lib{name}.so"
@@ -53,17 +56,17 @@ def library_of(equations: ModuleType, width: int) -> Path:
     return target / library
 
 
-def _with_vectors(compiler: Compiler | None, name: str, width: int) -> Compiler:
-    """Return a compiler with its options for so many lanes."""
+def _with_vectors(compiler: Compiler | None, file: str, width: int) -> Compiler:
+    """Return a compiler with its options for a file in so many lanes."""
     if compiler is None:
         problem = (
-            f"the equations of {name} are not compiled in lanes, and there is no C compiler to do "
+            f"the equations of {file} are not compiled in lanes, and there is no C compiler to do "
             "that. Install one (on Debian: apt-get install gcc libc6-dev), or call simulate for "
             "each."
         )
         raise InputError([problem], "ensemble")
     scheduled = [] if "clang" in compiler.version else SCHEDULED
-    macros = [f'-DMODEL="{name}.c"', f"-DWIDTH={width}"]
+    macros = [f'-DMODEL="{file}.c"', f"-DWIDTH={width}"]
     options = (*compiler.command, *OF_WIDTH[width], *scheduled, *macros)
     return replace(compiler, command=options)
 

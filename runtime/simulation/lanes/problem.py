@@ -280,7 +280,7 @@ class Problem:
             **self._of_outcome(),
             # the samples of some systems come with their integration
         )
-        self._call = library.solver(self.width)
+        self._call = library.solver("integrate", self.width)
 
     def integrate(self, first: int, last: int, stop: "ctypes.c_int") -> Array:
         """Integrate some of the systems; as soon as `stop` is not zero, no further.

@@ -1,0 +1,144 @@
+"""Directions in which a system moves, followed along the steps of its motion: one in each lane."""
+
+import ctypes
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...systems.system import System
+from ..retraced import Steps, weights_within
+from . import library
+
+Array = NDArray[np.float64]
+
+_DOUBLES, _INTS = ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_int)
+_LONGS = ctypes.POINTER(ctypes.c_long)
+_KINDS: dict[Any, type] = {_DOUBLES: np.float64, _INTS: np.intc, _LONGS: np.long}
+_NO_MEMORY = 1
+
+
+_FIELDS: list[tuple[str, Any]] = [
+    *((name, ctypes.c_void_p) for name in ("rhs_tangent", "signals_tangent")),
+    *((f"{n}_count", ctypes.c_int) for n in ("constant", "state", "input", "signal")),
+    ("constants", _DOUBLES),
+    ("step_count", ctypes.c_long),
+    *((name, _DOUBLES) for name in ("lengths", "states", "inputs")),
+    ("time_count", ctypes.c_long),
+    ("step_of", _LONGS),
+    *((name, _DOUBLES) for name in ("weights", "states_there", "inputs_there")),
+    ("item_count", ctypes.c_int),
+    ("items", _INTS),
+    *((name, _DOUBLES) for name in ("of_constants", "of_start", "of_inputs", "found")),
+]
+"""Of ``kt_motion`` in ``directions.h``."""
+
+
+class _Motion(ctypes.Structure):
+    _fields_ = _FIELDS
+
+
+@dataclass(frozen=True)
+class Along:
+    """Directions: by how much everything changes that a motion depends on.
+
+    Attributes
+    ----------
+    constants, start, inputs : ndarray, shape (directions, elements)
+        Of the equations; of the state at the start; inputs that do not vary.
+    """
+
+    constants: Array
+    start: Array
+    inputs: Array
+
+
+def followed(
+    system: System,
+    steps: Steps,
+    times: Array,
+    along: Along,
+    items: Sequence[int],
+    width: int | None = None,
+) -> Array | None:
+    """Return how what is looked at changes along directions.
+
+    The same bits in any number of lanes, and whatever other directions there are.
+
+    Parameters
+    ----------
+    system : System
+    steps : Steps
+        Of its motion.
+    times : ndarray
+        When the motion is looked at, increasing [s].
+    along : Along
+    items : sequence of int
+        What is looked at: places of signals, and behind the last of them elements of the state.
+    width : int, optional
+        How many lanes; by default as many as the processor can.
+
+    Returns
+    -------
+    ndarray or None, shape (directions, times, items)
+        Nothing where the equations cannot be had in lanes, refuse a state there, or have no finite
+        derivative.
+    """
+    there = library.widths()
+    width = width or (there[-1] if there else 0)
+    functions = library.tangents(system.equations, width) if width else None
+    if functions is None:
+        return None
+    count = len(along.constants)
+    found = np.empty((count, times.size, len(items)))
+    described = _described(system, steps, times, along, items)
+    motion, _kept = _in_c({**functions, **described, "found": found})
+    call = library.solver("follow", width)
+    failed = call(ctypes.byref(motion), ctypes.c_long(0), ctypes.c_long(count))
+    if failed == _NO_MEMORY:
+        raise MemoryError
+    return None if failed else found
+
+
+def _described(
+    system: System, steps: Steps, times: Array, along: Along, items: Sequence[int]
+) -> dict[str, Any]:
+    """Return everything of ``kt_motion`` but functions and what is found."""
+    step, part = steps.places(times)
+    states, inputs = steps.point(step, part)
+    return {
+        "constant_count": system.constants.size,
+        "state_count": len(system.state_names),
+        "input_count": len(system.input_names),
+        "signal_count": len(system.signal_names),
+        "constants": system.constants,
+        "step_count": steps.length.size,
+        "lengths": steps.length,
+        "states": steps.states,
+        "inputs": steps.inputs,
+        "time_count": times.size,
+        "step_of": step,
+        "weights": weights_within(part),
+        "states_there": states,
+        "inputs_there": inputs,
+        "item_count": len(items),
+        "items": items,
+        "of_constants": along.constants,
+        "of_start": along.start,
+        "of_inputs": along.inputs,
+    }
+
+
+def _in_c(values: Mapping[str, Any]) -> tuple[_Motion, list[NDArray[Any]]]:
+    """Return values as C takes them, and the arrays that it reads, which are to be kept."""
+    motion = _Motion()
+    kept: list[NDArray[Any]] = []
+    for name, kind in _FIELDS:
+        value = values[name]
+        if kind in _KINDS:
+            kept.append(np.ascontiguousarray(value, dtype=_KINDS[kind]))
+            value = kept[-1].ctypes.data_as(kind)
+        setattr(motion, name, value)
+    return motion, kept
