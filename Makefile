@@ -85,7 +85,8 @@ benchmark-growth: build ## A chain of 1 to 100 loops: derivation, code and run t
 	@$(PYTHON) -m benchmarks.growth --out out/benchmark --page docs/growth.md
 
 benchmark-ensemble: build ## Many cars at once, in lanes and on all cores, and its page in docs/
-	@PYTHONPATH=tests $(PYTHON) -m benchmarks.ensemble --out out/benchmark --page docs/ensembles.md
+	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
+	@PYTHONPATH=tests $(PYTHON) -m benchmarks.ensemble --out out/benchmark --page docs/ensembles.md $(ARGS)
 
 benchmark-real-time: build ## Steps of one length: errors, and what one takes
 	@$(PYTHON) -m benchmarks.real_time --page docs/real-time.md

@@ -3,17 +3,19 @@
 ``make benchmark-ensemble`` measures the reference car with 100,000 different sets of rates, each
 let go from 10 mm of bump. Tolerances are the loosest at which no arm angle of some of the cars is
 off by more than 1e-6 rad at any time; the truth is an integration at 1e-12 by another method.
-Beside it are a loop over `simulate` and, where CasADi is installed, its integrator mapped over
-threads.
+Beside it are a loop over `simulate` and, where they are installed (the extra "peers"), CasADi's
+integrator mapped over threads, Exudyn's variation of parameters in processes, and diffrax.
 """
 
 import ctypes
 import importlib.util
+import os
 import shutil
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache, partial
+from importlib import metadata
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated, Any
@@ -48,10 +50,11 @@ ERROR = 1e-6  # of the arm angle [rad]
 CHECKED = 20  # cars whose error is looked at
 TOLERANCES = [10.0**-e for e in np.arange(2.0, 11.0, 0.25)]
 SIZES = (100, 1_000, 10_000, 100_000)
-ONE_BY_ONE = 200  # cars of a loop over simulate
+ONE_BY_ONE = 200  # cars of a loop over simulate, and of other tools some times as many
 REPEATS = 3
 ROUNDS = 30  # of the calls: so short that some of them are undisturbed
 CALLS = 10_000
+OTHERS = ("casadi", "exudyn", "diffrax", "jax")
 VARIED = ("spring_rate", "damper_rate", "tyre_rate")
 
 
@@ -79,7 +82,9 @@ class Rate:
     ----------
     what : str
     cars, threads : int
-    tolerance : float
+        Threads, or processes.
+    setting : str
+        Tolerance, or number of steps.
     error : float
         Greatest of the arm angles [rad].
     seconds, processor_seconds : float
@@ -90,7 +95,7 @@ class Rate:
     what: str
     cars: int
     threads: int
-    tolerance: float
+    setting: str
     error: float
     seconds: float
     processor_seconds: float
@@ -164,8 +169,8 @@ def _spread(values: Array, width: int) -> Array:
 # -- a second of motion ---------------------------------------------------------------------------
 
 
-Solver = Callable[[int, float], Array]
-"""From how many of the cars, and a tolerance, to their arm angles at the samples."""
+Solver = Callable[[int, Any], Array]
+"""From how many of the cars, and a tolerance or number of steps, to their arm angles."""
 
 
 @cache
@@ -199,27 +204,39 @@ def in_lanes(lanes: int, threads: int) -> Solver:
     return solve
 
 
-def loosest(solve: Solver, checked: int) -> tuple[float, float]:
-    """Return the loosest tolerance that is accurate enough for some cars, and its error [rad]."""
-    for tolerance in TOLERANCES:
-        error = float(np.abs(solve(checked, tolerance) - truth(checked)).max())
+def loosest(solve: Solver, checked: int, settings: Sequence[Any] = TOLERANCES) -> tuple[Any, float]:
+    """Return the loosest setting that is accurate enough for some cars, and its error [rad]."""
+    for setting in settings:
+        error = float(np.abs(solve(checked, setting) - truth(checked)).max())
         if error <= ERROR:
-            return tolerance, error
-    message = f"no tolerance has an error of {ERROR:g} rad"
+            return setting, error
+    message = f"no setting has an error of {ERROR:g} rad"
     raise ValueError(message)
 
 
-def timed(what: str, solve: Solver, sizes: tuple[int, ...], threads: int) -> Iterator[Rate]:
+def timed(
+    what: str,
+    solve: Solver,
+    sizes: tuple[int, ...],
+    threads: int,
+    settings: Sequence[Any] = TOLERANCES,
+) -> Iterator[Rate]:
     """Yield how fast one way is, for every number of cars."""
-    tolerance, error = loosest(solve, min(CHECKED, sizes[0]))
+    setting, error = loosest(solve, min(CHECKED, sizes[0]), settings)
+    told = f"{setting} steps" if isinstance(setting, int) else f"{setting:.0e}"
     for number in sizes:
         taken = []
         for _ in range(REPEATS):
-            before = time.perf_counter(), time.process_time()
-            solve(number, tolerance)
-            taken.append((time.perf_counter() - before[0], time.process_time() - before[1]))
+            before = time.perf_counter(), processor_time()
+            solve(number, setting)
+            taken.append((time.perf_counter() - before[0], processor_time() - before[1]))
         clock, processor = map(min, zip(*taken, strict=True))
-        yield Rate(what, number, threads, tolerance, error, clock, processor)
+        yield Rate(what, number, threads, told, error, clock, processor)
+
+
+def processor_time() -> float:
+    """Return how long all cores have worked for this process and those that it has ended [s]."""
+    return time.process_time() + sum(os.times()[2:4])
 
 
 def rates(sizes: tuple[int, ...], report: Callable[[str], None]) -> Iterator[Rate]:
@@ -232,13 +249,36 @@ def rates(sizes: tuple[int, ...], report: Callable[[str], None]) -> Iterator[Rat
             report(f"{lanes} lanes, {threads} threads")
             what = f"`ensemble`, {lanes} lanes"
             yield from timed(what, in_lanes(lanes, threads), sizes, threads)
+
+
+def beside(most: int, report: Callable[[str], None]) -> Iterator[Rate]:
+    """Yield how fast the widest lanes are, and other tools, those that are installed.
+
+    Exudyn comes before diffrax: processes cannot be forked when JAX has begun its threads.
+    """
+    cores, widest = usual_threads(), library.widths()[-1]
+    many = (min(50 * ONE_BY_ONE, most),)
+    yield from timed(f"`ensemble`, {widest} lanes", in_lanes(widest, cores), many, cores)
     if importlib.util.find_spec("casadi"):
-        from .peers.casadi_map import mapped  # noqa: PLC0415 (only where CasADi is installed)
+        from .peers.casadi_map import mapped as by_casadi  # noqa: PLC0415 (may not be installed)
 
         report("CasADi")
-        few = min(ONE_BY_ONE * 5, sizes[-1])
-        solve = mapped(start(), SPAN, SAMPLES, cars, cores)
-        yield from timed("CasADi CVODES, jit, `map`", solve, (few,), cores)
+        solve = by_casadi(start(), SPAN, SAMPLES, cars, cores)
+        fewer = (min(5 * ONE_BY_ONE, most),)
+        yield from timed("CasADi CVODES, jit, `map`", solve, fewer, cores)
+    if importlib.util.find_spec("exudyn"):
+        from .peers.exudyn_cars import STEPS, varied  # noqa: PLC0415 (may not be installed)
+
+        report("Exudyn")
+        solve = varied(start(), SAMPLES, cars, cores)
+        few = (min(ONE_BY_ONE // 10, most),)
+        yield from timed("Exudyn, variation of parameters", solve, few, cores, STEPS)
+    if importlib.util.find_spec("diffrax"):
+        from .peers.diffrax_cars import mapped as by_diffrax  # noqa: PLC0415 (may not be installed)
+
+        report("diffrax")
+        solve = by_diffrax(car(), start(), SPAN, SAMPLES, cars, cores)
+        yield from timed("diffrax Tsit5, `vmap`", solve, many, cores)
 
 
 # -- results --------------------------------------------------------------------------------------
@@ -270,14 +310,48 @@ def table_of_rates(found: list[Rate]) -> str:
             rate.what,
             str(rate.threads),
             count(rate.cars),
-            f"{rate.tolerance:.0e}",
+            rate.setting,
             f"{rate.error:.0e}",
-            f"{_of_a_core(rate):.3g}",
+            _told(_of_a_core(rate)),
             count(float(f"{rate.per_second:.2g}")),
         )
         for rate in largest
     ]
     return markdown_table(header, rows)
+
+
+def table_of_others(found: list[Rate]) -> str:
+    """Return the costs of other tools as Markdown, against the first way."""
+    header = (
+        "", "threads", "cars", "tolerance", "error [rad]", "µs of a core for one", "times as much",
+    )  # fmt: skip
+    rows = [
+        (
+            rate.what,
+            str(rate.threads),
+            count(rate.cars),
+            rate.setting,
+            f"{rate.error:.0e}",
+            _told(_of_a_core(rate)),
+            _told(_of_a_core(rate) / _of_a_core(found[0]), digits=2),
+        )
+        for rate in found
+    ]
+    return markdown_table(header, rows)
+
+
+def _beside() -> str:
+    """Say which other tools there are, and how much else the machine had to do."""
+    there = [name for name in OTHERS if importlib.util.find_spec(name)]
+    versions = ", ".join(f"{name} {metadata.version(name)}" for name in there)
+    load = f"{os.getloadavg()[0]:.0f} programs at a time wanted the {usual_threads()} cores"
+    return f"{versions}. {load}."
+
+
+def _told(number: float, digits: int = 3) -> str:
+    """Return a number in so many digits."""
+    short = f"{number:.{digits}g}"
+    return count(float(short)) if number >= 100.0 else short
 
 
 def sentence(found: list[Rate]) -> str:
@@ -301,7 +375,8 @@ def figure(found: list[Rate]) -> Figure:
     drawn = Figure(figsize=(6.4, 3.6), layout="constrained")
     axes = drawn.subplots()
     tools = dict.fromkeys(rate.what for rate in found)
-    colours = dict(zip(tools, (ORANGE, "#56b4e9", BLUE, "#cc79a7", GREEN), strict=False))
+    known = (ORANGE, "#56b4e9", BLUE, "#cc79a7", GREEN, "#000000", "#999999")
+    colours = dict(zip(tools, known, strict=False))
     for what, threads in dict.fromkeys((rate.what, rate.threads) for rate in found):
         own = [rate for rate in found if (rate.what, rate.threads) == (what, threads)]
         label = f"{what.replace('`', '')}, {threads} thread{'s' * (threads > 1)}"
@@ -323,7 +398,8 @@ def run(
         Path | None, typer.Option(help="Also put tables and picture into this page of docs/.")
     ] = None,
     *,
-    quick: Annotated[bool, typer.Option("--quick", help="Few cars, few repetitions.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Few cars, no other tools.")] = False,
+    others: Annotated[bool, typer.Option("--others", help="Only the table of others.")] = False,
 ) -> None:
     """Measure many cars at once."""
     console = Console()
@@ -332,26 +408,35 @@ def run(
         raise typer.Exit(1)
     out.mkdir(parents=True, exist_ok=True)
     sizes, times = ((2, 4), 1000) if quick else (SIZES, CALLS)
-    with console.status("one right-hand side") as status:
-        costs = list(calls(times))
-        found = list(rates(sizes, status.update))
     machine = environment()
-    blocks = {
-        "machine": machine_line(machine).replace("Processor time on one core of", "Measured on"),
-        "calls": table_of_calls(costs),
-        "rates": table_of_rates(found),
-        "sentence": sentence(found),
-    }
+    words = machine_line(machine).replace("Processor time on one core of", "Measured on")
+    blocks, data = {}, {"environment": machine}
+    with console.status("one right-hand side") as status:
+        if not others:
+            costs, found = list(calls(times)), list(rates(sizes, status.update))
+            blocks |= {"machine": words, "calls": table_of_calls(costs)}
+            blocks |= {"rates": table_of_rates(found), "sentence": sentence(found)}
+            data |= {"calls": costs, "rates": [asdict(rate) for rate in found]}
+        compared = [] if quick else list(beside(sizes[-1], status.update))
+    if len(compared) > 1:
+        blocks |= {"others": table_of_others(compared), "machine others": f"{words} {_beside()}"}
+        data |= {"others": [asdict(rate) for rate in compared]}
     text = "\n\n".join(blocks.values())
     (out / "ensemble.md").write_text(text + "\n", encoding="utf-8")
-    data = {"environment": machine, "calls": costs, "rates": [asdict(rate) for rate in found]}
     write_json(out / "ensemble.json", data)
-    with rc_context(STYLE):
-        figure(found).savefig(out / "ensemble.png", dpi=130)
     if page is not None:
         fill_page(page, blocks)
-        shutil.copy(out / "ensemble.png", page.parent / "images" / "ensemble.png")
+    if not others:
+        _draw([*found, *compared[1:]], out / "ensemble.png", page)
     console.print(Markdown(text))
+
+
+def _draw(found: list[Rate], file: Path, page: Path | None) -> None:
+    """Write the picture, also for the page."""
+    with rc_context(STYLE):
+        figure(found).savefig(file, dpi=130)
+    if page is not None:
+        shutil.copy(file, page.parent / "images" / file.name)
 
 
 if __name__ == "__main__":

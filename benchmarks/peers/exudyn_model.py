@@ -6,12 +6,13 @@ force is a user function in Exudyn's symbolic form, so that no Python runs durin
 """
 
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from .case import ARM, KNUCKLE, SAMPLES, WHEEL, Array, Instant, car, parameters
+from .case import ARM, KNUCKLE, SAMPLES, WHEEL, Array, Instant, Parameters, car, parameters
 from .geometry import strut_frame
 
 sys.exudynFast = True  # type: ignore[attr-defined]  # its module without range checks
@@ -53,15 +54,17 @@ class Exudyn:
     ----------
     begin : Instant
         Where it starts.
+    rates : mapping, optional
+        Rates of springs and dampers that are others, by name [N/m, N s/m].
     """
 
-    def __init__(self, begin: Instant) -> None:
+    def __init__(self, begin: Instant, rates: Mapping[str, float] | None = None) -> None:
         self._container = exu.SystemContainer()
         self._system = self._container.AddSystem()
         self._bodies = {body: self._body(begin, body) for body in (ARM, KNUCKLE, WHEEL)}
         self._ground = self._system.AddObject(items.ObjectGround())
         self._joints()
-        self._forces()
+        self._forces(parameters() | dict(rates or {}))
         arm = car().points["ball_joint"] - car().centres[ARM]
         self._sensor = self._system.AddSensor(
             items.SensorBody(
@@ -151,8 +154,8 @@ class Exudyn:
             )
         )
 
-    def _forces(self) -> None:
-        point, given = car().points, parameters()
+    def _forces(self, given: Parameters) -> None:
+        point = car().points
         strut = self._marker(KNUCKLE, point["ball_joint"]), self._marker(0, point["strut_top"])
         self._system.AddObject(
             items.ObjectConnectorSpringDamper(
