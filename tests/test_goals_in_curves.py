@@ -100,7 +100,7 @@ def test_marks_are_at_their_values(goals: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "text"),
     [
-        (["reference_axle"], "only for the file of one suspension"),
+        (["reference_axle"], "over 'rack' is not known. Known are: bump, roll"),
         (["reference_car", "--rack", "10"], "in its middle"),
         (["trailing_arm_car"], "over travel"),
     ],

@@ -324,7 +324,7 @@ def call(**given: Any) -> None:
 
 
 WRONG = [
-    ({"suspension": "reference_car"}, "a kintrafo.Suspension is needed"),
+    ({"suspension": "reference_car"}, "a kintrafo.Suspension or a kintrafo.RigidAxle"),
     ({"progress": 1}, "a function, or None, is needed"),
     ({"population": 3}, "population = 3: a whole number, 4 to 10000, is needed"),
     ({"population": 7.5}, "population = 7.5: a whole number"),

@@ -447,7 +447,7 @@ WRONG = [
     (lambda: variation.sensitivity(CAR, ROD), "a list of places"),
     (lambda: variation.sensitivity(CAR, names=["camberr"]), "Did you mean camber"),
     (lambda: variation.sensitivity(CAR, over="wheel"), "Known are: travel, rack"),
-    (lambda: variation.sensitivity("reference_car"), "a kintrafo.Suspension is needed"),
+    (lambda: variation.sensitivity("reference_car"), "a kintrafo.Suspension or a kintrafo.Rigid"),
     (lambda: variation.sensitivity(CAR, positions=[0.0, np.nan]), "finite number"),
     (lambda: variation.tolerance(CAR, {}), "one or more are needed"),
     (lambda: variation.tolerance(CAR, {ROD: -1.0}), "above 0 mm"),

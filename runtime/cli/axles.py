@@ -2,12 +2,14 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import typer
 from rich.markup import escape
 from rich.table import Table
 
+from . import goals as wanted
 from .console import console, curve_table, print_json, print_table, problems
 from .outputs import Outputs, name_files, named
 
@@ -76,11 +78,13 @@ def characteristics(
     outputs: Outputs,
     *,
     of: list[str] | None,
+    goals: Path | None,
     json: bool,
 ) -> None:
     """All characteristics of an axle over the motions of a rig."""
     from ..study import axles, export
     from ..study.axles.sheet import at_design
+    from ..study.variation.ways import ways_of
     from ..suspension.axle import Axle
 
     axle = Axle.load(file)
@@ -89,6 +93,9 @@ def characteristics(
     # both wheels of a curve are drawn together
     of = [name.removesuffix("_left").removesuffix("_right") for name in of or ()]
     names = named(of, drawn)
+    known = ways_of(axle)
+    aims = wanted.read(goals, [motion for motion in motions if motion in known], known)
+    judged = wanted.judged({file: axle}, aims) if aims else []
     written = []
     for motion, dataset in curves.items():
         written += outputs.write(
@@ -99,7 +106,8 @@ def characteristics(
             drawn=drawn[motion],
         )
     if json:
-        print_json({f"over_{motion}": export.as_dict(curves[motion]) for motion in curves})
+        found = {f"over_{motion}": export.as_dict(curves[motion]) for motion in curves}
+        print_json(found | ({"goals": judged} if judged else {}))
         return
     for motion, dataset in curves.items():
         if motion == "bump":
@@ -108,6 +116,8 @@ def characteristics(
             continue
         told = [name for name in _TOLD.get(motion, _OF_ONE_WHEEL) if name in dataset]
         console.print(curve_table(dataset, told, f"{file}: {axles.MOTIONS[motion]}"))
+    if judged:
+        console.print(wanted.table(judged, f"{file}: targets and limits of {goals}"))
     name_files(written)
 
 

@@ -91,7 +91,6 @@ def command(
         suffixes=[f"_{name}" for name in (chosen if of_axle or of_rigid_axle else ways)],
     )
     if of_axle or of_rigid_axle:
-        axles.refuse_options("the file of one suspension", {"--goals": goals})
         extent = Extent(
             rebound=metres(rebound),
             bump=metres(bump),
@@ -102,10 +101,10 @@ def command(
         if of_rigid_axle:
             steering = {"--rack-extent": rack_extent, "--rack": rack or None}
             axles.refuse_options("what has a rack", steering | {"--travel": travel or None})
-            rigid.characteristics(file, chosen, extent, outputs, of=of, json=json)
+            rigid.characteristics(file, chosen, extent, outputs, of=of, goals=goals, json=json)
             return
         held = {"travel": travel / 1e3, "rack": rack / 1e3}
-        axles.characteristics(file, chosen, extent, held, outputs, of=of, json=json)
+        axles.characteristics(file, chosen, extent, held, outputs, of=of, goals=goals, json=json)
         return
     axles.refuse_options("the file of an axle", {"--motion": motion, "--roll": roll})
     if goals and (travel or rack):
@@ -128,7 +127,7 @@ def command(
             dataset, title=file, suffix=f"_{over}", names=drawn[over], goals=aims
         )
     ]
-    judged = wanted.judged({file: model}, aims)
+    judged = wanted.judged({file: model.suspension}, aims)
     if json:
         found = {f"over_{over}": export.as_dict(curves[over]) for over in curves}
         print_json(found | ({"goals": judged} if aims else {}))

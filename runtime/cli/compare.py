@@ -70,7 +70,7 @@ def command(
     )
     dataset, models = _compared(files, over, held, goals)
     aims = wanted.read(goals, [over or "travel"])
-    judged = wanted.judged(models, aims)
+    judged = wanted.judged({name: model.suspension for name, model in models.items()}, aims)
     both = [f"{name}_{side}" for name in of or () for side in ("left", "right")]
     of = [n for n in of or () if n in dataset or f"{n}_left" not in dataset] + [
         name for name in both if name in dataset

@@ -13,6 +13,7 @@ from .console import console, print_json, progress_bar, say
 from .exits import Exit
 from .options import File, Force, Json, Of, among
 from .outputs import Outputs, Plot, name_files
+from .rigid import is_rigid_axle
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -73,6 +74,9 @@ def command(
     outputs = Outputs.of(None, plot, force=force, inputs=inputs)
     if out is not None:
         refuse([out], force=force, inputs=inputs, endings=[".toml"])
+    if is_rigid_axle(file):
+        message = "measured curves are read of suspensions; a rigid axle: kintrafo.variation.fit"
+        raise typer.BadParameter(message)
     suspension = Suspension.load(file)
     curves = rig.measured_curves(measured)
     asked = variation.read(tolerances)
@@ -90,9 +94,10 @@ def command(
     written: list[Path] = []
     if outputs.pages:
         from ..plots import curves as plots
-        from ..study.variation.curves import model_of
+        from ..study.variation.ways import model_of
 
-        models = {"file": model_of(found.start), "fitted": model_of(found.suspension)}
+        fitted = Suspension.from_dict(found.suspension.to_dict())
+        models = {"file": model_of(suspension), "fitted": model_of(fitted)}
         shown = rig.beside(curves, models, held=held)[[curve.name for curve in found.curves]]
         written += [
             plots.write_overview(

@@ -12,7 +12,8 @@ from ..core.tabulated import significant
 
 if TYPE_CHECKING:
     from ..study.variation.goals import Goal
-    from ..suspension.model import Model
+    from ..study.variation.ways import Subject
+    from ..suspension.axle import Axle
 
 Goals = Annotated[
     Path | None,
@@ -20,19 +21,30 @@ Goals = Annotated[
         "--goals",
         metavar="FILE",
         help="TOML with [targets] and [limits] of characteristics, as of kintrafo optimise: they "
-        "are drawn into curves, and a table says which are met.",
+        "are drawn into curves, and a table says which are met; of axles the table.",
     ),
 ]
 
 
-def read(path: Path | None, ways: Sequence[str]) -> "list[Goal]":
-    """Return the goals of a file about curves over some ways; none without a file."""
+def read(
+    path: Path | None, ways: Sequence[str], known: Sequence[str] = ("travel", "rack")
+) -> "list[Goal]":
+    """Return the goals of a file about curves over some ways; none without a file.
+
+    Parameters
+    ----------
+    path : Path or None
+    ways : sequence of str
+        Those that are looked at.
+    known : sequence of str, optional
+        Those that the file may have, the usual first.
+    """
     if path is None:
         return []
     from ..core.errors import InputError
     from ..study import variation
 
-    goals = [goal for goal in variation.goals(variation.read(path)) if goal.over in ways]
+    goals = [goal for goal in variation.goals(variation.read(path), known) if goal.over in ways]
     if not goals:
         words = " or ".join(ways)
         problem = (
@@ -43,21 +55,23 @@ def read(path: Path | None, ways: Sequence[str]) -> "list[Goal]":
     return goals
 
 
-def judged(models: "Mapping[str, Model]", goals: "Sequence[Goal]") -> list[dict[str, Any]]:
-    """Return what comes of each goal with each suspension, as printed and as JSON."""
+def judged(
+    subjects: "Mapping[str, Subject | Axle]", goals: "Sequence[Goal]"
+) -> list[dict[str, Any]]:
+    """Return what comes of each goal with each suspension or axle, as printed and as JSON."""
     from ..study import variation
 
     return [
         {"file": name, **vars(verdict)}
-        for name, model in models.items()
-        for verdict in variation.judge(model.suspension, goals)
+        for name, subject in subjects.items()
+        for verdict in variation.judge(subject, goals)
     ]
 
 
 def table(found: Sequence[Mapping[str, Any]], title: str) -> Table:
     """Return the table of what `judged` returns."""
     from ..core.quantities import bracketed, display_of
-    from ..study.characteristics.datasets import KNOWN
+    from ..study.variation.ways import way
 
     files = list(dict.fromkeys(row["file"] for row in found))
     result = Table(title=escape(title))
@@ -66,15 +80,17 @@ def table(found: Sequence[Mapping[str, Any]], title: str) -> Table:
     rows = [[row for row in found if row["file"] == file] for file in files]
     for same in zip(*rows, strict=True):
         first = same[0]
-        quantity = KNOWN[first["over"]][first["name"]]
+        over = way(first["over"])
+        quantity = over.known[first["name"]]
         shown = display_of(quantity.attributes())
         words = bracketed(quantity.long_name, quantity.attributes())
-        over = " over the rack" if first["over"] == "rack" else ""
+        words = words if first["over"] in ("travel", "bump") else f"{words} over {over.words}"
         cells = [
             "met"
             if row["met"]
-            else f"missed by {significant(row['beyond'] * shown.factor)} at {1e3 * row['at']:g} mm"
+            else f"missed by {significant(row['beyond'] * shown.factor)} at "
+            f"{over.factor * row['at']:g} {over.unit}"
             for row in same
         ]
-        result.add_row(escape(f"{first['kind']}: {words}{over}"), *cells)
+        result.add_row(escape(f"{first['kind']}: {words}"), *cells)
     return result

@@ -13,6 +13,7 @@ from .exits import Exit
 from .moved_values import moved_table
 from .options import File, Force, Json
 from .outputs import Outputs, name_files
+from .subject import studied
 from .variation_options import Bars
 
 if TYPE_CHECKING:
@@ -54,14 +55,13 @@ def command(
     """
     from ..core.files import refuse
     from ..study import variation
-    from ..suspension.kinds import Suspension
     from ..suspension.toml_writer import write_toml
 
     inputs: list[str | Path] = [file, goals]
     outputs = Outputs.of(None, plot, force=force, inputs=inputs)
     if out is not None:
         refuse([out], force=force, inputs=inputs, endings=[".toml"])
-    suspension = Suspension.load(file)
+    suspension = studied(file)
     asked = variation.read(goals)
     with progress_bar("optimisation") as progress:
         found = variation.optimise(
@@ -101,22 +101,20 @@ def _print(found: "Optimum", file: str) -> None:
 
 def _goals(found: "Optimum") -> Table:
     from ..core.quantities import bracketed, display_of
-    from ..study.characteristics.datasets import KNOWN
-    from ..study.variation.curves import model_of
+    from ..study.variation.ways import model_of
 
     table = Table(title="largest deviations from the targets")
     table.add_column("characteristic")
     for column in ("before", "after", "what matters"):
         table.add_column(column, justify="right")
     for target in found.targets:
-        attributes = KNOWN[target.over][target.name].attributes()
+        attributes = target.quantity.attributes()
         factor = display_of(attributes).factor
         missed = [
             abs(target.curves.of(model_of(suspension))[0] - target.value).max()
             for suspension in (found.start, found.suspension)
         ]
-        words = KNOWN[target.over][target.name].long_name
-        name = bracketed(f"{words} over the rack" if target.over == "rack" else words, attributes)
+        name = bracketed(f"{target.quantity.long_name}{target.over_words}", attributes)
         cells = (significant(float(v) * factor) for v in (*missed, target.within))
         table.add_row(escape(name), *cells)
     return table

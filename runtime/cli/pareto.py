@@ -14,6 +14,7 @@ from .exits import Exit
 from .moved_values import moved_table
 from .options import File, Force, Json
 from .outputs import Out, Outputs, name_files
+from .subject import studied
 from .variation_options import Bars
 
 if TYPE_CHECKING:
@@ -72,14 +73,13 @@ def command(
     """
     from ..core.files import refuse
     from ..study import export, variation
-    from ..suspension.kinds import Suspension
 
     inputs: list[str | Path] = [file, study]
     outputs = Outputs.of(out, plot, force=force, inputs=inputs)
     if car is not None:
         refuse([car], force=force, inputs=inputs, endings=[".toml"])
     _refuse_member(member, population)
-    suspension = Suspension.load(file)
+    suspension = studied(file)
     asked = variation.read(study)
     with progress_bar("suspensions") as progress:
         found = variation.pareto(

@@ -9,6 +9,7 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
+from . import goals as wanted
 from .axles import Ride
 from .console import console, curve_table, print_json, print_table
 from .options import among
@@ -95,6 +96,7 @@ def characteristics(
     outputs: Outputs,
     *,
     of: list[str] | None,
+    goals: Path | None,
     json: bool,
 ) -> None:
     """All characteristics of a rigid axle over the motions of a rig."""
@@ -102,6 +104,7 @@ def characteristics(
     from ..study import rigid as study
     from ..study.axles import by_side
     from ..study.axles.sheet import at_design
+    from ..study.variation.ways import ways_of
     from ..suspension.rigid import RigidAxle
 
     axle = RigidAxle.load(file)
@@ -110,6 +113,9 @@ def characteristics(
     # both wheels of a curve are drawn together
     of = [name.removesuffix("_left").removesuffix("_right") for name in of or ()]
     names = named(of, drawn)
+    known = ways_of(axle)
+    aims = wanted.read(goals, [motion for motion in chosen if motion in known], known)
+    judged = wanted.judged({file: axle}, aims) if aims else []
     written = []
     for motion, dataset in curves.items():
         written += outputs.write(
@@ -120,7 +126,8 @@ def characteristics(
             drawn=drawn[motion],
         )
     if json:
-        print_json({f"over_{motion}": export.as_dict(curves[motion]) for motion in curves})
+        found = {f"over_{motion}": export.as_dict(curves[motion]) for motion in curves}
+        print_json(found | ({"goals": judged} if judged else {}))
         return
     for motion, dataset in curves.items():
         if motion == "bump":
@@ -129,6 +136,8 @@ def characteristics(
             continue
         told = [name for name in _TOLD.get(motion, _OF_ONE_WHEEL) if name in dataset]
         console.print(curve_table(dataset, told, f"{file}: {study.MOTIONS[motion]}"))
+    if judged:
+        console.print(wanted.table(judged, f"{file}: targets and limits of {goals}"))
     name_files(written)
 
 

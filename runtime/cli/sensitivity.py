@@ -11,7 +11,8 @@ from ..core.tabulated import significant
 from .console import console, print_json, progress_bar
 from .options import File, Force, Json, Of
 from .outputs import Out, Outputs, name_files
-from .variation_options import At, Bars, Over, along, chosen, positions_with
+from .subject import studied
+from .variation_options import At, Bars, Over, along, chosen, position, positions_with, way_of
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -40,7 +41,7 @@ def command(
         ),
     ] = None,
     of: Of = None,
-    over: Over = "travel",
+    over: Over = None,
     at: At = 0.0,
     out: Out = None,
     plot: Bars = None,
@@ -52,19 +53,17 @@ def command(
     The table is about one position; data files have all.
     """
     from ..study import export, variation
-    from ..study.variation.curves import model_of
-    from ..suspension.kinds import Suspension
 
     outputs = Outputs.of(out, plot, force=force, inputs=[file])
-    suspension = Suspension.load(file)
-    model = model_of(suspension)
-    names = chosen(model, of, over)
+    suspension = studied(file)
+    way = way_of(suspension, over)
+    names = chosen(suspension, of, way)
     with progress_bar("sensitivity") as progress:
         dataset = variation.sensitivity(
             suspension,
             place or ("hardpoints",),
-            over=over,
-            positions=positions_with(model, over, at),
+            over=way,
+            positions=positions_with(suspension, way, at),
             names=None if out else names,
             progress=progress,
         )
@@ -72,16 +71,16 @@ def command(
     for path in outputs.pages:
         from ..plots import variation as plots
 
-        title = f"{file}: effect of values, {along(over, at)}"
+        title = f"{file}: effect of values, {along(way, at)}"
         written.append(
             plots.write_bars(
-                dataset, path, names, at=at / 1e3, title=title, force=force, inputs=[file]
+                dataset, path, names, at=position(way, at), title=title, force=force, inputs=[file]
             )
         )
     if json:
         print_json(export.as_dict(dataset[names]))
         return
-    console.print(_table(dataset, names, file, along(over, at), at))
+    console.print(_table(dataset, names, file, along(way, at), position(way, at)))
     name_files(written)
 
 
@@ -89,7 +88,7 @@ def _table(dataset: "Dataset", names: list[str], file: str, where: str, at: floa
     """Return the effects: of one characteristic all of them, of several the greatest of each."""
     from ..study.variation import effects
 
-    found = {name: list(effects(dataset, name, at / 1e3)) for name in names}
+    found = {name: list(effects(dataset, name, at)) for name in names}
     if len(names) == 1:
         (name,) = names
         title = f"{file}: effect of values on {_words(dataset, name)}, {where}"

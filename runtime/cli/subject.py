@@ -7,6 +7,7 @@ from .options import load
 
 if TYPE_CHECKING:
     from ..suspension.axle import Axle
+    from ..suspension.kinds import Suspension
     from ..suspension.model import Model
     from ..suspension.rigid import RigidAxle
 
@@ -22,3 +23,11 @@ def described_by(file: str) -> "Model | Axle | RigidAxle":
 
         return Axle.load(file)
     return load(file)
+
+
+def studied(file: str) -> "Suspension | RigidAxle":
+    """Return what has values that move: a suspension, or a rigid axle."""
+    from ..suspension.kinds import Suspension
+    from ..suspension.rigid import RigidAxle
+
+    return RigidAxle.load(file) if rigid.is_rigid_axle(file) else Suspension.load(file)

@@ -89,7 +89,7 @@ def command(
     reach the end.
     """
     from ..study import export, variation
-    from ..study.variation.curves import model_of
+    from ..study.variation.ways import model_of
     from ..suspension.kinds import Suspension
 
     inputs = [Path(file), *([] if measured is None else [measured])]

@@ -11,7 +11,8 @@ from ..core.tabulated import significant
 from .console import console, print_json, progress_bar, say
 from .options import File, Force, Json, Of
 from .outputs import Out, Outputs, name_files
-from .variation_options import At, Bars, Over, along, chosen, positions_with
+from .subject import studied
+from .variation_options import At, Bars, Over, along, chosen, position, positions_with, way_of
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -39,7 +40,7 @@ def command(
     cars: Annotated[int, typer.Option(metavar="N", help="How many cars are drawn.")] = 500,
     seed: Annotated[int, typer.Option(metavar="N", help="Other cars for another seed.")] = 1,
     of: Of = None,
-    over: Over = "travel",
+    over: Over = None,
     at: At = 0.0,
     out: Out = None,
     plot: Bars = None,
@@ -51,15 +52,14 @@ def command(
     The table is about one position; data files have all, netCDF the shares and each car besides.
     """
     from ..study import export, variation
-    from ..study.variation.curves import model_of
-    from ..suspension.kinds import Suspension
+    from ..study.variation.ways import ways_of
 
     inputs: list[str | Path] = [file, tolerances]
     outputs = Outputs.of(out, plot, force=force, inputs=inputs)
-    suspension = Suspension.load(file)
+    suspension = studied(file)
+    way = way_of(suspension, over)
     asked = variation.read(tolerances)
-    model = model_of(suspension)
-    names = chosen(model, of, over)
+    names = chosen(suspension, of, way)
     with progress_bar("cars") as progress:
         dataset = variation.tolerance(
             suspension,
@@ -68,8 +68,8 @@ def command(
             limits=asked.get("limits"),
             count=cars,
             seed=seed,
-            over=over,
-            positions=positions_with(model, over, at),
+            over=way,
+            positions=positions_with(suspension, way, at),
             names=None if out else names,
             progress=progress,
         )
@@ -79,7 +79,7 @@ def command(
         from ..plots import variation as plots
 
         title = f"{file}: {cars} cars by {tolerances.name}"
-        limits = variation.limits(asked.get("limits", {}))
+        limits = variation.limits(asked.get("limits", {}), ways_of(suspension))
         written.append(
             plots.write_bands(
                 dataset, path, names, limits=limits, title=title, force=force, inputs=inputs
@@ -88,7 +88,9 @@ def command(
     if json:
         print_json(export.as_dict(dataset) | {"yield": dataset.attrs["yield"]})
         return
-    console.print(_table(dataset, names, f"{file}: {cars} cars, {along(over, at)}", at))
+    console.print(
+        _table(dataset, names, f"{file}: {cars} cars, {along(way, at)}", position(way, at))
+    )
     told = f"; {100.0 * dataset.attrs['yield']:.1f} % within all limits."
     say(f"{dataset.attrs['message']}{told if asked.get('limits') else '.'}")
     name_files(written)
@@ -105,8 +107,8 @@ def _table(dataset: "Dataset", names: list[str], title: str, at: float) -> Table
     table.add_column("caused most by")
     for name in names:
         data = dataset[name]
-        position = next(str(d) for d in data.dims if d != QUANTILE)
-        here = dataset.sel({position: at / 1e3}, method="nearest")
+        over = next(str(d) for d in data.dims if d != QUANTILE)
+        here = dataset.sel({over: at}, method="nearest")
         least, low, _, high, most = displayed(here[name])
         nominal = float(displayed(here[f"{name}_nominal"]))
         values = (significant(float(value)) for value in (nominal, least, low, high, most))

@@ -10,10 +10,19 @@ from .options import among
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..suspension.model import Model
+    from ..study.variation.ways import Subject
 
-Over = Annotated[Literal["travel", "rack"], typer.Option(help="What varies along the curves.")]
-At = Annotated[float, typer.Option(metavar="MM", help="Position that the table is about.")]
+Over = Annotated[
+    Literal["travel", "rack", "bump", "roll", "left", "right"] | None,
+    typer.Option(
+        help="What varies along the curves. Default: travel; of a rigid axle bump, which has no "
+        "others than the last four.",
+        show_default=False,
+    ),
+]
+At = Annotated[
+    float, typer.Option(metavar="MM", help="Position that the table is about; of roll in deg.")
+]
 Bars = Annotated[
     list[Path] | None,
     typer.Option(
@@ -38,39 +47,69 @@ _USUAL = {
     ),
     "rack": ("camber", "caster", "scrub_radius", "trail", "steer_gradient", "steering_ratio"),
 }
+_USUAL_OF_AXLES = (
+    "axle_steer",
+    "roll_steer",
+    "heave_steer",
+    "axle_lateral",
+    "roll_center_height",
+    "anti_lift_braked",
+    "anti_squat",
+    "roll_stiffness",
+    "wheel_rate_left",
+)
 
 
-def chosen(model: "Model", wanted: list[str] | None, over: Literal["travel", "rack"]) -> list[str]:
+def way_of(of: "Subject", over: str | None) -> str:
+    """Return what curves are over: what was asked for, or the usual."""
+    from ..study.variation.ways import ways_of
+
+    known = ways_of(of)
+    if over is None:
+        return known[0]
+    return among([over], known, "--over")[0]
+
+
+def chosen(of: "Subject", wanted: list[str] | None, over: str) -> list[str]:
     """Return the characteristics that are shown, those that were asked for or the usual ones."""
-    from ..study.characteristics.datasets import refuse_of_steering
-    from ..study.variation.curves import there
+    from ..study.variation.ways import model_of, refuse_of_steering, there
 
-    refuse_of_steering(model.suspension, wanted or ())
-    known = there(model, over)
+    refuse_of_steering(of, wanted or ())
+    known = there(model_of(of), over)
     if wanted is None:
-        return [name for name in _USUAL[over] if name in known]
+        return [name for name in _USUAL.get(over, _USUAL_OF_AXLES) if name in known]
     return among(wanted, known)
 
 
-def positions_with(model: "Model", over: Literal["travel", "rack"], at: float) -> "NDArray[Any]":
-    """Return the usual positions and the one that the table is about [m]."""
-    from ..study.sweep import usual_rack, usual_travel
+def positions_with(of: "Subject", over: str, at: float) -> "NDArray[Any]":
+    """Return the usual positions and the one that the table is about [m] or [rad]."""
+    from ..study.variation.ways import model_of, usual_positions
 
-    usual = usual_travel if over == "travel" else usual_rack
-    return with_position(usual(model), at)
+    return with_position(usual_positions(model_of(of), over), at, over)
 
 
-def with_position(usual: "NDArray[Any]", at: float) -> "NDArray[Any]":
-    """Return positions and the one that a table is about [m]."""
+def with_position(usual: "NDArray[Any]", at: float, over: str = "travel") -> "NDArray[Any]":
+    """Return positions and the one that a table is about [m] or [rad]."""
     import numpy as np
 
     from ..core.errors import InputError
+    from ..study.variation.ways import WAYS
 
     if not np.isfinite(at):
-        raise InputError([f"--at {at}: a finite number of mm is needed."], "positions")
-    return np.union1d(usual, [at / 1e3])
+        problem = f"--at {at}: a finite number of {WAYS[over].unit} is needed."
+        raise InputError([problem], "positions")
+    return np.union1d(usual, [position(over, at)])
 
 
-def along(over: Literal["travel", "rack"], at: float) -> str:
+def position(over: str, at: float) -> float:
+    """Return a position that was given in mm or deg [m] or [rad]."""
+    from ..study.variation.ways import WAYS
+
+    return at / WAYS[over].factor
+
+
+def along(over: str, at: float) -> str:
     """Say where something is: 'at 20 mm of wheel travel'."""
-    return f"at {at:g} mm of {'wheel travel' if over == 'travel' else 'the rack'}"
+    from ..study.variation.ways import WAYS
+
+    return f"at {at:g} {WAYS[over].unit} of {WAYS[over].words}"

@@ -7,15 +7,15 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from ..core.quantities import display_of
-from ..study.characteristics.datasets import ALONG, KNOWN
 from ..study.variation.goals import Goal, Limit, Target
+from ..study.variation.ways import WAYS, way
 
 _RED = "#aa0000"
 
 
 def over_of(along: str) -> str | None:
     """Return what curves over a dimension are called as goals have it; None for any other."""
-    return next((over for over, quantity in ALONG.items() if quantity.name == along), None)
+    return next((over for over, known in WAYS.items() if known.along.name == along), None)
 
 
 def mark(axes: Axes, goals: Iterable[Goal], name: str, over: str) -> NDArray[np.float64]:
@@ -39,8 +39,8 @@ def mark(axes: Axes, goals: Iterable[Goal], name: str, over: str) -> NDArray[np.
     own = [goal for goal in goals if (goal.name, goal.over) == (name, over)]
     if not own:
         return np.empty(0)
-    factor = display_of(KNOWN[over][name].attributes()).factor
-    step = display_of(ALONG[over].attributes()).factor
+    factor = display_of(own[0].quantity.attributes()).factor
+    step = way(over).factor
     marked: list[NDArray[np.float64]] = []
     for goal in own:
         if isinstance(goal, Target):

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from textwrap import fill
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -12,13 +12,12 @@ from matplotlib.ticker import MaxNLocator
 
 from ..core.files import Paths
 from ..core.quantities import bracketed, display_of, displayed, long_name
-from ..study.characteristics.datasets import ALONG, KNOWN
-from ..study.compare import common_positions
-from ..study.variation.curves import Curves, Over, model_of
+from ..study.variation.curves import Curves
 from ..study.variation.goals import Limit
 from ..study.variation.optimise import Optimum
 from ..study.variation.sensitivity import PLACE, Effect, effects
 from ..study.variation.tolerance import QUANTILE
+from ..study.variation.ways import common_positions, model_of, way
 from .figures import BLUE, ORANGE
 from .goals import mark
 from .panels import write_panels
@@ -142,13 +141,12 @@ def write_optimum(
     goals = [*found.targets, *found.limits]
     panels = {f"{goal.name} over {goal.over}": goal for goal in goals}
     # goals under loads are only fitted
-    ways = {cast("Over", goal.over) for goal in goals}
-    positions = {str(over): common_positions(models, over=over) for over in ways}
+    positions = {over: common_positions(models, over) for over in {goal.over for goal in goals}}
 
     def draw(axes: Axes, key: str) -> None:
         panel = panels[key]
         along = positions[panel.over]
-        quantity, over = KNOWN[panel.over][panel.name], ALONG[panel.over]
+        quantity, over = panel.quantity, way(panel.over).along
         factor, step = (
             display_of(quantity.attributes()).factor,
             display_of(over.attributes()).factor,
@@ -191,8 +189,7 @@ def _bands(axes: Axes, dataset: xr.Dataset, name: str, limits: Sequence[Limit]) 
     axes.fill_between(position, low, high, color=BLUE, alpha=0.35, label="nine in ten", linewidth=0)
     nominal = displayed(dataset[f"{name}_nominal"])
     axes.plot(position, nominal, color="black", linewidth=1.4, label="as drawn")
-    over = next(over for over, quantity in ALONG.items() if quantity.name == along)
-    mark(axes, limits, name, over)
+    mark(axes, limits, name, str(dataset.attrs["over"]))
     _around(axes, dataset[along].attrs, data.attrs)
 
 

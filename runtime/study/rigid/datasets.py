@@ -1,6 +1,6 @@
 """Characteristics of a rigid axle over the motions of a rig, as labelled arrays."""
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 
 import numpy as np
 import xarray as xr
@@ -228,17 +228,39 @@ def _curves(axle: RigidAxle, motion: str, values: Array | None) -> xr.Dataset:
     with Arguments("rigid axle") as given:
         given.kind("axle", axle, RigidAxle, RigidAxle.NEEDED)
     along = usual(axle, motion, Extent()) if values is None else values
+    over = ROLL if motion == "roll" else TRAVEL
+    data = values_over(RigidAxleModel(axle), motion, along)
+    coordinates = {over.name: _variable(over, over, along)}
+    known = {measure.quantity.name: measure.quantity for measure in MEASURES}
+    variables = {name: _variable(known[name], over, array) for name, array in data.items()}
+    return xr.Dataset(variables, coordinates, {"title": _TITLES[motion]})
+
+
+def values_over(
+    model: RigidAxleModel, motion: str, along: Array, names: Container[str] | None = None
+) -> dict[str, Array]:
+    """Return the characteristics over a motion by name, all that there are or some.
+
+    Parameters
+    ----------
+    model : RigidAxleModel
+    motion : {'bump', 'roll', 'left', 'right'}
+    along : ndarray, shape (n,)
+        Wheel travels [m], or roll angles [rad].
+    names : container of str, optional
+
+    Raises
+    ------
+    PositionError
+        If a position is out of reach.
+    """
     if motion == "roll" and np.abs(along).max(initial=0.0) >= _MOST_ROLL:
         worst = np.degrees(np.abs(along).max())
         message = f"roll of {worst:.4g} deg: less than 45 deg is needed; Python's unit is rad."
         raise PositionError(message)
-    model = RigidAxleModel(axle)
-    beam = Beam(model, model.states_at(*travels_along(axle, motion, along)))
-    over = ROLL if motion == "roll" else TRAVEL
-    data = {m.quantity: m.formula(beam) for m in MEASURES if m.known_to(axle)}
-    coordinates = {over.name: _variable(over, over, along)}
-    variables = {q.name: _variable(q, over, array) for q, array in data.items()}
-    return xr.Dataset(variables, coordinates, {"title": _TITLES[motion]})
+    beam = Beam(model, model.states_at(*travels_along(model.axle, motion, along)))
+    wanted = [m for m in MEASURES if names is None or m.quantity.name in names]
+    return {m.quantity.name: m.formula(beam) for m in wanted if m.known_to(model.axle)}
 
 
 def _variable(quantity: Quantity, over: Quantity, values: Array) -> xr.Variable:

@@ -24,8 +24,9 @@ from ...suspension.kinds import Suspension
 from ..characteristics import datasets
 from ..characteristics.from_model import corner
 from ..loads.flexibility import HELD
-from .curves import Curves, changed, model_of
+from .curves import Curves, changed
 from .places import Place
+from .ways import Subject, model_of
 
 Array = NDArray[np.float64]
 
@@ -57,7 +58,7 @@ def moved_by(places: Sequence[Place], off: Array) -> dict[str, Array]:
 
 
 def curves_of_many(
-    suspension: Suspension,
+    suspension: Subject,
     values: Mapping[str, Array],
     looks: Sequence[Curves],
     finish: Finish,
@@ -69,8 +70,8 @@ def curves_of_many(
 
     Parameters
     ----------
-    suspension : Suspension
-        What they are otherwise.
+    suspension : Suspension or RigidAxle
+        What they are otherwise; rigid axles are looked at one by one.
     values : mapping of str to ndarray, shape (count,)
         What they have of their own, by place, in the unit of the file.
     looks : sequence of Curves
@@ -105,23 +106,25 @@ def curves_of_many(
 
 
 def _some(
-    suspension: Suspension, values: Mapping[str, Array], looks: Sequence[Curves]
+    suspension: Subject, values: Mapping[str, Array], looks: Sequence[Curves]
 ) -> tuple[list[Array], list[str]]:
     """Return the values of each look and the reasons, of some suspensions."""
     count = next(iter(values.values())).size
     found = [np.full((count, len(look.names), look.positions.size), np.nan) for look in looks]
     reasons = [""] * count
-    batched = count >= _FEWEST and not any(look.over in HELD for look in looks)
-    there = _together(suspension, values, looks, found) if batched else np.zeros(count, bool)
+    there = np.zeros(count, dtype=bool)
+    alone = any(look.over in HELD for look in looks)
+    if isinstance(suspension, Suspension) and count >= _FEWEST and not alone:
+        there = _together(suspension, values, looks, found)
     for car in np.flatnonzero(~there).tolist():
         changes = {place: float(column[car]) for place, column in values.items()}
         try:
             model = model_of(changed(suspension, changes))
-            alone = [look.of(model) for look in looks]
+            own = [look.of(model) for look in looks]
         except KintrafoError as error:
             reasons[car] = str(error)
-            alone = [np.full(rows.shape[1:], np.nan) for rows in found]
-        for rows, curves in zip(found, alone, strict=True):
+            own = [np.full(rows.shape[1:], np.nan) for rows in found]
+        for rows, curves in zip(found, own, strict=True):
             rows[car] = curves
     return found, reasons
 

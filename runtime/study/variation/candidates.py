@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import KintrafoError
-from ...suspension.kinds import Suspension
 from .batch import curves_of_many, moved_by
-from .curves import Together, changed, model_of
+from .curves import Together, changed
 from .goals import Goal
 from .places import Place
+from .ways import Subject, model_of
 
 Array = NDArray[np.float64]
 
@@ -23,14 +23,14 @@ class Candidates:
 
     Parameters
     ----------
-    suspension : Suspension
+    suspension : Suspension or RigidAxle
     reach : mapping of Place to float
         How far values may move to either side [SI].
     goals : sequence of Goal
     """
 
     def __init__(
-        self, suspension: Suspension, reach: Mapping[Place, float], goals: Sequence[Goal]
+        self, suspension: Subject, reach: Mapping[Place, float], goals: Sequence[Goal]
     ) -> None:
         self.suspension = suspension
         self.places, self.reach = tuple(reach), np.array([*reach.values()])
@@ -38,7 +38,7 @@ class Candidates:
         self._look = Together([goal.curves for goal in self.goals])
         self._values: dict[bytes, list[Array] | None] = {}
 
-    def at(self, x: Array) -> Suspension:
+    def at(self, x: Array) -> Subject:
         """Return the suspension with some values."""
         changes: dict[str, float] = {}
         for place, by in zip(self.places, x * self.reach, strict=True):

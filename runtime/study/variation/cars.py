@@ -10,11 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 from ...core.arguments import Arguments, shown
 from ...core.quantities import variable
 from ...core.suggestions import suggestion
-from ...suspension.kinds import Suspension
-from ..characteristics.datasets import ALONG, KNOWN
 from .batch import curves_of_many
-from .curves import Curves, Over, curves_of
+from .curves import Curves, curves_of
 from .places import Place, places_of, refuse_bushes
+from .ways import Subject, check_subject
 
 Array = NDArray[np.float64]
 
@@ -34,10 +33,10 @@ _REDUCTIONS: dict[str, tuple[str, Callable[[Array], Array]]] = {
 
 
 def cars(
-    suspension: Suspension,
+    suspension: Subject,
     values: Mapping[str, ArrayLike] | xr.Dataset,
     *,
-    over: Over = "travel",
+    over: str | None = None,
     positions: ArrayLike | None = None,
     names: Sequence[str] | None = None,
     reductions: Sequence[str] | None = None,
@@ -48,17 +47,19 @@ def cars(
 
     Parameters
     ----------
-    suspension : Suspension
+    suspension : Suspension or RigidAxle
         What they are otherwise.
     values : mapping or xarray.Dataset
         What they have of their own, by place as in `sensitivity` but without ``*``:
         ``hardpoints.ball_joint.z``, in the unit of the file for people (mm, deg, N/m). Rows of
         numbers are over the dimension ``car``; of a dataset, all combinations along its dimensions
         are cars.
-    over : {'travel', 'rack'}, optional
-        What varies along the curves. Wheel travel counts from each car's own design position.
+    over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
+        What varies along the curves: by default wheel travel, which counts from each car's own
+        design position, of a rigid axle that of both wheels (``bump``); it has the last four ways.
     positions : array_like, optional
-        Wheel travel, or displacement of the rack [m]; by default the usual range of `suspension`.
+        Wheel travel, or displacement of the rack [m], or roll [rad]; by default the
+        usual range of `suspension`.
     names : sequence of str, optional
         Characteristics; by default all.
     reductions : sequence of str, optional
@@ -88,13 +89,14 @@ def cars(
 
     Examples
     --------
+    >>> from kintrafo import Suspension
     >>> car = Suspension.load("reference_car")
     >>> found = cars(car, {"hardpoints.tie_rod_inner.z": [278.0, 280.0, 282.0]}, positions=[0.0])
     >>> np.rad2deg(found["bump_steer"].values[:, 0] * 1e-3).round(4).tolist()  # deg/mm
     [0.0039, 0.0062, 0.0084]
     """
     with Arguments("cars") as given:
-        given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
+        check_subject(given, suspension)
         given.function("progress", progress)
         if threads is not None:
             threads = given.whole("threads", threads, most=1024)
@@ -146,7 +148,7 @@ class _Collected:
 
 
 def _columns(
-    given: Arguments, suspension: Suspension, values: Any
+    given: Arguments, suspension: Subject, values: Any
 ) -> tuple[dict[str, Array], xr.DataArray]:
     """Return the values of each car by place, in the unit of the file, and their dimensions."""
     if not isinstance(values, xr.Dataset):
@@ -179,7 +181,7 @@ def _columns(
     return columns, xr.zeros_like(frame, dtype=float).assign_coords(labels)
 
 
-def _places(given: Arguments, suspension: Suspension, names: Any) -> dict[str, Place]:
+def _places(given: Arguments, suspension: Subject, names: Any) -> dict[str, Place]:
     known = places_of(suspension)
     if not names:
         given.refuse("values: one place or more is needed.")
@@ -190,11 +192,11 @@ def _places(given: Arguments, suspension: Suspension, names: Any) -> dict[str, P
 
 
 def _dataset(collected: _Collected, frame: xr.DataArray) -> xr.Dataset:
-    curves, along = collected.curves, ALONG[collected.curves.over]
+    curves, along = collected.curves, collected.curves.along
     shape, dims = frame.shape, tuple(map(str, frame.dims))
     data: dict[str, Any] = {}
     for row, name in enumerate(curves.names):
-        attributes = KNOWN[curves.over][name].attributes()
+        attributes = curves.quantity(name).attributes()
         values = collected.values[:, row]
         if not collected.kept:
             data[name] = ((*dims, along.name), values.reshape(*shape, -1), attributes)

@@ -1,25 +1,29 @@
 """The characteristics that are looked at, of a suspension whose values change."""
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, cast
+from typing import Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
 from ...suspension.kinds import Suspension
-from ...suspension.model import Model
-from ..characteristics.datasets import ALONG, over_rack, over_travel, refuse_of_steering
-from ..loads.compliance import COMPLIANCES, compliance
-from ..loads.flexibility import HELD, Held
-from ..sweep import usual_rack, usual_travel
+from ...suspension.rigid import RigidAxle
+from ..characteristics.catalogue import Quantity
+from .ways import (
+    Looked,
+    Subject,
+    model_of,
+    refuse_of_steering,
+    there,
+    usual_positions,
+    values_of,
+    way,
+    ways_of,
+)
 
 Array = NDArray[np.float64]
-Over = Literal["travel", "rack"]
-Way = Over | Held
-"""Characteristics over wheel travel or the rack; or compliance over wheel travel, by what holds the
-wheel under the loads."""
 
 
 @dataclass(frozen=True)
@@ -29,18 +33,27 @@ class Curves:
     Attributes
     ----------
     over : str
-        'travel' or 'rack'; or what holds the wheel under loads.
+        Of `ways.WAYS`; or what holds the wheel under loads.
     positions : ndarray
-        Wheel travel, or displacement of the rack [m].
+        [m]; over roll [rad].
     names : tuple of str
         The characteristics.
     """
 
-    over: Way
+    over: str
     positions: Array
     names: tuple[str, ...]
 
-    def of(self, model: Model) -> Array:
+    @property
+    def along(self) -> Quantity:
+        """What varies along them."""
+        return way(self.over).along
+
+    def quantity(self, name: str) -> Quantity:
+        """Return what a name stands for."""
+        return way(self.over).known[name]
+
+    def of(self, model: Looked) -> Array:
         """Return the values, of shape (names, positions), SI units.
 
         Raises
@@ -53,18 +66,18 @@ class Curves:
 
 
 class Together:
-    """Curves that are evaluated together: at once over wheel travel, and at once over the rack."""
+    """Curves that are evaluated together: at once over each way."""
 
     def __init__(self, curves: Sequence[Curves]) -> None:
         self._curves = tuple(curves)
-        self._looks: dict[Way, Curves] = {}
+        self._looks: dict[str, Curves] = {}
         for over in dict.fromkeys(c.over for c in curves):
             same = [c for c in curves if c.over == over]
             positions = np.unique(np.concatenate([c.positions for c in same]))
             names = dict.fromkeys(name for c in same for name in c.names)
             self._looks[over] = Curves(over, positions, tuple(names))
 
-    def of(self, model: Model) -> list[Array]:
+    def of(self, model: Looked) -> list[Array]:
         """Return the values of each of the curves, of shape (names, positions), SI units."""
         found = {over: look.of(model) for over, look in self._looks.items()}
         return [self._part(curves, found[curves.over]) for curves in self._curves]
@@ -76,53 +89,34 @@ class Together:
         return values[rows][:, columns]
 
 
-def values_of(
-    model: Model, over: Way, positions: Array, names: Container[str] | None = None
-) -> dict[str, Array]:
-    """Return characteristics or compliance by name, all that there are or some."""
-    if over in HELD:
-        found = compliance(model, None, positions, held=cast("Held", over))
-        return {name: found[name].values for name in COMPLIANCES}
-    values = over_travel if over == "travel" else over_rack
-    return {q.name: v for q, v in values(model, positions, names=names).items()}
+S = TypeVar("S", bound=Suspension | RigidAxle)
 
 
-def there(model: Model, over: Way) -> tuple[str, ...]:
-    """Return the characteristics, or compliance, for which the file has the data."""
-    if over in HELD and not model.suspension.bushings:
-        return ()
-    return tuple(values_of(model, over, np.zeros(1)))
-
-
-def model_of(suspension: Suspension, *, wheel_loads: bool = False) -> Model:
-    """Return the model in which every body that has mass counts."""
-    free_rack = bool(suspension.neglected_masses())
-    return Model(suspension, free_rack=free_rack, wheel_loads=wheel_loads)
-
-
-def changed(suspension: Suspension, changes: Mapping[str, float]) -> Suspension:
-    """Return a suspension with other values, or the same."""
-    return suspension.with_changes(changes) if changes else suspension
+def changed(suspension: S, changes: Mapping[str, float]) -> S:
+    """Return a suspension or a rigid axle with other values, or the same."""
+    return cast("S", suspension.with_changes(changes)) if changes else suspension
 
 
 def curves_of(
     given: Arguments,
-    suspension: Suspension,
+    suspension: Subject,
     over: Any,
     positions: Any,
     names: Sequence[str] | None,
 ) -> Curves:
     """Check what is to be looked at; by default all characteristics over the usual positions."""
-    over = given.among("over", over, ALONG)
+    ways = ways_of(suspension)
+    over = ways[0] if over is None else given.among("over", over, ways)
     if positions is not None:
-        positions = given.array("positions", positions, "m", dimensions=[1])
+        unit = "m" if given.refused else way(over).along.units
+        positions = given.array("positions", positions, unit, dimensions=[1])
     if given.refused:
         return Curves("travel", np.zeros(1), ())
     if isinstance(names, list | tuple):
         refuse_of_steering(suspension, names)
     model = model_of(suspension)
     if positions is None:
-        positions = (usual_travel if over == "travel" else usual_rack)(model)
+        positions = usual_positions(model, over)
     known = there(model, over)
     chosen = known if names is None else given.names("names", names, known)
     if not (chosen or given.refused):

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -12,15 +12,12 @@ from scipy.stats import chi2
 from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.quantities import display_of
-from ...suspension.kinds import Suspension
-from ..characteristics.datasets import ALONG, KNOWN
-from ..loads.compliance import COMPLIANCES
 from ..loads.flexibility import HELD, Held
-from .curves import Over, Way
 from .goals import Target, check_data
 from .places import Place, amounts
 from .search import Search, in_words, least
 from .tolerance import SIGMAS
+from .ways import UNDER_LOADS, WAYS, Subject, check_subject, ways_of
 
 Array = NDArray[np.float64]
 
@@ -74,9 +71,9 @@ class Fit:
 
     Attributes
     ----------
-    suspension : Suspension
+    suspension : Suspension or RigidAxle
         With the values that explain it best.
-    start : Suspension
+    start : Suspension or RigidAxle
         The one that was given.
     places : tuple of Place
         The values that may be off, as they were.
@@ -97,8 +94,8 @@ class Fit:
         How many suspensions were looked at.
     """
 
-    suspension: Suspension
-    start: Suspension
+    suspension: Subject
+    start: Subject
     places: tuple[Place, ...]
     moved: dict[str, float]
     uncertainty: dict[str, float]
@@ -110,7 +107,7 @@ class Fit:
 
 
 def fit(
-    suspension: Suspension,
+    suspension: Subject,
     measured: xr.Dataset,
     tolerances: Mapping[str, float | str],
     *,
@@ -123,7 +120,7 @@ def fit(
 
     Parameters
     ----------
-    suspension : Suspension
+    suspension : Suspension or RigidAxle
     measured : xarray.Dataset
         From `kintrafo.rig.measured_curves`; the steering straight ahead, or the wheel at design.
         Compliance by the names of `kintrafo.loads.compliance` may be among the curves over wheel
@@ -164,6 +161,7 @@ def fit(
     Examples
     --------
     >>> from kintrafo import Model, characteristics
+    >>> from kintrafo import Suspension
     >>> car = Suspension.load("reference_car")
     >>> built = car.with_changes({"hardpoints.tie_rod_inner": [-140.0, -310.0, 282.0]})
     >>> rig = characteristics.travel(Model(built), np.linspace(-0.06, 0.06, 7))[["toe"]]
@@ -172,7 +170,7 @@ def fit(
     [-0.1, 1.98]
     """
     with Arguments("fit") as given:
-        given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
+        check_subject(given, suspension)
         given.function("progress", progress)
         given.dataset(measured)
         accuracies = given.mapping(
@@ -180,7 +178,7 @@ def fit(
         )
         if not given.refused:
             given.among("held", held, HELD)
-            targets = _targets(given, measured, names, accuracies, held)
+            targets = _targets(given, suspension, measured, names, (accuracies, held))
         if not given.refused:
             check_data(given, suspension, targets)
             by_pattern = given.mapping("tolerances", tolerances, "places and numbers")
@@ -196,19 +194,22 @@ def fit(
 
 def _targets(
     given: Arguments,
+    suspension: Subject,
     measured: xr.Dataset,
     names: Any,
-    accuracies: Mapping[str, Any],
-    held_by: Held,
+    how: tuple[Mapping[str, Any], Held],
 ) -> list[Target]:
     """Return the measured curves as targets, without the cells that are empty."""
-    over = [way for way, along in ALONG.items() if along.name in measured.dims]
+    accuracies, held_by = how
+    # parallel travel is the first of the ways over wheel travel
+    ways = {WAYS[way].along.name: way for way in reversed(ways_of(suspension))}
+    over = [name for name in ways if name in measured.dims]
     if len(over) != 1:
         given.refuse("measured: what kintrafo.rig.measured_curves returns is needed.")
         return []
-    (way,) = (cast("Over", each) for each in over)
-    along = ALONG[way].name
-    for name in (a.name for a in ALONG.values() if a.name != along and a.name in measured.coords):
+    (along,) = over
+    way = ways[along]
+    for name in (other for other in ways if other != along and other in measured.coords):
         held = measured[name].values
         if not (held.size == 1 and abs(float(held.item())) <= _HELD):
             where = f"held at {1e3 * held.item():g} mm" if held.size == 1 else "not held"
@@ -220,8 +221,8 @@ def _targets(
         for name in map(str, measured)
         if measured[name].dims == (along,) and np.issubdtype(measured[name].dtype, np.floating)
     ]
-    under_loads = COMPLIANCES if way == "travel" else {}
-    known = [name for name in there if name in KNOWN[way] or name in under_loads]
+    under_loads = UNDER_LOADS[held_by].known if way == "travel" else {}
+    known = [name for name in there if name in WAYS[way].known or name in under_loads]
     chosen = known if names is None else given.names("names", names, known)
     if not chosen and not given.refused:
         given.refuse("measured: one curve or more is needed.")
@@ -235,14 +236,14 @@ def _targets(
     ]
 
 
-def _target(given: Arguments, curve: xr.DataArray, over: Way, accuracy: Any) -> Target | None:
+def _target(given: Arguments, curve: xr.DataArray, over: str, accuracy: Any) -> Target | None:
     name = str(curve.name)
     fine = np.isfinite(curve.values)
     values, at = curve.values[fine], curve[str(curve.dims[0])].values[fine]
     if not values.size:
         given.refuse(f"measured: {name} has no value.")
         return None
-    quantity = COMPLIANCES[name] if over in HELD else KNOWN[over][name]
+    quantity = (WAYS | UNDER_LOADS)[over].known[name]
     shown = display_of(quantity.attributes())
     if accuracy is not None:
         number = given.number(f"accuracy of {name}", accuracy, shown.units, above=0.0)

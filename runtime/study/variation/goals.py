@@ -10,11 +10,23 @@ from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
 from ...core.quantities import display_of
+from ...suspension.axle import Axle
 from ...suspension.input.toml_file import read_sections
 from ...suspension.kinds import Suspension
-from ..characteristics.datasets import KNOWN, refuse_of_steering
+from ...suspension.rigid import RigidAxle
+from ..characteristics.catalogue import Quantity
 from ..loads.flexibility import HELD
-from .curves import Curves, Over, Together, Way, model_of, there
+from .curves import Curves, Together
+from .ways import (
+    OF_SUSPENSIONS,
+    WAYS,
+    Subject,
+    model_of,
+    refuse_of_steering,
+    there,
+    way,
+    ways_of,
+)
 
 Array = NDArray[np.float64]
 
@@ -28,6 +40,7 @@ _SECTIONS = (
     "limits",
     "accuracy",
 )
+_NEEDED = "a kintrafo.Suspension, kintrafo.Axle or kintrafo.RigidAxle is needed"
 # No characteristic is as great as this in any unit, and no deviation as small matters.
 _GREATEST, _LEAST = 1e9, 1e-9
 
@@ -41,14 +54,25 @@ class Goal:
     name : str
         Characteristic.
     over : str
-        'travel' or 'rack'; or what holds the wheel under loads, see `Way`.
+        Of `ways.WAYS`; or what holds the wheel under loads.
     at : ndarray, shape (n,)
-        Positions [m].
+        Positions [m]; over roll [rad].
     """
 
     name: str
-    over: Way
+    over: str
     at: Array
+
+    @property
+    def quantity(self) -> Quantity:
+        """What the name stands for."""
+        return way(self.over).known[self.name]
+
+    @property
+    def over_words(self) -> str:
+        """What stands behind the name where it is not over the usual: `` over the rack``."""
+        usual = self.over in ("travel", "bump") or self.over in HELD
+        return "" if usual else f" over {way(self.over).words}"
 
     @property
     def curves(self) -> Curves:
@@ -128,19 +152,30 @@ def read(path: str | Path) -> dict[str, Any]:
     return read_sections(path, _SECTIONS)
 
 
-def limits(described: Mapping[str, Any]) -> list[Limit]:
-    """Read limits by themselves, for a picture: as those of `tolerance` and `optimise`."""
+def limits(described: Mapping[str, Any], ways: Sequence[str] = OF_SUSPENSIONS) -> list[Limit]:
+    """Read limits by themselves, for a picture: as those of `tolerance` and `optimise`.
+
+    Parameters
+    ----------
+    described : mapping
+        By characteristic.
+    ways : sequence of str, optional
+        As of `goals`.
+    """
     with Arguments("limits") as given:
-        return limits_of(given, given.mapping("limits", described, "names and limits"))
+        return limits_of(given, given.mapping("limits", described, "names and limits"), ways)
 
 
-def goals(described: Mapping[str, Any]) -> list[Goal]:
+def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_SUSPENSIONS) -> list[Goal]:
     """Return the targets and limits of a file that was read, to be drawn and judged.
 
     Parameters
     ----------
     described : mapping
         From `read`; other sections are left to others.
+    ways : sequence of str, optional
+        What they may be over, and the first of them where they do not say it: ``travel`` and
+        ``rack``, or of an axle, also a rigid one, ``bump``, ``roll``, ``left`` and ``right``.
 
     Returns
     -------
@@ -149,9 +184,13 @@ def goals(described: Mapping[str, Any]) -> list[Goal]:
     with Arguments("goals") as given:
         sections = given.mapping("described", described, "sections and tables")
         return [
-            *targets_of(given, given.mapping("targets", sections.get("targets", {}), "tables")),
-            *limits_of(given, given.mapping("limits", sections.get("limits", {}), "tables")),
+            *targets_of(given, _section(given, sections, "targets"), ways),
+            *limits_of(given, _section(given, sections, "limits"), ways),
         ]
+
+
+def _section(given: Arguments, sections: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    return given.mapping(name, sections.get(name, {}), "tables")
 
 
 @dataclass(frozen=True)
@@ -169,7 +208,7 @@ class Verdict:
     beyond : float
         By how much the worst position is beyond that, SI units; negative where there is room.
     at : float
-        That position [m].
+        That position [m]; over roll [rad].
     """
 
     name: str
@@ -180,12 +219,12 @@ class Verdict:
     at: float
 
 
-def judge(suspension: Suspension, wanted: Sequence[Goal]) -> list[Verdict]:
-    """Tell which targets and limits a suspension meets.
+def judge(suspension: Subject | Axle, wanted: Sequence[Goal]) -> list[Verdict]:
+    """Tell which targets and limits a suspension or an axle meets.
 
     Parameters
     ----------
-    suspension : Suspension
+    suspension : Suspension, Axle or RigidAxle
     wanted : sequence of Target and Limit
         From `goals`.
 
@@ -209,7 +248,7 @@ def judge(suspension: Suspension, wanted: Sequence[Goal]) -> list[Verdict]:
     [('toe', False, -0.05)]
     """
     with Arguments("judge") as given:
-        given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
+        given.kind("suspension", suspension, (Suspension, Axle, RigidAxle), _NEEDED)
         if not isinstance(wanted, list | tuple) or not all(
             isinstance(one, Target | Limit) for one in wanted
         ):
@@ -233,7 +272,7 @@ def _verdict(goal: Goal, values: Array) -> Verdict:
     return Verdict(goal.name, goal.over, kind, met, float(beyond[worst]), float(goal.at[worst]))
 
 
-def check_data(given: Arguments, suspension: Suspension, goals: Iterable[Goal]) -> None:
+def check_data(given: Arguments, suspension: Subject | Axle, goals: Iterable[Goal]) -> None:
     """Refuse goals about what the suspension has not: no data in the file, or no number there.
 
     Raises
@@ -241,9 +280,12 @@ def check_data(given: Arguments, suspension: Suspension, goals: Iterable[Goal]) 
     PositionError
         If the suspension does not reach a position.
     """
-    model = model_of(suspension)
+    model, ways = model_of(suspension), ways_of(suspension)
     for goal in goals:
         name = f"{goal.name} over {'travel' if goal.over in HELD else goal.over}"
+        if goal.over not in ways and not (goal.over in HELD and "travel" in ways):
+            given.refuse(f"{name}: what is looked at has curves over {', '.join(ways)}.")
+            continue
         refuse_of_steering(suspension, [goal.name])
         if goal.name not in there(model, goal.over):
             given.refuse(
@@ -253,14 +295,15 @@ def check_data(given: Arguments, suspension: Suspension, goals: Iterable[Goal]) 
             continue
         missing = goal.at[~np.isfinite(goal.curves.of(model)[0])]
         if missing.size:
-            places = ", ".join(f"{1e3 * at:g} mm" for at in missing)
+            over = way(goal.over)
+            places = ", ".join(f"{over.factor * at:g} {over.unit}" for at in missing)
             given.refuse(
                 f"{name}: it has no finite value at {places}, as a turning circle straight ahead. "
-                "Leave that position out of at_mm."
+                f"Leave that position out of at_{over.unit}."
             )
 
 
-def targets_of(given: Arguments, described: Mapping[str, Any]) -> list[Target]:
+def targets_of(given: Arguments, described: Mapping[str, Any], ways: Sequence[str]) -> list[Target]:
     """Read targets, by the names of characteristics; in millimetres and units for people.
 
     A characteristic has a table, or several in a list: over travel and over the rack.
@@ -269,20 +312,22 @@ def targets_of(given: Arguments, described: Mapping[str, Any]) -> list[Target]:
         Target(
             name, table.over, table.at, table.numbers("value"), table.number("within", least=_LEAST)
         )
-        for name, table in _tables(given, described, "targets", {"value", "within"})
+        for name, table in _tables(given, described, ("targets", ways), {"value", "within"})
     ]
 
 
-def extremes_of(given: Arguments, described: Mapping[str, Any], section: str) -> list[Goal]:
+def extremes_of(
+    given: Arguments, described: Mapping[str, Any], section: str, ways: Sequence[str]
+) -> list[Goal]:
     """Read which characteristics are to be small or great, and where, as `targets_of`."""
-    found = _tables(given, described, section, set())
+    found = _tables(given, described, (section, ways), set())
     return [Goal(name, table.over, table.at) for name, table in found]
 
 
-def limits_of(given: Arguments, described: Mapping[str, Any]) -> list[Limit]:
+def limits_of(given: Arguments, described: Mapping[str, Any], ways: Sequence[str]) -> list[Limit]:
     """Read limits, by the names of characteristics, as `targets_of`."""
     found = []
-    for name, table in _tables(given, described, "limits", {"least", "most"}):
+    for name, table in _tables(given, described, ("limits", ways), {"least", "most"}):
         least, most = (
             table.number(key) if key in table.entries else sign * np.inf
             for key, sign in (("least", -1.0), ("most", 1.0))
@@ -302,7 +347,7 @@ class _Table:
     given: Arguments
     title: str
     entries: Mapping[str, Any]
-    over: Over
+    over: str
     at: Array
     unit: str
     factor: float
@@ -320,8 +365,8 @@ class _Table:
         values = self.given.array(name, self._given(key), self.unit, dimensions=[0, 1])
         if values.size not in (1, self.at.size):
             self.given.refuse(
-                f"{name}: {values.size} numbers and {self.at.size} in at_mm: one for each position "
-                "is needed, or one for all."
+                f"{name}: {values.size} numbers and {self.at.size} in at_{way(self.over).unit}: "
+                "one for each position is needed, or one for all."
             )
             return np.zeros_like(self.at)
         if (np.abs(values) > _GREATEST).any():
@@ -335,28 +380,29 @@ class _Table:
 
 
 def _tables(
-    given: Arguments, described: Mapping[str, Any], section: str, keys: set[str]
+    given: Arguments, described: Mapping[str, Any], of: tuple[str, Sequence[str]], keys: set[str]
 ) -> Iterable[tuple[str, _Table]]:
+    section, ways = of
     for name, table in _listed(described):
         title = f"[{section}.{name}]"
         if not isinstance(table, Mapping):
+            at_key = f"at_{WAYS[ways[0]].unit}"
             given.refuse(
-                f"{title} must be a section, with {' and '.join(['at_mm', *sorted(keys)])}."
+                f"{title} must be a section, with {' and '.join([at_key, *sorted(keys)])}."
             )
             continue
-        known_keys = ["at_mm", "over", *sorted(keys)]
+        over = given.among(f"{title} over", table.get("over", ways[0]), ways)
+        at_key, known = f"at_{WAYS[over].unit}", WAYS[over].known
+        known_keys = [at_key, "over", *sorted(keys)]
         for key in table.keys() - {*known_keys}:
             given.refuse(f"{title} {key} is not known: there are {', '.join(known_keys)}.")
-        over = given.among(f"{title} over", table.get("over", "travel"), KNOWN)
-        known = KNOWN[over]
         if given.among("characteristic", name, known) != name:
             continue
         shown = display_of(known[name].attributes())
-        at = given.array(f"{title} at_mm", table.get("at_mm", 0.0), "mm", dimensions=[0, 1])
-        yield (
-            name,
-            _Table(given, title, table, over, np.atleast_1d(at) / 1e3, shown.units, shown.factor),
-        )
+        unit, factor = WAYS[over].unit, WAYS[over].factor
+        at = given.array(f"{title} {at_key}", table.get(at_key, 0.0), unit, dimensions=[0, 1])
+        positions = np.atleast_1d(at) / factor
+        yield name, _Table(given, title, table, over, positions, shown.units, shown.factor)
 
 
 def _listed(described: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
 from ...core.quantities import distinct
-from ..characteristics.datasets import KNOWN
 from .goals import Goal, Target, extremes_of, targets_of
+from .ways import way
 
 Array = NDArray[np.float64]
 Kind = Literal["deviation", "greatest", "least"]
@@ -56,11 +56,11 @@ class Objective:
 
     def attributes(self) -> dict[str, Any]:
         """Return the attributes of the variable in a dataset."""
-        quantity = KNOWN[self.goal.over][self.goal.name]
+        quantity = way(self.goal.over).known[self.goal.name]
         several = self.goal.at.size > 1
         words = (_WORDS if several else _WORDS_OF_ONE)[self.kind].format(quantity.long_name)
         own = {
-            "long_name": f"{words} over the rack" if self.goal.over == "rack" else words,
+            "long_name": f"{words}{self.goal.over_words}",
             "sign": "" if self.kind == "deviation" else quantity.sign,
             "wanted": "great" if self.kind == "least" else "small",
         }
@@ -72,12 +72,13 @@ def objectives_of(
     targets: Mapping[str, Any],
     minimise: Mapping[str, Any],
     maximise: Mapping[str, Any],
+    ways: Sequence[str],
 ) -> list[Objective]:
     """Read objectives: deviations from targets, greatest and least values."""
     goals: dict[Kind, Sequence[Goal]] = {
-        "deviation": targets_of(given, targets),
-        "greatest": extremes_of(given, minimise, "minimise"),
-        "least": extremes_of(given, maximise, "maximise"),
+        "deviation": targets_of(given, targets, ways),
+        "greatest": extremes_of(given, minimise, "minimise", ways),
+        "least": extremes_of(given, maximise, "maximise", ways),
     }
     found = [(kind, goal) for kind, several in goals.items() for goal in several]
     names = distinct([_name(kind, goal) for kind, goal in found])
@@ -85,4 +86,4 @@ def objectives_of(
 
 
 def _name(kind: Kind, goal: Goal) -> str:
-    return f"{goal.name}{'_over_rack' if goal.over == 'rack' else ''}_{kind}"
+    return f"{goal.name}{goal.over_words.replace(' the ', ' ').replace(' ', '_')}_{kind}"

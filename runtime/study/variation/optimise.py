@@ -10,10 +10,10 @@ from scipy.optimize import minimize
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
-from ...suspension.kinds import Suspension
 from .goals import Limit, Target, check_data, limits_of, targets_of
 from .places import Place, amounts
 from .search import MOST_STEPS, NOTHING_TO_GAIN, TOO_MANY_STEPS, Search, in_words, least
+from .ways import Subject, check_subject, ways_of
 
 Array = NDArray[np.float64]
 
@@ -34,9 +34,9 @@ class Optimum:
 
     Attributes
     ----------
-    suspension : Suspension
+    suspension : Suspension or RigidAxle
         With the values that were found.
-    start : Suspension
+    start : Suspension or RigidAxle
         The one that was given.
     places : tuple of Place
         The values that were free, as they were.
@@ -54,8 +54,8 @@ class Optimum:
         How many suspensions were looked at.
     """
 
-    suspension: Suspension
-    start: Suspension
+    suspension: Subject
+    start: Subject
     places: tuple[Place, ...]
     moved: dict[str, float]
     targets: tuple[Target, ...]
@@ -66,7 +66,7 @@ class Optimum:
 
 
 def optimise(
-    suspension: Suspension,
+    suspension: Subject,
     free: Mapping[str, float],
     targets: Mapping[str, Any],
     limits: Mapping[str, Any] | None = None,
@@ -80,7 +80,7 @@ def optimise(
 
     Parameters
     ----------
-    suspension : Suspension
+    suspension : Suspension or RigidAxle
     free : mapping of str to float
         How far values may move to either side, in the unit of the input file for people (mm, deg,
         N/m, ...), by their places as `sensitivity` takes them. Everything else stays.
@@ -113,6 +113,7 @@ def optimise(
 
     Examples
     --------
+    >>> from kintrafo import Suspension
     >>> car = Suspension.load("reference_car")
     >>> found = optimise(
     ...     car,
@@ -123,12 +124,12 @@ def optimise(
     (True, -5.5)
     """
     with Arguments("optimise") as given:
-        given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
+        check_subject(given, suspension)
         given.function("progress", progress)
-        aims = targets_of(given, given.mapping("targets", targets, "names and targets"))
-        bounds = limits_of(
-            given, given.mapping("limits", {} if limits is None else limits, "names and limits")
-        )
+        ways = ways_of(suspension)
+        aims = targets_of(given, given.mapping("targets", targets, "names and targets"), ways)
+        described = given.mapping("limits", {} if limits is None else limits, "names and limits")
+        bounds = limits_of(given, described, ways)
         if not given.refused:
             check_data(given, suspension, [*aims, *bounds])
             by_pattern = given.mapping("free", free, "places and numbers")

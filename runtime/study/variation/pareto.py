@@ -11,7 +11,6 @@ from scipy.stats import qmc
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
-from ...suspension.kinds import Suspension
 from .candidates import Candidates
 from .front import compromise, spread, unbeaten
 from .goals import Limit, check_data, limits_of
@@ -19,6 +18,7 @@ from .nsga import check_installed, evolve
 from .objectives import Objective, objectives_of
 from .places import Place, amounts, refuse_bushes
 from .search import in_words
+from .ways import Subject, check_subject, ways_of
 
 Array = NDArray[np.float64]
 
@@ -46,7 +46,7 @@ class Front:
     dataset : xarray.Dataset
         Over ``member``, from 1: each objective by its name, and each free value by its place, in SI
         units. Sorted by the first objective.
-    start : Suspension
+    start : Suspension or RigidAxle
         The one that was given.
     before : dict of str to float
         Its objectives [SI].
@@ -70,7 +70,7 @@ class Front:
     """
 
     dataset: xr.Dataset
-    start: Suspension
+    start: Subject
     before: dict[str, float]
     keeps_limits: bool
     places: tuple[Place, ...]
@@ -82,7 +82,7 @@ class Front:
     message: str
     evaluations: int
 
-    def suspension(self, member: int) -> Suspension:
+    def suspension(self, member: int) -> Subject:
         """Return the suspension of a member.
 
         Parameters
@@ -112,7 +112,7 @@ class Front:
 
 
 def pareto(
-    suspension: Suspension,
+    suspension: Subject,
     free: Mapping[str, float],
     targets: Mapping[str, Any] | None = None,
     *,
@@ -131,7 +131,7 @@ def pareto(
 
     Parameters
     ----------
-    suspension : Suspension
+    suspension : Suspension or RigidAxle
     free : mapping of str to float
         How far values may move to either side, as of `optimise`.
     targets : mapping, optional
@@ -172,6 +172,7 @@ def pareto(
 
     Examples
     --------
+    >>> from kintrafo import Suspension
     >>> car = Suspension.load("reference_car")
     >>> found = pareto(
     ...     car,
@@ -185,18 +186,20 @@ def pareto(
     [True, 'bump_steer_deviation', 'toe_least']
     """
     with Arguments("pareto") as given:
-        given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
+        check_subject(given, suspension)
         given.function("progress", progress)
         population = given.whole("population", population, least=_LEAST_MEMBERS, most=_MOST_MEMBERS)
         generations = given.whole("generations", generations)
         seed = given.whole("seed", seed, least=0, most=2**32 - 1)
+        ways = ways_of(suspension)
         objectives = objectives_of(
             given,
             _described(given, "targets", targets),
             _described(given, "minimise", minimise),
             _described(given, "maximise", maximise),
+            ways,
         )
-        bounds = limits_of(given, _described(given, "limits", limits))
+        bounds = limits_of(given, _described(given, "limits", limits), ways)
         if not given.refused:
             _refuse_counts(given, len(objectives), population, generations)
             check_data(given, suspension, [*(o.goal for o in objectives), *bounds])
@@ -246,7 +249,7 @@ class _Judge:
 
     Parameters
     ----------
-    suspension : Suspension
+    suspension : Suspension or RigidAxle
     reach : mapping of Place to float
         How far values may move to either side [SI].
     objectives : sequence of Objective
@@ -259,7 +262,7 @@ class _Judge:
 
     def __init__(
         self,
-        suspension: Suspension,
+        suspension: Subject,
         reach: Mapping[Place, float],
         objectives: list[Objective],
         limits: list[Limit],

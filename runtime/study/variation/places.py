@@ -14,12 +14,16 @@ from ...core.arguments import Arguments, shown
 from ...core.quantities import Display, attributes
 from ...core.suggestions import suggestion
 from ...suspension.input.units import unit_of, without_unit
-from ...suspension.kinds import Suspension
+from .ways import Subject
 
 _SPACES = str.maketrans("._", "  ")
 _DEG = math.pi / 180.0
 _TO_SI = {"mm": 1e-3, "deg": _DEG, "N/mm^3": 1e9, "N/mm": 1e3, "N m/deg": 1.0 / _DEG}
 _SI = {"mm": "m", "deg": "rad", "N/mm^3": "N/m^3", "N/mm": "N/m", "N m/deg": "N m/rad", "": "1"}
+
+
+# Sections of points in the unit of the hardpoints: of a file, and of each rod of a rigid axle.
+_POINTS, _RODS = ("hardpoints.", "left_hardpoints."), "rods."
 
 
 @dataclass(frozen=True)
@@ -76,14 +80,14 @@ class Place:
         return {self.name: (self.value + by / self.to_si) * self.in_file}
 
 
-def places_of(suspension: Suspension) -> dict[str, Place]:
+def places_of(suspension: Subject) -> dict[str, Place]:
     """Return every number of a suspension's file, by name."""
     data = suspension.to_dict()
     in_file = 1e-3 if data["hardpoints"].pop("unit") == "m" else 1.0
     return {place.name: place for place in _places(data, "", in_file)}
 
 
-def matching(given: Arguments, suspension: Suspension, patterns: Any) -> dict[str, Place]:
+def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, Place]:
     """Return the numbers that some patterns name, in the order of the file.
 
     Parameters
@@ -124,7 +128,7 @@ def refuse_bushes(given: Arguments, places: Iterable[Place]) -> None:
 
 
 def amounts(
-    given: Arguments, suspension: Suspension, by_pattern: Mapping[str, Any], what: str
+    given: Arguments, suspension: Subject, by_pattern: Mapping[str, Any], what: str
 ) -> dict[Place, float]:
     """Return an amount in SI units for every number that a pattern names; later patterns count.
 
@@ -165,7 +169,7 @@ def _places(table: Mapping[str, Any], above: str, in_file: float) -> Iterator[Pl
             continue
         if above.startswith("bushings.") and key == "axis":
             continue  # a direction, whose length does not count
-        of_points = above == "hardpoints."
+        of_points = above in _POINTS or above.startswith(_RODS)
         unit, factor = ("mm", in_file) if of_points else (unit_of(key), 1.0)
         if isinstance(value, list) and (of_points or key.endswith("com_mm") or key == "axis"):
             for axis, component in zip("xyz", value, strict=True):

@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from ...suspension.kinds import Suspension
 from .candidates import Candidates
 from .goals import Limit, Target
 from .places import Place
 from .sensitivity import step_of
+from .ways import Subject
 
 Array = NDArray[np.float64]
 
@@ -32,7 +32,7 @@ class Search(Candidates):
 
     Parameters
     ----------
-    suspension : Suspension
+    suspension : Suspension or RigidAxle
     reach : mapping of Place to float
         How far values may move to either side [SI].
     targets : sequence of Target
@@ -46,7 +46,7 @@ class Search(Candidates):
 
     def __init__(
         self,
-        suspension: Suspension,
+        suspension: Subject,
         reach: Mapping[Place, float],
         targets: Sequence[Target],
         limits: Sequence[Limit],

@@ -10,11 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 from ...core.arguments import Arguments
 from ...core.errors import InputError, KintrafoError
 from ...core.quantities import Display, display_of
-from ...suspension.kinds import Suspension
-from ..characteristics.datasets import ALONG, KNOWN
 from .batch import curves_of_many, moved_by
-from .curves import Curves, Over, changed, curves_of, model_of
+from .curves import Curves, changed, curves_of
 from .places import Place, matching, refuse_bushes
+from .ways import WAYS, Subject, check_subject, model_of
 
 Array = NDArray[np.float64]
 
@@ -47,10 +46,10 @@ ROUNDING = 1e-12
 
 
 def sensitivity(
-    suspension: Suspension,
+    suspension: Subject,
     places: Sequence[str] = ("hardpoints",),
     *,
-    over: Over = "travel",
+    over: str | None = None,
     positions: ArrayLike | None = None,
     names: Sequence[str] | None = None,
     progress: Callable[[float], None] | None = None,
@@ -59,14 +58,15 @@ def sensitivity(
 
     Parameters
     ----------
-    suspension : Suspension
+    suspension : Suspension or RigidAxle
     places : sequence of str, optional
         The values: section and key with dots between them, such as ``hardpoints.ball_joint.z``. A
         point or a section stands for all of its numbers, ``*`` for anything.
-    over : {'travel', 'rack'}, optional
-        What varies along the curves.
+    over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
+        What varies along the curves: by default wheel travel, of a rigid axle that of both wheels
+        (``bump``), which has no other ways than the last four.
     positions : array_like, optional
-        Wheel travel, or displacement of the rack [m]; by default the usual range.
+        Wheel travel, or displacement of the rack [m], or roll [rad]; by default the usual range.
     names : sequence of str, optional
         Characteristics; by default all.
     progress : callable, optional
@@ -93,13 +93,14 @@ def sensitivity(
 
     Examples
     --------
+    >>> from kintrafo import Suspension
     >>> car = Suspension.load("reference_car")
     >>> found = sensitivity(car, ["hardpoints.tie_rod_inner.z"], positions=[0.0])
     >>> round(float(np.rad2deg(found["bump_steer"][0, 0])) * 1e-6, 6)  # deg/mm per mm
     0.001124
     """
     with Arguments("sensitivity") as given:
-        given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
+        check_subject(given, suspension)
         given.function("progress", progress)
         if not given.refused:
             curves = curves_of(given, suspension, over, positions, names)
@@ -109,11 +110,11 @@ def sensitivity(
 
 
 def derivatives(
-    suspension: Suspension,
+    suspension: Subject,
     places: Sequence[Place],
     curves: Curves,
     progress: Callable[[float], None] | None = None,
-    otherwise: Callable[[Suspension, Place, Curves], Array] | None = None,
+    otherwise: Callable[[Subject, Place, Curves], Array] | None = None,
 ) -> Array:
     """Return the derivatives of some curves by values; (places, names, positions), SI units.
 
@@ -144,19 +145,19 @@ def derivatives(
     )
 
 
-def slopes(suspension: Suspension, places: Sequence[Place], curves: Curves) -> Array:
+def slopes(suspension: Subject, places: Sequence[Place], curves: Curves) -> Array:
     """Return what `derivatives` does; NaN for a value whose neighbours cannot be."""
     return derivatives(suspension, places, curves, otherwise=_derivative_or_nan)
 
 
-def _derivative_or_nan(suspension: Suspension, place: Place, curves: Curves) -> Array:
+def _derivative_or_nan(suspension: Subject, place: Place, curves: Curves) -> Array:
     try:
         return derivative(suspension, place, curves)
     except InputError:
         return np.full((len(curves.names), curves.positions.size), np.nan)
 
 
-def derivative(suspension: Suspension, place: Place, curves: Curves) -> Array:
+def derivative(suspension: Subject, place: Place, curves: Curves) -> Array:
     """Return the derivative of some curves by a value; of shape (names, positions), SI units."""
     return _difference(*_neighbours(suspension, place, curves))
 
@@ -178,7 +179,7 @@ def _difference(
 
 
 def _neighbours(
-    suspension: Suspension, place: Place, curves: Curves
+    suspension: Subject, place: Place, curves: Curves
 ) -> tuple[Sequence[Mapping[int, float]], float, dict[int, Array]]:
     """Return the differences that can be taken, their step, and the curves so many steps off."""
     size = step_of(place)
@@ -209,7 +210,7 @@ def step_of(place: Place) -> float:
     return _RELATIVE_STEP * (abs(place.value) or 1.0) * place.to_si
 
 
-def _moved(suspension: Suspension, place: Place, by: float, curves: Curves) -> Array:
+def _moved(suspension: Subject, place: Place, by: float, curves: Curves) -> Array:
     try:
         return curves.of(model_of(changed(suspension, place.moved(by))))
     except KintrafoError as error:
@@ -221,7 +222,7 @@ def _moved(suspension: Suspension, place: Place, by: float, curves: Curves) -> A
 
 
 def _dataset(curves: Curves, places: Sequence[Place], values: Array) -> xr.Dataset:
-    along = ALONG[curves.over]
+    along = curves.along
     data = {
         name: xr.Variable((PLACE, along.name), values[:, i], _attributes(curves, name, places))
         for i, name in enumerate(curves.names)
@@ -240,7 +241,7 @@ def _dataset(curves: Curves, places: Sequence[Place], values: Array) -> xr.Datas
 
 def _attributes(curves: Curves, name: str, places: Sequence[Place]) -> dict[str, Any]:
     """Describe a derivative; where the values have several units, it is shown by their SI units."""
-    quantity = KNOWN[curves.over][name]
+    quantity = curves.quantity(name)
     attributes = quantity.attributes()
     shown = display_of(attributes)
     units = {(place.si_unit, place.unit, place.to_si) for place in places}
@@ -303,7 +304,7 @@ def effects(dataset: xr.Dataset, name: str, at: float = 0.0) -> Iterator[Effect]
     data = dataset[name]
     along = next(str(d) for d in data.dims if d != PLACE)
     column = data.sel({along: at}, method="nearest").values
-    quantity = next(known[name] for known in KNOWN.values() if name in known)
+    quantity = next(way.known[name] for way in WAYS.values() if name in way.known)
     shown = display_of(quantity.attributes())
     units = dataset["place_display_unit"].values.tolist()
     sizes = column * shown.factor / dataset["place_display_factor"].values

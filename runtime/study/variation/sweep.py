@@ -11,17 +11,23 @@ from ...core.arguments import Arguments
 from ...core.errors import InputError, KintrafoError
 from ...suspension.kinds import Suspension
 from ...suspension.model import Model
+from ...suspension.rigid import RigidAxle
 from ...suspension.wheel_loads import UNITS
 from ..ensembles import ensemble
 from ..ensembles.variants import without_mass
 from ..scenario import Scenario
-from .curves import changed, model_of
+from .curves import changed
 from .places import Place, matching, refuse_bushes
+from .ways import model_of
 
 Array = NDArray[np.float64]
 
 _CAR = "car"
 _MOST_CARS = 1_000_000
+_ITERATED = (
+    "the loops of a {title} are closed by iteration, which many cars at once in lanes cannot do. "
+    "Simulate one after another: each with_changes of its own, by kintrafo.simulate."
+)
 
 
 def sweep(
@@ -76,7 +82,7 @@ def sweep(
     ('strut.damper_rate_N_s_per_m',)
     """
     with Arguments("sweep") as given:
-        given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
+        _check(given, suspension)
         scenario = Scenario() if scenario is None else scenario
         given.kind("scenario", scenario, Scenario, "a Scenario is needed")
         given.function("progress", progress)
@@ -103,6 +109,13 @@ def sweep(
         max_steps=max_steps,
     )
     return cars.over_the_grid(found)
+
+
+def _check(given: Arguments, suspension: Any) -> None:
+    if isinstance(suspension, RigidAxle):
+        given.refuse(_ITERATED.format(title="rigid axle"))
+        return
+    given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
 
 
 def _axes(given: Arguments, suspension: Suspension, grid: Mapping[Any, Any]) -> dict[Place, Array]:
@@ -132,12 +145,7 @@ def _axes(given: Arguments, suspension: Suspension, grid: Mapping[Any, Any]) -> 
 def _refuse_iteration(model: Model) -> None:
     """Say before anything is simulated that cars whose loops are iterated do not go together."""
     if model.equations.equations.iterates:
-        problem = (
-            f"the loops of a {model.suspension.TITLE} are closed by iteration, which many cars at "
-            "once in lanes cannot do. Simulate one after another: "
-            "kintrafo.simulate(kintrafo.Model(car.with_changes({...})), ...)."
-        )
-        raise InputError([problem], "sweep")
+        raise InputError([_ITERATED.format(title=model.suspension.TITLE)], "sweep")
 
 
 class _Cars:

@@ -9,13 +9,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...core.arguments import Arguments
 from ...core.quantities import variable
-from ...suspension.kinds import Suspension
-from ..characteristics.datasets import ALONG, KNOWN
 from .batch import curves_of_many, moved_by
-from .curves import Curves, Over, curves_of, model_of
+from .curves import Curves, curves_of
 from .goals import Limit, check_data, limits_of
 from .places import Place, amounts, refuse_bushes
 from .sensitivity import PLACE, ROUNDING, slopes
+from .ways import Subject, check_subject, model_of, ways_of
 
 Array = NDArray[np.float64]
 Distribution = Literal["normal", "uniform"]
@@ -34,7 +33,7 @@ _MOST_NUMBERS = 100_000_000
 
 
 def tolerance(
-    suspension: Suspension,
+    suspension: Subject,
     tolerances: Mapping[str, float],
     *,
     distribution: Distribution = "normal",
@@ -42,7 +41,7 @@ def tolerance(
     limits: Mapping[str, Any] | None = None,
     count: int = 500,
     seed: int = 1,
-    over: Over = "travel",
+    over: str | None = None,
     positions: ArrayLike | None = None,
     names: Sequence[str] | None = None,
     progress: Callable[[float], None] | None = None,
@@ -51,7 +50,7 @@ def tolerance(
 
     Parameters
     ----------
-    suspension : Suspension
+    suspension : Suspension or RigidAxle
     tolerances : mapping of str to float
         How far values are off to either side, in the unit of the input file for people (mm, deg,
         N/m, ...), by their places as `sensitivity` takes them. Of several that name a value the
@@ -69,10 +68,11 @@ def tolerance(
         How many cars.
     seed : int, optional
         Of the generator of random numbers: the same cars for the same seed.
-    over : {'travel', 'rack'}, optional
-        What varies along the curves.
+    over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
+        What varies along the curves: by default wheel travel, of a rigid axle that of both wheels
+        (``bump``), which has no other ways than the last four.
     positions : array_like, optional
-        Wheel travel, or displacement of the rack [m]; by default the usual range.
+        Wheel travel, or displacement of the rack [m], or roll [rad]; by default the usual range.
     names : sequence of str, optional
         Characteristics; by default all.
     progress : callable, optional
@@ -98,6 +98,7 @@ def tolerance(
 
     Examples
     --------
+    >>> from kintrafo import Suspension
     >>> car = Suspension.load("reference_car")
     >>> found = tolerance(car, {"hardpoints": 1.0}, count=50, positions=[-0.05, 0.0, 0.05],
     ...                   limits={"toe": {"at_mm": [-50.0, 50.0], "least": -0.3, "most": 0.3}})
@@ -105,14 +106,13 @@ def tolerance(
     True
     """
     with Arguments("tolerance") as given:
-        given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
+        check_subject(given, suspension)
         given.function("progress", progress)
         count = given.whole("count", count, least=2, most=_MOST_CARS)
         seed = given.whole("seed", seed, least=0)
         given.among("distribution", distribution, ("normal", "uniform"))
-        bounds = limits_of(
-            given, given.mapping("limits", {} if limits is None else limits, "names and limits")
-        )
+        described = given.mapping("limits", {} if limits is None else limits, "names and limits")
+        bounds = limits_of(given, described, ways_of(suspension))
         if not given.refused:
             curves = curves_of(given, suspension, over, positions, names)
             check_data(given, suspension, bounds)
@@ -173,7 +173,7 @@ class _Cars:
 
     Parameters
     ----------
-    suspension : Suspension
+    suspension : Suspension or RigidAxle
     places : sequence of Place
         What varies.
     off : ndarray, shape (cars, places)
@@ -184,7 +184,7 @@ class _Cars:
 
     def __init__(
         self,
-        suspension: Suspension,
+        suspension: Subject,
         places: Sequence[Place],
         off: Array,
         curves: Curves,
@@ -216,7 +216,7 @@ class _Cars:
 
 
 def _parts(
-    suspension: Suspension,
+    suspension: Subject,
     spread: Mapping[Place, float],
     root: Array,
     distribution: str,
@@ -234,7 +234,7 @@ def _parts(
 
 def _dataset(cars: _Cars, parts: Array) -> xr.Dataset:
     curves = cars.curves
-    along = ALONG[curves.over]
+    along = curves.along
     seen = cars.reasons == ""
     nothing = np.full(cars.nominal.shape, np.nan)
     with np.errstate(invalid="ignore", divide="ignore"):  # a turning circle may be infinite
@@ -246,7 +246,7 @@ def _dataset(cars: _Cars, parts: Array) -> xr.Dataset:
         first_order = np.where(varies, np.sqrt(variance) / deviation, np.nan)
     data: dict[Any, Any] = {}
     for i, name in enumerate(curves.names):
-        quantity = KNOWN[curves.over][name]
+        quantity = curves.quantity(name)
         attributes = quantity.attributes()
         data[name] = xr.Variable((QUANTILE, along.name), [band[i] for band in bands], attributes)
         data[f"{name}_nominal"] = xr.Variable(along.name, cars.nominal[i], attributes)
@@ -266,6 +266,7 @@ def _dataset(cars: _Cars, parts: Array) -> xr.Dataset:
     }
     attributes = {
         "title": f"tolerances over {along.long_name}",
+        "over": curves.over,
         "yield": float(cars.within.mean()),
         "message": f"{int(seen.sum())} of {seen.size} cars have curves",
     }

@@ -1,0 +1,179 @@
+"""What may be looked at of a suspension, of an axle or of a rigid axle, and over what.
+
+A way is what varies along curves: wheel travel or the rack of a suspension, the motions of a rig of
+both wheels of an axle; or what holds the wheel under the loads of a compliance.
+"""
+
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, cast, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.quantities import display_of
+from ...suspension.axle import Axle
+from ...suspension.kinds import Suspension
+from ...suspension.model import Model
+from ...suspension.rigid import RigidAxle
+from ...suspension.rigid.model import RigidAxleModel
+from .. import axles
+from ..axles.catalogue import OVER_TRAVEL, SIDES
+from ..axles.datasets import ROLL
+from ..axles.motions import Extent, rolls, travels
+from ..characteristics.catalogue import Quantity
+from ..characteristics.datasets import ALONG, KNOWN, TRAVEL, over_rack, over_travel
+from ..characteristics.datasets import refuse_of_steering as refuse_of_suspension
+from ..loads.compliance import COMPLIANCES, compliance
+from ..loads.flexibility import HELD, Held
+from ..rigid.catalogue import MEASURES
+from ..rigid.datasets import usual, values_over
+from ..sweep import usual_rack, usual_travel
+
+Array = NDArray[np.float64]
+Subject = Suspension | RigidAxle
+"""What has values of its own that move."""
+
+Looked = Model | RigidAxleModel | Axle
+"""What curves are evaluated of."""
+
+NEEDED = "a kintrafo.Suspension or a kintrafo.RigidAxle is needed"
+_OF_SIDES = (
+    "{name}: the values of an axle stand in the files of its sides, and studies move those of one "
+    "file. Give a side, or a rigid axle."
+)
+
+
+@dataclass(frozen=True)
+class Way:
+    """What varies along some curves.
+
+    Attributes
+    ----------
+    along : Quantity
+    known : mapping of str to Quantity
+        What is told over it, by name.
+    words : str
+        'wheel travel'.
+    """
+
+    along: Quantity
+    known: Mapping[str, Quantity]
+    words: str
+
+    @property
+    def unit(self) -> str:
+        """The unit for people of what varies."""
+        return display_of(self.along.attributes()).units
+
+    @property
+    def factor(self) -> float:
+        """How many of them the SI unit has."""
+        return display_of(self.along.attributes()).factor
+
+
+# of axles the words; units are those of both sorts
+_OF_AXLES: dict[str, Quantity] = {m.quantity.name: m.quantity for m in OVER_TRAVEL}
+_OF_AXLES |= {m.quantity.name: m.quantity for m in MEASURES}
+_MOTIONS = {
+    "bump": (TRAVEL, "parallel wheel travel"),
+    "roll": (ROLL, "roll"),
+    "left": (TRAVEL, "travel of the left wheel"),
+    "right": (TRAVEL, "travel of the right wheel"),
+}
+WAYS: dict[str, Way] = {
+    "travel": Way(TRAVEL, KNOWN["travel"], "wheel travel"),
+    "rack": Way(ALONG["rack"], KNOWN["rack"], "the rack"),
+    **{name: Way(along, _OF_AXLES, words) for name, (along, words) in _MOTIONS.items()},
+}
+"""What characteristics may be over, by name."""
+
+OF_SUSPENSIONS = ("travel", "rack")
+"""Those of a suspension."""
+
+UNDER_LOADS = {held: Way(TRAVEL, COMPLIANCES, "wheel travel") for held in HELD}
+"""Compliance over wheel travel, by what holds the wheel."""
+
+
+def way(over: str) -> Way:
+    """Return what some curves are over."""
+    return (WAYS | UNDER_LOADS)[over]
+
+
+def ways_of(subject: Any) -> tuple[str, ...]:
+    """Return what the characteristics of something may be over, the usual first."""
+    return tuple(_MOTIONS) if isinstance(subject, Axle | RigidAxle) else OF_SUSPENSIONS
+
+
+def check_subject(given: Arguments, subject: Any, name: str = "suspension") -> None:
+    """See that values of something can move."""
+    if isinstance(subject, Axle):
+        given.refuse(_OF_SIDES.format(name=name))
+        return
+    given.kind(name, subject, (Suspension, RigidAxle), NEEDED)
+
+
+@overload
+def model_of(subject: Suspension, *, wheel_loads: bool = False) -> Model: ...
+@overload
+def model_of(subject: RigidAxle) -> RigidAxleModel: ...
+@overload
+def model_of(subject: Subject | Axle) -> Looked: ...
+def model_of(subject: Subject | Axle, *, wheel_loads: bool = False) -> Looked:
+    """Return what is evaluated; of a suspension the model in which every body with mass counts."""
+    if isinstance(subject, RigidAxle):
+        return RigidAxleModel(subject)
+    if isinstance(subject, Axle):
+        return subject
+    free_rack = bool(subject.neglected_masses())
+    return Model(subject, free_rack=free_rack, wheel_loads=wheel_loads)
+
+
+def usual_positions(model: Looked, over: str) -> Array:
+    """Return the usual positions, as far as it goes [m] or [rad]."""
+    if isinstance(model, Model):
+        return (usual_travel if over == "travel" else usual_rack)(model)
+    if isinstance(model, RigidAxleModel):
+        return usual(model.axle, over, Extent())
+    if over == "roll":
+        return rolls(model, Extent())
+    return travels(model, Extent(), (over,) if over in SIDES else SIDES)
+
+
+def values_of(
+    model: Looked, over: str, positions: Array, names: Collection[str] | None = None
+) -> dict[str, Array]:
+    """Return characteristics or compliance by name, all that there are or some."""
+    if isinstance(model, Model):
+        if over in HELD:
+            found = compliance(model, None, positions, held=cast("Held", over))
+            return {name: found[name].values for name in COMPLIANCES}
+        values = over_travel if over == "travel" else over_rack
+        return {q.name: v for q, v in values(model, positions, names=names).items()}
+    if isinstance(model, RigidAxleModel):
+        return values_over(model, over, positions, names)
+    own: Any = {"bump": axles.bump, "roll": axles.roll}.get(over)
+    found = axles.single(model, positions, side=over) if own is None else own(model, positions)
+    return {str(name): data.values for name, data in found.items()}
+
+
+def there(model: Looked, over: str) -> tuple[str, ...]:
+    """Return the characteristics, or compliance, for which the file has the data."""
+    if over in HELD and not (isinstance(model, Model) and model.suspension.bushings):
+        return ()
+    return tuple(values_of(model, over, np.zeros(1)))
+
+
+def refuse_of_steering(subject: Subject | Axle, names: Iterable[str]) -> None:
+    """Refuse characteristics that have no meaning where nothing steers the wheels."""
+    if isinstance(subject, Suspension):
+        refuse_of_suspension(subject, names)
+
+
+def common_positions(models: Mapping[str, Looked], over: str) -> Array:
+    """Return the usual positions that all of some cars can take [m] or [rad], zero included."""
+    grids = [usual_positions(model, over) for model in models.values()]
+    low, high = max(grid[0] for grid in grids), min(grid[-1] for grid in grids)
+    inner = grids[0][(grids[0] > low) & (grids[0] < high)]
+    return np.union1d(inner, [low, high])
