@@ -10,7 +10,7 @@ from ..counting import OPERATIONS, operations_of
 from ..text import formula
 from ..words import FORMULA, iteration_note
 from .document import Heading, Paragraph, Picture, Table, Transformation
-from .motion import motion_sections
+from .motion import Equations, inline, motion_sections
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -143,19 +143,42 @@ def preference(topology: Topology, transformer: Transformer) -> str:
 def derivation_report(derivation: Derivation) -> list[Block]:
     """Return the whole report."""
     topology = derivation.plan.topology
-    note = iteration_note(derivation)
+    note, number = iteration_note(derivation), Equations()
     return [
         Heading(1, derivation.formulation.title),
+        Paragraph(_summary(derivation)),
         *([Paragraph(note)] if note else []),
         *_structure(topology),
         Heading(2, "Kinematic transformers"),
-        *_transformers(derivation),
-        *motion_sections(derivation),
+        *_transformers(derivation, number),
+        *motion_sections(derivation, number),
         Heading(2, "Functions"),
+        Paragraph("What is compiled, and the arithmetic of one call of each:"),
         _counts(derivation),
         Paragraph("A leading sign counts as an addition; guards are comparisons and do not count."),
         *_validity(derivation),
     ]
+
+
+def _summary(derivation: Derivation) -> str:
+    """Say what the chapter is about, and in which order."""
+    topology, mechanism = derivation.plan.topology, derivation.formulation.mechanism
+    loops, freedoms = topology.loop_count, topology.mobility
+    closed = "" if iteration_note(derivation) else " in closed form"
+    return (
+        f"This chapter derives the equations of motion of a mechanism of {len(mechanism.moving)} "
+        f"moving bodies with {_counted(loops, 'kinematic loop')} and "
+        f"{_counted(freedoms, 'degree')} of freedom. Its loops are closed one after the other "
+        f"by kinematic transformers, each of which is solved{closed}. From the relative "
+        "coordinates that they give follow position and velocity of every body, and from these, "
+        "projected onto the independent coordinates, the equations of motion themselves. The "
+        "method is that of J. A. M. Góis and C. A. P. Sarzeto (Instituto Militar de Engenharia, "
+        "Rio de Janeiro, 2000); numbers of equations and figures behind the word paper are theirs."
+    )
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"
 
 
 def _structure(topology: Topology) -> list[Block]:
@@ -168,14 +191,15 @@ def _structure(topology: Topology) -> list[Block]:
             ("joint", "type", "first body", "second body", "freedoms", "leaves in common"),
             joint_rows(topology),
         ),
-        Paragraph(f"Mobility (Grübler, Eq. 1): {mobility_line(topology)}."),
+        Paragraph(f"Mobility (Grübler; paper: Eq. 1): {mobility_line(topology)}."),
         Paragraph(
             f"Independent loops: {len(mechanism.joints)} - "
             f"({len(mechanism.bodies)} - 1) = {topology.loop_count}."
         ),
         Picture(
             "graph",
-            "Joint graph: bodies, joints, and on each joint its number of freedoms (Figure 2).",
+            "Joint graph: bodies, joints, and on each joint its number of freedoms (paper: "
+            "Figure 2).",
             mermaid(topology),
         ),
         Picture(
@@ -198,9 +222,19 @@ def _structure(topology: Topology) -> list[Block]:
     ]
 
 
-def _transformers(derivation: Derivation) -> Iterator[Block]:
+def _transformers(derivation: Derivation, number: Equations) -> Iterator[Block]:
     topology = derivation.plan.topology
-    yield Picture("transformers", "Kinematic transformers, and the coordinates between them.")
+    yield Paragraph(
+        "A loop is cut at a pair of joints whose points keep a known distance. Of the six "
+        "equations of a loop in space, or the three of one in a plane, one is left then, with one "
+        "unknown; which pairs there are, a table tells for each loop. What a transformer takes is "
+        "known when its turn has come."
+    )
+    yield Picture(
+        "transformers",
+        "Kinematic transformers, and the coordinates between them (paper: Figure 3).",
+    )
+    yield from _turns(derivation, number)
     for transformer in derivation.plan.transformers:
         pairs = [
             (
@@ -217,6 +251,28 @@ def _transformers(derivation: Derivation) -> Iterator[Block]:
         yield Table(
             ("pair with a common distance", "unknowns eliminated", "equations left", ""), pairs
         )
+
+
+def _turns(derivation: Derivation, number: Equations) -> Iterator[Block]:
+    """Yield how the equation of an unknown angle is solved, where a loop has it."""
+    steps = ((t.step, t.closing) for t in derivation.plan.transformers)
+    if not any(step.words(closing)[1].startswith("a cos x") for step, closing in steps):
+        return
+    yield Paragraph(
+        "Where the unknown is an angle x, the distance gives an equation whose coefficients follow "
+        "from what is known:"
+    )
+    yield number(r"a\cos x + b\sin x = c")
+    yield number(
+        r"\cos x = \frac{a\,c - s\,b\,w}{a^2+b^2}, \qquad "
+        r"\sin x = \frac{b\,c + s\,a\,w}{a^2+b^2}, \qquad w = \sqrt{a^2+b^2-c^2}"
+    )
+    yield Paragraph(
+        f"Its two solutions are the two ways to assemble the loop, {inline('s = 1')} and "
+        f"{inline('s = -1')}. The sign is that of the design position, and a constant: the motion "
+        f"ends at {inline('w = 0')}, the dead point, where both meet. Poses need the cosine and "
+        "the sine alone; an angle is computed only where it is reported."
+    )
 
 
 def _validity(derivation: Derivation) -> Iterator[Block]:

@@ -292,28 +292,50 @@ def inline(formula: str) -> str:
     return f"$`{formula}`$"
 
 
-_SIGNS = (
-    r"Signs, all in the axes of the ground: $`\mathbf{e}_x, \mathbf{e}_y, \mathbf{e}_z`$ are its "
-    r"unit vectors, $`\mathbf{R}_x(\beta)`$ and $`\mathbf{R}_z(\beta)`$ turn about them; "
-    r"$`\mathbf{A}_b`$ turns body b from its design orientation; $`\mathbf{u}_{\mathrm{J}}`$ is "
-    r"the unit vector along joint J at the design position, in the sense in which its coordinate "
-    r"grows; $`\mathbf{s}_b`$ is the centre of mass of body b. The coordinate $`\beta_k`$ moves "
-    r"what follows in the chain along or about the axis $`\mathbf{a}_k`$, which passes through "
-    r"$`\mathbf{p}_k`$. A raised 0 is the design position; R(u, angle) turns about u, L is a "
-    r"telescope's length at zero slide, and t the point of its second body to which it leads:"
-)
+_SIGNS = {
+    r"\mathbf{e}": (
+        r"$`\mathbf{e}_x, \mathbf{e}_y, \mathbf{e}_z`$",
+        "unit vectors along the axes of the ground, in which all vectors are written",
+    ),
+    r"\mathbf{R}_": (
+        r"$`\mathbf{R}_x(\beta), \mathbf{R}_y(\beta), \mathbf{R}_z(\beta)`$",
+        "rotations about these",
+    ),
+    r"\mathbf{R}(": (
+        r"$`\mathbf{R}(\mathbf{u}, \beta)`$",
+        r"rotation about the unit vector $`\mathbf{u}`$",
+    ),
+    r"\mathbf{A}": (r"$`\mathbf{A}_b`$", "rotation of body b from its design orientation"),
+    r"\mathbf{F}": (r"$`\mathbf{F}_b`$", "axes of body b, the second one along its telescope"),
+    r"\mathbf{s}": (r"$`\mathbf{s}_b`$", "centre of mass of body b"),
+    r"\mathbf{u}": (
+        r"$`\mathbf{u}_{\mathrm{J}}`$",
+        "unit vector along joint J at design, in the sense in which its coordinate grows",
+    ),
+    r"\mathbf{a}": (
+        r"$`\mathbf{a}_k`$",
+        r"axis along or about which $`\beta_k`$ moves what follows in the chain",
+    ),
+    r"\mathbf{p}": (r"$`\mathbf{p}_k`$", "a point on that axis"),
+    r"\mathbf{t}": (
+        r"$`L_{\mathrm{J}}, \mathbf{t}_k`$",
+        "length of telescope J at zero slide, and the point of its second body to which it leads",
+    ),
+    "^0": (r"a raised $`0`$", "the value at the design position"),
+}
+"""What each sign stands for, by what shows that it is used."""
 
 _SHAFTS = (
     r"A shaft that universal joint J holds turns about itself as the cross demands: with "
     r"$`\mathbf{h}_{\mathrm{J}}`$ normal to both axes of the cross, its angular velocity relative "
     r"to the first body has no part along $`\mathbf{h}_{\mathrm{J}}`$. In the velocities of the "
-    r"shaft itself c stands for a:"
+    r"shaft itself $`\mathbf{c}`$ stands for $`\mathbf{a}`$:"
 )
 
 
-def motion_sections(derivation: Derivation) -> list[Block]:
+def motion_sections(derivation: Derivation, number: Equations) -> list[Block]:
     """Return the sections from the relative coordinates to M, B and Q."""
-    motion, number = Motion(derivation), Equations()
+    motion = Motion(derivation)
     return [
         *_coordinates(motion),
         *_relative(motion, number),
@@ -327,8 +349,8 @@ def _coordinates(motion: Motion) -> list[Block]:
     return [
         Heading(2, "Relative coordinates"),
         Paragraph(
-            "The coordinates in which everything below is written (Figure 3), and where the value "
-            "of each comes from."
+            "The coordinates in which everything below is written (paper: Figure 3), and where the "
+            "value of each comes from."
         ),
         Table(("", "name", "joint", "value", "meaning"), motion.coordinate_rows()),
     ]
@@ -352,11 +374,12 @@ def _relative(motion: Motion, number: Equations) -> list[Block]:
         ),
         Table(("equation", "relative coordinates", "independent and given"), rows),
         Paragraph(
-            "Differentiated with respect to time, where u are the inputs that prescribe a motion:"
+            r"Differentiated with respect to time, where $`\mathbf{u}`$ are the inputs that "
+            "prescribe a motion:"
         ),
         number(
             r"\mathbf{g}(\boldsymbol{\beta}, \mathbf{q}, \mathbf{u}) = \mathbf{0}",
-            "Eqs. 4 to 13",
+            "Eqs. 4 to 13" if motion.formulation.cites else "",
         ),
         number(
             r"\frac{\partial\mathbf{g}}{\partial\boldsymbol{\beta}}\,\dot{\boldsymbol{\beta}}"
@@ -364,15 +387,15 @@ def _relative(motion: Motion, number: Equations) -> list[Block]:
             r" + \frac{\partial\mathbf{g}}{\partial\mathbf{u}}\,\dot{\mathbf{u}} = \mathbf{0}"
         ),
         number(
-            r"\dot{\boldsymbol{\beta}} = \mathbf{J}_{rel}\,\dot{\mathbf{q}}"
-            r" + \mathbf{J}_{u}\,\dot{\mathbf{u}}, \qquad \mathbf{J}_{rel} = "
+            r"\dot{\boldsymbol{\beta}} = \mathbf{J}_{\mathrm{rel}}\,\dot{\mathbf{q}}"
+            r" + \mathbf{J}_{u}\,\dot{\mathbf{u}}, \qquad \mathbf{J}_{\mathrm{rel}} = "
             r"-\left(\frac{\partial\mathbf{g}}{\partial\boldsymbol{\beta}}\right)^{-1}"
             r"\frac{\partial\mathbf{g}}{\partial\mathbf{q}}",
             "section 4.2",
         ),
         Paragraph(
-            "No matrix is inverted for it: the closed forms give beta explicitly, and "
-            "`relative_jacobian` is their exact derivative with respect to q."
+            r"No matrix is inverted for it: the transformers give $`\boldsymbol{\beta}`$, and "
+            r"`relative_jacobian` is their exact derivative with respect to $`\mathbf{q}`$."
         ),
     ]
 
@@ -394,10 +417,16 @@ def closure_reads(derivation: Derivation) -> dict[str, tuple[list[str], list[str
 
 def _absolute(motion: Motion, number: Equations) -> list[Block]:
     cites = motion.formulation.cites
-    sections: list[Block] = [Heading(2, "Absolute kinematics")]
+    sections: list[Block] = []
     if motion.bodies:
-        screws = Table(("coordinate", "axis a", "through p"), motion.screw_rows())
-        sections += [Paragraph(_SIGNS), screws]
+        sections += [
+            Paragraph("The axes of the coordinates, and a point through which each passes:"),
+            Table(("coordinate", "axis a", "through p"), motion.screw_rows()),
+            Paragraph(
+                "Position and velocity of a body follow from those of the body before it in its "
+                "chain. Each rate along the chain adds its share to the velocities."
+            ),
+        ]
     shafts = list(motion.shaft_equations())
     if shafts:
         sections.append(Paragraph(_SHAFTS))
@@ -412,6 +441,8 @@ def _absolute(motion: Motion, number: Equations) -> list[Block]:
             number(angular, cites.get(f"omega of {body}", "")),
             number(linear),
         ]
+    signs = Table(("sign", "what it is"), [*_signs(sections)])
+    sections = [Heading(2, "Absolute kinematics"), *([signs] if signs.rows else []), *sections]
     missing = [b for b in motion.derivation.massive_bodies if b not in motion.bodies]
     if missing:
         sections.append(
@@ -430,24 +461,37 @@ def _absolute(motion: Motion, number: Equations) -> list[Block]:
             ),
             number(
                 r"\begin{bmatrix}\boldsymbol{\omega}_b\\ \mathbf{v}_b\end{bmatrix}"
-                r" = \mathbf{J}_{abs,b}\,\dot{\boldsymbol{\beta}}",
+                r" = \mathbf{J}_{\mathrm{abs},b}\,\dot{\boldsymbol{\beta}}",
                 "section 4.3",
             ),
         ]
     return sections
 
 
+def _signs(blocks: list[Block]) -> Iterator[tuple[str, str]]:
+    """Yield the signs that some blocks use, and what they stand for."""
+    cells = (
+        cell for block in blocks if isinstance(block, Table) for row in block.rows for cell in row
+    )
+    used = " ".join([*cells, *(b.formula for b in blocks if isinstance(b, Equation))])
+    yield from (told for sign, told in _SIGNS.items() if sign in used)
+
+
 def _global(number: Equations) -> list[Block]:
     return [
         Heading(2, "Global Jacobian"),
+        Paragraph(
+            "With the relative rates from the relative Jacobian, the velocities are those of the "
+            "independent coordinates alone:"
+        ),
         number(
             r"\mathbf{J}_b = \begin{bmatrix}\mathbf{W}_b\\ \mathbf{V}_b\end{bmatrix}"
-            r" = \mathbf{J}_{abs,b}\,\mathbf{J}_{rel}",
+            r" = \mathbf{J}_{\mathrm{abs},b}\,\mathbf{J}_{\mathrm{rel}}",
             "section 4.3",
         ),
         Paragraph(
-            "W has the angular, V the linear velocity of the centre of mass per rate of each "
-            "independent coordinate (`global_jacobian`)."
+            r"$`\mathbf{W}_b`$ has the angular velocity of a body, $`\mathbf{V}_b`$ the velocity "
+            "of its centre of mass, per rate of each independent coordinate (`global_jacobian`)."
         ),
     ]
 
@@ -460,13 +504,21 @@ def _dynamics(motion: Motion, number: Equations) -> list[Block]:
     sections: list[Block] = [
         Heading(2, "Equations of motion"),
         Paragraph(
-            f"The sums are over the bodies with mass: {bodies}. "
-            f"{inline(rf'{inertia} = {turned}')} is the inertia of a body about its centre of mass."
+            f"The sums are over the bodies with mass: {bodies}. By d'Alembert's principle, what "
+            "inertia and applied forces do along every admissible motion vanishes:"
         ),
         number(
             r"\sum_b \left[\mathbf{J}_b^T\left(\boldsymbol{\Xi}_b\,\ddot{\mathbf{s}}_b"
             r" + \mathbf{b}_b - \mathbf{w}_b\right)\right] = \mathbf{0}",
             "Eq. 2",
+        ),
+        Paragraph(
+            r"Here $`\ddot{\mathbf{s}}_b`$ has the angular acceleration of a body and that of its "
+            r"centre of mass, $`\boldsymbol{\Xi}_b`$ its inertia and mass, $`\mathbf{b}_b`$ the "
+            r"torque $`\boldsymbol{\omega}_b\times\boldsymbol{\Theta}_b\boldsymbol{\omega}_b`$ of "
+            r"its turning, and $`\mathbf{w}_b`$ torque and force that are applied to it. "
+            f"{inline(rf'{inertia} = {turned}')} is the inertia about its centre of mass, which "
+            "turns with it. Sorted by accelerations, rates and forces:"
         ),
         number(
             r"\mathbf{M}(\mathbf{q})\,\ddot{\mathbf{q}} + \mathbf{B}(\mathbf{q},\dot{\mathbf{q}})"
@@ -485,9 +537,11 @@ def _dynamics(motion: Motion, number: Equations) -> list[Block]:
             "Eq. 3",
         ),
         Paragraph(
-            "The barred accelerations are those at q'' = 0: what changes of the Jacobian with "
-            "the pose, and what prescribed motions accelerate. The compiled `mass_matrix`, `bias` "
-            "and `forces` return these three."
+            r"The accelerations $`\bar{\boldsymbol{\alpha}}_b`$ and $`\bar{\mathbf{a}}_b`$ are "
+            r"those at $`\ddot{\mathbf{q}} = \mathbf{0}`$: what changes of the Jacobian with the "
+            "pose, and what prescribed motions accelerate. The compiled `mass_matrix`, `bias` and "
+            r"`forces` return $`\mathbf{M}`$, $`\mathbf{B}`$ and $`\mathbf{Q}`$; `rhs` solves this "
+            r"system for $`\ddot{\mathbf{q}}`$."
         ),
     ]
     for rotor in motion.rotors():
@@ -502,8 +556,8 @@ def _dynamics(motion: Motion, number: Equations) -> list[Block]:
     rows = _force_rows(motion.formulation)
     sections += [
         Paragraph(
-            "Each force that acts adds its share to Q, the coefficient of its power in the rate of "
-            "each independent coordinate:"
+            r"Each force that acts adds its share to $`\mathbf{Q}`$, the coefficient of its power "
+            "in the rate of each independent coordinate:"
         ),
         Table(("force", "acts", "share of Q", "paper"), rows),
     ]

@@ -37,7 +37,8 @@ class JointForce(Force):
     def told(self) -> Told:
         """Return what a report says of it."""
         name = self.input.name
-        return Told(name, f"`{name}` along the coordinate of joint {self.joint.name}", "itself")
+        acts = f"`{name}` along the coordinate of joint {self.joint.name}, which is independent"
+        return Told(name, acts, "itself, in the row of that coordinate")
 
     def act(self, at: Surroundings) -> Action:
         """Append the force; it does its work on the coordinate."""
