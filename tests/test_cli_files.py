@@ -90,6 +90,8 @@ WRITING = {
     "report": (["report", CAR], f"{CAR}.html"),
     "report of an axle": (["report", "reference_axle"], "reference_axle.html"),
     "report of a rigid axle": (["report", "rigid_axle", "--loads"], "rigid_axle.html"),
+    "derivation": (["derivation", "slider_crank", "-o", "a.tex"], "a.tex"),
+    "derivation with figures": (["derivation", "slider_crank", "-o", "a.tex"], "a_bodies.pdf"),
     "paper": (["paper", "."], "figure_6_wheel_motion.svg"),
 }
 

@@ -31,6 +31,14 @@ def test_paper_writes_figures_and_a_summary(tmp_path):
     assert imread(tmp_path / "overview.png").std() > 0.01
 
 
+def test_paper_of_a_car_that_nothing_steers(tmp_path):
+    """It has no rack that is held."""
+    command = ["paper", str(tmp_path / "out"), "--data", "trailing_arm_car"]
+    result = CliRunner().invoke(cli.app, command)
+    assert result.exit_code == 0, result.output
+    assert "rack" not in result.output
+
+
 def test_users_mistake_has_no_traceback(monkeypatch, capsys, tmp_path):
     monkeypatch.setattr("sys.argv", ["kintrafo", "paper", str(tmp_path), "--data", "no_such_car"])
     with pytest.raises(SystemExit) as caught:

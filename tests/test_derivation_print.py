@@ -14,13 +14,14 @@ import pytest
 from kintrafo import generated
 from kintrafo.cli import app
 from kintrafo.core.errors import InputError
+from kintrafo.generator.backends.report import document
 from kintrafo.generator.backends.report.latex import broken, escaped, formula_width, latex, marked
 from kintrafo.generator.mechanisms import model_named
 from own_models import derive
 from typer.testing import CliRunner
 
 FOLDER = Path(generated.__file__).parent
-FIGURES = {name: f"{name}.pdf" for name in ("bodies", "graph", "elementary", "transformers")}
+FIGURES = {name: f"{name}.pdf" for name in document.FIGURES}
 NAMES = ("macpherson", "andrews", "slider_crank")
 # all signs that are commands of TeX
 SIGNS = r"100 % of #1 & {x}_2^3 ~ a \relax $ < > |"

@@ -11,7 +11,7 @@ from rich.table import Table
 
 from . import goals as wanted
 from .console import console, curve_table, print_json, print_table, problems
-from .outputs import Outputs, name_files, named
+from .outputs import Outputs, name_files, named, title_of
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -100,7 +100,7 @@ def characteristics(
     for motion, dataset in curves.items():
         written += outputs.write(
             dataset,
-            title=f"{file}: {axles.MOTIONS[motion]}",
+            title=f"{title_of(file)}: {axles.MOTIONS[motion]}",
             names=names[motion],
             suffix=f"_{motion}",
             drawn=drawn[motion],

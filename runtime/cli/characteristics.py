@@ -12,7 +12,7 @@ from . import axles, rigid
 from . import goals as wanted
 from .console import console, print_json
 from .options import Bump, File, Force, Json, Of, RackExtent, Rebound, Step, among, load, metres
-from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, named
+from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, named, title_of
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -124,7 +124,7 @@ def command(
         path
         for over, dataset in curves.items()
         for path in outputs.write(
-            dataset, title=file, suffix=f"_{over}", names=drawn[over], goals=aims
+            dataset, title=title_of(file), suffix=f"_{over}", names=drawn[over], goals=aims
         )
     ]
     judged = wanted.judged({file: model.suspension}, aims)

@@ -13,9 +13,11 @@ from . import goals as wanted
 from .compliance import Held
 from .console import console, print_json, progress_bar, say
 from .options import Files, Force, Json, Of, among, load
-from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
+from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, title_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from xarray import Dataset
 
     from ..study.compare import Difference
@@ -78,8 +80,11 @@ def command(
     shown = among(of, map(str, dataset.data_vars)) if of else [str(n) for n in dataset.data_vars]
     found = [difference for difference in compare.differences(dataset) if difference.name in shown]
     first, *others = (str(name) for name in dataset["data_set"].values)
-    title = " and ".join([first, *others])
-    written = outputs.write(dataset, title=title, names=shown if of else (), goals=aims)
+    drawn = dataset.assign_coords(data_set=_titles(dataset["data_set"].values))
+    title = " and ".join(map(str, drawn["data_set"].values))
+    written = outputs.write(
+        dataset, title=title, names=shown if of else (), drawn=drawn, goals=aims
+    )
     if json:
         told = [vars(difference) | {"units": _units(dataset, difference)} for difference in found]
         print_json({"differences": told, "goals": judged} if aims else told)
@@ -140,6 +145,13 @@ def _beside(files: list[str], measured: list[str], over: str | None, held: Held)
     if not models:
         raise typer.BadParameter("a hardpoint file is needed besides the measured curves")
     return rig.beside(curves, models, measured[0], held=held)
+
+
+def _titles(files: "Iterable[Any]") -> list[str]:
+    """Return what the figures call some files: their names alone, where these differ."""
+    given = [str(file) for file in files]
+    titles = [title_of(file) for file in given]
+    return titles if len(set(titles)) == len(titles) else given
 
 
 def _units(dataset: "Dataset", difference: "Difference") -> str:

@@ -9,7 +9,7 @@ import typer
 from .axles import refuse_options
 from .console import print_json, print_table, say
 from .options import Bump, File, Force, Json, Rebound, metres
-from .outputs import Out, Outputs, Plot, name_files
+from .outputs import Out, Outputs, Plot, name_files, title_of
 from .subject import described_by
 from .variation_options import At, with_position
 
@@ -86,7 +86,7 @@ def command(
     if outputs.pages:
         from ..plots import curves as plots
 
-        title = f"{file}: compliance, {found.attrs['held']}"
+        title = f"{title_of(file)}: compliance, {found.attrs['held']}"
         drawn = curves if isinstance(of, Model) else by_side(curves)
         written += [
             plots.write_overview(drawn, path, (), title, force=force, inputs=inputs)

@@ -8,7 +8,7 @@ from .axles import refuse_options
 from .compliance import Bushes, Held, described
 from .console import print_json, print_table, say
 from .options import Bump, File, Force, Json, Rebound
-from .outputs import Out, Outputs, Plot, name_files
+from .outputs import Out, Outputs, Plot, name_files, title_of
 from .subject import described_by
 from .variation_options import At, with_position
 
@@ -108,9 +108,10 @@ def command(
             how["wheels"] = wheels or "parallel"
         found = _under(of, described(file, bushes), (at, rack), (under, size), how)
     title = f"{file}: {found.attrs['title']}"
+    heading = f"{title_of(file)}: {found.attrs['title']}"
     written = outputs.write_data(found, rows=found)
     written += [
-        plots.write_overview(found, path, (), title, force=force, inputs=inputs)
+        plots.write_overview(found, path, (), heading, force=force, inputs=inputs)
         for path in outputs.pages
     ]
     if json:

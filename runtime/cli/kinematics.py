@@ -6,7 +6,7 @@ import typer
 
 from .console import console, curve_table, print_json, say
 from .options import Bump, File, Force, Json, RackExtent, Rebound, Step, load, metres
-from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
+from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, title_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -61,7 +61,7 @@ def command(
             model, extent=metres(rack_extent), step=step / 1e3, travel=travel / 1e3
         )
     dataset = sweep.positions(model, travels, racks)
-    written = outputs.write(dataset, title=file)
+    written = outputs.write(dataset, title=title_of(file))
     if json:
         print_json(export.as_dict(dataset))
         return

@@ -13,7 +13,7 @@ from .axles import is_axle
 from .console import console, print_json, print_table, say
 from .exits import Exit
 from .options import File, Force, Json, among, load
-from .outputs import Out, Outputs, name_files
+from .outputs import Out, Outputs, name_files, title_of
 from .rigid import is_rigid_axle
 from .rigid import loads as of_rigid_axle
 
@@ -98,7 +98,13 @@ def command(
         for name in shown or [str(name) for name in found["case"].values]:
             if not str(found["reason"].sel(case=name).values):
                 written += plots.write_free_bodies(
-                    found, pages.pages, name, parts, title=file, force=force, inputs=inputs
+                    found,
+                    pages.pages,
+                    name,
+                    parts,
+                    title=title_of(file),
+                    force=force,
+                    inputs=inputs,
                 )
     if json:
         print_json(export.as_dict(found))

@@ -12,7 +12,7 @@ from .console import console, print_json, progress_bar, say
 from .exits import Exit
 from .moved_values import moved_table
 from .options import File, Force, Json
-from .outputs import Outputs, name_files
+from .outputs import Outputs, name_files, title_of
 from .subject import studied
 from .variation_options import Bars
 
@@ -77,7 +77,7 @@ def command(
 
         written.append(
             plots.write_optimum(
-                found, path, title=f"{file}: {goals.name}", force=force, inputs=inputs
+                found, path, title=f"{title_of(file)}: {goals.stem}", force=force, inputs=inputs
             )
         )
     if out is not None:

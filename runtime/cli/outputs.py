@@ -211,6 +211,11 @@ def named(of: list[str] | None, drawn: "Mapping[str, Dataset]") -> dict[str, lis
     return {key: [n for n in wanted if n in dataset] for key, dataset in drawn.items()}
 
 
+def title_of(file: str) -> str:
+    """Return what a figure calls a file: its name, without folder and ending."""
+    return Path(file).stem if Path(file).suffix else file
+
+
 def name_files(files: Sequence[Path]) -> None:
     """Name the files that were written, below the results."""
     for path in files:

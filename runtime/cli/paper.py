@@ -1,6 +1,7 @@
 """``kintrafo paper``: the paper's results."""
 
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -57,10 +58,8 @@ def summary(model: "Model", rest: "paper.Rest", dynamics: "paper.Dynamics") -> T
     loops = "; ".join(" - ".join(bodies) for bodies in equations.LOOPS)
     rows = {
         "mobility (Eq. 1)": f"{equations.MOBILITY}",
-        "independent loops": f"{len(equations.LOOPS)}: {loops}",
-        "operations of the right-hand side": f"{equations.rhs_rack_held.operations['total']} "
-        "with the rack held, "
-        f"{equations.rhs.operations['total']} with the rack moving",
+        "independent loops": f"{len(equations.LOOPS)}: {loops}" if loops else "none",
+        "operations of the right-hand side": _operations(equations),
         "equilibrium": f"wheel centre at {rest.height * 1e3:.3f} mm",
         "eigenvalues there": f"{rest.hop.eigenvalues_text} 1/s, and two zeros (wheel spin)",
         "wheel-hop mode": _hop(model, rest),
@@ -76,6 +75,15 @@ def summary(model: "Model", rest: "paper.Rest", dynamics: "paper.Dynamics") -> T
     for name, text in rows.items():
         table.add_row(name, text)
     return table
+
+
+def _operations(equations: ModuleType) -> str:
+    """Return how many operations one evaluation takes; a car that nothing steers has no rack."""
+    total = f"{equations.rhs.operations['total']}"
+    held = getattr(equations, "rhs_rack_held", None)
+    if held is None:
+        return total
+    return f"{held.operations['total']} with the rack held, {total} with the rack moving"
 
 
 def _hop(model: "Model", rest: "paper.Rest") -> str:

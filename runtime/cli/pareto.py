@@ -13,7 +13,7 @@ from .console import console, print_json, progress_bar, say
 from .exits import Exit
 from .moved_values import moved_table
 from .options import File, Force, Json
-from .outputs import Out, Outputs, name_files
+from .outputs import Out, Outputs, name_files, title_of
 from .subject import studied
 from .variation_options import Bars
 
@@ -98,7 +98,7 @@ def command(
     written: list[Path] = []
     if found.success:
         chosen = found.compromise if member is None else member
-        written = _write(found, chosen, outputs, car, title=f"{file}: {study.name}")
+        written = _write(found, chosen, outputs, car, title=f"{title_of(file)}: {study.stem}")
     if json:
         print_json(_facts(found, chosen) | export.as_dict(found.dataset))
     else:

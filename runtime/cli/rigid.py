@@ -13,7 +13,7 @@ from . import goals as wanted
 from .axles import Ride
 from .console import console, curve_table, print_json, print_table
 from .options import among
-from .outputs import Outputs, name_files, named
+from .outputs import Outputs, name_files, named, title_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -120,7 +120,7 @@ def characteristics(
     for motion, dataset in curves.items():
         written += outputs.write(
             dataset,
-            title=f"{file}: {study.MOTIONS[motion]}",
+            title=f"{title_of(file)}: {study.MOTIONS[motion]}",
             names=names[motion],
             suffix=f"_{motion}",
             drawn=drawn[motion],

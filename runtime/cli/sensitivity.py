@@ -10,7 +10,7 @@ from rich.table import Column, Table
 from ..core.tabulated import significant
 from .console import console, print_json, progress_bar
 from .options import File, Force, Json, Of
-from .outputs import Out, Outputs, name_files
+from .outputs import Out, Outputs, name_files, title_of
 from .subject import studied
 from .variation_options import At, Bars, Over, along, chosen, position, positions_with, way_of
 
@@ -71,7 +71,7 @@ def command(
     for path in outputs.pages:
         from ..plots import variation as plots
 
-        title = f"{file}: effect of values, {along(way, at)}"
+        title = f"{title_of(file)}: effect of values, {along(way, at)}"
         written.append(
             plots.write_bars(
                 dataset, path, names, at=position(way, at), title=title, force=force, inputs=[file]
@@ -91,12 +91,12 @@ def _table(dataset: "Dataset", names: list[str], file: str, where: str, at: floa
     found = {name: list(effects(dataset, name, at)) for name in names}
     if len(names) == 1:
         (name,) = names
-        title = f"{file}: effect of values on {_words(dataset, name)}, {where}"
+        title = f"{title_of(file)}: effect of values on {_words(dataset, name)}, {where}"
         table = Table("value", Column("effect", justify="right"), "unit", title=escape(title))
         for effect in found[name]:
             table.add_row(escape(effect.place), significant(effect.size), escape(effect.unit))
         return table
-    title = f"{file}: effect of values on characteristics, {where}"
+    title = f"{title_of(file)}: effect of values on characteristics, {where}"
     table = Table("characteristic", "unit", "moved most by", title=escape(title))
     for name in names:
         for unit in dict.fromkeys(effect.unit for effect in found[name]):

@@ -14,7 +14,7 @@ from . import axles, rigid
 from .console import console, print_json, problems, say
 from .exits import Exit
 from .options import File, Force, Json, load
-from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
+from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, title_of
 from .scenarios import scenario_of
 from .simulation_options import (
     Atol,
@@ -156,8 +156,8 @@ def command(
         "max_step": math.inf if max_step is None else max_step / 1e3,
         "max_steps": max_steps,
     }
-    result, motion = _played(ride, scenario, options, outputs, file, silent=json)
-    written = _written(ride, motion, outputs, file)
+    result, motion = _played(ride, scenario, options, outputs, title_of(file), silent=json)
+    written = _written(ride, motion, outputs, title_of(file))
     if loads:
         from ..study import loads as study
 

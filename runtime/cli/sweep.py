@@ -11,7 +11,7 @@ from ..core.tabulated import significant
 from .console import console, print_json, progress_bar, say
 from .exits import Exit
 from .options import File, Force, Json
-from .outputs import Out, Outputs, Plot, name_files
+from .outputs import Out, Outputs, Plot, name_files, title_of
 from .scenarios import scenario_of
 from .simulation_options import (
     Duration,
@@ -122,7 +122,7 @@ def command(
         )
     kept = found.drop_dims(["time", "state_element", "bound"])
     names = [str(n) for n in kept.data_vars if kept[n].dtype.kind == "f" and n != "end_time"]
-    written = outputs.write(kept, title=file, names=names)
+    written = outputs.write(kept, title=title_of(file), names=names)
     if json:
         print_json(export.as_dict(kept))
     else:

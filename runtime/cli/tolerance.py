@@ -10,7 +10,7 @@ from rich.table import Table
 from ..core.tabulated import significant
 from .console import console, print_json, progress_bar, say
 from .options import File, Force, Json, Of
-from .outputs import Out, Outputs, name_files
+from .outputs import Out, Outputs, name_files, title_of
 from .subject import studied
 from .variation_options import At, Bars, Over, along, chosen, position, positions_with, way_of
 
@@ -78,7 +78,7 @@ def command(
     for path in outputs.pages:
         from ..plots import variation as plots
 
-        title = f"{file}: {cars} cars by {tolerances.name}"
+        title = f"{title_of(file)}: {cars} cars by {tolerances.stem}"
         limits = variation.limits(asked.get("limits", {}), ways_of(suspension))
         written.append(
             plots.write_bands(

@@ -17,6 +17,7 @@ from matplotlib import colormaps, rc_context, rcParams
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, ScalarFormatter
 from numpy.typing import NDArray
 
@@ -28,6 +29,7 @@ from ..study.characteristics.groups import ORDER, group_of
 from ..study.variation.goals import Goal
 from .figures import BLUE, GREEN, METADATA, ORANGE, STYLE, lay_out, save, written_plainly
 from .goals import mark, over_of
+from .labels import label_lines
 
 Array = NDArray[np.float64]
 
@@ -42,12 +44,26 @@ _WITH_DESIGN = ("wheel_travel", "rack_position", "roll_angle", "steering_wheel_a
 # More lines than this are a carpet: some of them are drawn.
 _MOST_LINES = 7
 _COLUMNS = 3
+# What labels and ticks take of a panel [in].
+_AROUND = np.array([0.9, 0.7])
 # Round values only, and never an offset that must be added in the head.
 _TICK_STEPS = [1, 2, 2.5, 5, 10]
 # Less variation than this part of its size is rounding, and the curve a constant.
 _CONSTANT = 1e-6
 # A curve whose extremes are so many times farther apart than nine tenths of it passes a pole.
 _POLE = 10.0
+
+# What spans less of a position's axis is drawn as little as it is, by the unit of the axis.
+LEAST_SPANS = {
+    "deg": 0.1,
+    "mm": 1.0,
+    "deg/mm": 0.001,
+    "N/mm": 0.5,
+    "%": 1.0,
+    "1": 0.01,
+}
+# So many curves have their names beside them, more have a legend.
+_FEW_NAMES = 3
 
 # A curve with more ups and downs than this, such as a rough road, is a thin line.
 _MANY_TURNS, _THIN = 40, 0.7
@@ -278,10 +294,8 @@ def figure(
             axes.set_xlabel(_with_sign(dataset[along]), fontsize=10 if alone else 9)
     for axes in panels[len(names) :]:
         axes.remove()
-    for axes, name in zip(panels, names, strict=False):
-        if dataset[name].ndim > 1:
-            _legend(result, axes, dataset[name], alone=alone)
-            break
+    shape = np.array(size) / (columns, rows) - _AROUND
+    _name_lines(result, panels, [dataset[name] for name in names], shape, alone=alone)
     for axes in panels[: len(names)]:
         if axes.get_legend() is None:
             _legend_of_goals(axes)
@@ -317,6 +331,8 @@ def _draw(axes: Axes, data: xr.DataArray, goals: Sequence[Goal] = ()) -> str:
     axes.margins(x=0.02)
     whole = np.concatenate([marked, *(v for _, v in lines)])
     _limit(axes, whole, may_have_pole=along in _WITH_DESIGN)
+    if along in _WITH_DESIGN:
+        _widen(axes, whole, LEAST_SPANS.get(display_of(data.attrs).units, 0.0))
     low, high = axes.get_ylim()
     for curve, (_, values) in zip(curves, lines, strict=True):
         curve.set_ydata(_without_leaps(values, low, high))
@@ -397,6 +413,15 @@ def _limit(axes: Axes, values: Array, *, may_have_pole: bool) -> None:
             axes.set_ylim(1.5 * low - 0.5 * high, 1.5 * high - 0.5 * low)
 
 
+def _widen(axes: Axes, values: Array, least: float) -> None:
+    """Let an axis span no less than what means something, with the curve in its middle."""
+    finite = values[np.isfinite(values)]
+    low, high = axes.get_ylim()
+    if finite.size and high - low < least:
+        middle = 0.5 * float(finite.min() + finite.max())
+        axes.set_ylim(middle - 0.5 * least, middle + 0.5 * least)
+
+
 def _without_leaps(values: Array, low: float, high: float) -> Array:
     """Return a curve that ends where it leaves what is drawn, to come back from the other side.
 
@@ -419,11 +444,32 @@ def _typeset(text: str) -> str:
     return text.replace("^2", "\u00b2")
 
 
+def _name_lines(
+    result: Figure, panels: Array, curves: Sequence[xr.DataArray], shape: Array, *, alone: bool
+) -> None:
+    """Name the lines: few beside them, wherever a panel has room; else in one legend."""
+    named = False
+    for axes, data in zip(panels, curves, strict=False):
+        if data.ndim < 2 or _FAMILY not in data.dims or data.sizes[_FAMILY] > _FEW_NAMES:
+            continue
+        names = [name for name, _ in _lines(data)[1]]
+        named |= label_lines(axes, _drawn_lines(axes, len(names)), names, shape)
+    if not named:
+        for axes, data in zip(panels, curves, strict=False):
+            if data.ndim > 1:
+                _legend(result, axes, data, alone=alone)
+                break
+
+
+def _drawn_lines(axes: Axes, count: int) -> list[Line2D]:
+    return [line for line in axes.get_lines() if line.get_linestyle() != "None"][:count]
+
+
 def _legend(result: Figure, axes: Axes, data: xr.DataArray, *, alone: bool) -> None:
     """Name the lines of a curve: below it where it is alone, or in its panel of a page."""
     along, lines = _lines(data)
     across = next(d for d in data.dims if d != along)
-    handles = [line for line in axes.get_lines() if line.get_linestyle() != "None"][: len(lines)]
+    handles: list[Any] = [*_drawn_lines(axes, len(lines))]
     labels = [label for label, _ in lines]
     title = None if across == _FAMILY else long_name(data[across])
     marks = _marks_of_goals(axes)

@@ -41,6 +41,7 @@ METADATA: dict[str, dict[str, Any]] = {
 }
 _NAMES = ("figure_4_wheel_path", "figure_5_wheel_angles", "figure_6_wheel_motion")
 _ENDINGS = ("png", "svg")
+_CONDITIONS = ("", "", "Released with the wheel centre at 325 mm, spin 14.8 rev/s. ")
 
 
 def save(figure: Figure, path: str | Path, *, force: bool = False, inputs: Paths = ()) -> Path:
@@ -120,8 +121,8 @@ def write_figures(
     refuse(files, force=force)
     with rc_context(STYLE):
         drawn = wheel_path(kinematics), wheel_angles(kinematics), wheel_motion(dynamics)
-        for figure in drawn:
-            below = f"Data: {legible(data)}. The paper gives no hardpoints: compare in kind."
+        for figure, what in zip(drawn, _CONDITIONS, strict=True):
+            below = f"{what}Data: {legible(data)}, since the paper gives no hardpoints."
             figure.supxlabel(below, fontsize=8, color="#666666", parse_math=False)
         for path, figure in zip(files, [f for f in drawn for _ in _ENDINGS], strict=True):
             save(figure, path, force=force)
@@ -132,16 +133,16 @@ def wheel_path(kinematics: Kinematics) -> Figure:
     """Draw Figure 4: the path of the wheel centre, seen from the side and from the front."""
     figure = Figure(figsize=(8.4, 4.4), layout="constrained")
     side, front = figure.subplots(1, 2, sharey=True)
-    for axes, across, name in ((side, kinematics.x, "x"), (front, kinematics.y, "y")):
+    # y grows to the right of the drawing, so a left wheel has its outboard side there
+    outboard = "outboard to the right" if kinematics.side == "left" else "outboard to the left"
+    for axes, across, name, sign in (
+        (side, kinematics.x, "x", "positive forward"),
+        (front, kinematics.y, "y", f"positive left ({outboard} here)"),
+    ):
         axes.plot(across * 1e3, kinematics.z * 1e3, color=BLUE)
         _mark_design(axes, across * 1e3, kinematics.z * 1e3, kinematics)
-        axes.set_xlabel(f"wheel centre {name} [mm]")
+        axes.set_xlabel(f"wheel centre {name} [mm]\n{sign}")
     side.set_ylabel("wheel centre height z [mm]")
-    side.set_title("x-z projection (x forward)")
-    # y grows to the right of the drawing, so a left wheel has its outboard side there
-    outboard = "right" if kinematics.side == "left" else "left"
-    front.set_title(f"y-z projection (y left; outboard is to the {outboard} here)")
-    figure.suptitle("Figure 4: path of the wheel centre, rack held")
     return figure
 
 
@@ -157,12 +158,9 @@ def wheel_angles(kinematics: Kinematics) -> Figure:
         _mark_design(axes, kinematics.z * 1e3, np.degrees(angle), kinematics)
         axes.axhline(0.0, color="#888888", linewidth=0.8)
         axes.set_xlabel("wheel centre height z [mm]")
-    camber.set_ylabel("camber [deg], positive: top outboard")
-    steer.set_ylabel("steer angle [deg], positive: left turn")
-    camber.set_title("camber")
+    camber.set_ylabel("camber [deg], positive with the top outboard")
     sense = "toe-out" if kinematics.side == "left" else "toe-in"
-    steer.set_title(f"steer angle (front {kinematics.side}: positive is {sense})")
-    figure.suptitle("Figure 5: wheel angles over travel, rack held")
+    steer.set_ylabel(f"steer angle [deg], positive to the left ({sense})")
     return figure
 
 
@@ -178,17 +176,14 @@ def wheel_motion(dynamics: Dynamics) -> Figure:
     figure = Figure(figsize=(8.4, 7.6), layout="constrained")
     rows = figure.subplots(3, 1, sharex=True)
     curves = (
-        (result.signals["wheel_center_z"] * 1e3, "height [mm]", BLUE),
-        (result.signals["wheel_velocity"], "velocity [m/s]", ORANGE),
-        (result.signals["wheel_acceleration"], "acceleration [m/s$^2$]", GREEN),
+        (result.signals["wheel_center_z"] * 1e3, "wheel centre\nheight [mm]", BLUE),
+        (result.signals["wheel_velocity"], "wheel centre\nvelocity [m/s], up", ORANGE),
+        (result.signals["wheel_acceleration"], "wheel centre\nacceleration [m/s$^2$], up", GREEN),
     )
     for axes, (values, label, colour) in zip(rows, curves, strict=True):
         axes.plot(result.t, values, color=colour)
         axes.set_ylabel(label)
         axes.margins(x=0.01)
     rows[-1].set_xlabel("time [s]")
-    figure.suptitle(
-        "Figure 6: vertical motion of the wheel centre, released at 325 mm, spin 14.8 rev/s"
-    )
     figure.align_ylabels(rows)
     return figure

@@ -143,6 +143,4 @@ def _draw_angles(camber: Axes, toe: Axes, model: Model, design: float, travel: f
         axes.axhline(0.0, color="#888888", linewidth=0.8)
         axes.set_xlabel(f"{name} [deg]\n{sign}")
         axes.yaxis.set_major_locator(MultipleLocator(20.0))
-    camber.set_title("camber")
-    toe.set_title("toe")
     camber.set_ylabel("wheel travel [mm], positive in bump")

@@ -13,6 +13,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+FIGURES = ("bodies", "graph", "elementary", "transformers")
+"""The figures of a mechanism by which a report is illustrated, in its order."""
+
 _MARKED = re.compile(r"\$`(?P<formula>.+?)`\$|`(?P<code>.+?)`|\*\*(?P<strong>.+?)\*\*")
 
 

@@ -21,6 +21,7 @@ from matplotlib.patches import Rectangle
 from ....core.files import replacing
 from ...declare.geometry import Point
 from ...declare.joints import Cylindrical, Prismatic, Revolute
+from .document import FIGURES
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -86,16 +87,16 @@ def print_figures(plan: Plan, text: Path, *, force: bool = False) -> dict[str, s
     force
         Whether files that somebody else wrote are replaced, see `kintrafo.core.files`.
     """
-    drawn = {
-        "bodies": bodies(plan),
-        "graph": graph(plan, (False,)),
-        "elementary": graph(plan, (True,)),
-        "transformers": transformers(plan, numbered=True),
-    }
-    names = {name: f"{text.stem}_{name}.pdf" for name in drawn}
+    drawn = (
+        bodies(plan),
+        graph(plan, (False,)),
+        graph(plan, (True,)),
+        transformers(plan, numbered=True),
+    )
+    names = {name: f"{text.stem}_{name}.pdf" for name in FIGURES}
     facts = {"CreationDate": None, "Producer": None, "Creator": None}
-    for name, figure in drawn.items():
-        with replacing(text.with_name(names[name]), force=force) as temporary:
+    for name, figure in zip(names.values(), drawn, strict=True):
+        with replacing(text.with_name(name), force=force) as temporary:
             figure.savefig(temporary, metadata=facts)
     return names
 

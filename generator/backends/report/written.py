@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ....core.files import refuse, replacing
+from .document import FIGURES
 from .latex import latex
 from .markdown import markdown
 
@@ -13,6 +14,14 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ...equations.outputs import Derivation
+
+
+def check_files(path: Path, *, force: bool = False, inputs: Iterable[Path] = ()) -> None:
+    """Refuse what `write_report` would have to refuse, before anything is derived."""
+    refuse([path], force=force, inputs=inputs, endings=(".tex", ".md"))
+    if path.suffix.lower() == ".tex":
+        names = (f"{path.stem}_{name}.pdf" for name in FIGURES)
+        refuse(map(path.with_name, names), force=force, inputs=inputs)
 
 
 def write_report(
@@ -31,7 +40,7 @@ def write_report(
     inputs
         Files that are read, and never replaced.
     """
-    refuse([path], force=force, inputs=inputs, endings=(".tex", ".md"))
+    check_files(path, force=force, inputs=inputs)
     figures: dict[str, str] = {}
     if path.suffix.lower() == ".tex":
         from .figures import print_figures  # noqa: PLC0415 (matplotlib is slow to import)

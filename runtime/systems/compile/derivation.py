@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...core.arguments import Arguments
-from ...core.files import refuse
 from .build import require_generator
 from .declaration import model_of, translated_errors
 
@@ -63,11 +62,11 @@ def write_derivation(
         given.path("path", path)
         force = given.flag("force", force)
     inputs = [Path(declared)] if isinstance(declared, str | Path) else []
-    refuse([path], force=force, inputs=inputs, endings=(".tex", ".md"))
     require_generator()
-    from ...generator.backends.report.written import write_report
+    from ...generator.backends.report.written import check_files, write_report
     from ...generator.equations.outputs import generate
 
+    check_files(Path(path), force=force, inputs=inputs)
     model = model_of(declared, name)
     with translated_errors(model):
         derived = generate(model)

@@ -1,0 +1,68 @@
+"""Pages of curves: scales that mean something, names beside the curves, none of them crossed."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from kintrafo.cli.outputs import title_of
+from kintrafo.core.quantities import variable
+from kintrafo.plots.curves import LEAST_SPANS, figure
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+TRAVEL = np.linspace(-0.08, 0.08, 33)
+
+
+def curves(*lines, names=None, meaning="half-track change", units="m"):
+    """Return a dataset of one variable, over wheel travel or of several cars."""
+    over = {"wheel_travel": variable("wheel_travel", TRAVEL, "wheel travel", "m")}
+    if names is None:
+        return xr.Dataset({"one": variable("wheel_travel", lines[0], meaning, units)}, over)
+    dimensions = ("data_set", "wheel_travel")
+    one = variable(dimensions, np.array(lines), meaning, units)
+    return xr.Dataset({"one": one}, over | {"data_set": list(names)})
+
+
+@pytest.mark.parametrize(("amount", "widened"), [(0.00015, True), (0.003, False)])
+def test_little_is_drawn_as_little(amount, widened):
+    """0.15 mm takes 15 hundredths of an axis of 1 mm and is in its middle; 3 mm fill theirs."""
+    axes = figure(curves(0.07 + amount * TRAVEL / 0.16), ["one"]).axes[0]
+    low, high = axes.get_ylim()
+    if widened:
+        assert high - low == pytest.approx(LEAST_SPANS["mm"])
+        assert 0.5 * (low + high) == pytest.approx(70.0, abs=1e-9)
+    else:
+        assert high - low == pytest.approx(3.0, rel=0.2)
+
+
+def test_names_stand_beside_their_curves():
+    """What is drawn, measured: in the colour of a line, nearest to it, and crossed by none."""
+    lines = 0.02 + TRAVEL**2, -0.02 - TRAVEL**2, 0.001 * np.sin(40.0 * TRAVEL)
+    drawn = figure(curves(*lines, names=("upper", "lower", "middle")), ["one"])
+    canvas = FigureCanvasAgg(drawn)
+    canvas.draw()
+    (axes,) = drawn.axes
+    assert drawn.legends == []
+    assert axes.get_legend() is None
+    of = {text.get_text(): text for text in axes.texts}
+    assert set(of) == {"upper", "lower", "middle"}
+    pixels = [axes.transData.transform(line.get_xydata()) for line in axes.get_lines()[:3]]
+    fine = [np.array([np.interp(x, *p.T) for x in range(2000)]) for p in pixels]
+    for name, line in zip(("upper", "lower", "middle"), axes.get_lines(), strict=False):
+        text = of[name]
+        assert text.get_color() == line.get_color()
+        box = text.get_window_extent(canvas.get_renderer())
+        places = range(int(box.x0), int(box.x1) + 1)
+        gaps = [[abs(f[x] - 0.5 * (box.y0 + box.y1)) for x in places] for f in fine]
+        assert min(map(min, gaps)) > 0.5 * box.height, "crossed"
+        nearest = min(range(3), key=lambda k: min(gaps[k]))
+        assert axes.get_lines()[nearest] is line
+
+
+def test_names_without_room_are_in_a_legend():
+    lines = 0.02 + TRAVEL, 0.02001 + TRAVEL
+    drawn = figure(curves(*lines, names=("one", "other")), ["one"])
+    assert [t.get_text() for t in drawn.legends[0].get_texts()] == ["one", "other"]
+
+
+def test_a_figure_calls_a_file_by_its_name():
+    assert title_of("/somewhere/deep/my_car.toml") == "my_car"
+    assert title_of("reference_car") == "reference_car"
