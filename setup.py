@@ -270,4 +270,12 @@ for module in MODULES:
     module.optional = SOLVER is not None and module.name == SOLVER.name
 # the longest first, so that no core waits for it at the end
 MODULES = [*lanes_extensions(sorted(GENERATED.glob("*.pyx"))), *MODULES]
-setup(ext_modules=MODULES, cmdclass={"build_ext": Build})
+README = runpy.run_path(".ci/long_description.py")
+REPOSITORY, _ = README["repository_and_revision"]()
+setup(
+    ext_modules=MODULES,
+    cmdclass={"build_ext": Build},
+    long_description=README["long_description"](Path()),
+    long_description_content_type="text/markdown",
+    project_urls={"Repository": REPOSITORY} if REPOSITORY else {},
+)

@@ -1,6 +1,7 @@
 """Pages, links and names of the documentation, without building it (`make docs` does that)."""
 
 import re
+import runpy
 import tomllib
 from collections import Counter
 from pathlib import Path
@@ -85,3 +86,23 @@ def test_changelog_and_citation_are_of_this_version():
     assert f"\nlicense: {project['license']}\n" in citation
     newest = re.search(r"^## ([\d.]+)", text_of(ROOT / "CHANGELOG.md"), flags=re.MULTILINE)
     assert newest.group(1) == project["version"]
+
+
+def test_links_of_the_readme_are_addresses_on_an_index(monkeypatch):
+    """Each path is that of a file, behind the place of the sources; the rest of the text stays."""
+    readme = runpy.run_path(str(ROOT / ".ci/long_description.py"))
+    before = text_of(ROOT / "README.md")
+    monkeypatch.delenv("KINTRAFO_REPOSITORY", raising=False)
+    assert readme["long_description"](ROOT) == before, "nobody has said where the sources are"
+    monkeypatch.setenv("KINTRAFO_REPOSITORY", "https://forge.example/someone/kintrafo")
+    monkeypatch.setenv("KINTRAFO_REVISION", "v1.2.3")
+    after = readme["long_description"](ROOT)
+    links = re.findall(r"(!?)\[[^\]]*\]\(([^)]+)\)", without_code(after))
+    assert len(links) > 50
+    for image, link in links:
+        what = "raw" if image else "blob"
+        place = f"https://forge.example/someone/kintrafo/{what}/v1.2.3/"
+        assert link.startswith(place)
+        assert (ROOT / link.removeprefix(place).partition("#")[0]).exists(), link
+    stripped = re.sub(r"https://forge\.example/someone/kintrafo/(raw|blob)/v1\.2\.3/", "", after)
+    assert stripped == before
