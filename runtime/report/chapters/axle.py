@@ -64,7 +64,8 @@ def axle_chapter(axle: Axle) -> Chapter:
     if axle.bar is not None:
         rate = np.deg2rad(axle.bar.rate())
         part = axle.bar.link_on.replace("_", " ")
-        words.append(f"Anti-roll bar: {rate:.4g} N m/deg, drop links on the {part}.")
+        soft = ", its bushes or drop links included" if axle.bar.gives_way() else ""
+        words.append(f"Anti-roll bar: {rate:.4g} N m/deg{soft}, drop links on the {part}.")
     # what a wheel has by itself, the page has already, if the sides are alike
     whole = curves["bump"]
     if axle.symmetric:

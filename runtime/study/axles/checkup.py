@@ -104,9 +104,9 @@ def _at_design(axle: Axle) -> tuple[dict[str, float], dict[str, str]]:
     values, rows = {}, {}
     if axle.bar is not None:
         rate = np.deg2rad(axle.bar.rate())
-        rows["anti-roll bar"] = (
-            f"{rate:.4g} N m/deg, drop links on the {axle.bar.link_on.replace('_', ' ')}"
-        )
+        soft = ", its bushes or drop links included" if axle.bar.gives_way() else ""
+        part = axle.bar.link_on.replace("_", " ")
+        rows["anti-roll bar"] = f"{rate:.4g} N m/deg{soft}, drop links on the {part}"
     for name, words in _AT_DESIGN.items():
         if name in dataset:
             shown = display_of(dataset[name].attrs)

@@ -55,8 +55,11 @@ _Modulus = Annotated[
     Field(gt=0.0, le=1e3),
     Range("more than 0 {unit}, at most 1,000 {unit}", _REMEDY),
 ]
-
-
+_Stiffness = Annotated[
+    Number,
+    Field(gt=0.0, le=1e7),
+    Range("more than 0 {unit}, at most 10,000,000 {unit}", "Leave the key out for what is rigid."),
+]
 _Twist = Annotated[
     Number, Field(ge=-60.0, le=60.0), Range("-60 {unit} to 60 {unit}", "Check its sign and unit.")
 ]
@@ -91,6 +94,14 @@ class AntiRollBar(Section):
     )
     shear_modulus_GPa: _Modulus = Field(  # noqa: N815 (Pa is the pascal)
         default=_STEEL, description="shear modulus; Young's modulus is taken to be 2.6 times that"
+    )
+    bush_radial_N_per_mm: _Stiffness | None = Field(  # noqa: N815 (N is the newton)
+        default=None,
+        description="stiffness of each bearing across the bar; rigid if left out",
+    )
+    link_axial_N_per_mm: _Stiffness | None = Field(  # noqa: N815
+        default=None,
+        description="stiffness of each drop link along it, its joints included; rigid if left out",
     )
     free_twist_deg: _Twist = Field(
         default=0.0, description="twist at which the bar is free, left half less right half"
@@ -133,7 +144,9 @@ class AntiRollBar(Section):
             for length, what, where in short
             if length < SMALLEST_DISTANCE
         ]
-        return problems + (close or self._problems_of_link(bush, top, foot))
+        return problems + (
+            close or [*self._problems_of_link(bush, top, foot), *self._problems_of_bushes(bush)]
+        )
 
     def _problems_of_rate(self) -> list[str]:
         sizes = {"diameter_mm": self.diameter_mm, "length_mm": self.length_mm}
@@ -176,12 +189,62 @@ class AntiRollBar(Section):
             )
         return problems
 
+    def _problems_of_bushes(self, bush: Array) -> list[str]:
+        """Say where soft bushes, the bar's and its image, are too near to hold it between them."""
+        if self.bush_radial_N_per_mm is None or abs(bush[1]) >= SMALLEST_DISTANCE:
+            return []
+        problem = (
+            f"bush = {list(self.bush)} {self.unit} is {1e3 * abs(bush[1]):.3f} mm from the middle "
+            f"of the car; at least {1e3 * SMALLEST_DISTANCE:g} mm are needed where it is soft. "
+            "Move it, or remove bush_radial_N_per_mm."
+        )
+        return [problem]
+
     def metres(self, name: str) -> Array:
         """Return a point as the file gives it, chassis axes [m]."""
         return np.array([in_metres(value, self.unit) for value in getattr(self, name)])
 
     def rate(self) -> float:
-        """Return the torque by the twist between the bar's arms [N m/rad].
+        """Return the torque by the twist that the feet of the drop links ask for [N m/rad].
+
+        Bar, bushes and drop links are springs in series. For a unit torque a link with the lever r
+        about the axis carries 1 / r, and a bush a radial force R; by the unit-load theorem ::
+
+            1 / rate = 1 / rate_of_bar + 2 / (link r^2) + 2 R^2 / bush
+
+        The levers are those at design.
+        """
+        soft = 1.0 / self.rate_of_bar()
+        if self.link_axial_N_per_mm is not None:
+            soft += 2.0 * float(self._pull() @ self._pull()) / (1e3 * self.link_axial_N_per_mm)
+        if self.bush_radial_N_per_mm is not None:
+            radial = self._radial_force()
+            soft += 2.0 * float(radial @ radial) / (1e3 * self.bush_radial_N_per_mm)
+        return 1.0 / soft
+
+    def _pull(self) -> Array:
+        """Return the force of a drop link on the bar for a unit torque, at design [1/m]."""
+        half = self.half()
+        direction, lever = half.lever(half.foot, np.zeros(()))
+        force: Array = -direction / lever
+        return force
+
+    def _radial_force(self) -> Array:
+        """Return what a bush carries across the bar for a unit torque, at design [1/m].
+
+        The other half is loaded by the opposite of the image. Both links and both bushes are in
+        equilibrium about the middle of the bushes: with the force f at the arm r, and the bush at
+        the distance b from the middle plane, ``(f_y r - r_y f) / b`` across that plane's normal,
+        and ``-f_y`` along it.
+        """
+        half, pull = self.half(), self._pull()
+        arm = half.top - half.bush * (1.0, 0.0, 1.0)
+        held = (pull[1] * arm - arm[1] * pull) / half.bush[1] - pull[1] * np.array([0.0, 1.0, 0.0])
+        radial: Array = held - (held @ half.axis) * half.axis
+        return radial
+
+    def rate_of_bar(self) -> float:
+        """Return the torque by the twist between the bar's arms, held rigidly [N m/rad].
 
         From the dimensions, the bar's twist between the arms and the bending of the two arms, which
         are taken to be straight and of the same section: with the lever r of the drop link about
@@ -199,6 +262,10 @@ class AntiRollBar(Section):
         twist = in_metres(self.length_mm, "mm") / (shear * polar)
         bending = 2.0 * lever / (3.0 * _YOUNG * shear * polar / 2.0)
         return float(1.0 / (twist + bending))
+
+    def gives_way(self) -> bool:
+        """Tell whether its bushes or drop links are soft."""
+        return self.bush_radial_N_per_mm is not None or self.link_axial_N_per_mm is not None
 
     def free_twist(self) -> float:
         """Return the twist at which the bar is free, left half less right half [rad]."""
