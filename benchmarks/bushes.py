@@ -4,6 +4,10 @@ Exudyn is an independent program for flexible multibody systems. There every par
 coordinates, every joint a constraint, every bush a spring in three directions; it looks for the
 static equilibrium by Newton's method. Nothing but hardpoints, rates and masses of the file is given
 to it.
+
+A link there is a body on springs at both ends. Nothing but its inner joint, a cross, keeps it from
+turning about its own line: an axis of the chassis, upright, and one of the link stay at right
+angles, which is one of the constraints of a generic joint.
 """
 
 from collections.abc import Mapping
@@ -25,9 +29,12 @@ Array = NDArray[np.float64]
 
 PAGE = Path(__file__).parent.parent / "docs/loads.md"
 QUANTITIES = ("toe_change", "camber_change", "displacement")
-AMOUNTS = (-4000.0, -1000.0, 1000.0, 4000.0)
+SMALL = 40.0
+AMOUNTS = (-4000.0, -1000.0, SMALL, 1000.0, 4000.0)
 # In three directions of the chassis [N/m]: along x, the axis of an arm, and across it.
 SOFT = {"front": (1.5e6, 8e6, 5e6), "rear": (0.4e6, 1.2e6, 2.5e6)}
+# The same at the inner end of a link; at its outer end, which turns with the carrier, alike in all.
+SOFT_INNER, SOFT_OUTER = (3e6, 9e6, 4e6), 12e6
 # Of the point of contact in the wheel, and of the height of the contact [m].
 _SAME_POINT, _SAME_HEIGHT = 1e-12, 1e-10
 _STEPS = 30
@@ -45,21 +52,40 @@ class Peer:
         The part that carries the lower seat of the spring.
     strut : bool
         Whether a strut guides the knuckle.
+    links : tuple of str
+        Rods with a bush at either end.
     """
 
     arms: Mapping[str, tuple[str, str]]
     seated_on: str
-    strut: bool
+    strut: bool = False
+    links: tuple[str, ...] = ()
+
+    def origin(self, part: str) -> str:
+        """Return the point at which a part's own axes begin, at design."""
+        if part in self.arms:
+            return self.arms[part][0]
+        return f"{part}_inner" if part in self.links else "wheel_center"
 
 
 PEERS = {
     "double_wishbone_car": Peer(
         {f"{arm}_arm": (f"{arm}_ball_joint", f"{arm}_arm") for arm in ("lower", "upper")},
         seated_on="lower_arm",
-        strut=False,
     ),
     "offset_strut_car": Peer(
         {"control_arm": ("ball_joint", "arm")}, seated_on="knuckle", strut=True
+    ),
+    "multi_link_car": Peer(
+        {},
+        seated_on="rear_lower_link",
+        links=(
+            "front_upper_link",
+            "rear_upper_link",
+            "front_lower_link",
+            "rear_lower_link",
+            "tie_rod",
+        ),
     ),
 }
 
@@ -71,7 +97,7 @@ def main() -> None:
         f"| | load | {' | '.join(heads)} |",
         "|---|---|---:|---:|---:|---:|---:|---:|",
     ]
-    worst = dict.fromkeys(QUANTITIES, 0.0)
+    worst, at_small = dict.fromkeys(QUANTITIES, 0.0), dict.fromkeys(QUANTITIES, 0.0)
     for name, peer in PEERS.items():
         model = Model(name)
         for under in ("lateral", "recession"):
@@ -79,18 +105,25 @@ def main() -> None:
                 ours = _ours(model, peer, under, held)
                 theirs = _theirs(model, peer, under, held)
                 for quantity in worst:
-                    scale = np.abs(theirs[quantity]).max()
-                    off = np.abs(ours[quantity] - theirs[quantity]).max() / scale
-                    worst[quantity] = max(worst[quantity], float(off))
+                    off = np.abs(ours[quantity] - theirs[quantity])
+                    off /= np.abs(theirs[quantity]).max()
+                    worst[quantity] = max(worst[quantity], float(off.max()))
+                    small = float(off[AMOUNTS.index(SMALL)]) * AMOUNTS[-1] / SMALL
+                    at_small[quantity] = max(at_small[quantity], small)
                 if held == "height":
                     rows.append(_row(model, under, ours, theirs))
-    told = ", ".join(f"{value:.0e} of {name.replace('_', ' ')}" for name, value in worst.items())
     amounts = ", ".join(f"{amount / 1e3:g}" for amount in AMOUNTS)
     rows += ["", f"Under {amounts} kN, the wheel held by its height or by its vertical force, the"]
-    rows[-1] += f" largest difference over the largest value is {told}."
+    rows[-1] += f" largest difference over the largest value is {_words(worst)}; under {SMALL:g} N,"
+    rows[-1] += f" over the {AMOUNTS[-1] / SMALL:g}th part of it, {_words(at_small)}."
     rows[-1] += f" Exudyn {version('exudyn')}."
     print("\n".join(rows))
     fill_page(PAGE, {"bushes": "\n".join(rows)})
+
+
+def _words(differences: Mapping[str, float]) -> str:
+    parts = (f"{value:.0e} of {name.replace('_', ' ')}" for name, value in differences.items())
+    return ", ".join(parts)
 
 
 def _row(model: Model, under: str, ours: dict[str, Array], theirs: dict[str, Array]) -> str:
@@ -106,16 +139,22 @@ def _row(model: Model, under: str, ours: dict[str, Array], theirs: dict[str, Arr
 
 
 def _bushes(peer: Peer) -> dict[str, dict[str, Any]]:
-    """Return the bushes of the arms."""
+    """Return the bushes of the arms and links."""
+    rates = {
+        f"{bearing}_{end}": rates
+        for _, bearing in peer.arms.values()
+        for end, rates in SOFT.items()
+    }
+    rates |= {f"{link}_inner": SOFT_INNER for link in peer.links}
+    rates |= {f"{link}_outer": 3 * (SOFT_OUTER,) for link in peer.links}
     return {
-        f"{bearing}_{end}": {
+        point: {
             "axis": [1.0, 0.0, 0.0],
             "radial_axis": [0.0, 1.0, 0.0],
             "axial_N_per_mm": along / 1e3,
             "radial_N_per_mm": [across / 1e3, upright / 1e3],
         }
-        for _, bearing in peer.arms.values()
-        for end, (along, across, upright) in SOFT.items()
+        for point, (along, across, upright) in rates.items()
     }
 
 
@@ -169,13 +208,16 @@ class System:
             )
         if self.peer.strut:
             self._guide(system, ground, bodies)
-        inner, outer = self.at["tie_rod_inner"], self.at["tie_rod_outer"]
-        system.CreateDistanceConstraint(
-            itemNumbers=[ground, bodies["knuckle"]],
-            localPosition0=inner,
-            localPosition1=outer - self.at["wheel_center"],
-            distance=float(np.linalg.norm(outer - inner)),
-        )
+        for link in self.peer.links:
+            self._link(system, ground, bodies, link)
+        if "tie_rod" not in self.peer.links:
+            inner, outer = self.at["tie_rod_inner"], self.at["tie_rod_outer"]
+            system.CreateDistanceConstraint(
+                itemNumbers=[ground, bodies["knuckle"]],
+                localPosition0=inner,
+                localPosition1=outer - self.at["wheel_center"],
+                distance=float(np.linalg.norm(outer - inner)),
+            )
         self._spring(system, ground, bodies)
         self._weights(system, bodies)
         for force, place in applied:
@@ -220,24 +262,49 @@ class System:
         )
         system.CreateSphericalJoint(itemNumbers=[ground, bodies["upper_strut"]], position=top)
 
+    def _link(self, system: Any, ground: int, bodies: dict[str, int], link: str) -> None:
+        """Add a rod on springs at both ends, kept from turning about its own line."""
+        inner, outer = self.at[f"{link}_inner"], self.at[f"{link}_outer"]
+        bodies[link] = self._body(system, inner)
+        for items, places, rates in (
+            ((ground, bodies[link]), (inner, np.zeros(3)), SOFT_INNER),
+            (
+                (bodies[link], bodies["knuckle"]),
+                (outer - inner, outer - self.at["wheel_center"]),
+                3 * (SOFT_OUTER,),
+            ),
+        ):
+            system.CreateCartesianSpringDamper(
+                itemNumbers=list(items),
+                localPosition0=places[0],
+                localPosition1=places[1],
+                stiffness=list(rates),
+                damping=[0.0, 0.0, 0.0],
+            )
+        upright = np.array([0.0, 0.0, 1.0])
+        across = np.cross(outer - inner, upright)
+        across /= np.linalg.norm(across)
+        system.CreateGenericJoint(
+            itemNumbers=[ground, bodies[link]],
+            position=inner,
+            rotationMatrixAxes=np.stack([np.cross(upright, across), upright, across], axis=1),
+            constrainedAxes=[0, 0, 0, 1, 0, 0],  # the second axis there, the third one here
+        )
+
     def _spring(self, system: Any, ground: int, bodies: dict[str, int]) -> None:
         on, values = self.peer.seated_on, self.model.parameters
         system.CreateSpringDamper(
             itemNumbers=[ground, bodies[on]],
             localPosition0=self.at["spring_top"],
-            localPosition1=self.at["spring_seat"] - self._origin(on),
+            localPosition1=self.at["spring_seat"] - self.at[self.peer.origin(on)],
             referenceLength=values["spring_free_length"],
             stiffness=values["spring_rate"],
             damping=0.0,
         )
 
-    def _origin(self, part: str) -> Array:
-        """Return where a part's own axes begin, at design."""
-        return self.at[self.peer.arms[part][0] if part in self.peer.arms else "wheel_center"]
-
     def _weights(self, system: Any, bodies: dict[str, int]) -> None:
         values = self.model.parameters
-        for part in (*self.peer.arms, "knuckle", "wheel"):
+        for part in (*self.peer.arms, *self.peer.links, "knuckle", "wheel"):
             body = "knuckle" if part == "wheel" else part
             center = (
                 self.at["wheel_center"]
@@ -248,7 +315,7 @@ class System:
             system.CreateForce(
                 itemNumber=bodies[body],
                 loadVector=[0.0, 0.0, -weight],
-                localPosition=center - self._origin(body),
+                localPosition=center - self.at[self.peer.origin(body)],
             )
 
     # -- the wheel on the road ------------------------------------------------------------------
