@@ -1,12 +1,13 @@
 """Derive the models that come with the project and write them: ``python -m kintrafo.generator``."""
 
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
-from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+from rich.progress import Progress, SpinnerColumn, TaskID, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from ..cli.exits import guarded, standing_streams
@@ -47,6 +48,10 @@ def _write(target: Path, text: str) -> bool:
     return True
 
 
+def _tell(progress: Progress, task: TaskID, title: str, text: str) -> None:
+    progress.update(task, description=f"{title}: {text}")
+
+
 @app.command("generate")
 def generate_all(
     folder: Annotated[Path, typer.Argument(help="Where to write, usually 'generated'.")],
@@ -56,9 +61,11 @@ def generate_all(
     columns = SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn()
     with Progress(*columns, console=console) as progress:
         for model in MODELS:
-            task = progress.add_task(f"deriving {model.name}", total=1)
-            texts |= project_files(generate(model))
-            progress.advance(task)
+            title = f"deriving {model.name}"
+            task = progress.add_task(title, total=1)
+            tell = partial(_tell, progress, task, title)
+            texts |= project_files(generate(model, tell=tell))
+            progress.update(task, description=title, advance=1)
     changed = 0
     for path, text in texts.items():
         target = folder / path

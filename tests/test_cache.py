@@ -43,7 +43,7 @@ def cache(made, tmp_path, monkeypatch):
     forget()
     monkeypatch.setattr(outputs, "generate", lambda _, **__: derived)
     monkeypatch.setattr(
-        Compiler, "build", lambda _, __, library: shutil.copy(target / library.name, library)
+        Compiler, "build", lambda _, __, library, *___: shutil.copy(target / library.name, library)
     )
     shutil.copytree(target, tmp_path / "cache" / target.name)
     yield tmp_path / "cache"
@@ -184,8 +184,9 @@ class TestFullDisk:
             pytest.skip("no /dev/full on this system")
         del cache
 
-        def build(_derived, folder, _compiler, name):
+        def build(_derived, folder, _compiler, name, report):
             assert name
+            assert report
             (folder / "four_bar.c").symlink_to("/dev/full")
             (folder / "four_bar.c").write_text("x" * 100_000)
 

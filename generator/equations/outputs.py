@@ -19,6 +19,7 @@ from ..program.function import Stage
 from ..program.program import Program
 from ..program.together import share_together
 from ..program.vectors import ZERO, Vector
+from ..telling import counted, silent
 from .assumptions import define_assumptions, find_assumptions
 from .declared_outputs import signals_of
 from .design import design_state
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from ..program.conditions import Assumption, Condition
     from ..program.function import Function
     from ..program.steps import Guard
+    from ..telling import Tell
 
 AXES = ("x", "y", "z")
 
@@ -144,7 +146,11 @@ class Derivation:
 
 @uncollected()
 def generate(
-    formulation: Formulation, *, derivatives: bool = True, parameter_derivatives: bool = False
+    formulation: Formulation,
+    *,
+    derivatives: bool = True,
+    parameter_derivatives: bool = False,
+    tell: Tell = silent,
 ) -> Derivation:
     """Derive a model and its functions.
 
@@ -158,9 +164,15 @@ def generate(
         with an explicit method does.
     parameter_derivatives
         Also those by parameters: along a direction, and of weighted sums.
+    tell
+        Called with what is being done, in a few words.
     """
-    derivation = _Builder(formulation, derivatives=derivatives).build()
-    return _with_parameter_derivatives(derivation) if parameter_derivatives else derivation
+    tell("finding the loops and how they close")
+    derivation = _Builder(formulation, derivatives=derivatives, tell=tell).build()
+    if parameter_derivatives:
+        tell("differentiating all functions by the parameters")
+        return _with_parameter_derivatives(derivation)
+    return derivation
 
 
 def _with_parameter_derivatives(derivation: Derivation) -> Derivation:
@@ -207,8 +219,9 @@ def _refuse_free(formulation: Formulation) -> None:
 class _Builder:
     """Collects the functions of one model from one program."""
 
-    def __init__(self, formulation: Formulation, *, derivatives: bool) -> None:
+    def __init__(self, formulation: Formulation, *, derivatives: bool, tell: Tell) -> None:
         self.formulation = formulation
+        self._tell = tell
         self.derivatives = derivatives
         self.mechanism: Mechanism = formulation.mechanism
         _refuse_free(formulation)
@@ -220,10 +233,12 @@ class _Builder:
             derived={sp.Symbol(n): value for n, value in self.mechanism.derived.items()},
         )
         self.program = Program(self.constants)
+        tell("deriving positions, velocities and accelerations")
         self.motion = InMotion.of(self.program, self.plan)
         self.moving = tuple(b.name for b in self.mechanism.moving)
         self.massive = tuple(b for b in self.moving if formulation.has_mass(b))
         self._check_masses()
+        tell(f"deriving the equations of motion of {len(self.massive)} bodies")
         self.dynamics = Dynamics(self.motion)
         self.relative = {part: RelativeCoordinates(part) for part in self.motion.parts}
         self.functions: dict[str, Function] = {}
@@ -248,8 +263,10 @@ class _Builder:
         self._add_dynamics(self.dynamics)
         for variant, joints in self.formulation.held.items():
             names = [joint.name for joint in joints]
+            self._tell(f"deriving the equations of motion with {variant.replace('_', ' ')}")
             held = Dynamics(InMotion.of(Program(self.constants), self.plan, names))
             self._add_right_hand_side(held, variant)
+        self._tell("deriving relative coordinates, poses and Jacobians")
         self._add_relative()
         self._add_poses()
         self._add_signals()
@@ -261,6 +278,7 @@ class _Builder:
             {g.name: g.margin for g in guards},
         )
         self.functions["margins"] = replace(margins, guards=())  # it reports, and does not refuse
+        self._tell(f"finding what {len(self.program.steps):,} steps have in common")
         order = self._share()
         assumed = define_assumptions(self.program, self.assumed)
         prepare = self.constants.function(self.functions.values(), assumed)
@@ -426,7 +444,10 @@ class _Builder:
         symbols = (
             self._state_symbols() if by == "state" else [sp.Symbol(e.name) for e in self._inputs()]
         )
-        columns = {s: program.tangents(s, values, str(s)) for s in symbols}
+        title = f"differentiating {what.removeprefix('of ')} by the {by}"
+        columns = {
+            s: program.tangents(s, values, str(s)) for s in counted(self._tell, title, symbols)
+        }
         entries = {
             f"{label} by {symbol}": column[row]
             for row, label in enumerate(labels)

@@ -6,7 +6,6 @@ from types import ModuleType
 from typing import Annotated
 
 import typer
-from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from .console import console, print_json, problems, say
 from .options import Force, Json
@@ -53,18 +52,21 @@ def command(
     "generator": pip install "kintrafo[generator]".
     """
     from ..systems.compile.build import compile_mechanism
+    from ..systems.compile.on_terminal import on_terminal
 
     started = time.perf_counter()
-    columns = SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn()
-    with Progress(*columns, console=problems, transient=True) as progress:
-        task = progress.add_task("reading the declaration", total=None)
-        module = compile_mechanism(
-            file,
-            name=model,
-            backend="numpy" if numpy else "auto",
-            parameter_derivatives=parameter_derivatives,
-            progress=lambda text: progress.update(task, description=text),
-        )
+    try:
+        with on_terminal("reading the declaration") as progress:
+            module = compile_mechanism(
+                file,
+                name=model,
+                backend="numpy" if numpy else "auto",
+                parameter_derivatives=parameter_derivatives,
+                progress=progress,
+            )
+    except KeyboardInterrupt:
+        problems.print("Stopped: no compiler runs on, and nothing of it is left behind.")
+        raise
     seconds = time.perf_counter() - started
     if to is not None:
         _copy(module, to, force=force, declaration=file)

@@ -7,6 +7,7 @@
 `cache`        where compiled mechanisms are kept, and under which name
 `compiler`     the C compiler of this machine
 `loader`       a folder of the cache as a Python module
+`on_terminal`  what is being done, on the screen
 `shipped`      what was compiled, on its way to another process
 """
 

@@ -1,7 +1,9 @@
 """From a declaration to a compiled module."""
 
+import os
 import warnings
 from collections.abc import Callable
+from contextlib import nullcontext
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Literal
@@ -14,6 +16,7 @@ from .cache import appearing, cache_folder, damage, fingerprint, seal
 from .compiler import Compiler, CompilerError, find_compiler
 from .declaration import model_of, translated_errors
 from .loader import load, refuse_damaged
+from .on_terminal import on_terminal
 
 if TYPE_CHECKING:
     from ...generator import Formulation, Mechanism
@@ -23,6 +26,7 @@ Backend = Literal["auto", "c", "numpy"]
 Report = Callable[[str], None]
 
 _REMEDY = "Install a C compiler (on Debian: apt-get install gcc libc6-dev), or name one in CC"
+_COMPILED_PER_S = 8_000  # operations: of a file by GCC, on the processors that this was written on
 _told = False
 
 
@@ -59,7 +63,9 @@ def compile_mechanism(
         Where compiled mechanisms are kept; by default what the environment variable
         ``KINTRAFO_CACHE`` names, or else the user's cache folder.
     progress : callable, optional
-        Called with what is being done, in a few words.
+        Called with what is being done, in a few words: what of it, how much there is, and, of what
+        takes more than ten seconds, how long it takes. Without it, that is shown on standard error
+        where this is a terminal.
 
     Returns
     -------
@@ -107,23 +113,17 @@ def compile_mechanism(
     if problem and target.exists():
         _tell_of_damage(target, problem)
     if problem:
-        report = progress or (lambda _: None)
-        with appearing(target) as temporary:
-            report("deriving the equations")
+        shown = nullcontext(progress) if progress else on_terminal(f"compile {model.name}")
+        with appearing(target) as temporary, shown as report:
             with translated_errors(model):
-                derived = generate(model, parameter_derivatives=parameter_derivatives)
-            size = _operations_of(derived)
-            report(f"{'compiling' if compiler else 'writing the functions'}: {size:,} operations")
-            build(derived, temporary, compiler, name=target.name)
+                derived = generate(
+                    model,
+                    parameter_derivatives=parameter_derivatives,
+                    tell=lambda text: report(f"{model.name}: {text}"),
+                )
+            build(derived, temporary, compiler, name=target.name, report=report)
         refuse_damaged(target)
     return load(target)
-
-
-def _operations_of(derived: "Derivation") -> int:
-    """Return how many operations are emitted, all functions together."""
-    from ...generator.backends.counting import operations_of
-
-    return sum(operations_of(function).total() for function in derived.emitted.values())
 
 
 def require_generator() -> None:
@@ -172,7 +172,12 @@ def _tell_once() -> None:
 
 
 def build(
-    derived: "Derivation", folder: Path, compiler: Compiler | None, *, name: str | None = None
+    derived: "Derivation",
+    folder: Path,
+    compiler: Compiler | None,
+    *,
+    name: str | None = None,
+    report: Report = lambda _: None,
 ) -> None:
     """Write the package of a derived model into a folder, and compile it.
 
@@ -186,14 +191,45 @@ def build(
         None: functions over NumPy arrays instead of C.
     name : str, optional
         What the folder will be called; by default what it is called now.
+    report : callable, optional
+        Called with what is being done, in a few words.
     """
     from ...generator.backends.files import own_files
 
+    report("putting the operations in order")
+    sizes = _operations_of(derived)
+    report(f"writing {sum(sizes.values()):,} operations")
     library = f"lib{derived.formulation.name}.so" if compiler else None
     texts = own_files(derived, library)
     for file, text in texts.items():
         (folder / file).write_text(text, encoding="utf-8", newline="\n")
     if compiler and library:
         sources = [folder / file for file in texts if file.endswith(".c")]
-        compiler.build(sources, folder / library)
+        size = f"{sum(sizes.values()):,} operations in {len(sources)} files"
+        size += _estimated(list(sizes.values()))
+        report(f"compiling {size}")
+        compiler.build(
+            sources,
+            folder / library,
+            lambda done: report(f"compiling {size}: {done} of {len(sources)} files are done"),
+        )
     seal(folder, name or folder.name)
+
+
+def _operations_of(derived: "Derivation") -> dict[str, int]:
+    """Return how many operations are emitted into each file."""
+    from ...generator.backends.counting import operations_of
+
+    sizes: dict[str, int] = {}
+    for function in derived.emitted.values():
+        sizes[function.part] = sizes.get(function.part, 0) + operations_of(function).total()
+    return sizes
+
+
+def _estimated(sizes: list[int]) -> str:
+    """Say about how long it takes to compile files of so many operations, where that is long."""
+    from ...generator.telling import WORTH_TELLING_S
+
+    in_turn = sum(sizes) / min(len(sizes), os.cpu_count() or 1)
+    seconds = max(*sizes, in_turn) / _COMPILED_PER_S
+    return f", about {seconds:.0f} s" if seconds > WORTH_TELLING_S else ""

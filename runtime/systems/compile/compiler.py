@@ -3,13 +3,16 @@
 import os
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import sysconfig
-from collections.abc import Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+import tempfile
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import IO
 
 from ...core.errors import KintrafoError
 
@@ -26,6 +29,7 @@ FLAGS = (
 )
 _LINK_FLAGS = ("-dynamiclib",) if sys.platform == "darwin" else ("-shared",)
 _SHOWN_LINES = 12
+_LOOKED_AT_S = 0.02  # how often it is looked whether compilers have ended
 
 
 class CompilerError(KintrafoError, RuntimeError):
@@ -47,8 +51,13 @@ class Compiler:
     command: tuple[str, ...]
     version: str
 
-    def build(self, sources: Sequence[Path], library: Path) -> None:
-        """Compile sources, side by side, into a shared library.
+    def build(
+        self, sources: Sequence[Path], library: Path, done: Callable[[int], None] | None = None
+    ) -> None:
+        """Compile sources, as many at a time as there are cores, into a shared library.
+
+        Where that is interrupted, or one of them fails, the other compilers are ended at once, and
+        what they have written is removed.
 
         Parameters
         ----------
@@ -56,6 +65,8 @@ class Compiler:
             C files, in one folder.
         library : Path
             What to write.
+        done : callable, optional
+            Called with how many sources are compiled, whenever another one is.
 
         Raises
         ------
@@ -64,34 +75,102 @@ class Compiler:
         """
         objects = [source.with_suffix(".o") for source in sources]
         parts = [("-c", c, "-o", o) for c, o in zip(sources, objects, strict=True)]
-        with ThreadPoolExecutor() as pool:
-            list(pool.map(self._run, parts))  # a list, so that errors show
-        self._run((*_LINK_FLAGS, *objects, "-o", library, "-lm"))
-        for made in objects:
-            made.unlink()
+        # a compiler that is killed leaves its own temporary files behind
+        with tempfile.TemporaryDirectory(dir=library.parent, prefix=".compiling-") as folder:
+            try:
+                self._run(parts, folder, done or (lambda _: None))
+                self._run([(*_LINK_FLAGS, *objects, "-o", library, "-lm")], folder)
+            except BaseException:
+                library.unlink(missing_ok=True)
+                raise
+            finally:
+                for made in objects:
+                    made.unlink(missing_ok=True)
 
-    def _run(self, arguments: Iterable[str | Path]) -> None:
-        command = [*self.command, *map(str, arguments)]
+    def _run(
+        self,
+        calls: Iterable[Sequence[str | Path]],
+        folder: str,
+        done: Callable[[int], None] = lambda _: None,
+    ) -> None:
+        """Call the compiler with several lists of arguments."""
+        waiting, running, count = list(calls)[::-1], list[_Running](), 0
         try:
-            done = subprocess.run(
+            while waiting or running:
+                while waiting and len(running) < (os.cpu_count() or 1):
+                    running.append(_Running.of([*self.command, *map(str, waiting.pop())], folder))
+                with suppress(subprocess.TimeoutExpired):  # another one may end before
+                    running[0].process.wait(_LOOKED_AT_S)
+                for ended in [one for one in running if one.process.poll() is not None]:
+                    running.remove(ended)
+                    ended.check()
+                    count += 1
+                    done(count)
+        finally:
+            for one in running:
+                one.stop()
+
+
+@dataclass(frozen=True)
+class _Running:
+    """A compiler that was started.
+
+    Attributes
+    ----------
+    command : list of str
+    process : Popen
+        The first of a group of its own, in which what it starts is as well.
+    said : file
+        What it says.
+    """
+
+    command: list[str]
+    process: "subprocess.Popen[str]"
+    said: IO[str]
+
+    @classmethod
+    def of(cls, command: list[str], folder: str) -> "_Running":
+        """Start a compiler that has its temporary files in some folder."""
+        said = tempfile.TemporaryFile("w+", errors="backslashreplace", dir=folder)  # noqa: SIM115 (open as long as it runs)
+        try:
+            process = subprocess.Popen(
                 command,
-                stdout=subprocess.PIPE,
+                stdin=subprocess.DEVNULL,
+                stdout=said,
                 stderr=subprocess.STDOUT,
                 text=True,
-                errors="backslashreplace",
-                check=False,
+                env=os.environ | {"TMPDIR": folder},
+                process_group=0 if os.name == "posix" else None,
             )
         except OSError as error:
+            said.close()
             message = f"{command[0]} cannot be run: {error.strerror}. Name a C compiler in CC."
             raise CompilerError(message) from error
-        if done.returncode != 0:
-            said = "\n".join(done.stdout.splitlines()[:_SHOWN_LINES])
+        return cls(command, process, said)
+
+    def check(self) -> None:
+        """See that it has compiled what it should."""
+        with self.said as file:
+            file.seek(0)
+            lines = file.read().splitlines()
+        if self.process.returncode != 0:
+            said = "\n".join(lines[:_SHOWN_LINES])
             message = (
-                f"the C compiler ended with exit code {done.returncode}:\n"
-                f"  {shlex.join(command)}\n{said}\n"
+                f"the C compiler ended with exit code {self.process.returncode}:\n"
+                f"  {shlex.join(self.command)}\n{said}\n"
                 'Name another compiler in the variable CC, or use backend="numpy".'
             )
             raise CompilerError(message)
+
+    def stop(self) -> None:
+        """End it, with what it has started: what is called gcc waits for what compiles."""
+        with self.said:
+            if os.name == "posix":
+                with suppress(ProcessLookupError):  # it has ended meanwhile
+                    os.killpg(self.process.pid, signal.SIGKILL)
+            else:
+                self.process.kill()
+            self.process.wait()
 
 
 def find_compiler() -> Compiler | None:

@@ -1,0 +1,41 @@
+"""Tells what is being done while something takes long, and how long the rest will take."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+    from typing import TypeVar
+
+    T = TypeVar("T")
+    Tell = Callable[[str], None]
+
+WORTH_TELLING_S = 10.0
+"""What is over sooner needs no word about how long it takes."""
+
+
+def silent(text: str) -> None:
+    """Tell nobody."""
+    del text
+
+
+def counted(tell: Tell, what: str, items: Iterable[T]) -> Iterator[T]:
+    """Yield items one by one and tell which of them it is.
+
+    Where all of them take more than `WORTH_TELLING_S`, as far as those behind say, also how long
+    the rest takes.
+
+    Parameters
+    ----------
+    what
+        What is done to each, in a few words.
+    """
+    items, started = list(items), time.monotonic()
+    for done, item in enumerate(items):
+        passed = time.monotonic() - started
+        left = passed / done * (len(items) - done) if done else 0.0
+        rest = f", {left:.0f} s to go" if passed + left > WORTH_TELLING_S else ""
+        tell(f"{what}: {done + 1} of {len(items)}{rest}")
+        yield item
