@@ -6,6 +6,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
+from ..memory import uncollected
 from .sharing import scheduled
 
 if TYPE_CHECKING:
@@ -43,6 +44,7 @@ def counted(operations: Iterable[Operation]) -> Counter[str]:
     return total
 
 
+@uncollected()
 def operations_of(emitted: Function | Stage) -> Counter[str]:
     """Count the arithmetic operations of one call, exactly as they are written.
 
