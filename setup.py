@@ -106,7 +106,7 @@ class Lanes(Extension):
             name,
             [],
             define_macros=list(macros),
-            include_dirs=[SOURCES.as_posix()],
+            include_dirs=[SOURCES.as_posix(), LANES.as_posix()],
             depends=[*sources, *fixed, *depends],
             optional=True,  # without it, everything but ensembles works
         )
@@ -145,7 +145,7 @@ def _is_gcc(program: str) -> bool:
 
 
 def lanes_extensions(wrappers: Iterable[Path]) -> Iterator[Lanes]:
-    """Yield the solver in lanes, and the models that have no iteration."""
+    """Yield the solver in lanes, and the models."""
     if not WIDTHS:
         return
     yield Lanes(
@@ -159,17 +159,18 @@ def lanes_extensions(wrappers: Iterable[Path]) -> Iterator[Lanes]:
         manifest = json.loads((GENERATED / f"{name}.json").read_text(encoding="utf-8"))
         functions = ["prepare", "design_state", "rhs", "signals", "margins"]
         functions += [f"rhs_{variant}" for variant in manifest["held_variants"]]
-        if not any("iterates" in function for function in manifest["functions"].values()):
-            yield Lanes(
-                f"kintrafo.generated._{name}_lanes",
-                [(LANES / "model.c").as_posix()],
-                renamed=[f"{name}_{function}" for function in functions],
-                macros=[("MODEL", f'"{name}.c"')],
-                depends=[
-                    *((SOURCES / f"{name}{end}").as_posix() for end in (".c", ".h")),
-                    *((LANES / header).as_posix() for header in ("elementary.h", "vectors.h")),
-                ],
-            )
+        iterates = any("iterates" in function for function in manifest["functions"].values())
+        yield Lanes(
+            f"kintrafo.generated._{name}_lanes",
+            [(LANES / "model.c").as_posix()],
+            renamed=[f"{name}_{function}" for function in functions],
+            macros=[("MODEL", f'"{name}.c"')],
+            depends=[
+                *((SOURCES / f"{name}{end}").as_posix() for end in (".c", ".h")),
+                *((LANES / f"{header}.h").as_posix() for header in ("elementary", "vectors")),
+                *([(LANES / "follow.h").as_posix()] if iterates else []),
+            ],
+        )
 
 
 def _libraries(folders: list[Path]) -> tuple[list[Path], list[str], list[str]]:

@@ -23,7 +23,7 @@ STRAIGHT = {
     for name, module in EMITTED.items()
     if not any("iterates" in told for told in module.equations.manifest["functions"].values())
 }
-"""Those whose loops are all closed in closed form: straight lines, that lanes can follow, too."""
+"""Those whose loops are all closed in closed form: straight lines."""
 
 _LAYOUT = re.compile(r"/\*.*?\*/|^\s*#[^\n]*$", re.DOTALL | re.MULTILINE)
 _TOKEN = re.compile(

@@ -13,7 +13,7 @@ import lanes
 import numpy as np
 import pytest
 import xarray as xr
-from c_text import EMITTED, STRAIGHT
+from c_text import EMITTED
 from kintrafo import (
     Axle,
     AxleModel,
@@ -61,7 +61,7 @@ def alone(car: Model, cars: dict[str, np.ndarray], place: int, start: Any, **opt
 # -- the motion ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", STRAIGHT)
+@pytest.mark.parametrize("name", EMITTED)
 def test_every_model_against_dop853(name: str) -> None:
     """From near the design position, for so long that it moves but meets no dead point."""
     model = System(EMITTED[name])
@@ -703,9 +703,32 @@ def test_axles_in_lanes_do_what_they_do_alone() -> None:
         np.testing.assert_allclose(found["bar_spring_moment"][place], moment, atol=1e-5 * scale)
 
 
-def test_what_iterates_is_refused() -> None:
-    with pytest.raises(InputError, match="closed by iteration"):
-        ensemble(Model("multi_link_car"), None, (0.0, 1.0))
+def test_what_iterates_beside_what_does_not_close() -> None:
+    """Five links: each as alone, whatever the width; one in the middle starts out of reach."""
+    model, name, count = Model("multi_link_car"), "front_upper_link_inner_y", 9
+    cars = {
+        name: model.parameters[name] + 1e-3 * np.arange(count),
+        "damper_rate": model.parameters["damper_rate"] * (1.0 + 0.1 * np.arange(count)),
+    }
+    start = np.tile(model.design_state, (count, 1))
+    start[4, 0] += 2.0  # the lever of the height sensor, where no links reach
+    options = {"signals": ["camber"], "t_eval": [0.1, 0.2], "rtol": 1e-9, "atol": 1e-10}
+    first, *others = (
+        ensemble(model, cars, (0.0, 0.2), start, lanes=width, **options)
+        for width in library.widths()
+    )
+    for other in others:
+        same(other, first)
+    assert first["success"].values.tolist() == [place != 4 for place in range(count)]
+    assert "have no hold" in first["reason"].values[4]
+    for place in (0, 8):
+        own = {key: float(values[place]) for key, values in cars.items()}
+        alone = System(model.equations, model.parameters | own)
+        exact = simulate(alone, (0.0, 0.2), start[0], method="DOP853", t_eval=[0.1, 0.2],
+                         rtol=1e-10, atol=1e-11)  # fmt: skip
+        # the tolerance of either
+        np.testing.assert_allclose(first["camber"].values[place], exact.signals["camber"],
+                                   atol=1e-7)  # fmt: skip
 
 
 def test_without_a_compiler_own_mechanisms_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,7 +8,7 @@ import lanes
 import mpmath
 import numpy as np
 import pytest
-from c_text import FOLDER, STRAIGHT
+from c_text import EMITTED, FOLDER
 from kintrafo.simulation.lanes.library import widths
 
 pytestmark = [
@@ -126,14 +126,14 @@ def some_parameters(model, rng: np.random.Generator, width: int) -> np.ndarray:
     return defaults[:, None] * (1.0 + spread * rng.standard_normal((defaults.size, width)))
 
 
-@pytest.mark.parametrize("name", STRAIGHT)
+@pytest.mark.parametrize("name", EMITTED)
 def test_the_same_bits_as_one_by_one(
     drivers: dict[int, ctypes.CDLL], tmp_path: Path, name: str
 ) -> None:
     """Every function of a simulation, also of states that are refused, and of NaN."""
     pair = Both(name, tmp_path, drivers)
     for width in widths():
-        compare(pair, STRAIGHT[name], np.random.default_rng(width), width)
+        compare(pair, EMITTED[name], np.random.default_rng(width), width)
 
 
 def compare(pair: Both, model, rng: np.random.Generator, width: int) -> None:

@@ -17,6 +17,7 @@ from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.simulation import forwards
 from kintrafo.simulation.lanes import directions
 from kintrafo.simulation.lanes.library import widths
+from own_loops import STEPHENSON
 from scipy.integrate import solve_ivp
 
 CAR = kintrafo.Model("reference_car")
@@ -126,6 +127,18 @@ def test_in_lanes_as_in_numpy(system: kintrafo.System, monkeypatch: pytest.Monke
         )
     assert found[0].values["tyre_force"].min() <= 0.0
     same(*found, rounding=1e-11)  # of some hundred steps
+
+
+@needs_lanes
+def test_what_iterates_in_lanes_as_in_numpy(monkeypatch: pytest.MonkeyPatch) -> None:
+    system = kintrafo.System(kintrafo.compile(STEPHENSON, parameter_derivatives=True))
+    masses = {name: 0.1 for name in system.parameters if name.endswith("_mass")}
+    found = []
+    for width in (None, widths()[-1]):
+        in_lanes(monkeypatch, width)
+        by = {"heavier": masses, "turned": {system.state_names[0]: 1.0}}
+        found.append(kintrafo.motion_sensitivity(system, (0.0, 0.1), system.design_state, by))
+    same(*found, rounding=1e-11)
 
 
 @pytest.fixture(scope="module")

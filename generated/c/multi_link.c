@@ -116,6 +116,9 @@ struct loops {
                  const double *held, double *out);
 };
 
+#ifdef KINTRAFO_LANES
+#include "follow.h" /* in all lanes at a time */
+#else
 static double square(const double *values, int count)
 {
     double sum = 0.0;
@@ -201,10 +204,10 @@ static int follow(const struct loops *loops, const double *given, const double *
 
 /*
  * The same, but for whole turns of an angle: where a turn alone leads back to the design position,
- * they are left out.
+ * they are left out. Returns 0, or 1 where the loops do not arrive.
  */
-static int follow_turns(const struct loops *loops, const double *given, const double *start,
-                        double *end, const double *unit, double *found)
+static double follow_turns(const struct loops *loops, const double *given, const double *start,
+                           double *end, const double *unit, double *found)
 {
     for (int c = 0; c < loops->driven; ++c) {
         const double turns = trunc((end[c] - start[c]) / FULL_TURN);
@@ -218,8 +221,9 @@ static int follow_turns(const struct loops *loops, const double *given, const do
             }
         }
     }
-    return follow(loops, given, start, end, unit, found);
+    return follow(loops, given, start, end, unit, found) ? 0.0 : 1.0;
 }
+#endif
 
 static void pose_of_knuckle_once(const double *given, const double *now, const double *from,
                                  const double *step, const double *held, double *out)
@@ -936,8 +940,7 @@ NO_EFFECT static struct pose_of_knuckle pose_of_knuckle(double design_sensor_rea
     const double unit[] = {sensor_angle_now_unit, rack_position_now_unit};
     double end[] = {sensor_angle_now_end, rack_position_now_end};
     struct pose_of_knuckle found;
-    const int arrived = follow_turns(&loops, given, start, end, unit, found.at);
-    found.at[43] = arrived ? 0.0 : 1.0;
+    found.at[43] = follow_turns(&loops, given, start, end, unit, found.at);
     return found;
 }
 
@@ -2681,7 +2684,8 @@ INLINED status_word compute(const enum multi_link_function wanted,
         c->rear_lower_link_scale, c->tie_rod_length_squared, c->tie_rod_scale, c->constant_1,
         c->constant_2, c->constant_3, c->constant_4, c->constant_5, c->constant_6, c->constant_7,
         c->constant_8, c->constant_9, c->constant_10, c->constant_11, c->constant_12,
-        c->sensor_hinge_angle_design, sensor_angle, 1.0, 0.0, rack_position, c->knuckle_size);
+        c->sensor_hinge_angle_design, sensor_angle, number(1.0), number(0.0), rack_position,
+        c->knuckle_size);
     const double
         knuckle_found_turn_x = knuckle_found.at[0],
         knuckle_found_turn_y = knuckle_found.at[1],

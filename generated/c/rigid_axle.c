@@ -116,6 +116,9 @@ struct loops {
                  const double *held, double *out);
 };
 
+#ifdef KINTRAFO_LANES
+#include "follow.h" /* in all lanes at a time */
+#else
 static double square(const double *values, int count)
 {
     double sum = 0.0;
@@ -201,10 +204,10 @@ static int follow(const struct loops *loops, const double *given, const double *
 
 /*
  * The same, but for whole turns of an angle: where a turn alone leads back to the design position,
- * they are left out.
+ * they are left out. Returns 0, or 1 where the loops do not arrive.
  */
-static int follow_turns(const struct loops *loops, const double *given, const double *start,
-                        double *end, const double *unit, double *found)
+static double follow_turns(const struct loops *loops, const double *given, const double *start,
+                           double *end, const double *unit, double *found)
 {
     for (int c = 0; c < loops->driven; ++c) {
         const double turns = trunc((end[c] - start[c]) / FULL_TURN);
@@ -218,8 +221,9 @@ static int follow_turns(const struct loops *loops, const double *given, const do
             }
         }
     }
-    return follow(loops, given, start, end, unit, found);
+    return follow(loops, given, start, end, unit, found) ? 0.0 : 1.0;
 }
+#endif
 
 static void loops_through_sway_frame_once(const double *given, const double *now,
                                           const double *from, const double *step,
@@ -587,8 +591,7 @@ NO_EFFECT static struct loops_through_sway_frame loops_through_sway_frame(double
     const double unit[] = {heave_now_unit, roll_now_unit};
     double end[] = {heave_now_end, roll_now_end};
     struct loops_through_sway_frame found;
-    const int arrived = follow_turns(&loops, given, start, end, unit, found.at);
-    found.at[21] = arrived ? 0.0 : 1.0;
+    found.at[21] = follow_turns(&loops, given, start, end, unit, found.at);
     return found;
 }
 
@@ -1456,8 +1459,8 @@ INLINED status_word compute(const enum rigid_axle_function wanted,
         c->rod_4_length_squared, c->constant_1, c->constant_2, c->constant_3, c->constant_4,
         c->constant_5, c->constant_6, c->constant_7, c->constant_8, c->constant_9, c->constant_10,
         c->constant_11, c->constant_12, c->constant_13, c->constant_14, c->constant_15,
-        c->constant_16, c->constant_17, c->constant_18, c->constant_19, c->constant_20, 0.0, heave,
-        c->sway_frame_size, 0.0, roll, 1.0);
+        c->constant_16, c->constant_17, c->constant_18, c->constant_19, c->constant_20, number(0.0),
+        heave, c->sway_frame_size, number(0.0), roll, number(1.0));
     const double
         sway_frame_loops_sway_guide_coordinate = sway_frame_loops.at[0],
         sway_frame_loops_shift_guide_coordinate = sway_frame_loops.at[1],

@@ -30,11 +30,14 @@ class Dialect:
         By class of SymPy, with a brace for each argument.
     root, component
         The square root, and one of several results.
+    argument
+        A number that a block which iterates is given.
     """
 
     functions: Mapping[type, str]
     root: str
     component: str
+    argument: str = "{}"
 
 
 def _named(symbol: sp.Symbol) -> str:
@@ -129,7 +132,11 @@ class _Writer:
     def _call(self, operation: Operation, arguments: list[str]) -> str:
         kind, of = operation.kind, operation.of
         if kind == "iterate":
-            return f"{of}({', '.join(arguments)})"
+            spelled = (
+                self.dialect.argument.format(text) if given.kind == "number" else text
+                for given, text in zip(operation.operands, arguments, strict=True)
+            )
+            return f"{of}({', '.join(spelled)})"
         if kind == "component":
             return self.dialect.component.format(*arguments, of)
         if kind == "root":

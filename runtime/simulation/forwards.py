@@ -102,7 +102,7 @@ def motion_sensitivity(
     Directions are followed in the lanes of vectors, where the equations can be had so. They are
     compiled for that when they are first needed, which takes some seconds, and kept as they
     themselves are. Each has the same bits whatever others there are. Where there is no compiler,
-    or equations iterate, NumPy does the same but for rounding, slower.
+    NumPy does the same but for rounding, slower.
 
     Examples
     --------

@@ -9,7 +9,7 @@ from ..sharing import scheduled
 from ..text import written
 from ..words import FORMULA
 from .common import WIDTH, unbroken
-from .statements import printed
+from .statements import in_all_lanes, printed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -46,7 +46,7 @@ def once(block: Block) -> str:
     results = written(block.once, FORMULA)[1]
     lines += [*printed(scheduled(block.once).steps, {}), ""]
     for i, (label, result) in enumerate(zip(block.once.labels, results, strict=True)):
-        text = f"    out[{i}] = {result};"
+        text = f"    out[{i}] = {in_all_lanes(result)};"
         lines.append(f"{text:<70} /* {label} */")
     return "\n".join([*lines, "}"])
 
@@ -65,6 +65,7 @@ def call_of(block: Block) -> str:
 
     count = f"{len(block.unknowns)}, {len(block.elements)}, {len(block.driven)}"
     starts, ends, units = ([values[k] for values in along] for k in range(3))
+    call = "follow_turns(&loops, given, start, end, unit, found.at)"
     lines = [
         *textwrap.wrap(f"/* Finds {block.doc}. */", WIDTH, subsequent_indent="   "),
         f"struct {block.name} {{",
@@ -80,8 +81,7 @@ def call_of(block: Block) -> str:
         *array("const double", "unit", units),
         *array("double", "end", ends),
         f"    struct {block.name} found;",
-        "    const int arrived = follow_turns(&loops, given, start, end, unit, found.at);",
-        f"    found.at[{len(block.results) - 1}] = arrived ? 0.0 : 1.0;",
+        f"    found.at[{len(block.results) - 1}] = {call};",
         "    return found;",
         "}",
     ]

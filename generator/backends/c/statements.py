@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import string
+from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,11 @@ if TYPE_CHECKING:
 
     from ..schedule import Assignment
 
+_IN_ALL_LANES = "number({})"
+
+STATEMENT = replace(FORMULA, argument=_IN_ALL_LANES)
+"""As C writes a step."""
+
 _LETTERS = frozenset(string.ascii_letters) - {"e"}
 """What a value has that is no number alone."""
 
@@ -22,7 +28,7 @@ _LETTERS = frozenset(string.ascii_letters) - {"e"}
 def printed(steps: Sequence[Assignment], names: Mapping[str, str]) -> list[str]:
     """Return assignments, with the parts of the derivation in between."""
     lines: list[str] = []
-    for section, group in groupby(written_steps(steps, FORMULA, names), key=lambda s: s.section):
+    for section, group in groupby(written_steps(steps, STATEMENT, names), key=_section):
         lines += ["", f"    /* {section} */"]
         for kind, run in groupby(group, key=_kind):
             texts = [f"{step.name} = {in_all_lanes(step.text)}" for step in run]
@@ -40,7 +46,7 @@ def declared(assignments: Sequence[str]) -> list[str]:
 
 def in_all_lanes(text: str) -> str:
     """Write a value; one that is a number has to be told that it may stand for a vector."""
-    return text if set(text) & _LETTERS else f"number({text})"
+    return text if set(text) & _LETTERS else _IN_ALL_LANES.format(text)
 
 
 def _each(kind: str, assignments: Sequence[str]) -> list[str]:
@@ -52,6 +58,10 @@ def _each(kind: str, assignments: Sequence[str]) -> list[str]:
 def wrapped(text: str, indent: int) -> list[str]:
     """Break a statement into lines."""
     return unbroken(text, initial_indent=" " * indent, subsequent_indent=" " * (indent + 4))
+
+
+def _section(step: Written) -> str:
+    return step.section
 
 
 def _kind(step: Written) -> str:

@@ -60,12 +60,6 @@ def functions(equations: ModuleType, width: int, variant: str) -> Mapping[str, i
             "with one of them, or call simulate for each."
         )
         raise InputError([problem], "ensemble")
-    if equations.equations.iterates:
-        problem = (
-            f"the equations of {name} are closed by iteration, which many systems at once in lanes "
-            "cannot do. Call simulate for each."
-        )
-        raise InputError([problem], "ensemble")
     library, end = _of(equations, width)
     names = {key: key for key in ("prepare", "design_state", "signals", "margins")}
     names["rhs"] = f"rhs{variant}"
@@ -85,10 +79,10 @@ def tangents(equations: ModuleType, width: int) -> Mapping[str, int] | None:
     Returns
     -------
     mapping or None
-        ``rhs_tangent``, and ``signals_tangent``, zero where there are no signals. Nothing where the
-        equations cannot be had in lanes: they iterate, or nothing compiles them.
+        ``rhs_tangent``, and ``signals_tangent``, zero where there are no signals. Nothing where
+        nothing compiles them.
     """
-    if equations.equations.iterates or not is_own(equations):
+    if not is_own(equations):
         return None
     try:
         library = _loaded(str(library_of(equations, width, TANGENTS)))

@@ -90,7 +90,6 @@ def sweep(
         if not given.refused:
             axes = _axes(given, suspension, grid)
     cars = _Cars(suspension, axes, scenario)
-    _refuse_iteration(cars.model)
     for car in range(cars.count):
         cars.prepare(car)
         if progress is not None:
@@ -140,12 +139,6 @@ def _axes(given: Arguments, suspension: Suspension, grid: Mapping[Any, Any]) -> 
     if count > _MOST_CARS:
         given.refuse(f"values: they make {count:g} combinations, at most {_MOST_CARS:g} are taken.")
     return axes
-
-
-def _refuse_iteration(model: Model) -> None:
-    """Say before anything is simulated that cars whose loops are iterated do not go together."""
-    if model.equations.equations.iterates:
-        raise InputError([_ITERATED.format(title=model.suspension.TITLE)], "sweep")
 
 
 class _Cars:
