@@ -71,34 +71,47 @@ def of_rubber(tyre: d.LinearTyre) -> d.LinearTyre:
     )
 
 
+_RADIUS = d.Length("tyre_radius", 0.3, "radius of the wheel, at whose lowest point it loads")
+
+
 def with_wheel_loads(corner: d.Formulation) -> d.Formulation:
-    """Return the equations of a suspension with what acts on its wheel as inputs.
+    """Return the equations of a suspension, or a rigid axle, with what acts on wheels as inputs.
 
     Parameters
     ----------
     corner
-        Those of one side, whose wheel turns on its carrier by a driven hinge.
+        Those of one side, or of both wheels of a rigid axle; a wheel turns on its carrier by a
+        driven hinge. Of two wheels the inputs begin as the hinge does: ``left_``, ``right_``.
     """
-    (tyre,) = (force for force in corner.mechanism.forces if isinstance(force, d.LinearTyre))
-    (bearing,) = (joint for joint in corner.driven if isinstance(joint.second, d.Rotor))
-    assert isinstance(bearing, d.Revolute)
-    loads = d.WheelLoads(
-        wheel=tyre.wheel,
-        bearing=bearing,
-        radius=d.Length("tyre_radius", 0.3, "radius of the wheel, at whose lowest point it loads"),
-        contact=_components("contact_force", "N", "force of the road on the wheel"),
-        moment=_components("wheel_moment", "N m", "moment on the wheel"),
-        center=_components("center_force", "N", "force on the wheel at its centre"),
-        shaft=_torque("shaft_torque", "from the chassis, by a drive shaft or an inboard brake"),
-        hub=_torque("hub_torque", "from its carrier, by a brake or a motor there"),
-    )
-    mechanism = replace(corner.mechanism, forces=(*corner.mechanism.forces, loads))
+    tyres = [force for force in corner.mechanism.forces if isinstance(force, d.LinearTyre)]
+    loads = []
+    for bearing in (joint for joint in corner.driven if isinstance(joint.second, d.Rotor)):
+        assert isinstance(bearing, d.Revolute)
+        (wheel,) = (tyre.wheel for tyre in tyres if tyre.wheel.spin == bearing.axis.towards)
+        prefix = f"{bearing.name.partition('_')[0]}_" if len(tyres) > 1 else ""
+        loads.append(_loads(wheel, bearing, prefix))
+    mechanism = replace(corner.mechanism, forces=(*corner.mechanism.forces, *loads))
     return replace(
         corner,
         name=f"{corner.name}_wheel_loads",
         title=f"{corner.title}; loads on the wheel as inputs",
         mechanism=mechanism,
         cites={},
+    )
+
+
+def _loads(wheel: d.Wheel, bearing: d.Revolute, prefix: str) -> d.WheelLoads:
+    """Return what acts on a wheel, its inputs after a prefix."""
+    by_shaft = "from the chassis, by a drive shaft or an inboard brake"
+    return d.WheelLoads(
+        wheel=wheel,
+        bearing=bearing,
+        radius=_RADIUS,
+        contact=_components(f"{prefix}contact_force", "N", "force of the road on the wheel"),
+        moment=_components(f"{prefix}wheel_moment", "N m", "moment on the wheel"),
+        center=_components(f"{prefix}center_force", "N", "force on the wheel at its centre"),
+        shaft=_torque(f"{prefix}shaft_torque", by_shaft),
+        hub=_torque(f"{prefix}hub_torque", "from its carrier, by a brake or a motor there"),
     )
 
 

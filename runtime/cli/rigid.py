@@ -154,7 +154,7 @@ def compared(files: list[str], over: str | None) -> "Dataset":
     return study.compare(found, over=motion)
 
 
-def ride(file: str, wheels: str, refused: Mapping[str, Any]) -> Ride:
+def ride(file: str, wheels: str, refused: Mapping[str, Any], *, wheel_loads: bool) -> Ride:
     """Return a rigid axle to be simulated over a road under one wheel or both."""
     from ..study import rigid as study
     from ..study.axles.ride import by_side
@@ -163,7 +163,7 @@ def ride(file: str, wheels: str, refused: Mapping[str, Any]) -> Ride:
     _refuse(refused)
     of_sides = [f"{side}_{stem}" for stem in _OF_SIDES for side in ("left", "right")]
     played = partial(study.run, wheels=wheels)
-    model = RigidAxleModel(file)
+    model = RigidAxleModel(file, wheel_loads=wheel_loads)
     curves = (*of_sides, *_OF_AXLE)
     return Ride(model, played, curves, study.loads_along, by_side, wheels=("left_", "right_"))
 

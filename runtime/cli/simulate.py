@@ -141,7 +141,7 @@ def command(
     on_wheels = not UNITS.keys().isdisjoint(scenario.inputs)
     of_one = {"--height": height}
     if rigid.is_rigid_axle(file):
-        ride = rigid.ride(file, wheels or "both", of_one)
+        ride = rigid.ride(file, wheels or "both", of_one, wheel_loads=on_wheels)
     else:
         ride = _ride(file, wheels, of_one, wheel_loads=on_wheels)
         if "rack_position" in scenario.inputs:

@@ -43,6 +43,7 @@ from .starter import DEFAULT, NOT_A_RIGID_AXLE, RIGID_AXLE, RIGID_AXLES, package
 from .strokes import Strokes
 from .structure import Structure
 from .toml_writer import write_toml
+from .wheel_loads import needed_radius
 
 # The top-level key that says which suspension a file describes.
 KIND = "suspension"
@@ -324,14 +325,7 @@ class Suspension(Section):
         InputError
             If the radius of the wheel is not known.
         """
-        radius = self.tyre_radius()
-        if radius is None:
-            problem = (
-                "[tyre] radius_mm is missing, and the height of the wheel centre does not say it: "
-                "loads at the lowest point of the wheel need it. Enter it."
-            )
-            raise InputError([problem], "wheel_loads")
-        return {"tyre_radius": radius}
+        return {"tyre_radius": needed_radius(self.tyre_radius())}
 
     def mirrored(self) -> Self:
         """Return the same suspension on the other side of the vehicle.

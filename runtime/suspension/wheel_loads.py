@@ -2,6 +2,7 @@
 
 from types import ModuleType
 
+from ..core.errors import InputError
 from ..systems.compile.build import compile_mechanism, require_generator
 
 _VECTORS = {"contact_force": "N", "center_force": "N", "wheel_moment": "N m"}
@@ -12,6 +13,23 @@ UNITS = {
     "hub_torque": "N m",
 }
 """The unit of each of these inputs, by name."""
+
+
+def needed_radius(radius: float | None) -> float:
+    """Return the radius of a wheel, which loads at its lowest point need [m].
+
+    Raises
+    ------
+    InputError
+        If it is not known.
+    """
+    if radius is None:
+        problem = (
+            "[tyre] radius_mm is missing, and the height of the wheel centre does not say it: "
+            "loads at the lowest point of the wheel need it. Enter it."
+        )
+        raise InputError([problem], "wheel_loads")
+    return radius
 
 
 def with_wheel_loads(equations: ModuleType) -> ModuleType:

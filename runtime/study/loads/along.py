@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...simulation.result import Simulation
+from ...suspension.corner import RoadWheel
 from ...suspension.model import Model
 from ...systems.inputs import rates_of
 from ...systems.system import System
 from ..recording import TIME
 from .dataset import Between, alone, dataset_of, joined
 from .inertia import Twists, tensor_of_part, tensor_of_wheel
-from .poses import CENTER, CONTACT, Poses
+from .poses import CENTER, CONTACT, Poses, touching, wheel_axes
 from .reactions import Equations, Load, known
 
 Array = NDArray[np.float64]
@@ -164,17 +165,28 @@ def _on_the_wheel(poses: Poses) -> list[Load]:
     if not model.wheel_loads:
         return []
     given = dict(zip(model.input_names, poses.inputs.T, strict=True))
-    axes, nothing = poses.wheel_axes(), np.zeros(3)
+    return of_inputs(given, poses.wheels["wheel"])
+
+
+def of_inputs(given: Mapping[str, Array], wheel: RoadWheel) -> list[Load]:
+    """Return what inputs exert on a wheel.
+
+    Parameters
+    ----------
+    given : mapping of str to ndarray
+        The inputs of `kintrafo.suspension.wheel_loads` by their names, (n,).
+    wheel : RoadWheel
+    """
+    axes, nothing = wheel_axes(wheel), np.zeros(3)
     contact, center, moment = (
         np.einsum("an,nai->ni", [given[f"{name}_{axis}"] for axis in "xyz"], axes)
         for name in ("contact_force", "center_force", "wheel_moment")
     )
-    left = model.suspension.vehicle.sign * poses.axis
-    shaft = given["shaft_torque"][:, None] * left
+    shaft = given["shaft_torque"][:, None] * (wheel.vehicle.side * wheel.axis)
     return [
-        Load("wheel", CONTACT, "road", contact, nothing, poses.points[CONTACT]),
-        Load("wheel", CENTER, "input", center, moment, poses.points[CENTER]),
-        Load("wheel", CENTER, "shaft", nothing, shaft, poses.points[CENTER]),
+        Load("wheel", CONTACT, "road", contact, nothing, touching(wheel)),
+        Load("wheel", CENTER, "input", center, moment, wheel.center),
+        Load("wheel", CENTER, "shaft", nothing, shaft, wheel.center),
     ]
 
 

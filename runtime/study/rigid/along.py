@@ -10,7 +10,9 @@ from ...core.arguments import Arguments
 from ...simulation.result import Simulation
 from ...suspension.rigid.model import RigidAxleModel
 from ...suspension.rigid.structure import BEAM
-from ..loads.along import is_motion_of, over_time
+from ...suspension.wheel_loads import UNITS
+from ..loads.along import is_motion_of, of_inputs, over_time
+from ..loads.dataset import of_side
 from ..loads.inertia import Twists, tensor_of_part, tensor_of_wheel
 from ..loads.poses import CENTER
 from ..loads.reactions import Load
@@ -67,7 +69,7 @@ def loads_along(model: RigidAxleModel, result: Simulation) -> xr.Dataset:
 def _in_motion(model: RigidAxleModel, states: Array, inputs: Array) -> xr.Dataset:
     """Return the loads in some states, of shape (n, states), as over time."""
     parts = Parts.of(model, states, inputs)
-    acting = [*parts.acting(), *_road(parts), *_inertia(parts)]
+    acting = [*parts.acting(), *_road(parts), *_on_the_wheels(parts), *_inertia(parts)]
     balance = Balance(parts, acting)
     balance.refuse_dead_points()
     return dataset_of_parts(TIME, balance, [*balance.carried(), *acting], balance.missing)
@@ -86,6 +88,20 @@ def _road(parts: Parts) -> list[Load]:
         )
         for side in SIDES
     ]
+
+
+def _on_the_wheels(parts: Parts) -> list[Load]:
+    """Return what the inputs of a model with loads on its wheels say."""
+    model, found = parts.model, []
+    if not model.wheel_loads:
+        return []
+    given = dict(zip(model.input_names, parts.inputs.T, strict=True))
+    for side in SIDES:
+        own = {name: given[f"{side}_{name}"] for name in UNITS}
+        found += [
+            of_side(load, f"_{side}") for load in of_inputs(own, parts.wheels[f"wheel_{side}"])
+        ]
+    return found
 
 
 def _inertia(parts: Parts) -> list[Load]:

@@ -25,8 +25,8 @@ def run(
     ----------
     model : RigidAxleModel
     scenario : Scenario
-        Its ``road_height`` is that of the wheels that are named; the others have a level road.
-        Inputs of the axle may be given by their own names as well.
+        Its ``road_height``, and loads on a wheel, are those of the wheels that are named; the
+        others have a level road. Inputs of the axle may be given by their own names as well.
     wheels : {'both', 'left', 'right'}, optional
     **options : Any
         Of `kintrafo.simulate`: ``method``, ``rtol``, ``atol``, ...
@@ -54,10 +54,10 @@ def run(
             if "rack_position" in scenario.inputs:
                 given.refuse("rack_position: a rigid axle has no rack. Leave it out.")
             loads = [name for name in scenario.inputs if name.endswith(tuple(UNITS))]
-            if loads:
+            if loads and not model.wheel_loads:
                 given.refuse(
-                    f"{', '.join(loads)}: the equations of a rigid axle have no loads on the "
-                    "wheels besides those of the tyres. Leave them out."
+                    f"{', '.join(loads)}: this model has no loads on the wheels besides those of "
+                    "the tyres. Make it with wheel_loads=True."
                 )
     inputs = of_the_axle(scenario.inputs, WHEELS[wheels])
     times = scenario.times()
@@ -68,7 +68,11 @@ def run(
         model,
         road_height={side: float(first[f"{side}_road_height"]) for side in SIDES},
         spin_rate=scenario.spin_rate,
-        inputs={n: float(v) for n, v in first.items() if n.endswith("_actuator")},
+        inputs={
+            name: float(value)
+            for name, value in first.items()
+            if name.endswith("_actuator") or (name in inputs and name.endswith(tuple(UNITS)))
+        },
     )
     events = [
         f"{side}_axle_wheel_{what}_ground" for side in SIDES for what in ("leaves", "touches")

@@ -28,6 +28,7 @@ from ..input.vehicle import Gravity, Tyre, Wheel
 from ..places import put
 from ..starter import RIGID_AXLE, RIGID_AXLES
 from ..structure import Structure
+from ..wheel_loads import needed_radius
 from .file import (
     AxleDamper,
     AxleDrive,
@@ -261,6 +262,16 @@ class RigidAxle(Section):
             return in_metres(self.tyre.radius_mm, "mm")
         height = float(self.center[2])
         return height if height >= _SMALLEST_WHEEL_RADIUS else None
+
+    def wheel_load_parameters(self) -> dict[str, float]:
+        """Return what equations need besides that have the loads on the wheels as inputs [m].
+
+        Raises
+        ------
+        InputError
+            If the radius of the wheels is not known.
+        """
+        return {"tyre_radius": needed_radius(self.tyre_radius())}
 
     def structure(self) -> Structure:
         """Return what holds its parts together."""

@@ -1,6 +1,7 @@
 """The equations of motion of a rigid axle, and the positions that it takes."""
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ from ..axle.axle import LEFT, RIGHT
 from ..corner import Array
 from ..reach import PositionError, refuse_beyond
 from ..swing import GOAL, Seen, march
+from ..wheel_loads import with_wheel_loads
 from .axle import SIDES, RigidAxle
 
 HEAVE, ROLL = "heave", "roll"
@@ -41,6 +43,9 @@ class RigidAxleModel(System):
     ----------
     axle : RigidAxle, str or Path
         The data, or the name of a packaged data set or path of a TOML file.
+    wheel_loads : bool, optional
+        Whether what acts on the wheels are inputs, as in `Model`, after ``right_`` and ``left_``.
+        These equations are derived and compiled when they are first needed.
 
     Attributes
     ----------
@@ -59,12 +64,17 @@ class RigidAxleModel(System):
 
     NEEDED = 'a kintrafo.RigidAxleModel, such as RigidAxleModel("rigid_axle"), is needed'
 
-    def __init__(self, axle: RigidAxle | str | Path) -> None:
-        self.axle = _axle_of(axle)
-        super().__init__(equations, self.axle.parameters())
+    def __init__(self, axle: RigidAxle | str | Path, *, wheel_loads: bool = False) -> None:
+        with Arguments("RigidAxleModel") as given:
+            wheel_loads = given.flag("wheel_loads", wheel_loads)
+        self.axle, self.wheel_loads = _axle_of(axle), wheel_loads
+        parameters = self.axle.parameters()
+        if wheel_loads:
+            parameters |= self.axle.wheel_load_parameters()
+        super().__init__(with_wheel_loads(equations) if wheel_loads else equations, parameters)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return RigidAxleModel, (self.axle,)
+        return partial(RigidAxleModel, wheel_loads=self.wheel_loads), (self.axle,)
 
     def __repr__(self) -> str:
         return f"<RigidAxleModel of a {self.axle.heading()}>"
@@ -243,7 +253,8 @@ def equilibrium(
     spin_rate : float, optional
         Rate of both wheels relative to the axle, positive rolling forward [rad/s].
     inputs : mapping of str to float, optional
-        Further inputs by name, such as ``left_spring_actuator`` [N].
+        Further inputs by name, such as ``left_spring_actuator`` [N]. With loads on the wheels the
+        state carries the ``left_hub_torque`` and the right one that hold them, unless one is given.
 
     Returns
     -------
@@ -301,6 +312,10 @@ def equilibrium(
     if model.farthest(found[0] + rise, found[0] - rise) < 1.0:
         raise PositionError(message)
     for side in (LEFT, RIGHT):
+        if model.wheel_loads and f"{side}_hub_torque" not in further:
+            place = model.state_names.index(f"{side}_spin_angle")
+            brake = -model.evaluate("forces", state, held)[place]
+            held[model.input_names.index(f"{side}_hub_torque")] = brake
         state[model.state_names.index(f"{side}_spin_angle_rate")] = spin
     return State.of(state, held, model.names_of_states)
 
