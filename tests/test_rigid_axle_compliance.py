@@ -14,8 +14,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import InputError, PositionError, RigidAxle, rigid_axles
+from kintrafo import InputError, PositionError, RigidAxle, RigidAxleModel, rigid_axles
 from kintrafo.study.loads.sheets import compliances_of_axle
+from kintrafo.study.sheet import sheet
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
 from soft_suspensions import minimum
@@ -47,6 +48,17 @@ OF = {
 }  # fmt: skip
 
 
+# Four links and a Panhard rod.
+FIVE = AXLE.with_changes(
+    {
+        "rods.upper_link": {"chassis": [500.0, 400.0, 480.0], "axle": [-20.0, 400.0, 525.0]},
+        "rods.right_upper_link": {"chassis": [520.0, -380.0, 470.0],
+                                  "axle": [-20.0, -410.0, 525.0]},
+        "bushings": {"upper_link_axle": {"axial_N_per_mm": 1200.0}},
+    }
+)  # fmt: skip
+
+
 def upward(axis: Array) -> Array:
     """Return what points up in the plane of a wheel."""
     found = UP - axis * axis[2]
@@ -63,7 +75,9 @@ class Placed:
 
     def __init__(self, axle: RigidAxle, heave: float = 0.0, roll: float = 0.0) -> None:
         self.axle = axle
-        self.finder = Found(axle)
+        fifth = {*axle.rods} - {*axle.guides}
+        four = axle.with_changes({f"rods.{name}": None for name in fifth} | {"bushings": None})
+        self.finder = Found(four if fifth else axle)
         self.middle, self.turn = self.finder.pose(heave, roll)
         self.rods = {
             name: (inner, self.beam(outer)) for name, (inner, outer) in axle.ends().items()
@@ -162,13 +176,21 @@ def stiffnesses(  # noqa: PLR0915 (one thing after the other)
     return np.asarray(loads @ minimum(stiff, np.array(rigid), loads.T))
 
 
+OF["five"] = OF["Panhard rod"] | {"right_upper_link_axle": {"axial_N_per_mm": 700.0}}
+
+
 @pytest.mark.parametrize(
     ("held", "travel"), [("spring", 1e-9), ("height", 1e-9), ("locked", 0.05), ("locked", -0.04)]
 )
 @pytest.mark.parametrize(
     ("axle", "rods"),
-    [(AXLE, "Panhard rod"), (TRIANGULATED, "triangulated"), (LOPSIDED, "Panhard rod")],
-    ids=["three links", "triangulated", "lopsided"],
+    [
+        (AXLE, "Panhard rod"),
+        (TRIANGULATED, "triangulated"),
+        (LOPSIDED, "Panhard rod"),
+        (FIVE, "five"),
+    ],
+    ids=["three links", "triangulated", "lopsided", "five rods"],
 )
 def test_the_axle_gives_way_as_springs_do(
     axle: RigidAxle, rods: str, held: Any, travel: float
@@ -234,20 +256,27 @@ STOPPED = AXLE.with_changes(
 )
 RATES = {"left_link_chassis": 400.0, "right_link_axle": 600.0, "upper_link_chassis": 500.0,
          "panhard_rod_axle": 900.0}  # fmt: skip
-EVERY_WAY = {
-    point: {"axial_N_per_mm": rate, "radial_N_per_mm": rate} for point, rate in RATES.items()
-}
+RATES_OF_FIVE = RATES | {"right_upper_link_chassis": 700.0}
 
 
-class OnFourSprings:
-    """A beam with its wheels on four springs along its rods, with springs, stops, bar and road."""
+def every_way(rates: Mapping[str, float]) -> dict[str, Any]:
+    """Return bushes that are as stiff in every direction."""
+    return {p: {"axial_N_per_mm": rate, "radial_N_per_mm": rate} for p, rate in rates.items()}
+
+
+EVERY_WAY = every_way(RATES)
+
+
+class OnSprings:
+    """A beam with its wheels on springs along its rods, with springs, stops, bar and road."""
 
     def __init__(self, axle: RigidAxle, *, loaded: bool) -> None:
         self.axle, self.center = axle, axle.center
+        self.rates = RATES_OF_FIVE if len(axle.rods) > len(RATES) else RATES
         at = Placed(axle)
         pulls = self.at_design(at) if loaded else dict.fromkeys(at.rods, 0.0)
         self.rods = {}
-        for point, rate in RATES.items():
+        for point, rate in self.rates.items():
             name, _, end = point.rpartition("_")
             inner, outer = at.rods[name]
             way = inner - outer
@@ -262,8 +291,13 @@ class OnFourSprings:
         columns = [np.concatenate([w, np.cross(p - self.center, w)]) / np.linalg.norm(w)
                    for p, w in arms]  # fmt: skip
         columns += [np.concatenate([UP, np.cross(at.contacts[s] - self.center, UP)]) for s in SIDES]
-        found = np.linalg.solve(np.stack(columns, -1), -self.inside(at))
-        return dict(zip(at.rods, found, strict=False))
+        # what balance does not decide makes the energy of the bushes least
+        balance, soft = np.stack(columns, -1), np.zeros(len(columns))
+        by_rod = {point.rpartition("_")[0]: 1e-3 / rate for point, rate in self.rates.items()}
+        soft[: len(at.rods)] = [1e6 * by_rod[name] for name in at.rods]
+        matrix = np.block([[np.diag(soft), balance.T], [balance, np.zeros((6, 6))]])
+        right = np.concatenate([np.zeros(len(columns)), -self.inside(at)])
+        return dict(zip(at.rods, np.linalg.solve(matrix, right), strict=False))
 
     def inside(self, at: Placed) -> Array:
         """Return force and moment of springs, stops, bar and weight about the design's middle."""
@@ -343,22 +377,33 @@ def told_of(at: Placed) -> dict[str, float]:
     }
 
 
+FIVE_STOPPED = FIVE.with_changes(
+    {"bump_stop": STOPPED.to_dict()["bump_stop"], "bushings": every_way(RATES_OF_FIVE)}
+)
+
+
 @pytest.mark.parametrize("hardpoints", ["loaded", "relaxed"])
 @pytest.mark.parametrize(("motion", "along"), [("bump", 0.04), ("roll", 0.05), ("left", -0.05)])
+@pytest.mark.parametrize("axle", [STOPPED, FIVE_STOPPED], ids=["four rods", "five rods"])
 def test_motions_on_bushes_are_those_of_a_beam_on_springs(
-    motion: str, along: float, hardpoints: Any
+    axle: RigidAxle, motion: str, along: float, hardpoints: Any
 ) -> None:
-    found = rigid_axles.elastokinematics(STOPPED, EVERY_WAY, motion, [along], hardpoints=hardpoints)
+    bushes = None if axle is FIVE_STOPPED else EVERY_WAY
+    found = rigid_axles.elastokinematics(axle, bushes, motion, [along], hardpoints=hardpoints)
     heave, roll = along, 0.0
     if motion == "roll":
         heave, roll = 0.0, -along
     elif motion == "left":
-        heave, roll = 0.5 * along, math.asin(0.5 * along / STOPPED.half_track)
-    rigid = Placed(STOPPED, heave, roll)
+        heave, roll = 0.5 * along, math.asin(0.5 * along / axle.half_track)
+    rigid = Placed(axle, heave, roll)
     heights = np.array([rigid.contacts[side][2] for side in SIDES])
-    on = OnFourSprings(STOPPED, loaded=hardpoints == "loaded")
+    on = OnSprings(axle, loaded=hardpoints == "loaded")
     at, road = on.solve(np.zeros((2, 6)), heights, np.zeros(2))
-    for data_set, place in (("kinematic", rigid), ("elastokinematic", at)):
+    places = {"kinematic": rigid, "elastokinematic": at}
+    if axle is FIVE_STOPPED:  # five rigid rods do not let it move
+        del places["kinematic"]
+    assert found["data_set"].values.tolist() == [*places]
+    for data_set, place in places.items():
         for name, value in told_of(place).items():
             ours = float(found[name].sel(data_set=data_set)[0])
             # steps of 1e-9 m end Newton's method; 1e-6 N over stiffnesses of 1e6 N/m this one
@@ -385,7 +430,7 @@ def test_large_loads_move_it_as_a_beam_on_springs(
     """And what first order tells is what small ones do, with an error in proportion to them."""
     axle = STOPPED.with_changes({"anti_roll_bar": {"rate_Nm_per_deg": 90.0}})
     most = 6000.0 * (0.1 if under == "aligning" else 1.0)
-    on, design = OnFourSprings(axle, loaded=True), Placed(axle)
+    on, design = OnSprings(axle, loaded=True), Placed(axle)
     heights = np.array([design.contacts[side][2] for side in SIDES])
     base, road = on.solve(np.zeros((2, 6)), heights, np.zeros(2))
     ends = heights if held == "height" else None
@@ -400,12 +445,14 @@ def test_large_loads_move_it_as_a_beam_on_springs(
     assert abs(told_of(at)["axle_lateral"]) + abs(told_of(at)["axle_steer"]) > 1e-3
 
 
-def test_first_order_is_what_small_loads_do() -> None:
-    axle = AXLE.with_changes({k: FREE[k] for k in list(FREE)[:2]})
+@pytest.mark.parametrize("axle", [AXLE, FIVE], ids=["four rods", "five rods"])
+def test_first_order_is_what_small_loads_do(axle: RigidAxle) -> None:
+    axle = axle.with_changes({k: FREE[k] for k in list(FREE)[:2]})
+    bushes = every_way(RATES_OF_FIVE if len(axle.rods) > len(RATES) else RATES)
     off = []
     for size in (200.0, 100.0):
         found = rigid_axles.deflection(
-            axle, EVERY_WAY, "lateral", [size], wheels=(-1.0, 0.6), hardpoints="relaxed"
+            axle, bushes, "lateral", [size], wheels=(-1.0, 0.6), hardpoints="relaxed"
         )
         ours = found["axle_lateral_change"][:, 0].values
         steer = found["axle_steer_change"][:, 0].values
@@ -416,6 +463,33 @@ def test_first_order_is_what_small_loads_do() -> None:
 
 
 # -- files, commands, and what is wrong -----------------------------------------------------------
+
+
+def test_five_rods_move_only_as_their_bushes_give_way() -> None:
+    """Softer in heave with softer bushes; all else than bushes is refused by name."""
+    rates = []
+    for times in (1.0, 10.0):
+        bushes = every_way({point: times * rate for point, rate in RATES_OF_FIVE.items()})
+        found = rigid_axles.elastokinematics(FIVE, bushes, "roll", [0.0, 0.02])
+        rates.append(float(found["roll_stiffness"][0, 0]))
+    # in roll the fifth rod strains the others
+    assert rates[1] > 1.02 * rates[0]
+    for refused in (
+        lambda: rigid_axles.bump(FIVE),
+        lambda: rigid_axles.static_loads(FIVE),
+        lambda: rigid_axles.checkup(FIVE),
+        lambda: RigidAxleModel(FIVE),
+        lambda: sheet(FIVE),
+    ):
+        with pytest.raises(InputError, match="five rods leave an axle heave and roll only as"):
+            refused()
+    with pytest.raises(InputError, match="one or more must give way along itself"):
+        FIVE.with_changes({"bushings": {"upper_link_axle": {"radial_N_per_mm": 900.0}}})
+    hinged = {"radial_N_per_mm": 900.0, "axis": [0.0, 1.0, 0.0]}
+    FIVE.with_changes({"bushings": {"upper_link_axle": hinged}})
+    with pytest.raises(InputError, match="take all five"):
+        FIVE.with_changes({"bushings": None})
+
 
 WRONG: list[tuple[dict[str, Any], str]] = [
     ({}, "one or more are needed"),

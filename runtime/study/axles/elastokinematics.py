@@ -168,7 +168,7 @@ def _where(
 def on_both(data: Mapping[str, xr.Variable], over: Quantity, values: Array) -> xr.Dataset:
     """Return what is told with rigid joints and on bushes over some positions."""
     coordinates = {
-        DATA_SET: list(_KINDS),
+        DATA_SET: list(_KINDS[-next(iter(data.values())).shape[0] :]),
         over.name: xr.Variable(over.name, values, over.attributes()),
     }
     return xr.Dataset(dict(data), coordinates)
@@ -185,7 +185,7 @@ def over_motion(
     Parameters
     ----------
     both : sequence of Equilibrium
-        Of both wheels, the left one first: with rigid joints, and on bushes.
+        Of both wheels, the left one first: with rigid joints if that can be, and on bushes.
     states : sequence of State
         Of each.
     over : Quantity
@@ -199,8 +199,10 @@ def over_motion(
     curves = {KNOWN["travel"][name]: formula for name, formula in CURVES.items()}
     for quantity, formula in (curves | dict(further)).items():
         for which, side in enumerate(SIDES):
-            there, moved = both[0].wheels[which], on_bushes(both[1], states[1], which)
-            told = np.stack([formula(there), formula(moved)])
+            # with rigid joints, where there is such a motion
+            there = [one.wheels[which] for one in both[:-1]]
+            moved = on_bushes(both[-1], states[-1], which)
+            told = np.stack([formula(wheel) for wheel in (*there, moved)])
             named = of_side(quantity, side)
             data[named.name] = xr.Variable(dims, told, named.attributes())
     return data | _forces(both, states, dims)

@@ -61,7 +61,8 @@ def balanced_at_many(entries: Entries, applied: Array) -> tuple[Array, NDArray[n
     columns, accurate = eliminated(entries, np.ascontiguousarray(np.moveaxis(right, 0, -1)))
     found = np.moveaxis(columns, -1, 0)
     if not accurate.all():
-        found[~accurate] = _solution(dense(entries, right.shape[-2], ~accurate), right[~accurate])
+        size = right.shape[-2]
+        found[~accurate] = _solution(dense(entries, (size, size), ~accurate), right[~accurate])
     sums = np.zeros((right.shape[-2], len(right)))
     for (_, column), values in entries.items():
         sums[column] += np.abs(values)
@@ -69,10 +70,12 @@ def balanced_at_many(entries: Entries, applied: Array) -> tuple[Array, NDArray[n
     return found[..., :-_PROBES] if several else found[..., 0], sound
 
 
-def dense(entries: Entries, size: int, where: NDArray[np.bool_] | slice = slice(None)) -> Array:
-    """Return matrices, (positions, size, size), of their entries."""
+def dense(
+    entries: Entries, shape: tuple[int, int], where: NDArray[np.bool_] | slice = slice(None)
+) -> Array:
+    """Return matrices, (positions, *shape), of their entries."""
     count = len(next(iter(entries.values()))[where])
-    matrix = np.zeros((count, size, size))
+    matrix = np.zeros((count, *shape))
     for (row, column), values in entries.items():
         matrix[:, row, column] = values[where]
     return matrix

@@ -150,6 +150,33 @@ class _Energy:
             self.on_rack[~acting, :, which] = 0.0
 
 
+def shared(equations: Equations, unknowns: Array, bushes: Sequence[Bush]) -> Array:
+    """Return unknowns with what statics does not decide as the least energy of bushes has it.
+
+    Parameters
+    ----------
+    equations : Equations
+    unknowns : ndarray, shape (n, unknowns)
+        From `Equations.solve`.
+    bushes : sequence of Bush
+    """
+    free = equations.indeterminate
+    if not free.shape[-1]:
+        return unknowns
+    by_point = {bush.point: bush for bush in bushes}
+    every = np.concatenate([unknowns[..., None], free], axis=-1)
+    energy = np.sum(
+        [
+            _of_joint(joint, carried, by_point, equations.poses)
+            for joint, carried in zip(equations.joints, equations.at_joints(every), strict=True)
+        ],
+        axis=0,
+    )
+    parts = np.linalg.solve(energy[:, 1:, 1:], -energy[:, 1:, :1])
+    result: Array = unknowns + (free @ parts)[..., 0]
+    return result
+
+
 def _of_joint(joint: Joint, carried: Array, bushes: Mapping[str, Bush], poses: Assembled) -> Array:
     """Return the energy of the bushes of a joint."""
     total = np.zeros((*carried.shape[:1], *2 * carried.shape[-1:]))
@@ -180,8 +207,8 @@ class _Forces:
     ----------
     carried : list of ndarray, each of shape (n, touching points, 6, loads + tensions)
         Of each joint: under unit forces and moments in chassis axes and that of the bar, the
-        suspension held by its springs; then in each state of tension, those between springs and
-        stops the last.
+        suspension held by its springs; then in each state of tension: of a joint by itself, of
+        several together, and between springs and stops.
     spring : ndarray, shape (n, springs, loads + tensions)
         The force of each spring.
     tensions : int
@@ -201,16 +228,21 @@ class _Forces:
         unknowns = equations.solve(np.stack(applied, axis=-1))
         tensions = [joint.tensions(poses.points) for joint in equations.joints]
         count, begin = sum(t.shape[-1] for t in tensions), len(loads)
-        self.tensions = count + len(stopped)
+        # behind the tensions of single joints come those of several together
+        by_loads, by_stops = np.split(unknowns, [begin], axis=-1)
+        further = np.concatenate([equations.indeterminate, by_stops], axis=-1)
+        self.tensions = count + further.shape[-1]
         nothing = np.zeros((len(poses.states), len(springs), count))
-        by_loads, by_stops = np.split(unknowns[:, -len(springs) :], [begin], axis=-1)
-        self.spring = np.concatenate([by_loads, nothing, by_stops], axis=-1)
+        of_springs = (each[:, -len(springs) :] for each in (by_loads, further))
+        of_loads, of_further = of_springs
+        self.spring = np.concatenate([of_loads, nothing, of_further], axis=-1)
         self.carried = []
         after = len(loads) + count
-        for at_joint, own in zip(equations.at_joints(unknowns), tensions, strict=True):
+        both = zip(equations.at_joints(by_loads), equations.at_joints(further), strict=True)
+        for (at_joint, at_further), own in zip(both, tensions, strict=True):
             every = np.zeros((*at_joint.shape[:-1], len(loads) + self.tensions))
-            every[..., : len(loads)] = at_joint[..., : len(loads)]
-            every[..., after:] = at_joint[..., len(loads) :]
+            every[..., : len(loads)] = at_joint
+            every[..., after:] = at_further
             every[..., begin : begin + own.shape[-1]] = own
             begin += own.shape[-1]
             self.carried.append(every)

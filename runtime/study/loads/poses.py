@@ -84,6 +84,9 @@ class Assembled(Protocol):
     def counted_by(self, line: Line) -> str:
         """Return the signal by which the stops on a line count: a length."""
 
+    def carried_by(self, part: str, point: str) -> Array:
+        """Return where a part has a hardpoint, apart from others that it is joined to, (n, 3)."""
+
     def allowed_lengths(self) -> Sequence[Allowed]:
         """Return the lengths that the file allows, of these signals."""
 
@@ -170,6 +173,11 @@ class Poses:
         """Return the signal by which the stops on a line count: a length."""
         del line
         return f"{self.model.suspension.STOPPED}_length"
+
+    def carried_by(self, part: str, point: str) -> Array:
+        """Return where a part has a hardpoint: where all that are joined there have it, (n, 3)."""
+        del part
+        return self.points[point]
 
     def signals(self) -> dict[str, Array]:
         """Return the signals of the equations, (n,)."""

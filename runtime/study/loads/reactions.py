@@ -51,6 +51,12 @@ class Equations:
         The lines of what holds the suspension where it is, by a force along each: its springs. By
         default a vertical force on each wheel at its contact does.
 
+    Attributes
+    ----------
+    indeterminate : ndarray, shape (n, unknowns, k)
+        States of the unknowns that need no load, where parts are held more often than they move,
+        as by the five rods of a rigid axle. What is solved has none of them.
+
     Notes
     -----
     The unknowns are what the joints carry and, last, the forces that hold the suspension; they are
@@ -66,8 +72,14 @@ class Equations:
             joint.unit_loads(poses.points, poses.turned, poses.design) for joint in self.joints
         ]
         held = [self.pushed(line) for line in holding] or self._upward()
-        self._size = 6 * len(self.parts)
+        self._rows_count = 6 * len(self.parts)
+        self._columns_count = sum(units.shape[-1] for units in self._units) + len(held)
         self._entries = self._of_joints() | self._last([self.applied(loads) for loads in held])
+        surplus = self._columns_count - self._rows_count
+        self.indeterminate = np.zeros((len(poses.states), self._columns_count, max(surplus, 0)))
+        if surplus > 0:
+            spaces = np.linalg.svd(self._dense())[2]
+            self.indeterminate = spaces[..., self._rows_count :, :].mT
 
     def _upward(self) -> list[list[Load]]:
         """Return a vertical force of 1 N on each wheel at its contact, or else at its centre."""
@@ -96,7 +108,7 @@ class Equations:
 
     def _last(self, held: list[Array]) -> dict[tuple[int, int], Array]:
         """Return the entries of the last columns, of loads that hold what is loaded."""
-        first = self._size - len(held)
+        first = self._columns_count - len(held)
         return {
             (int(row), first + place): loads[:, row]
             for place, loads in enumerate(held)
@@ -128,9 +140,16 @@ class Equations:
 
         Where they do not is a dead point: there they are no numbers.
         """
-        if len(applied) < _MANY:
-            return balanced(dense(self._entries, self._size), applied)
-        return balanced_at_many(self._entries, applied)
+        if self.indeterminate.shape[-1] == 0 and len(applied) >= _MANY:
+            return balanced_at_many(self._entries, applied)
+        matrix = np.concatenate([self._dense(), self.indeterminate.mT], axis=-2)
+        shape = list(applied.shape)
+        shape[1] = self.indeterminate.shape[-1]
+        return balanced(matrix, np.concatenate([applied, np.zeros(shape)], axis=1))
+
+    def _dense(self) -> Array:
+        """Return the matrices, (n, 6 parts, unknowns)."""
+        return dense(self._entries, (self._rows_count, self._columns_count))
 
     def applied(self, loads: list[Load]) -> Array:
         """Return loads as a vector, (n, 6 parts)."""

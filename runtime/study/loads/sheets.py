@@ -157,12 +157,12 @@ def deflections(found: xr.Dataset, title: str, most: int = 11) -> Tabulated:
     count = found.sizes[over]
     which = sorted({round(i) for i in np.linspace(0, count - 1, min(count, most))})
     here = found.isel({over: which})
-    _, other = map(str, here["data_set"].values)
+    _, *others = map(str, here["data_set"].values)
     columns = [_heading(over.replace("_", " "), here[over])]
     cells = [[f"{value:g}" for value in displayed(here[over])]]
     for name in (name for name in _IN_TABLES if name in here and here[name].ndim > 1):
         word = name.removesuffix("_change").replace("_", " ")
-        columns += [_heading(word, here[name]), _BESIDE[other]]
+        columns += [_heading(word, here[name]), *(_BESIDE[other] for other in others)]
         cells += [[_number(value) for value in row] for row in displayed(here[name])]
     return Tabulated(title, tuple(columns), tuple(zip(*cells, strict=True)), frozenset())
 

@@ -14,7 +14,6 @@ from ...core.vectors import cross
 from ...suspension.bushes import described_bushings, left_out, refuse_rigid
 from ...suspension.corner import Array, RoadWheel
 from ...suspension.rigid.axle import RigidAxle
-from ...suspension.rigid.model import RigidAxleModel
 from ..axles.compliance import WORDS, Together, dataset_of_both, under_loads
 from ..axles.motions import Extent
 from ..characteristics.catalogue import Quantity
@@ -24,6 +23,7 @@ from ..loads.flexibility import HELD, Held, Side, SoftLines, flexibility
 from ..loads.poses import touching
 from .beam import SIDES, Beam
 from .datasets import usual
+from .on_bushes import guided
 from .parts import Parts
 
 
@@ -68,6 +68,9 @@ def compliance(
     how soft they are along the rod. What springs and stops do as their directions change is counted
     with the springs.
 
+    Five rods, which leave the axle heave and roll only as their bushes give way, share forces as
+    the least energy asks; the positions are those of the four that hold it firmest.
+
     Examples
     --------
     >>> bushes = {"panhard_rod_chassis": {"axial_N_per_mm": 5000.0}}
@@ -87,17 +90,37 @@ def compliance(
             if axle.tyre_radius() is None:
                 given.refuse("[tyre] radius_mm is needed: where the road touches the wheels.")
     travels = usual(axle, "bump", Extent()) if travel is None else np.asarray(travel)
-    model = RigidAxleModel(axle)
+    model = guided(axle)
     beam = Beam(model, model.states_at(travels, travels))
     parts = Parts.of(model, beam.states)
-    lines = None if held == "locked" else _soft_lines(beam, travels)
+    lines = None
+    if held != "locked":
+        lines = _lines_by_rates(beam) if axle.overheld else _soft_lines(beam, travels)
     rate = 0.0 if axle.anti_roll_bar is None else model.parameters["bar_rate"]
     bar = parts.bar_by_torque() if rate else None
     side = Side(parts, bushes, lines, bar)
     flexible = flexibility([side], held, bar=1.0 / rate if rate else 0.0)
     wheels = [*parts.wheels.values()]
     found = dataset_of_both(wheels, flexible, travels, held).assign(_of_axle(wheels, flexible))
-    return found.assign_attrs(left_out=left_out(bushes))
+    without = [left_out(bushes)]
+    if axle.overheld:
+        (fifth,) = {*axle.rods} - {*axle.guides}
+        without += ["what springs do as they turn", f"what {fifth} does to where the axle is"]
+    return found.assign_attrs(left_out=" and ".join(filter(None, without)))
+
+
+def _lines_by_rates(beam: Beam) -> SoftLines:
+    """Return how springs and stops give way by their rates alone.
+
+    Five rods have no motion with which the directions of forces would change.
+    """
+    rate = beam.axle.spring.rate_N_per_m
+    if not rate > 0.0:
+        problem = "[spring] rate_N_per_m is 0: nothing holds the axle. Enter a rate."
+        raise InputError([problem], "compliance")
+    stops = np.stack([beam.rate_of_stops(side) for side in SIDES], axis=1)
+    with np.errstate(divide="ignore"):
+        return SoftLines(np.broadcast_to(np.eye(2) / rate, (len(stops), 2, 2)), 1.0 / np.abs(stops))
 
 
 def _soft_lines(beam: Beam, travels: Array) -> SoftLines:

@@ -201,7 +201,7 @@ def usual(axle: RigidAxle, motion: str, extent: Extent) -> Array:
 
 def _ends(axle: RigidAxle, motion: str, most: float) -> list[float]:
     """Return how far a motion goes either way, at most so far and clear of its ends."""
-    model = RigidAxleModel(axle)
+    model = RigidAxleModel(axle, guided=axle.overheld)
     ends = []
     for value in (-most, most):
         left, right = travels_along(axle, motion, np.array(value))

@@ -11,14 +11,13 @@ from numpy.typing import ArrayLike
 from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...suspension.rigid.axle import RigidAxle
-from ...suspension.rigid.model import RigidAxleModel
 from ..axles.deflection import deflected, of_both, parts_of, straight, words_of
 from ..characteristics.datasets import DATA_SET
 from ..loads.elastic.deflection import BY_NAME, LOAD, amounts_of, coordinates_of, under_amounts
 from ..loads.elastic.held import HARDPOINTS, Hardpoints, at_height, gives_way
 from ..loads.flexibility import HELD, Held
 from .compliance import OF_AXLE, compliance
-from .on_bushes import axle_on, parts_at, place_of, soft_of, torque_of_bar
+from .on_bushes import axle_on, guided, parts_at, place_of, soft_of, torque_of_bar
 
 
 def deflection(
@@ -83,7 +82,7 @@ def deflection(
         wanted = amounts_of(given, amounts)
         soft = soft_of(given, axle, bushings, hardpoints)
     load, at = replace(BY_NAME[under], words=words_of(under, wheels, parts)), np.array([travel])
-    suspension = axle_on(parts_at(RigidAxleModel(axle), at, at), soft)
+    suspension = axle_on(parts_at(guided(axle), at, at), soft)
     base = at_height(suspension, at)
     states = under_amounts(suspension, base, of_both(suspension, load, parts), held, load, wanted)
     linear = compliance(axle, bushings, at, held=held) if gives_way(soft) else None

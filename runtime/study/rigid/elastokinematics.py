@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike
 
 from ...core.arguments import Arguments
 from ...suspension.rigid.axle import RigidAxle
-from ...suspension.rigid.model import RigidAxleModel
 from ..axles.datasets import ROLL
 from ..axles.elastokinematics import on_both, over_motion
 from ..axles.motions import Extent
@@ -18,7 +17,7 @@ from ..characteristics.datasets import DATA_SET, TRAVEL
 from ..loads.elastic.held import HARDPOINTS, Hardpoints, at_height
 from .catalogue import MEASURES
 from .datasets import MOTIONS, travels_along, usual
-from .on_bushes import RIGID, axle_on, parts_at, place_of, soft_of, torque_of_bar
+from .on_bushes import RIGID, axle_on, guided, parts_at, place_of, soft_of, torque_of_bar
 
 # So many positions at a time: their matrices take 50 MB.
 _TOGETHER = 50
@@ -56,7 +55,8 @@ def elastokinematics(
     -------
     xarray.Dataset
         As of `kintrafo.axles.elastokinematics`; and ``axle_steer`` [rad], ``axle_lateral`` and
-        ``axle_longitudinal`` [m] as of `bump`, of the line through the wheel centres.
+        ``axle_longitudinal`` [m] as of `bump`, of the line through the wheel centres. Of an axle on
+        five rods there are the curves on the bushes alone.
 
     Raises
     ------
@@ -83,11 +83,13 @@ def elastokinematics(
         soft = soft_of(given, axle, bushings, hardpoints)
     over = ROLL if motion == "roll" else TRAVEL
     values = usual(axle, motion, far) if along is None else np.asarray(along)
-    model, found = RigidAxleModel(axle), []
+    model, found = guided(axle), []
+    # five rigid rods would not let it move
+    softs = [soft] if axle.overheld else [RIGID, soft]
     for begin in range(0, values.size, _TOGETHER):
         some = values[begin : begin + _TOGETHER]
         parts = parts_at(model, *travels_along(axle, motion, some))
-        both = [axle_on(parts, each) for each in (RIGID, soft)]
+        both = [axle_on(parts, each) for each in softs]
         states = [at_height(suspension, some, over) for suspension in both]
         dims = (DATA_SET, over.name)
         data = over_motion(both, states, over, {})

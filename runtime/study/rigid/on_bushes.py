@@ -33,8 +33,14 @@ def soft_of(given: Arguments, axle: RigidAxle, bushings: Any, hardpoints: Hardpo
     carried = {}
     if hardpoints == "loaded" and not given.refused:
         # the bar is free of torque there
-        carried = dict(carried_at(parts_at(RigidAxleModel(axle), np.zeros(1), np.zeros(1))))
+        at_design = parts_at(guided(axle), np.zeros(1), np.zeros(1))
+        carried = dict(carried_at(at_design, bushes=bushes))
     return Soft({bush.point: bush for bush in bushes}, 0.0, carried)
+
+
+def guided(axle: RigidAxle) -> RigidAxleModel:
+    """Return the equations from which an equilibrium on bushes begins."""
+    return RigidAxleModel(axle, guided=axle.overheld)
 
 
 def parts_at(model: RigidAxleModel, left: Array, right: Array) -> Parts:

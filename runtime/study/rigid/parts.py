@@ -11,6 +11,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.vectors import cross
 from ...suspension.axle.axle import RIGHT
 from ...suspension.corner import UP, RoadWheel, Vehicle
 from ...suspension.rigid.axle import RigidAxle
@@ -66,14 +67,17 @@ class Parts:
         """Return the parts in some states, by default without any input."""
         if inputs is None:
             inputs = np.zeros((len(states), len(model.input_names)))
-        bodies = {name: f"rod_{i}" for i, name in enumerate(model.axle.rods, 1)} | MASSIVE
+        bodies = {name: f"rod_{i}" for i, name in enumerate(model.axle.guides, 1)} | MASSIVE
         rows = [model.equations.BODIES.index(body) for body in bodies.values()]
         places = np.moveaxis(model.evaluate("positions", states, inputs)[:, rows], 1, 0)
         turns = np.moveaxis(model.evaluate("orientations", states, inputs)[:, rows], 1, 0)
         centers, turned = (dict(zip(bodies, found, strict=True)) for found in (places, turns))
         points = _points(model.axle, centers[BEAM], turned[BEAM])
         # rods have no mass, and so none of their own
-        for name in model.axle.rods:
+        for name, (inner, outer) in model.axle.ends().items():
+            if name not in turned:
+                way = points[f"{name}_axle"] - points[f"{name}_{CHASSIS}"]
+                turned[name] = _upright_frames(way) @ _upright_frames(outer - inner).T
             centers[name] = 0.5 * (points[f"{name}_{CHASSIS}"] + points[f"{name}_axle"])
         return cls(model, states, inputs, centers, turned, points)
 
@@ -129,6 +133,17 @@ class Parts:
         """Return the signal by which the stops beside a damper count: its length."""
         name, _, side = line.name.rpartition("_")
         return f"{side}_{name}_length"
+
+    def carried_by(self, part: str, point: str) -> Array:
+        """Return where a part has a point, (n, 3) [m].
+
+        A fifth rod is as long as at design, in the middle between where the others leave its ends.
+        """
+        if part not in self.axle.rods or part in self.axle.guides:
+            return self.points[point]
+        inner, outer = self.axle.ends()[part]
+        arm = self.turned[part] @ (self.design[point] - 0.5 * (inner + outer))
+        return self.centers[part] + arm
 
     def allowed_lengths(self) -> Sequence[Allowed]:
         """Return the lengths of the dampers that the file allows."""
@@ -210,6 +225,17 @@ class Parts:
             replace(unit, part=part, moment=sign * torque * unit.moment)
             for part, sign in ((BEAM, 1.0), (CHASSIS, -1.0))
         ]
+
+
+def _upright_frames(way: Array) -> Array:
+    """Return the axes of rods as columns, (..., 3, 3): along, level across it, and across both.
+
+    A cross whose first axis is upright turns a rod so that its second axis stays level.
+    """
+    along = way / np.linalg.norm(way, axis=-1, keepdims=True)
+    level = cross(along, np.broadcast_to(UP, along.shape))
+    level /= np.linalg.norm(level, axis=-1, keepdims=True)
+    return np.stack([along, level, cross(along, level)], axis=-1)
 
 
 def _points(axle: RigidAxle, center: Array, turned: Array) -> dict[str, Array]:

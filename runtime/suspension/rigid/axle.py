@@ -1,7 +1,7 @@
 """A rigid axle: what the sections of its file make together."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar, Self
@@ -11,7 +11,7 @@ from pydantic import Field, ValidationError
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
-from ...core.vectors import components
+from ...core.vectors import components, unit_vector
 from ..axle.axle import LEFT, RIGHT
 from ..axle.file import Brakes, End
 from ..bushes import Bush, Bushings, bushes_of
@@ -39,7 +39,7 @@ from .file import (
     Rod,
     RollBar,
 )
-from .rods import Ends, Hold
+from .rods import NEEDED, Ends, Hold
 from .structure import CENTER, CHASSIS, of_a_file, structure_of
 
 SIDES = (LEFT, RIGHT)
@@ -47,6 +47,8 @@ SIDES = (LEFT, RIGHT)
 _SMALLEST_HALF_TRACK = 0.1
 # Nearer to the vertical than this, a rod stands on its axle and does not guide it [deg].
 _SMALLEST_ANGLE = 1.0
+# What is less of how soft a bush is in any direction is rounding.
+_ROUNDING = 1e-12
 # Two ends of a rod are farther apart than this [m], and no coordinate is larger than that.
 _SHORTEST, _LARGEST = 0.001, 20.0
 # What loads are on, or come from, besides the rods; there are two of most of them.
@@ -92,7 +94,8 @@ class RigidAxle(Section):
         default=LeftHardpoints(), description="what of the left side is not the mirror image"
     )
     rods: dict[str, Rod] = Field(
-        description="four rods between chassis and axle, by names of any choice"
+        description="four rods between chassis and axle, by names of any choice; five with "
+        "[bushings], for what they do on these"
     )
     wheel: Wheel = Field(
         default=Wheel(camber_deg=0.0, toe_deg=0.0), description="alignment of the wheels"
@@ -123,7 +126,9 @@ class RigidAxle(Section):
             raise InputError(problems)
         if self.bushings is not None:
             with Arguments("bushings") as given:
-                self.bushes(given, self.bushings)
+                bushes = self.bushes(given, self.bushings)
+                if self.overheld and not given.refused:
+                    self._refuse_rigid(given, bushes)
 
     # -- making one -----------------------------------------------------------------------------
 
@@ -263,6 +268,16 @@ class RigidAxle(Section):
         height = float(self.center[2])
         return height if height >= _SMALLEST_WHEEL_RADIUS else None
 
+    @property
+    def guides(self) -> tuple[str, ...]:
+        """The rods by which the equations close their loops: all four, or four of five."""
+        return Hold.of(self.ends(), self.center).guides()
+
+    @property
+    def overheld(self) -> bool:
+        """Whether five rods hold it, so that it moves only as its bushes give way."""
+        return self.bushings is not None and len(self.guides) == len(self.rods) - 1 == NEEDED
+
     def wheel_load_parameters(self) -> dict[str, float]:
         """Return what equations need besides that have the loads on the wheels as inputs [m].
 
@@ -313,7 +328,9 @@ class RigidAxle(Section):
         }
         if self.anti_roll_bar is not None:
             values["bar_rate"] = float(np.degrees(self.anti_roll_bar.rate_Nm_per_deg))
-        for number, (chassis, axle) in enumerate(self.ends().values(), 1):
+        ends = self.ends()
+        for number, name in enumerate(self.guides, 1):
+            chassis, axle = ends[name]
             values |= components(f"rod_{number}_chassis", chassis)
             values |= components(f"rod_{number}_axle", axle)
         bodies = self.bodies.parameters(self.hardpoints)
@@ -406,7 +423,27 @@ class RigidAxle(Section):
                     f"[rods.{name}] stands upright: at least {_SMALLEST_ANGLE:g} deg from the "
                     "vertical are needed, or the axle cannot rise. Move one of its ends."
                 )
-        return problems or Hold.of(ends, self.center).problems()
+        if problems or self.overheld:
+            return problems
+        return Hold.of(ends, self.center).problems()
+
+    def _refuse_rigid(self, given: Arguments, bushes: Sequence[Bush]) -> None:
+        """Refuse five rods of which none gives way along itself."""
+        ends = self.ends()
+        ways = {
+            f"{name}_{end}": unit_vector(axle - chassis)
+            for name, (chassis, axle) in ends.items()
+            for end in (CHASSIS, "axle")
+        }
+        along = [(bush, ways[bush.point]) for bush in bushes if bush.point in ways]
+        if not any(
+            way @ bush.compliance[:3, :3] @ way > _ROUNDING * bush.soft.max() for bush, way in along
+        ):
+            given.refuse(
+                f"of the five rods {', '.join(ends)} one or more must give way along itself, or "
+                "the axle neither heaves nor rolls. Give its bush axial_N_per_mm, or "
+                "radial_N_per_mm where its axis is across the rod."
+            )
 
     def _lengths_refused(self) -> list[str]:
         """Say why a damper cannot be as long as it is at design."""

@@ -32,6 +32,11 @@ _MOST_ROLL = np.pi / 4.0
 _ROUNDING = 1e-12
 # A way is looked at in steps of this travel at most [m].
 _STEP = 0.02
+_OVERHELD = (
+    "[rods] {rods}: five rods leave an axle heave and roll only as their bushes give way, and here "
+    "rods are rigid. How it moves on its bushes is told by `kintrafo deflection` and `compliance`. "
+    "For all else leave one of the rods out."
+)
 # What is left of the forces at rest, over the stiffness times a metre, or a radian.
 _AT_REST = 1e-9
 
@@ -43,6 +48,9 @@ class RigidAxleModel(System):
     ----------
     axle : RigidAxle, str or Path
         The data, or the name of a packaged data set or path of a TOML file.
+    guided : bool, optional
+        Of an axle on five rods those of four of them, from which an equilibrium on bushes begins;
+        without it such an axle is refused, as it has no motion with rigid rods.
     wheel_loads : bool, optional
         Whether what acts on the wheels are inputs, as in `Model`, after ``right_`` and ``left_``.
         These equations are derived and compiled when they are first needed.
@@ -64,17 +72,23 @@ class RigidAxleModel(System):
 
     NEEDED = 'a kintrafo.RigidAxleModel, such as RigidAxleModel("rigid_axle"), is needed'
 
-    def __init__(self, axle: RigidAxle | str | Path, *, wheel_loads: bool = False) -> None:
+    def __init__(
+        self, axle: RigidAxle | str | Path, *, guided: bool = False, wheel_loads: bool = False
+    ) -> None:
         with Arguments("RigidAxleModel") as given:
+            guided = given.flag("guided", guided)
             wheel_loads = given.flag("wheel_loads", wheel_loads)
         self.axle, self.wheel_loads = _axle_of(axle), wheel_loads
+        if self.axle.overheld and not guided:
+            raise InputError([_OVERHELD.format(rods=", ".join(self.axle.rods))], "RigidAxleModel")
         parameters = self.axle.parameters()
         if wheel_loads:
             parameters |= self.axle.wheel_load_parameters()
         super().__init__(with_wheel_loads(equations) if wheel_loads else equations, parameters)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return partial(RigidAxleModel, wheel_loads=self.wheel_loads), (self.axle,)
+        made = partial(RigidAxleModel, guided=self.axle.overheld, wheel_loads=self.wheel_loads)
+        return made, (self.axle,)
 
     def __repr__(self) -> str:
         return f"<RigidAxleModel of a {self.axle.heading()}>"

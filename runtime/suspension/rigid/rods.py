@@ -65,6 +65,27 @@ class Hold:
         """Return how many freedoms are taken."""
         return int((self.sizes > _NOTHING).sum())
 
+    def guides(self) -> tuple[str, ...]:
+        """Return the four rods that close the loops of the equations: those that hold firmest.
+
+        Of five that leave one freedom, the other one gives way with all of them on their bushes.
+        None, where no four of them hold the axle.
+        """
+        if len(self.names) != NEEDED + 1 or self.rank != NEEDED + 1:
+            return self.names
+        parts = [self._without(which) for which in range(len(self.names))]
+        fine = [part for part in parts if not part.problems()]
+        return max(fine, key=lambda part: part.firmness).names if fine else ()
+
+    @property
+    def firmness(self) -> float:
+        """What a rod grows by, at least, for a unit motion at a height and an inclination."""
+        return self._at_rest()[0]
+
+    def _without(self, which: int) -> "Hold":
+        names = tuple(name for i, name in enumerate(self.names) if i != which)
+        return Hold(names, np.delete(self.rows, which, axis=0))
+
     def problems(self) -> list[str]:
         """Say why these rods do not leave heave and roll, and nothing else."""
         if len(self.names) != NEEDED:
@@ -111,7 +132,8 @@ class Hold:
         return (
             f"{begin}one is left, {_told(directions[-1])}: such an axle heaves and rolls only "
             "because its bushes give way, and here rods are rigid. Leave one of the rods out: "
-            "three links and a Panhard rod, or four links of which two are triangulated."
+            "three links and a Panhard rod, or four links of which two are triangulated. Or say in "
+            "[bushings] what gives way: compliance and deflection take all five."
         )
 
 

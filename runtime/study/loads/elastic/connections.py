@@ -349,7 +349,7 @@ class _Side:
 
     def _arm(self, body: str, point: str) -> Array:
         """Return a hardpoint from the centre of a body, (n, 3) [m]."""
-        arm: Array = self.poses.points[point] - self.centers[:, self.index(body)]
+        arm: Array = self.poses.carried_by(body, point) - self.centers[:, self.index(body)]
         return arm
 
     def _indices(self, first: str, second: str) -> Pair:

@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 from ....core.arguments import Arguments
 from ....core.errors import InputError
 from ....core.quantities import display_of
-from ....suspension.bushes import RACK, described_bushings, softness_of_rack
+from ....suspension.bushes import RACK, Bush, described_bushings, softness_of_rack
 from ....suspension.corner import RoadWheel
 from ....suspension.model import Model
 from ....suspension.positions import arm_angles, design_height
 from ....suspension.reach import at_rest
 from ...characteristics.catalogue import Quantity
 from ...characteristics.datasets import TRAVEL
+from ..flexibility import shared
 from ..poses import Assembled, Poses
 from ..reactions import Equations, Load, known
 from .connections import GUIDE, Carried, Soft
@@ -58,7 +59,9 @@ def at_design(model: Model) -> Poses:
     return Poses.of(model, *at_rest(model, arm_angles(model, [design_height(model)])))
 
 
-def carried_at(poses: Assembled, pulled: Sequence[Load] = ()) -> Carried:
+def carried_at(
+    poses: Assembled, pulled: Sequence[Load] = (), bushes: Sequence[Bush] = ()
+) -> Carried:
     """Return what the joints carry in the first position, the wheel held by the road.
 
     Parameters
@@ -66,9 +69,13 @@ def carried_at(poses: Assembled, pulled: Sequence[Load] = ()) -> Carried:
     poses : Assembled
     pulled : sequence of Load, optional
         What else acts on the parts.
+    bushes : sequence of Bush, optional
+        Those that share what statics does not decide, where parts are held more often than they
+        move.
     """
     equations = Equations(poses)
     unknowns = equations.solve(equations.applied([*known(poses), *pulled]))
+    unknowns = shared(equations, unknowns, bushes)
     found = {
         (joint.first, joint.second, point): at_points[0, which, :, 0]
         for joint, at_points in zip(
