@@ -732,7 +732,7 @@ def test_two_axles_are_compared_over_the_same_positions() -> None:
 def test_the_commands_of_the_page_run(kintrafo: Any) -> None:  # noqa: F811
     page = PAGE.read_text(encoding="utf-8")
     commands = commands_of(page)
-    assert len(commands) == 20
+    assert len(commands) == 19
     for name in ("rear_cases", "axle_bushes", "rods"):
         (text,) = re.findall(rf"```toml\n# {name}\.toml\n(.*?)```", page, flags=re.DOTALL)
         Path(f"{name}.toml").write_text(text, encoding="utf-8")
@@ -745,9 +745,6 @@ def test_the_commands_of_the_page_run(kintrafo: Any) -> None:  # noqa: F811
     assert "[rods.panhard_rod]" in report
     assert "roll-centre height" in report
     assert not re.search(r'(src|href)="(?!data:|#)', report)
-    soft = Path("with_bushes.html").read_text(encoding="utf-8")
-    assert ">Compliance<" in soft
-    assert ">Elastokinematics<" in soft
 
 
 def test_every_characteristic_is_on_the_page() -> None:

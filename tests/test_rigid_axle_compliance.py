@@ -38,7 +38,7 @@ BUSHES: dict[str, dict[str, Any]] = {
     "left_link_axle": {"axial_N_per_mm": 2500.0},
     "right_link_axle": {"axial_N_per_mm": 700.0, "radial_N_per_mm": 3000.0, "axis": [0, 1, 0.2]},
     "wheel_center": {"axial_N_per_mm": 50e3, "radial_N_per_mm": [80e3, 60e3],
-                     "radial_axis": [0.3, 0.0, 1.0], "tilt_Nm_per_deg": 4000.0},
+                     "radial_axis": [0.3, 0.4, 1.0], "tilt_Nm_per_deg": 4000.0},
 }  # fmt: skip
 OF = {
     "Panhard rod": BUSHES | {"panhard_rod_chassis": {"axial_N_per_mm": 1800.0},
@@ -146,7 +146,8 @@ def stiffnesses(  # noqa: PLR0915 (one thing after the other)
         apart[3:, 3:6] = -np.eye(3)
         bush = dict(bushes["wheel_center"])
         spin = axle.wheel.spin_axis(sign)
-        bush["radial_axis"] = np.array(bush["radial_axis"])
+        # the file's is that of the right side
+        bush["radial_axis"] = np.array(bush["radial_axis"]) * [1.0, -sign, 1.0]
         in_beam = at.turn.as_matrix()
         soft = in_beam @ matrix(bush, spin) @ in_beam.T
         stiff += apart[:3].T @ np.linalg.inv(soft) @ apart[:3]

@@ -586,12 +586,17 @@ def test_commands_tell_the_loads(kintrafo: Any, tmp_path: Path) -> None:  # noqa
 def test_the_report_has_the_load_cases(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     text = "[cases.stop]\ncontact_g = [-1.0, 0.0, 1.2]\n"
     (tmp_path / "cases.toml").write_text(text, encoding="utf-8")
-    code, _, err = kintrafo(*["report", "rigid_axle", "one.html", "--cases", "cases.toml"])
+    soft = "[bushings.panhard_rod_chassis]\naxial_N_per_mm = 5000.0\n"
+    (tmp_path / "soft.toml").write_text(soft, encoding="utf-8")
+    given = ["--cases", "cases.toml", "--bushes", "soft.toml"]
+    code, _, err = kintrafo("report", "rigid_axle", "one.html", *given)
     assert code == 0, err
     page = (tmp_path / "one.html").read_text(encoding="utf-8")
     assert "Load cases" in page
     assert "Free bodies in the load case stop" in page
     assert "panhard_rod, pull" in page
+    assert ">Compliance<" in page
+    assert ">Elastokinematics<" in page
     code, _, err = kintrafo(*["report", "rigid_axle", "two.html", "--goals", "cases.toml"])
     assert code != 0
     assert "only for the file of one suspension" in err

@@ -83,7 +83,8 @@ _A_RIGID_AXLE = """\
 
 A file of its own, of a beam on four rods; `kintrafo new FILE --rigid-axle` writes one. See
 [A rigid axle](rigid-axle.md). What is not described here is as of every suspension: `[tyre]`,
-`[gravity]`, the stops, and `[wheel]`, which may be left out.
+`[gravity]`, the stops, and `[wheel]`, which may be left out; and `[bushings.POINT]`, whose points
+are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center` of both wheels.
 """
 
 _TABLE_HEAD = "| key | unit | allowed | left out | meaning |\n|---|---|---|---|---|"
@@ -239,8 +240,9 @@ def _rows(section: dict[str, Any], known: Container[str]) -> Iterator[str]:
 
 
 def _is_section(entry: dict[str, Any]) -> bool:
-    options = (entry, *entry.get("anyOf", ()), entry.get("additionalProperties", {}))
-    return any("$ref" in option for option in options)
+    options = (entry, *entry.get("anyOf", ()))
+    named = (option.get("additionalProperties", {}) for option in options)
+    return any("$ref" in option for option in (*options, *named))
 
 
 def _default(entry: dict[str, Any]) -> str:

@@ -94,8 +94,8 @@ class RigidAxle(Section):
         default=LeftHardpoints(), description="what of the left side is not the mirror image"
     )
     rods: dict[str, Rod] = Field(
-        description="four rods between chassis and axle, by names of any choice; five with "
-        "[bushings], for what they do on these"
+        description="four rods between chassis and axle, by names of any choice; or five, with "
+        "bushings"
     )
     wheel: Wheel = Field(
         default=Wheel(camber_deg=0.0, toe_deg=0.0), description="alignment of the wheels"
