@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, RigidAxle, rigid_axles, variation
+from kintrafo import Axle, InputError, Model, RigidAxle, rig, rigid_axles, variation
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 from test_rigid_axle import AXLE, Found
 
@@ -100,6 +100,31 @@ def test_an_optimum_and_a_fit_find_the_axle_that_was_meant() -> None:
     assert fitted.success
     for place, by in moved.items():
         assert fitted.moved[place] == pytest.approx(by, abs=0.3)
+
+
+def test_what_a_rig_measured_is_explained(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+    """Curves over roll in deg, of the root finder."""
+    meant = AXLE.with_changes({"rods.left_link.chassis.z": 298.0})
+    rolls = np.linspace(-3.0, 3.0, 5)
+    steered = np.rad2deg(
+        [Found(meant).pose(0.0, -r)[1].as_euler("ZXY")[0] for r in np.deg2rad(rolls)]
+    )
+    rows = [f"{roll},{angle}" for roll, angle in zip(rolls, steered, strict=True)]
+    text = "\n".join(["roll_angle [deg],axle_steer [deg]", *rows])
+    (tmp_path / "rig.csv").write_text(text, encoding="utf-8")
+    errors = '[tolerances]\n"rods.left_link.chassis.z" = 20.0\n'
+    (tmp_path / "errors.toml").write_text(errors, encoding="utf-8")
+    given = ["rig.csv", "errors.toml", "-o", "built.toml", "--plot", "fit.svg"]
+    code, _, err = kintrafo("fit", "rigid_axle", *given)
+    assert code == 0, err
+    built = RigidAxle.load("built.toml").rods["left_link"].chassis[2]
+    # of a curve that is known to 2 %, and an error that is more likely small
+    assert built == pytest.approx(298.0, abs=0.5)
+    code, _, err = kintrafo("fit", "reference_car", "rig.csv", "errors.toml")
+    assert code != 0
+    assert "over wheel_travel or rack_position" in err
+    with pytest.raises(InputError, match="curves over roll_angle, which"):
+        rig.beside(rig.measured_curves("rig.csv"), {"car": Model("reference_car")})
 
 
 def test_a_front_of_axles_and_many_of_them() -> None:
@@ -194,8 +219,7 @@ most = 0.1
         assert told in " ".join(out.split())
     better = rigid_axles.bump(RigidAxle.load("better.toml"), [0.0])
     assert float(better["roll_center_height"][0]) == pytest.approx(0.42, abs=1e-5)
-    for command in ("sweep", "fit", "kinematics"):
-        rest = ["goals.toml", "goals.toml"] if command == "fit" else ["wheel.toe_deg=0,1"]
-        code, _, err = kintrafo(command, "rigid_axle", *rest[: 0 if command == "kinematics" else 2])
+    for command, *more in (["sweep", "wheel.toe_deg=0,1"], ["kinematics"]):
+        code, _, err = kintrafo(command, "rigid_axle", *more)
         assert code != 0
         assert "rigid axle" in err or "rigid_axle" in err

@@ -13,7 +13,7 @@ from .console import console, print_json, progress_bar, say
 from .exits import Exit
 from .options import File, Force, Json, Of, among
 from .outputs import Outputs, Plot, name_files
-from .rigid import is_rigid_axle
+from .subject import studied
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -31,7 +31,9 @@ def command(
     measured: Annotated[
         Path,
         typer.Argument(
-            metavar="MEASURED", help="CSV: wheel_travel [mm] or rack_position [mm], toe [deg], ..."
+            metavar="MEASURED",
+            help="CSV: wheel_travel [mm] or rack_position [mm], toe [deg], ...; of a rigid axle "
+            "also over roll_angle [deg].",
         ),
     ],
     tolerances: Annotated[
@@ -67,17 +69,13 @@ def command(
     """
     from ..core.files import refuse
     from ..study import rig, variation
-    from ..suspension.kinds import Suspension
     from ..suspension.toml_writer import write_toml
 
     inputs: list[str | Path] = [file, measured, tolerances]
     outputs = Outputs.of(None, plot, force=force, inputs=inputs)
     if out is not None:
         refuse([out], force=force, inputs=inputs, endings=[".toml"])
-    if is_rigid_axle(file):
-        message = "measured curves are read of suspensions; a rigid axle: kintrafo.variation.fit"
-        raise typer.BadParameter(message)
-    suspension = Suspension.load(file)
+    suspension = studied(file)
     curves = rig.measured_curves(measured)
     asked = variation.read(tolerances)
     names = among(of, map(str, curves)) if of else None
@@ -96,8 +94,7 @@ def command(
         from ..plots import curves as plots
         from ..study.variation.ways import model_of
 
-        fitted = Suspension.from_dict(found.suspension.to_dict())
-        models = {"file": model_of(suspension), "fitted": model_of(fitted)}
+        models = {"file": model_of(found.start), "fitted": model_of(found.suspension)}
         shown = rig.beside(curves, models, held=held)[[curve.name for curve in found.curves]]
         written += [
             plots.write_overview(

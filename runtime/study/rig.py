@@ -13,13 +13,16 @@ from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.suggestions import nearest
 from ..suspension.model import Model
-from . import characteristics
+from ..suspension.rigid.model import RigidAxleModel
+from . import characteristics, rigid
+from .axles.datasets import ROLL
 from .characteristics.catalogue import Quantity
 from .characteristics.datasets import ALONG, DATA_SET, KNOWN, RACK, TRAVEL
 from .compare import on_bushes
 from .csv_columns import Sheet
 from .loads.compliance import COMPLIANCES
 from .loads.flexibility import HELD, Held
+from .rigid.catalogue import MEASURES
 
 Array = NDArray[np.float64]
 
@@ -39,12 +42,12 @@ _UNITS = {
     "-": ("1", 1.0),
     "": ("1", 1.0),
 }
-_EVERY = COMPLIANCES | {
-    name: quantity for known in KNOWN.values() for name, quantity in known.items()
-}
-_ALONG = {quantity.name: quantity for quantity in ALONG.values()}
+_OF_RIGID_AXLES = {measure.quantity.name: measure.quantity for measure in MEASURES}
+_ALONG = {quantity.name: quantity for quantity in (*ALONG.values(), ROLL)}
 _KNOWN = {ALONG[over].name: known for over, known in KNOWN.items()}
-_KNOWN[TRAVEL.name] = _KNOWN[TRAVEL.name] | COMPLIANCES
+_KNOWN[TRAVEL.name] = _OF_RIGID_AXLES | _KNOWN[TRAVEL.name] | COMPLIANCES
+_KNOWN[ROLL.name] = _OF_RIGID_AXLES
+_EVERY = {name: quantity for known in _KNOWN.values() for name, quantity in known.items()}
 # What is held moves by less than this [m], and by less than this part of what does not.
 _NOISE, _PART_OF_NOISE = 1e-4, 1e-2
 
@@ -54,7 +57,8 @@ def measured_curves(path: str | Path) -> xr.Dataset:
 
     The first line names the columns, each with its unit in brackets: ``wheel_travel [mm]`` or
     ``rack_position [mm]``, and characteristics, such as ``toe [deg]`` or ``wheel_rate [N/mm]``, by
-    their names in kintrafo; over wheel travel compliance as well, ``toe_by_lateral [deg/kN]``.
+    their names in kintrafo; over wheel travel compliance as well, ``toe_by_lateral [deg/kN]``. Of a
+    rigid axle they are over ``wheel_travel`` of both wheels or ``roll_angle [deg]``.
     Columns of other names are left out. Rows may be in any order, and a
     position may be there more than once, as of a loop with friction. A cell may be empty. Where
     both positions are there, one must be the same in all rows, to 0.1 mm: the suspension is held
@@ -67,8 +71,8 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Over ``wheel_travel`` or ``rack_position`` [m]; SI units. The attribute ``left_out`` names
-        the columns that were not read.
+        Over ``wheel_travel``, ``rack_position`` [m] or ``roll_angle`` [rad]; SI units. The
+        attribute ``left_out`` names the columns that were not read.
 
     Raises
     ------
@@ -96,8 +100,9 @@ def measured_curves(path: str | Path) -> xr.Dataset:
         if quantity.name in _KNOWN[varying]
     }
     if not data:
-        other = next(name for name in _KNOWN if name != varying)
-        problem = f"{', '.join(q.name for q in curves.values())}: known over {other} only."
+        names = [quantity.name for quantity in curves.values()]
+        others = [over for over, known in _KNOWN.items() if {*names} & {*known}]
+        problem = f"{', '.join(names)}: known over {' and '.join(others)} only."
         raise InputError([problem], sheet.source)
     coordinates = {varying: xr.Variable(varying, table[varying], along.attributes())}
     coordinates |= {name: xr.Variable((), at, _ALONG[name].attributes()) for name, at in held}
@@ -123,7 +128,7 @@ def _told_apart(sheet: Sheet, places: Mapping[str, Array]) -> tuple[str, list[tu
 
 def beside(
     measured: xr.Dataset,
-    models: Mapping[str, Model],
+    models: Mapping[str, Model | RigidAxleModel],
     name: str = "measured",
     *,
     held: Held = "height",
@@ -134,7 +139,7 @@ def beside(
     ----------
     measured : xarray.Dataset
         From `measured_curves`.
-    models : mapping of str to Model
+    models : mapping of str to Model or RigidAxleModel
         By the names that stand beside their curves.
     name : str, optional
         That of the measurement.
@@ -156,7 +161,7 @@ def beside(
     with Arguments("beside") as given:
         given.dataset(measured)
         for model in given.mapping("models", models, "names and models").values():
-            given.kind("model", model, Model, Model.NEEDED)
+            given.kind("model", model, (Model, RigidAxleModel), Model.NEEDED)
         given.text("name", name)
         given.among("held", held, HELD)
         if not given.refused and name in models:
@@ -165,6 +170,8 @@ def beside(
             given.refuse("models is empty: one or more are needed.")
         if not given.refused and len({*measured.dims} & {*_ALONG}) != 1:
             given.refuse("measured: what kintrafo.rig.measured_curves returns is needed.")
+        if not given.refused:
+            _refuse_other_ways(given, models, measured)
     found = [measured]
     for model in models.values():
         whole = _curves(model, measured, held)
@@ -177,8 +184,22 @@ def beside(
     )  # fmt: skip
 
 
-def _curves(model: Model, measured: xr.Dataset, held_by: Held) -> xr.Dataset:
+def _refuse_other_ways(
+    given: Arguments, models: Mapping[str, Model | RigidAxleModel], measured: xr.Dataset
+) -> None:
+    """Refuse curves over what a suspension, or a rigid axle, does not have."""
+    for model in models.values():
+        other = RACK if isinstance(model, RigidAxleModel) else ROLL
+        if other.name in measured.dims:
+            given.refuse(f"measured: curves over {other.name}, which {model!r} does not have.")
+
+
+def _curves(model: Model | RigidAxleModel, measured: xr.Dataset, held_by: Held) -> xr.Dataset:
     """Return the characteristics at the positions of a measurement."""
+    if isinstance(model, RigidAxleModel):
+        if TRAVEL.name in measured.dims:
+            return rigid.bump(model.axle, measured[TRAVEL.name].values)
+        return rigid.roll(model.axle, measured[ROLL.name].values)
 
     def held(name: str) -> float:
         return float(measured[name]) if name in measured.coords else 0.0
@@ -212,7 +233,8 @@ def _check(
         for name in dict.fromkeys(names)
         if names.count(name) > 1
     ]
-    units = dict.fromkeys(places, "m") | {name: quantity.units for name, quantity in curves.items()}
+    units = {name: _ALONG[split[name][0]].units for name in places}
+    units |= {name: quantity.units for name, quantity in curves.items()}
     for name, unit in units.items():
         given = split[name][1]
         if _in_si(given)[0] != unit:

@@ -205,7 +205,10 @@ def _targets(
     ways = {WAYS[way].along.name: way for way in reversed(ways_of(suspension))}
     over = [name for name in ways if name in measured.dims]
     if len(over) != 1:
-        given.refuse("measured: what kintrafo.rig.measured_curves returns is needed.")
+        given.refuse(
+            "measured: what kintrafo.rig.measured_curves returns is needed, over "
+            f"{' or '.join(reversed(ways))}."
+        )
         return []
     (along,) = over
     way = ways[along]
