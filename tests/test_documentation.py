@@ -1,5 +1,6 @@
 """Pages, links and names of the documentation, without building it (`make docs` does that)."""
 
+import inspect
 import re
 import runpy
 import tomllib
@@ -77,6 +78,15 @@ def test_every_public_name_is_documented():
         named |= {f"kintrafo.{module}.{name}" for name in names if not name.isupper()}
         assert any(name.startswith(f"kintrafo.{module}.") for name in documented), module
     assert named - documented <= {"kintrafo.checkup.readable"}  # for the command line
+
+
+@pytest.mark.parametrize("name", sorted(kintrafo.__all__))
+def test_signatures_call_types_by_their_names(name):
+    """What NumPy takes for an array is a word, and not the union of twelve classes that it is."""
+    shown = getattr(kintrafo, name)
+    if inspect.isfunction(shown):
+        assert "_NestedSequence" not in str(inspect.signature(shown))
+        assert shown.__doc__[:1].isupper()
 
 
 def test_changelog_and_citation_are_of_this_version():

@@ -69,6 +69,20 @@ def test_a_model_names_its_states(formatter):
     assert ", ".join(CAR.input_names) in texts
 
 
+def test_any_mechanism_is_drawn_beside_its_names(formatter):
+    page = Checked(formatter(CRANK))
+    assert (page.texts[0], len(page.images)) == (CRANK.equations.NAME.replace("_", " "), 1)
+    for names in (CRANK.state_names, CRANK.input_names, CRANK.signal_names):
+        assert ", ".join(names) in page.texts
+
+
+def test_linear_equations_name_their_modes(formatter):
+    linear = kintrafo.linearise(CAR, CAR.design_state)
+    texts = Checked(formatter(linear)).texts
+    assert linear.modes[0].text in texts
+    assert ", ".join(linear.output_names) in texts
+
+
 @pytest.mark.parametrize(
     ("shown", "title"),
     [

@@ -19,6 +19,7 @@ import own_loops
 import pytest
 from changes import with_default
 from compiled_elsewhere import simulated_end
+from kintrafo import generator
 from kintrafo.cli import app
 from kintrafo.generator import Formulation, JointForce, Mechanism, Motion
 from kintrafo.generator.mechanisms.andrews import MODELS as ANDREWS
@@ -27,6 +28,7 @@ from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BAR_MODELS
 from kintrafo.generator.mechanisms.slider_crank import SLIDER_CRANK
 from kintrafo.generator.planning.proposal import Proposal, model_of, proposals
 from kintrafo.systems.compile import build as own_build
+from kintrafo.systems.compile import declaration
 from kintrafo.systems.compile.cache import cache_folder
 from kintrafo.systems.compile.compiler import find_compiler
 from own_mechanisms import spatial_four_bar
@@ -471,6 +473,21 @@ def test_which_of_several_models(tmp_path):
     path = write(tmp_path, f"{IMPORTS}second = replace(first, name='other')\n")
     other = kintrafo.compile(path, name="other", backend="numpy")
     assert other.NAME == "other"
+
+
+def test_the_hint_for_one_of_several_models_works_as_printed(tmp_path):
+    path = write(tmp_path, f"{IMPORTS}second = replace(first, name='other')\n")
+    command = ["generate", str(path), "--model", "other", "--numpy"]
+    done = CliRunner().invoke(app, command)
+    assert done.exit_code == 0, done.output
+    (call,) = re.findall(r"kintrafo\.compile\(.*?\)", done.output.replace("\n", ""))
+    assert eval(call.replace(")", ", backend='numpy')")).NAME == "other"
+
+
+def test_a_page_of_what_ships_can_be_generated_from():
+    """Its imports are relative to the package in which it is."""
+    page = Path(generator.__file__).parent / "mechanisms/four_bar.py"
+    assert declaration.model_of(page) == FOUR_BAR_MODELS[0]
 
 
 def test_declarations_can_be_imported_from_one_place():

@@ -73,7 +73,7 @@ def command(
     if json:
         print_json(_facts(module))
     else:
-        _show(module, file, seconds)
+        _show(module, file, model, seconds)
 
 
 def _facts(module: ModuleType) -> dict[str, object]:
@@ -91,8 +91,8 @@ def _facts(module: ModuleType) -> dict[str, object]:
     }
 
 
-def _show(module: ModuleType, file: Path, seconds: float) -> None:
-    """Print what was found, and how to go on."""
+def _show(module: ModuleType, file: Path, chosen: str | None, seconds: float) -> None:
+    """Print what was found, and how to go on; the model is named where the file has several."""
     loops = [" - ".join(loop) for loop in module.LOOPS]
     how = "C" if module.ADDRESSES else "NumPy"
     rows = {
@@ -108,9 +108,10 @@ def _show(module: ModuleType, file: Path, seconds: float) -> None:
     for name, text in rows.items():
         say(f"  {name:{width}}  {text}".replace("\n", "\n" + " " * (width + 4)))
     console.print()
+    call = f'"{file}"' if chosen is None else f'"{file}", name="{chosen}"'
     for line in (
         "import kintrafo",
-        f'system = kintrafo.System(kintrafo.compile("{file}"))',
+        f"system = kintrafo.System(kintrafo.compile({call}))",
         "result = kintrafo.simulate(system, (0.0, 1.0), system.state())",
     ):
         say(f"  {line}")

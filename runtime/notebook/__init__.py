@@ -16,6 +16,8 @@ _SHOWN = {
     ("kintrafo.suspension.axle.axle", "Axle"): "axle",
     ("kintrafo.suspension.rigid.axle", "RigidAxle"): "rigid_axle",
     ("kintrafo.simulation.result", "Simulation"): "simulation",
+    ("kintrafo.systems.linearisation", "Linearisation"): "linearisation",
+    ("kintrafo.systems.system", "System"): "system",
 }
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 
+from ..plots.animation import still
 from ..plots.curves import figure, grouped
 from ..plots.overview import from_behind
 from ..plots.rigid_axle import views
@@ -11,6 +12,9 @@ from ..suspension.axle import Axle
 from ..suspension.kinds import Suspension
 from ..suspension.model import Model
 from ..suspension.rigid import RigidAxle
+from ..systems.linearisation import Linearisation
+from ..systems.skeleton import Skeleton
+from ..systems.system import System
 from .parts import columns, heading, picture, table
 
 # Of a motion so many groups of curves are drawn, those that are looked at first.
@@ -27,6 +31,31 @@ def model(shown: Model) -> str:
     names = {"states": shown.state_names, "inputs": shown.input_names}
     told = table(("equations", shown.equations.NAME), _listed(names))
     return _of_one(shown, _title(shown.suspension)) + told
+
+
+def system(shown: System) -> str:
+    """Return the page of any mechanism with numbers in it: how it stands at design, its names."""
+    name, skeleton = str(shown.equations.NAME), Skeleton(shown)
+    places = skeleton.places(shown.design_state[None])
+    names = {
+        "degrees of freedom": (str(shown.equations.MOBILITY),),
+        "states": shown.state_names,
+        "inputs": shown.input_names,
+        "signals": shown.signal_names,
+    }
+    told = table((name, ""), _listed(names))
+    return heading(name.replace("_", " ")) + columns(picture(still(skeleton, places, 0, "")), told)
+
+
+def linearisation(shown: Linearisation) -> str:
+    """Return the page of linear equations: their modes, and what goes in and comes out."""
+    modes = ((f"mode {i}", mode.text) for i, mode in enumerate(shown.modes, 1))
+    names = {
+        "states": shown.state_names,
+        "inputs": shown.input_names,
+        "signals": shown.output_names,
+    }
+    return table(("linear equations", ""), [*modes, *_listed(names)])
 
 
 def axle(shown: Axle) -> str:

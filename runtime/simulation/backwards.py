@@ -12,9 +12,10 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..core.arguments import Arguments, shown
+from ..core.named_types import ArrayLike
 from ..systems.derivatives import checked_directions
 from ..systems.state import inputs_of
 from ..systems.system import System

@@ -6,13 +6,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PPoly
+from typing_extensions import TypeAliasType
 
 from ..core.errors import InputError
 from .fitting import fitted
 from .interpolation import WAYS, Samples, curves
 
 Array = NDArray[np.float64]
-Signal = float | Samples | tuple[Any, Any] | list[Any] | PPoly | Callable[[float], Any]
+Signal = TypeAliasType(
+    "Signal", float | Samples | tuple[Any, Any] | list[Any] | PPoly | Callable[[float], Any]
+)
 
 
 def course(

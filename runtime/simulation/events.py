@@ -4,6 +4,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
+from typing_extensions import TypeAliasType
+
 from ..core.arguments import Arguments, shown
 from ..core.errors import InputError
 from ..core.suggestions import suggestion
@@ -34,7 +36,7 @@ class SignalEvent:
 
 
 EventFunction = Callable[..., float]
-Event = str | SignalEvent | EventFunction
+Event = TypeAliasType("Event", str | SignalEvent | EventFunction)
 
 _MOST_CROSSINGS = 2**31 - 1
 

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
+from ..core.named_types import ArrayLike
 from ..systems.derivatives import checked_directions, direction_of, kept_together
 from ..systems.state import inputs_of
 from ..systems.system import System

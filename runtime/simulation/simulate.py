@@ -6,10 +6,12 @@ from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
+from typing_extensions import TypeAliasType
 
 from ..core.arguments import Arguments
 from ..core.errors import InputError
+from ..core.named_types import ArrayLike
 from ..equations.errors import ModelError
 from ..systems.state import inputs_of
 from ..systems.system import System
@@ -34,18 +36,21 @@ from .solvers import (
 )
 
 Array = NDArray[np.float64]
-Method = Literal[
-    "BDF",
-    "Adams",
-    "Verner",
-    "DormandPrince",
-    "RK4",
-    "Tsitouras",
-    "Radau",
-    "LSODA",
-    "RK45",
-    "DOP853",
-]
+Method = TypeAliasType(
+    "Method",
+    Literal[
+        "BDF",
+        "Adams",
+        "Verner",
+        "DormandPrince",
+        "RK4",
+        "Tsitouras",
+        "Radau",
+        "LSODA",
+        "RK45",
+        "DOP853",
+    ],
+)
 Backend = Literal["auto", "sundials", "scipy"]
 
 # Default tolerances. An undamped wheel hop of 25 mm loses half a per cent of it in 1,000 s by BDF

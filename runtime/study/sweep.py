@@ -6,10 +6,11 @@ rack is displaced along its axis [m]. Both are zero at design.
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
 from ..core.errors import InputError
+from ..core.named_types import ArrayLike
 from ..core.quantities import variable
 from ..suspension.model import Model
 from ..suspension.points import hardpoints

@@ -3,10 +3,11 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
 from ..core.columns import spread
+from ..core.named_types import ArrayLike
 from ..core.vectors import turned
 from .model import Model
 

@@ -4,11 +4,12 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.optimize import brentq, minimize_scalar
 
 from ..core.arguments import Arguments
 from ..core.errors import InputError
+from ..core.named_types import ArrayLike
 from ..systems.state import State
 from .model import Model
 from .reach import (

@@ -4,10 +4,11 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
 from ..core.errors import InputError
+from ..core.named_types import ArrayLike
 from ..equations.directions import Directions
 from .state import inputs_of
 from .system import System

@@ -15,10 +15,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
 from ..core.errors import InputError
+from ..core.named_types import ArrayLike
 from .inputs import rates_of
 from .modes import Mode, eigenvalues_of, mode_of_states, modes_of
 from .state import inputs_of

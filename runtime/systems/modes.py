@@ -48,7 +48,7 @@ class Mode:
         """Damping ratio; above one for an overdamped pair, NaN for an eigenvalue that is zero."""
         total = sum(self.eigenvalues).real
         size = len(self.eigenvalues) * 2.0 * math.pi * self.natural_frequency
-        return -total / size if size > 0.0 else float("nan")
+        return 0.0 - total / size if size > 0.0 else float("nan")  # no negative zero
 
     @property
     def eigenvalues_text(self) -> str:

@@ -5,9 +5,10 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
+from ..core.named_types import ArrayLike
 from .system import System
 
 Array = NDArray[np.float64]

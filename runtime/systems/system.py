@@ -6,9 +6,10 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..core.arguments import Arguments, shown
+from ..core.named_types import ArrayLike
 from .allowed import Allowed
 from .compile.loader import find
 from .modes import eigenvalues_of

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
 
 from ...core.arguments import Arguments
+from ...core.named_types import ArrayLike
 from ...core.quantities import variable
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT

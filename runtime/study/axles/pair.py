@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ...core.errors import InputError
+from ...core.named_types import ArrayLike
 from ...core.vectors import cross
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT

@@ -5,11 +5,12 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.optimize import root
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.named_types import ArrayLike
 from ...simulation.courses import Signal
 from ...simulation.result import Simulation
 from ...simulation.signals import time_inputs

@@ -3,9 +3,9 @@
 from collections.abc import Container, Iterable
 
 import xarray as xr
-from numpy.typing import ArrayLike
 
 from ...core.arguments import Arguments
+from ...core.named_types import ArrayLike
 from ...suspension.corner import Array, Corner
 from ...suspension.kinds import Suspension
 from ...suspension.model import Model

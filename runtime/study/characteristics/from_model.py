@@ -7,9 +7,9 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ...core.columns import Column, spread
+from ...core.named_types import ArrayLike
 from ...core.vectors import cross, turned
 from ...suspension.corner import Array, Corner, Motion, SteeringAxis, Vehicle
 from ...suspension.input.units import in_metres

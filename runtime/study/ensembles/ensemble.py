@@ -8,10 +8,11 @@ from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ...core.arguments import Arguments, shown
 from ...core.errors import InputError
+from ...core.named_types import ArrayLike
 from ...simulation.accuracy import accuracy_of, outputs_of, span_of
 from ...simulation.lanes import library
 from ...simulation.lanes.problem import Problem, Systems

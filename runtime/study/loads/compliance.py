@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
+from ...core.named_types import ArrayLike
 from ...core.quantities import Display, display_of, variable
 from ...core.vectors import cross
 from ...suspension.bushes import described_bushings, left_out, refuse_rigid, softness_of_rack

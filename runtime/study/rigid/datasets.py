@@ -4,10 +4,10 @@ from collections.abc import Container, Mapping
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.named_types import ArrayLike
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array
 from ...suspension.reach import PositionError

@@ -5,9 +5,10 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ...core.arguments import Arguments, shown
+from ...core.named_types import ArrayLike
 from ...core.quantities import variable
 from ...core.suggestions import suggestion
 from .batch import curves_of_many

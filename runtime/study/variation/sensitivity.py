@@ -5,10 +5,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError, KintrafoError
+from ...core.named_types import ArrayLike
 from ...core.quantities import Display, display_of
 from .batch import curves_of_many, moved_by
 from .curves import Curves, changed, curves_of

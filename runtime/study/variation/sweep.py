@@ -5,10 +5,11 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError, KintrafoError
+from ...core.named_types import ArrayLike
 from ...suspension.kinds import Suspension
 from ...suspension.model import Model
 from ...suspension.rigid import RigidAxle

@@ -5,9 +5,10 @@ from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
+from ...core.named_types import ArrayLike
 from ...core.quantities import variable
 from .batch import curves_of_many, moved_by
 from .curves import Curves, curves_of

@@ -6,11 +6,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.optimize import root
 
 from ...core.arguments import Arguments, shown
 from ...core.errors import InputError
+from ...core.named_types import ArrayLike
 from ...equations.errors import ModelError
 from ...generated import rigid_axle as equations
 from ...systems.allowed import Allowed

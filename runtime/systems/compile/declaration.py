@@ -121,6 +121,7 @@ def _run(path: Path) -> ModuleType:
         raise InputError([problem], str(path)) from error
     module = ModuleType(path.stem)
     module.__file__ = str(path)
+    module.__package__ = _package_of(path)  # what its relative imports are relative to
     try:
         with _neighbours(path.parent.resolve()):
             exec(compile(source, str(path), "exec"), vars(module))
@@ -139,6 +140,16 @@ def _run(path: Path) -> ModuleType:
     except Exception as error:
         raise InputError([_where(error, path)], str(path)) from error
     return module
+
+
+def _package_of(path: Path) -> str:
+    """Return the package of a page of the generator's own, such as one that ships; else nothing."""
+    from ... import generator
+
+    home, folder = Path(generator.__file__).resolve().parent, path.resolve().parent
+    if not folder.is_relative_to(home):
+        return ""
+    return ".".join((generator.__name__, *folder.relative_to(home).parts))
 
 
 @contextmanager
@@ -187,6 +198,10 @@ def _chosen(module: ModuleType, path: str, name: str | None) -> "Formulation | M
         problem = "defines no Formulation and no Mechanism. Assign one to a name at its top level."
         raise InputError([problem], path)
     if len(found) > 1:
-        problem = f"defines {', '.join(found)}. Say which one is meant: --model {next(iter(found))}"
+        first = next(iter(found))
+        problem = (
+            f"defines {', '.join(found)}. Say which one is meant: --model {first}, in Python "
+            f'name="{first}"'
+        )
         raise InputError([problem], path)
     return next(iter(found.values()))

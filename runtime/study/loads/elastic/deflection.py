@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ....core.arguments import Arguments
 from ....core.errors import InputError
+from ....core.named_types import ArrayLike
 from ....core.quantities import attributes, variable
 from ....suspension.corner import RoadWheel
 from ....suspension.model import Model

@@ -5,9 +5,10 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ....core.arguments import Arguments
+from ....core.named_types import ArrayLike
 from ....core.quantities import variable
 from ....suspension.model import Model
 from ...characteristics import wheel
