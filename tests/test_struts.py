@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -11,20 +11,25 @@ from changes import changed, named
 from kintrafo.equations.errors import ClosureError
 from kintrafo.generator import (
     AlongLine,
+    Body,
     Cylindrical,
     DeclarationError,
     Direction,
     Distance,
+    Formulation,
+    Ground,
     Line,
+    Mechanism,
     Point,
+    Prismatic,
+    Revolute,
     Spherical,
     Universal,
 )
+from kintrafo.generator.loops.errors import NoClosedFormError
+from kintrafo.generator.planning.plan import Plan
 from own_mechanisms import spatial_four_bar, turret
 from own_models import Built, own
-
-if TYPE_CHECKING:
-    from kintrafo.generator import Formulation
 
 
 def compiled(model: Formulation) -> Built:
@@ -169,3 +174,42 @@ def test_a_rod_without_mass_on_two_balls_is_like_one_with_a_cross() -> None:
 def test_a_rod_with_mass_on_two_balls_is_refused() -> None:
     with pytest.raises(DeclarationError, match=r"'rod' may turn about the line"):
         on_two_balls(("crank", "rod", "rocker"))
+
+
+def leg_on_a_plate(along: Direction) -> Formulation:
+    """A plate on a hinge, held by a leg of a Stewart platform: cross, guide and ball joint."""
+    inertia = (1e-3, 2e-3, 1.5e-3)
+    ground = Ground("ground")
+    plate = Body("plate", 1.0, Point("plate_com", (0.2, 0.0, 1.0)), inertia)
+    tube = Body("tube", 1.0, Point("tube_com", (0.32, 0.06, 0.3)), inertia)
+    piston = Body("piston", 1.0, Point("piston_com", (0.38, 0.09, 0.8)), inertia)
+    line = Line(Point("bearing", (0.0, 0.0, 1.0)), Direction("side", fixed=(0.0, 1.0, 0.0)))
+    hinge = Revolute("hinge", ground, plate, line)
+    joints = (
+        hinge,
+        Universal("cross", ground, tube, FOOT, Line(FOOT, along)),
+        Prismatic("bore", tube, piston, along),
+        Spherical("ball", plate, piston, HEAD),
+    )
+    angle = hinge.angle("tilt", "tilt of the plate")
+    mechanism = Mechanism("plate", "A plate on a leg", joints, (), (angle,))
+    return Formulation("plate", "A plate on a leg", mechanism, (hinge,))
+
+
+FOOT, HEAD = Point("foot", (0.3, 0.05, 0.0)), Point("head", (0.4, 0.1, 1.0))
+
+
+@pytest.mark.parametrize("numbers", [(0.1, 0.05, 1.0), (-0.1, -0.05, -0.99)])
+def test_a_strut_whose_direction_is_given_as_numbers_is_told_to_be_between(
+    numbers: tuple[float, float, float],
+) -> None:
+    """What it says to do, done, closes in closed form."""
+    words = re.escape("Direction('leg', between=(foot, head))")
+    with pytest.raises(NoClosedFormError, match=words):
+        Plan.of(leg_on_a_plate(Direction("leg", fixed=numbers)))
+    with pytest.raises(NoClosedFormError, match=words):
+        Plan.of(leg_on_a_plate(Direction("leg", along=numbers)))
+    assert Plan.of(leg_on_a_plate(Direction("leg", between=(FOOT, HEAD)))).transformers
+    with pytest.raises(NoClosedFormError, match=r"has no closed form") as caught:
+        Plan.of(leg_on_a_plate(Direction("leg", fixed=(0.3, 0.05, 1.0))))
+    assert "between=" not in str(caught.value), "it points elsewhere, and may be meant to"

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, ClassVar, Self
 from ..declare.formulation import DRIVABLE
 from ..declare.joints import Free, Joint, Prismatic, Revolute, Spherical, Universal
 from ..kinematics.kinematics import Loop
+from .aimed import aimed
 from .crossed import between_crosses, crosses_turned
 from .cut import PairCandidate, pair_candidates, views
 from .errors import NoClosedFormError
@@ -247,7 +248,7 @@ class Plan:
             cycle = (attempt.cycles if attempt else crossed or cycles)[0]
             message = self._refusal(cycle, pair_candidates(self._known, cycle))
             hint = "" if attempt else self._about_crosses(cycle)
-            hint = hint or tilted(self._mechanism)
+            hint = hint or tilted(self._mechanism) or aimed(self._mechanism)
             if hint:
                 message += f" {hint}."
             elif attempt is None or attempt.obstacle:
