@@ -145,7 +145,7 @@ def test_commands_for_suspensions_say_what_a_mechanism_has(command):
     """Not that a Python file is no valid TOML."""
     result = CliRunner().invoke(app, [command, str(EXAMPLE)])
     assert isinstance(result.exception, kintrafo.InputError)
-    assert "kintrafo generate, topology, report, animate" in str(result.exception)
+    assert "kintrafo generate, topology, report, animate, derivation" in str(result.exception)
 
 
 def test_commands_show_a_mechanism_and_a_suspension(tmp_path):
@@ -204,3 +204,25 @@ def test_a_motion_of_another_mechanism_is_refused(spun, tmp_path):
     with pytest.raises(kintrafo.InputError, match="not one of this mechanism"):
         kintrafo.report.write(kintrafo.System(excavator), tmp_path / "a.html", motion=spun)
     assert not [*tmp_path.iterdir()]
+
+
+def test_of_several_mechanisms_in_a_file_one_is_shown(tmp_path):
+    """What the hint says to add works with each command that gives it."""
+    path = tmp_path / "two.py"
+    path.write_text(
+        "from kintrafo.generator.mechanisms.four_bar import FOUR_BAR\n"
+        "from kintrafo.generator.mechanisms.slider_crank import SLIDER_CRANK\n"
+    )
+    commands = {
+        "topology": ["topology", str(path)],
+        "report": ["report", str(path), str(tmp_path / "one.html")],
+        "animate": ["animate", str(path), str(tmp_path / "moving.html"), "--duration", "0.05"],
+        "derivation": ["derivation", str(path), "--out", str(tmp_path / "one.md")],
+    }
+    for command in commands.values():
+        refused = CliRunner().invoke(app, command)
+        (hint,) = re.findall(r"--model \w+", str(refused.exception))
+        done = CliRunner().invoke(app, [*command, *hint.split()])
+        assert done.exit_code == 0, (command, done.output)
+        beside = [command[0], "reference_car", *command[2:], *hint.split()]
+        assert "--model is for Python files" in CliRunner().invoke(app, beside).output

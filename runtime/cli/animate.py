@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from .console import problems, say
-from .options import File, Force, load, system_of
+from .options import File, Force, Which, load, refuse_which, system_of
 
 if TYPE_CHECKING:
     from ..simulation.result import Simulation
@@ -32,6 +32,7 @@ def command(
     ] = 1.0,
     fps: Annotated[float, typer.Option(metavar="1/S", help="Frames per second of a GIF.")] = 25.0,
     title: Annotated[str | None, typer.Option(help="Heading of a page.")] = None,
+    model: Which = None,
     force: Force = False,
 ) -> None:
     """Show how a mechanism of your own, or a suspension, moves when it is let go.
@@ -42,9 +43,10 @@ def command(
     from ..core.files import refuse
     from ..report.animation import ENDINGS, animate
 
+    refuse_which(file, model)
     refuse([path], force=force, inputs=[file], endings=ENDINGS)
     with problems.status("motion"):
-        result = _motion(file, _values(start or []), duration)
+        result = _motion(file, model, _values(start or []), duration)
         options = {"fps": fps, "slower": slower, "title": title}
         written = animate(result, path, force=force, inputs=[file], **options)  # type: ignore[arg-type]
     say(f"  {written}")
@@ -65,7 +67,7 @@ def _values(given: list[str]) -> dict[str, float]:
     return found
 
 
-def _motion(file: str, values: dict[str, float], duration: float) -> "Simulation":
+def _motion(file: str, name: str | None, values: dict[str, float], duration: float) -> "Simulation":
     import numpy as np
 
     from ..core.arguments import Arguments
@@ -73,6 +75,6 @@ def _motion(file: str, values: dict[str, float], duration: float) -> "Simulation
 
     with Arguments("animate") as given:
         seconds = given.number("--duration", duration, "s", above=0.0, below=3600.0)
-    system = system_of(file) if file.endswith(".py") else load(file)
+    system = system_of(file, name) if file.endswith(".py") else load(file)
     times = np.linspace(0.0, seconds, max(201, round(500 * min(seconds, 20.0)) + 1))
     return simulate(system, (0.0, seconds), system.state(**values), t_eval=times)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from .console import problems
-from .options import Force, complete_file, load
+from .options import Force, Which, complete_file, load, refuse_which
 from .outputs import name_files
 
 if TYPE_CHECKING:
@@ -36,10 +36,7 @@ def command(
             "--out", "-o", metavar="PATH", help="What to write: .tex, with its figures, or .md."
         ),
     ],
-    model: Annotated[
-        str | None,
-        typer.Option(metavar="NAME", help="Which model, where a Python file has several."),
-    ] = None,
+    model: Which = None,
     force: Force = False,
 ) -> None:
     """Write how the equations of motion are derived: from the joints to M, B and Q.
@@ -51,6 +48,7 @@ def command(
     from ..systems.compile.derivation import write_derivation
 
     require_generator()
+    refuse_which(file, model)
     declared = file if file.endswith(".py") else _shipped(file)
     with problems.status("deriving the equations"):
         written = write_derivation(declared, out, name=model, force=force)
@@ -59,7 +57,15 @@ def command(
 
 def _shipped(file: str) -> "Formulation":
     """Return the model of a name, or that of the suspension in a file."""
+    from ..core.errors import InputError
+    from ..core.suggestions import suggestion
     from ..generator.mechanisms import MODELS, model_named
+    from ..suspension.starter import packaged
 
     known = {model.name: model for model in MODELS}
-    return known[file] if file in known else model_named(load(file).equations.NAME)
+    if file in known:
+        return known[file]
+    if not Path(file).suffix and file not in packaged() and not Path(file).exists():
+        problem = f"is no file and no name. {suggestion(file, [*known, *packaged()])}"
+        raise InputError([problem], file)
+    return model_named(load(file).equations.NAME)

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from .console import console, print_json, problems, say
-from .options import Force, Json
+from .options import Force, Json, Which
 
 EXAMPLES = (
     "kintrafo generate my_mechanism.py",
@@ -28,9 +28,7 @@ def command(
         ),
     ],
     *,
-    model: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Which model, where the file has several.")
-    ] = None,
+    model: Which = None,
     to: Annotated[
         Path | None,
         typer.Option(metavar="FOLDER", help="Write the C, the Python and the report here as well."),

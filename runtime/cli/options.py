@@ -74,6 +74,10 @@ Of = Annotated[
         help="Characteristics that are shown, such as bump_steer. May be repeated.",
     ),
 ]
+Which = Annotated[
+    str | None,
+    typer.Option("--model", metavar="NAME", help="Which model, where a Python file has several."),
+]
 Step = Annotated[float, typer.Option(metavar="MM", help="Distance of the positions.")]
 
 
@@ -103,12 +107,18 @@ def load(file: str, *, wheel_loads: bool = False) -> "Model":
         return Model(suspension, free_rack=free_rack, wheel_loads=wheel_loads)
 
 
-def system_of(file: str) -> "System":
+def system_of(file: str, name: str | None = None) -> "System":
     """Return the equations of a mechanism of one's own, derived when they are first needed."""
     from ..systems.compile import compile_mechanism
     from ..systems.system import System
 
-    return System(compile_mechanism(file))
+    return System(compile_mechanism(file, name=name))
+
+
+def refuse_which(file: str | None, model: str | None) -> None:
+    """Refuse to choose a model where there is but one."""
+    if model is not None and not (file or "").endswith(".py"):
+        raise typer.BadParameter("--model is for Python files, which may have several")
 
 
 def among(wanted: list[str], known: Iterable[str], option: str = "--of") -> list[str]:

@@ -9,7 +9,7 @@ from . import axles, rigid
 from . import goals as wanted
 from .console import problems, say
 from .loads import subject
-from .options import File, Force, load, system_of
+from .options import File, Force, Which, load, refuse_which, system_of
 from .subject import described_by
 
 if TYPE_CHECKING:
@@ -37,6 +37,7 @@ def command(
     ] = None,
     *,
     title: Annotated[str | None, typer.Option(help="Heading of the report.")] = None,
+    model_name: Which = None,
     loads: Annotated[
         bool, typer.Option("--loads", help="With the usual load cases and their free bodies.")
     ] = False,
@@ -64,6 +65,7 @@ def command(
     from ..core.files import refuse
     from ..report import ENDINGS
 
+    refuse_which(file, model_name)
     target = path or Path(f"{Path(file).stem}.html")
     inputs: list[str | Path] = [
         file,
@@ -78,7 +80,7 @@ def command(
         from ..report import write as write_report
 
         with problems.status("report") as status:
-            system = system_of(file)
+            system = system_of(file, model_name)
             written = write_report(
                 system, target, title=title, progress=status.update, force=force, inputs=inputs
             )

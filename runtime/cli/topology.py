@@ -8,7 +8,7 @@ import typer
 from rich.table import Table
 
 from .console import console, print_json, say
-from .options import Json, complete_file, load
+from .options import Json, Which, complete_file, load, refuse_which
 
 if TYPE_CHECKING:
     from ..systems.topology import Topology
@@ -35,6 +35,7 @@ def command(
         ),
     ] = None,
     *,
+    model: Which = None,
     free_rack: Annotated[
         bool, typer.Option("--free-rack", help="The mechanism with the rack as a coordinate.")
     ] = False,
@@ -47,10 +48,11 @@ def command(
     """
     from ..systems.topology import topology
 
+    refuse_which(file, model)
     found = topology(
-        _FREE_RACK if free_rack else "macpherson" if file is None else _equations(file)
+        _FREE_RACK if free_rack else "macpherson" if file is None else _equations(file, model)
     )
-    choices = _choices(file) if file is not None and file.endswith(".py") else None
+    choices = _choices(file, model) if file is not None and file.endswith(".py") else None
     if json:
         kept = ("title", "bodies", "joints", "mobility", "paths", "candidates", "loops", "pairs")
         facts = {key: getattr(found, key) for key in kept}
@@ -101,18 +103,18 @@ def _show_loops(found: "Topology") -> None:
             console.print(tried)
 
 
-def _equations(file: str) -> ModuleType:
+def _equations(file: str, model: str | None) -> ModuleType:
     """Return the compiled equations that a file leads to."""
     if not file.endswith(".py"):
         return load(file).equations
     from ..systems.compile.build import compile_mechanism
 
-    return compile_mechanism(file)
+    return compile_mechanism(file, name=model)
 
 
-def _choices(file: str) -> list[dict[str, Any]]:
+def _choices(file: str, model: str | None) -> list[dict[str, Any]]:
     """Return the first sets of joints that can be independent."""
     from ..systems.compile.choices import proposals
 
-    first = islice(proposals(file, seconds=_SECONDS), _MOST_CHOICES)
+    first = islice(proposals(file, name=model, seconds=_SECONDS), _MOST_CHOICES)
     return [{"independent": p.independent, "iterates": p.iterates} for p in first]
