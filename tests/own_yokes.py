@@ -11,8 +11,9 @@ from kintrafo.generator import (
     JointForce,
     Mechanism,
     Prismatic,
+    flat,
+    hinge,
 )
-from kintrafo.generator.mechanisms.planar import flat, hinge
 from own_mechanisms import reported
 
 

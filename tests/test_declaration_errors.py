@@ -26,6 +26,8 @@ from kintrafo.generator import (
     Rotor,
     Spherical,
     Universal,
+    flat,
+    hinge,
 )
 from kintrafo.generator.declare.default_values import value_problems
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
@@ -470,3 +472,11 @@ class TestFiles:
         path.write_text(f"import sys\n{end}\n")
         with pytest.raises(kintrafo.InputError, match=r"Line 2: SystemExit.*__main__"):
             kintrafo.compile(path)
+
+
+def test_planar_helpers_name_what_is_of_no_plane():
+    with pytest.raises(DeclarationError, match="normal = 'x': 'y' or 'z' is needed"):
+        flat("p", (0.0, 0.0), normal="x")
+    anywhere, body = Point("p", (0.0, 0.0, 0.0)), Body("b", 1.0, flat("c", (0.1, 0.0)), 1e-3)
+    with pytest.raises(DeclarationError, match="point 'p' is of no plane across y or z"):
+        hinge("A", Ground("g"), body, anywhere)

@@ -27,6 +27,8 @@ from kintrafo.generator import (
     Revolute,
     Spherical,
     Universal,
+    flat,
+    hinge,
 )
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.closed_forms.prismatic import PrismaticByLength
@@ -34,7 +36,6 @@ from kintrafo.generator.closed_forms.revolute import RevoluteByLength
 from kintrafo.generator.closed_forms.rpr import RPR, PlaceTelescope
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.loops.errors import NoClosedFormError
-from kintrafo.generator.mechanisms.planar import flat, hinge
 from kintrafo.generator.mechanisms.slider_crank import MODELS as SLIDER_CRANKS
 from kintrafo.generator.planning.plan import Plan
 from mpmath import mpf

@@ -59,6 +59,7 @@ from .parameters import (
     TurnPerTravel,
 )
 from .paths import AlongGuide, AlongHinge, AlongLine, AlongTelescope, TwistOfHinges
+from .planar import flat, hinge
 from .shown import Shown
 from .surroundings import Surroundings
 from .wheel import Wheel
@@ -140,4 +141,6 @@ __all__ = [
     "Wheel",
     "WheelLoads",
     "combined",
+    "flat",
+    "hinge",
 ]

@@ -11,7 +11,7 @@ from __future__ import annotations
 import sympy as sp
 
 from .. import declare as d
-from .planar import flat, hinge
+from ..declare import flat, hinge
 
 _DIGITS = 40  # so that defaults are rounded once, on every machine alike
 

@@ -14,7 +14,7 @@ zero in the position of the table, with the arm upright and the bucket above the
 from __future__ import annotations
 
 from .. import declare as d
-from .planar import flat, hinge
+from ..declare import flat, hinge
 
 _PLACES = {
     "boom_foot": ((0.2, 1.9), "hinge of the boom on the chassis"),

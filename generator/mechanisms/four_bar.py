@@ -6,7 +6,7 @@ crank of 0.1 m, turns all the way round. There is no gravity in its plane.
 """
 
 from .. import declare as d
-from .planar import flat, hinge
+from ..declare import flat, hinge
 
 # At the start the crank points along y: 0.1 m up from the origin.
 CRANK_BEARING = flat("crank_bearing", (0.0, 0.0), "hinge of the crank on the ground")

@@ -9,7 +9,7 @@ pass.
 from __future__ import annotations
 
 from .. import declare as d
-from .planar import flat, hinge
+from ..declare import flat, hinge
 
 
 def _bar(name: str, x: float, z: float) -> d.Body:

@@ -7,7 +7,7 @@ bearing; the points may be moved for an offset one.
 import math
 
 from .. import declare as d
-from .planar import flat, hinge
+from ..declare import flat, hinge
 
 # A crank of 40 mm and a rod of 0.15 m, at the start with the crank along y.
 _ROD = 0.15

@@ -1,0 +1,82 @@
+"""What the declarations of planar mechanisms share: flat points, hinges across the plane."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from ..program.vectors import UNIT_Y
+from .declared import DeclarationError
+from .geometry import UP, Direction, Line, Point
+from .joints import Revolute
+
+if TYPE_CHECKING:
+    from .bodies import Body
+
+_ACROSS = Direction("across", fixed=UNIT_Y)
+
+# Axis that the plane is perpendicular to, and its direction.
+_NORMALS = {"z": UP, "y": _ACROSS}
+
+
+def flat(
+    name: str, place: tuple[float, float], meaning: str = "", normal: Literal["y", "z"] = "z"
+) -> Point:
+    """Return a point of a planar mechanism: of its coordinates, two are parameters.
+
+    Parameters
+    ----------
+    name
+        Begins the names of its parameters.
+    place
+        Default coordinates in the plane [m]: x and y, or x and z.
+    meaning
+        For the documentation of the generated code; without it, the name.
+    normal
+        The axis that the plane is perpendicular to and contains the origin of.
+
+    Raises
+    ------
+    DeclarationError
+        If this is no point of such a plane.
+
+    Examples
+    --------
+    >>> [p.name for p in flat("crank_pin", (0.0, 0.1)).numbers]
+    ['crank_pin_x', 'crank_pin_y']
+    """
+    if normal not in _NORMALS:
+        problem = f"normal = {normal!r}: 'y' or 'z' is needed"
+        raise DeclarationError(f"Point {name!r}", [problem])
+    return Point(name, place, meaning, flat=normal)
+
+
+def hinge(name: str, first: Body, second: Body, at: Point) -> Revolute:
+    """Return a hinge across the plane of a point; its angle is zero at the design position.
+
+    Parameters
+    ----------
+    name
+        Of the joint.
+    first, second
+        The bodies; the angle is that of the second one on the first, about the normal.
+    at
+        A point of the plane, see `flat`.
+
+    Raises
+    ------
+    DeclarationError
+        If the point is of no plane.
+
+    Examples
+    --------
+    >>> from kintrafo.generator import Body, Ground
+    >>> pin = flat("pin", (0.0, 0.0))
+    >>> bar = Body("bar", 1.0, flat("bar_com", (0.1, 0.0)), 1e-3)
+    >>> hinge("A", Ground("ground"), bar, pin).freedoms
+    1
+    """
+    normal = _NORMALS.get(at.flat)
+    if normal is None:
+        problem = f"point {at.name!r} is of no plane across y or z: make it by flat(...)"
+        raise DeclarationError(f"Revolute {name!r}", [problem])
+    return Revolute(name, first, second, axis=Line(at, normal))
