@@ -135,6 +135,14 @@ def test_command_writes_text_and_figures(tmp_path):
         kintrafo.write_derivation(model_named("slider_crank"), tmp_path / "crank.pdf")
 
 
+def test_a_mechanism_without_loops_has_no_figure_of_transformers(tmp_path):
+    files = kintrafo.write_derivation(model_named("trailing_arm"), tmp_path / "arm.tex")
+    assert [file.stem for file in files] == ["arm", "arm_bodies", "arm_graph", "arm_elementary"]
+    text = files[0].read_text("utf-8")
+    assert "with no kinematic loops and 2 degrees of freedom" in text
+    assert "arm_transformers" not in text
+
+
 @pytest.mark.tex
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex is not installed")
 def test_it_compiles_without_overfull_lines(tmp_path):

@@ -165,20 +165,25 @@ def _summary(derivation: Derivation) -> str:
     topology, mechanism = derivation.plan.topology, derivation.formulation.mechanism
     loops, freedoms = topology.loop_count, topology.mobility
     closed = "" if iteration_note(derivation) else " in closed form"
+    way = (
+        "Its loops are closed one after the other by kinematic transformers, each of which is "
+        f"solved{closed}. From the relative coordinates that they give follow"
+        if loops
+        else "From its relative coordinates, which no loop ties to each other, follow"
+    )
     return (
         f"This chapter derives the equations of motion of a mechanism of {len(mechanism.moving)} "
         f"moving bodies with {_counted(loops, 'kinematic loop')} and "
-        f"{_counted(freedoms, 'degree')} of freedom. Its loops are closed one after the other "
-        f"by kinematic transformers, each of which is solved{closed}. From the relative "
-        "coordinates that they give follow position and velocity of every body, and from these, "
-        "projected onto the independent coordinates, the equations of motion themselves. The "
-        "method is that of J. A. M. Góis and C. A. P. Sarzeto (Instituto Militar de Engenharia, "
-        "Rio de Janeiro, 2000); numbers of equations and figures behind the word paper are theirs."
+        f"{_counted(freedoms, 'degree')} of freedom. {way} "
+        "position and velocity of every body, and from these, projected onto the independent "
+        "coordinates, the equations of motion themselves. The method is that of J. A. M. Góis and "
+        "C. A. P. Sarzeto (Instituto Militar de Engenharia, Rio de Janeiro, 2000); numbers of "
+        "equations and figures behind the word paper are theirs."
     )
 
 
 def _counted(number: int, what: str) -> str:
-    return f"{number} {what}{'' if number == 1 else 's'}"
+    return f"{number or 'no'} {what}{'' if number == 1 else 's'}"
 
 
 def _structure(topology: Topology) -> list[Block]:
@@ -214,6 +219,14 @@ def _structure(topology: Topology) -> list[Block]:
         ),
         Table(("", *map(str, mechanism.numbers.values())), path_rows(topology)),
         Heading(2, "Cycles"),
+        *_cycles(topology),
+    ]
+
+
+def _cycles(topology: Topology) -> list[Block]:
+    if not topology.candidate_cycles:
+        return [Paragraph("The joint graph is a tree: there is no cycle in it.")]
+    return [
         Paragraph(cycles_line(topology)),
         Table(
             ("bodies", "length"),
@@ -224,6 +237,9 @@ def _structure(topology: Topology) -> list[Block]:
 
 def _transformers(derivation: Derivation, number: Equations) -> Iterator[Block]:
     topology = derivation.plan.topology
+    if not derivation.plan.transformers:
+        yield Paragraph("There is no loop, and so nothing to close.")
+        return
     yield Paragraph(
         "A loop is cut at a pair of joints whose points keep a known distance. Of the six "
         "equations of a loop in space, or the three of one in a plane, one is left then, with one "

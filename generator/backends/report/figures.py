@@ -47,7 +47,7 @@ ELEMENTS = {
 
 
 def draw_figures(plan: Plan, folder: Path, *, force: bool = False) -> list[Path]:
-    """Write the three figures of a mechanism; return where they are.
+    """Write the three figures of a mechanism, two if it has no loop; return where they are.
 
     Parameters
     ----------
@@ -60,7 +60,10 @@ def draw_figures(plan: Plan, folder: Path, *, force: bool = False) -> list[Path]
     """
     folder.mkdir(parents=True, exist_ok=True)
     written = []
-    for name, drawn in (("bodies", bodies), ("graph", graph), ("transformers", transformers)):
+    drawers = {"bodies": bodies, "graph": graph, "transformers": transformers}
+    for name, drawn in drawers.items():
+        if name == "transformers" and not plan.transformers:
+            continue
         path = folder / f"{plan.formulation.name}_{name}.svg"
         figure = drawn(plan)
         figure.suptitle(plan.formulation.mechanism.title, fontsize=14)
@@ -87,13 +90,10 @@ def print_figures(plan: Plan, text: Path, *, force: bool = False) -> dict[str, s
     force
         Whether files that somebody else wrote are replaced, see `kintrafo.core.files`.
     """
-    drawn = (
-        bodies(plan),
-        graph(plan, (False,)),
-        graph(plan, (True,)),
-        transformers(plan, numbered=True),
-    )
-    names = {name: f"{text.stem}_{name}.pdf" for name in FIGURES}
+    drawn = [bodies(plan), graph(plan, (False,)), graph(plan, (True,))]
+    if plan.transformers:
+        drawn.append(transformers(plan, numbered=True))
+    names = {name: f"{text.stem}_{name}.pdf" for name in FIGURES[: len(drawn)]}
     facts = {"CreationDate": None, "Producer": None, "Creator": None}
     for name, figure in zip(names.values(), drawn, strict=True):
         with replacing(text.with_name(name), force=force) as temporary:
