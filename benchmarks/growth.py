@@ -6,6 +6,8 @@ writes a table, JSON and a diagram. The chain hangs here: standing, it would fal
 position in which all rockers are level, where every loop is flat and no formulation of the kind has
 a unique way on.
 
+Beside it, one large mechanism: a Stewart platform (`benchmarks.large`).
+
 All rockers of the chain stay parallel, so that it is a pendulum whatever N is; the error of each
 run is that against the pendulum's own equation.
 """
@@ -25,6 +27,7 @@ from kintrafo.generator import Formulation
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
+from kintrafo.generator.mechanisms.stewart_platform import STEWART_PLATFORM
 from kintrafo.plots.figures import BLUE, STYLE
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.compiler import Compiler, find_compiler
@@ -39,6 +42,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from scipy.integrate import solve_ivp
 from sympy.core.cache import clear_cache
 
+from . import large
 from .report import (
     count,
     environment,
@@ -58,6 +62,7 @@ SIZES = (1, 2, 5, 10, 20, 40, 100)
 RATE = 2.0  # of the rockers at the start, hanging [rad/s]
 DURATION = 1.0  # [s]
 TOLERANCE = 1e-9
+REACH = 0.1  # of the large mechanism's coordinates from its design position [m, rad]
 BATCH = 1000  # states in one call, so that Python's share of a call is small
 ROUNDS = 20
 
@@ -277,28 +282,35 @@ def run(
     sizes, rounds = ((1, 2, 3), 2) if quick else (SIZES, ROUNDS)
     generate(n_four_bar(1))  # so that no import counts
     columns = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
-    with one_core(), Progress(*columns, console=console) as progress:
-        task = progress.add_task("growth", total=3 * len(sizes))
+    with Progress(*columns, console=console) as progress:
+        task = progress.add_task("growth", total=3 * len(sizes) + 1)
 
         def advance(what: str) -> None:
             progress.update(task, description=what, advance=1)
 
-        points = [measure(loops, compiler, rounds, advance) for loops in sizes]
-    _write(points, out, page)
+        declared = n_four_bar(1) if quick else STEWART_PLATFORM
+        advance("a large mechanism")  # on all cores, as it is waited for
+        one = large.measure(declared, compiler, rounds, REACH)
+        with one_core():
+            points = [measure(loops, compiler, rounds, advance) for loops in sizes]
+    _write(points, one, out, page)
     console.print(Markdown(table(points)))
+    console.print(Markdown(large.table(one)))
     console.print(f"{slopes_text(points)} {out / 'growth.md'} and, beside it, JSON and diagram")
 
 
-def _write(points: list[Point], out: Path, page: Path | None) -> None:
+def _write(points: list[Point], one: large.Large, out: Path, page: Path | None) -> None:
     """Write table, JSON and diagram, and fill the page."""
     machine = environment()
     blocks = {
         "machine": machine_line(machine),
         "slopes": slopes_text(points),
         "growth": table(points),
+        "large": large.table(one),
     }
     (out / "growth.md").write_text("\n\n".join(blocks.values()) + "\n", encoding="utf-8")
     data = {"environment": machine, "points": [asdict(p) for p in points]}
+    data |= {"large": asdict(one)}
     write_json(out / "growth.json", data)
     with rc_context(STYLE):
         figure(points).savefig(out / "growth.png", dpi=130)

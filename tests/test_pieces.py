@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from kintrafo import System
-from kintrafo.generator.backends.c import source
+from kintrafo.generator.backends.c import pieces, source
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms.held_by_rods import MODELS
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
@@ -18,19 +18,20 @@ FUNCTIONS = ("rhs", "rhs_jacobian", "margins", "poses", "jacobians")
 def test_pieces_return_the_bits_of_the_whole(tmp_path, monkeypatch, model):
     derived = generate(model)
     results = []
-    for number, long in enumerate((10**9, 0)):
+    for number, (long, piece) in enumerate(((10**9, 10**9), (0, 300))):
         monkeypatch.setattr(source, "LONG", long)
+        monkeypatch.setattr(pieces, "PIECE", piece)
         folder = tmp_path / f"{model.name}-pieces{number}"
         folder.mkdir()
         build(derived, folder, find_compiler())
         text = (folder / f"{model.name}.c").read_text(encoding="utf-8")
-        assert ("NOT_INLINED" in text) == (long == 0)
+        assert [f" {name}_2(" in text for name in ("prepare", "rhs")] == [long == 0] * 2
         module = load(folder)
         system, random = System(module), np.random.default_rng(3)
         constants, size = system.constants, system.design_state.size
         states = system.design_state + random.uniform(-0.3, 0.3, (50, size))
         values = [getattr(module, name)(states, None, constants) for name in FUNCTIONS]
-        results.append([np.asarray(v) for group in values for v in _arrays(group)])
+        results.append([constants, *(np.asarray(v) for group in values for v in _arrays(group))])
     for one, other in zip(*results, strict=True):
         assert one.tobytes() == other.tobytes()
 
@@ -45,4 +46,5 @@ def test_short_functions_stay_in_one_piece_and_so_does_what_comes_with_the_proje
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(source, "LONG", long)
             text = source.Source(derived, in_pieces=in_pieces).text()
-        assert ("NOT_INLINED" in text) == cut
+        assert (" rhs_1(" in text) == cut
+        assert (" prepare_1(" in text) == in_pieces  # which is called once, and stores the most

@@ -73,6 +73,15 @@ def length_of(whole: Together) -> int:
     return counted(values).total()
 
 
+def is_long(steps: Sequence[Assignment]) -> bool:
+    """Tell whether steps that are carried out once for a parameter set are more than a piece."""
+    return sum(map(_weight, steps)) > PIECE
+
+
+def _weight(step: Assignment) -> int:
+    return counted([step.value]).total() + 1
+
+
 def steps_of(function: Function | Stage, part: Part, whole: Together) -> list[Assignment]:
     """Return the steps that the results and the guards of a function need, in their order."""
     steps = [*whole.steps, *part.steps]
@@ -137,7 +146,7 @@ def _alive(reading: Sequence[frozenset[str]], places: Mapping[str, int]) -> list
 
 def _ends(steps: Sequence[Assignment], alive: Sequence[int]) -> Iterator[tuple[int, int]]:
     """Yield first and last place of each piece, the latter not included; there is one at least."""
-    weights = [counted([step.value]).total() + 1 for step in steps]
+    weights = [*map(_weight, steps)]
     start = 0
     while sum(weights[start : start + PIECE]) > PIECE:
         total, found = 0, []

@@ -5,7 +5,6 @@ No allocation, no global state, no ``pow``; every function returns a status word
 
 from __future__ import annotations
 
-import math
 import textwrap
 from typing import TYPE_CHECKING
 
@@ -21,7 +20,7 @@ from ..text import text_of, written, written_values
 from ..words import FORMULA, blocks_of, reads_given
 from .common import ARGUMENTS, WIDTH, CText, unbroken
 from .iteration import call_of, once
-from .pieces import LONG, cut, length_of, steps_of
+from .pieces import LONG, cut, is_long, length_of, steps_of
 from .statements import declared, in_all_lanes, printed, wrapped
 
 if TYPE_CHECKING:
@@ -30,6 +29,7 @@ if TYPE_CHECKING:
     from ...equations.outputs import Derivation
     from ...program.function import Block, Function, Stage
     from ...program.steps import Guard
+    from ..schedule import Assignment
     from ..sharing import Part, Together
     from .pieces import Cut, Piece
 
@@ -61,7 +61,7 @@ class Source(CText):
 
     def __init__(self, derivation: Derivation, *, in_pieces: bool = False) -> None:
         super().__init__(derivation)
-        self._cut_from = LONG if in_pieces else math.inf
+        self._in_pieces = in_pieces
 
     @property
     def parts(self) -> list[str]:
@@ -77,14 +77,19 @@ class Source(CText):
         functions = [f for f in self.derivation.emitted.values() if f.part == part]
         text_functions = "\n#include <string.h>" if blocks_of(functions) else ""
         null = "\n#include <stddef.h>" if any(map(reads_given, functions)) else ""
+        printed_functions = [
+            *([] if part else self._bodies_of_parameters()),
+            *self._functions(functions),
+        ]
+        cut_up = any("NOT_INLINED" in text for text in printed_functions)
         blocks = [
             self.banner(),
             f'#include "{self.prefix}.h"\n\n#include <math.h>{null}{text_functions}',
             template("c", "inlined.c").template.strip(),
             template("c", "scalars.c").template.strip(),
             *self._blocks(blocks_of(functions)),
-            *([] if part else self._bodies_of_parameters()),
-            *self._functions(functions),
+            *([NOT_INLINED] if cut_up else []),
+            *printed_functions,
         ]
         return "\n\n".join(blocks) + "\n"
 
@@ -129,18 +134,24 @@ class Source(CText):
         c = _free("c", taken)
         names = {name: f"{c}->{name}" for name in prepare.labels}
         results = written(prepare, FORMULA, names)[1]
+        steps = scheduled(prepare).steps
+        equal = [  # one whose value another one has
+            f"    {names[name]} = {in_all_lanes(value)};" if value != names[name] else ""
+            for name, value in zip(prepare.labels, results, strict=True)
+        ]
+        given = {name: f"parameters[{i}]" for i, name in enumerate(values) if name in read}
+        pieces: list[str] = []
+        calls: list[str] = []
+        if self._in_pieces and is_long(steps):
+            pieces, calls = self._prepare_in_pieces(steps, equal, names, given, c)
         lines = [
+            *(f"{piece}\n" for piece in pieces),
             self.from_parameters("prepare", "constants", "status_word"),
             "{",
             f"    struct {self.prefix}_constants *const {c} = (void *)constants;",
-            *declared([f"{n} = parameters[{i}]" for i, n in enumerate(values) if n in read - kept]),
-            *(f"    {c}->{n} = parameters[{i}];" for i, n in enumerate(values) if n in kept),
-            *printed(scheduled(prepare).steps, names),
-            *(
-                f"    {names[name]} = {in_all_lanes(value)};"
-                for name, value in zip(prepare.labels, results, strict=True)
-                if value != names[name]  # one whose value another one has
-            ),
+            *([] if pieces else declared([f"{n} = {given[n]}" for n in given if n not in kept])),
+            *(f"    {c}->{n} = {at};" for n, at in given.items() if n in kept),
+            *(calls or [*printed(steps, names), *filter(None, equal)]),
             "",
             f"    status_word failed = first_not_finite(constants, {count});",
             *self._assumptions(c),
@@ -148,6 +159,49 @@ class Source(CText):
             "}",
         ]
         return "\n".join(lines)
+
+    def _prepare_in_pieces(
+        self,
+        steps: Sequence[Assignment],
+        equal: Sequence[str],
+        names: Mapping[str, str],
+        given: Mapping[str, str],
+        c: str,
+    ) -> tuple[list[str], list[str]]:
+        """Print the pieces of `prepare`, and how they are called: what it stores, others read.
+
+        A compiler looks at every store of a long function for each of its reads.
+        """
+        found = cut(steps, scheduled(self.derivation.prepare).results, [], {})
+        kept = _free("kept", {step.name for step in steps})
+        handed = {name: place for name, place in found.kept.items() if name not in names}
+        pieces = []
+        for number, piece in enumerate(found.pieces, 1):
+            start = f"NOT_INLINED static void prepare_{number}("
+            indent = " " * len(start)
+            read = piece.reads - names.keys()
+            lines = [
+                f"{start}const double *restrict parameters, double *restrict constants,",
+                f"{indent}double *restrict {kept})",
+                "{",
+                f"    struct {self.prefix}_constants *const {c} = (void *)constants;",
+                *(f"    (void){name};" for name in ("parameters", c, kept)),
+                *declared([f"{name} = {at}" for name, at in given.items() if name in read]),
+                *declared([f"{n} = {kept}[{handed[n]}]" for n in sorted(read & handed.keys())]),
+                *printed(piece.steps, names),
+                *(
+                    f"    {kept}[{handed[s.name]}] = {s.name};"
+                    for s in piece.steps
+                    if s.name in handed
+                ),
+                *filter(None, (equal[i] for i in piece.results)),
+                "}",
+            ]
+            pieces.append("\n".join(lines))
+        array = f"    double {kept}[{max(1, found.size)}];"
+        numbers = range(1, len(pieces) + 1)
+        calls = [f"    prepare_{number}(parameters, constants, {kept});" for number in numbers]
+        return pieces, [array, *calls]
 
     def _body_of_parameters(self, function: Function, out: str = "out") -> str:
         read = {s.name for s in function.free_symbols}
@@ -196,8 +250,8 @@ class Source(CText):
         own = {f"given_{e.name}" for e in self.derivation.relative}
         own.update(self.derivation.by_parameters.weights("inputs"))
         whole = together(functions, self.derivation.order, own)
-        if length_of(whole) > self._cut_from:
-            return self._in_pieces(functions, whole)
+        if self._in_pieces and length_of(whole) > LONG:
+            return self._functions_in_pieces(functions, whole)
         given = any(map(reads_given, functions))
         wanted = ", ".join(map(self._wanted, functions))
         return [
@@ -219,14 +273,16 @@ class Source(CText):
         call = f"compute({', '.join(arguments)}, out)"
         return f"{self.signature(function, 'status_word')}\n{{\n    return {call};\n}}"
 
-    def _in_pieces(self, functions: Sequence[Function | Stage], whole: Together) -> list[str]:
+    def _functions_in_pieces(
+        self, functions: Sequence[Function | Stage], whole: Together
+    ) -> list[str]:
         """Print long functions, each by itself, as calls of its pieces."""
         simulated: list[str] = []
         others: list[str] = []
         for function, part in zip(functions, whole.parts, strict=True):
             texts = self._cut(function, part, whole)
             (simulated if function.name in self._in_lanes else others).extend(texts)
-        return [NOT_INLINED, *simulated, *_plain(others)]
+        return [*simulated, *_plain(others)]
 
     def _cut(self, function: Function | Stage, part: Part, whole: Together) -> list[str]:
         """Print the pieces of a function, and what calls them."""
