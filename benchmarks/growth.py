@@ -288,11 +288,11 @@ def run(
         def advance(what: str) -> None:
             progress.update(task, description=what, advance=1)
 
-        declared = n_four_bar(1) if quick else STEWART_PLATFORM
-        advance("a large mechanism")  # on all cores, as it is waited for
-        one = large.measure(declared, compiler, rounds, REACH)
         with one_core():
             points = [measure(loops, compiler, rounds, advance) for loops in sizes]
+            advance("a large mechanism")
+            declared = n_four_bar(1) if quick else STEWART_PLATFORM
+            one = large.measure(declared, compiler, rounds, REACH)
     _write(points, one, out, page)
     console.print(Markdown(table(points)))
     console.print(Markdown(large.table(one)))
