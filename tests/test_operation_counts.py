@@ -11,9 +11,10 @@ from pathlib import Path
 
 import pytest
 from c_text import EMITTED, count, functions, functions_of
+from kintrafo.generator.backends.c.source import Source
 from kintrafo.generator.mechanisms import held_by_rods
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
-from own_models import own
+from own_models import derive
 
 BASELINE = Path(__file__).with_name("operation_counts.json")
 KINDS = ("add", "multiply", "divide", "root", "trigonometric")
@@ -26,10 +27,8 @@ def present_counts() -> Counts:
     """Return model, function and kind of operation to their number, as the C text shows it."""
     bodies = {model: functions(model) for model in EMITTED}
     for model in DERIVED_HERE:
-        folder = Path(own(model).__file__).parent
-        names = (f"{model.name}.c", f"{model.name}_derivatives.c")
-        texts = ((folder / name).read_text(encoding="utf-8") for name in names)
-        bodies[model.name] = functions_of(model.name, texts)
+        source = Source(derive(model))
+        bodies[model.name] = functions_of(model.name, map(source.text, source.parts))
     return {
         model: {function: _numbers(body) for function, body in found.items()}
         for model, found in bodies.items()
