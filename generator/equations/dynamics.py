@@ -37,10 +37,10 @@ if TYPE_CHECKING:
 NONE = sp.Integer(0)
 
 MANY = 4
-"""From how many coordinates on, spins of rotors apart, q'' is differentiated without derivatives of
-the mass matrix, whose elements are as many as pairs of coordinates. Of the operations of the
-Jacobian of an open chain that saves a twelfth with four coordinates and a sixth with six, of that
-of a Stewart platform a quarter; with two it takes more."""
+"""From how many coordinates of a body on, spins of rotors apart, q'' is differentiated without
+derivatives of the mass matrix, whose elements are as many as pairs of coordinates. That saves a
+twelfth of the operations of an open chain's Jacobian with four coordinates and a sixth with six,
+and a quarter of those of a Stewart platform's; with two it takes more."""
 
 
 @dataclass
@@ -428,7 +428,8 @@ class Dynamics:
         """
         spins = {rotor.coordinate for rotor in self.rotors}
         rest = [k for k in self.names if k not in spins]
-        if len(rest) < MANY or self.coordinates.single_coordinate:
+        most = max((len(placed.motion.keys() & rest) for placed, *_ in self._wrenches), default=0)
+        if most < MANY or self.coordinates.single_coordinate:
             return self.accelerations
         values = {k: self.program.define(f"{k}_value", Frozen(self.accelerations[k])) for k in rest}
         inertial = self._inertial(values)
