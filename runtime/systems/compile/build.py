@@ -115,13 +115,13 @@ def compile_mechanism(
     if problem:
         shown = nullcontext(progress) if progress else on_terminal(f"compile {model.name}")
         with appearing(target) as temporary, shown as report:
+
+            def tell(text: str) -> None:
+                report(f"{model.name}: {text}")
+
             with translated_errors(model):
-                derived = generate(
-                    model,
-                    parameter_derivatives=parameter_derivatives,
-                    tell=lambda text: report(f"{model.name}: {text}"),
-                )
-            build(derived, temporary, compiler, name=target.name, report=report)
+                derived = generate(model, parameter_derivatives=parameter_derivatives, tell=tell)
+            build(derived, temporary, compiler, name=target.name, report=tell)
         refuse_damaged(target)
     return load(target)
 
