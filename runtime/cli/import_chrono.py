@@ -10,6 +10,7 @@ from .options import Force
 
 EXAMPLES = (
     "kintrafo import-chrono MacPhersonStrut.json my_car.toml",
+    "kintrafo import-chrono DoubleWishbone.json my_car.toml",
     "kintrafo import-chrono MacPhersonStrut.json my_car.toml --tire RigidTire.json --side right",
 )
 
@@ -18,7 +19,10 @@ _File = {"exists": True, "dir_okay": False}
 
 def command(
     file: Annotated[
-        Path, typer.Argument(metavar="JSON", help="File of the template MacPhersonStrut.", **_File)
+        Path,
+        typer.Argument(
+            metavar="JSON", help="File of the template MacPhersonStrut or DoubleWishbone.", **_File
+        ),
     ],
     path: Annotated[Path, typer.Argument(metavar="PATH", help="File to write; ends in .toml.")],
     *,

@@ -27,24 +27,33 @@ def _uncommented(name: str) -> dict[str, Any]:
     return found
 
 
-STRUT, TIRE = _uncommented("MacPhersonStrut.json"), _uncommented("RigidTire.json")
+FILES = tuple(_uncommented(f"{name}.json") for name in ("MacPhersonStrut", "DoubleWishbone"))
+TIRE = _uncommented("RigidTire.json")
 SHORT = 100
 COMMENTS = ('// a comment with "quotes"\n', "/* of\nlines */", "/**/", "//\n", "/* // */", "")
-# What of the file has a place of its own in ours: hardpoint, path to it.
+# What of the file has a place of its own in ours, by template: hardpoint, path to it.
+BOTH = {"tie_rod_inner": ("Tierod", "Location Chassis"), "wheel_center": ("Spindle", "COM")}
 POINTS = {
-    "arm_front": ("Control Arm", "Location Chassis Front"),
-    "ball_joint": ("Control Arm", "Location Upright"),
-    "strut_top": ("Spring", "Location Chassis"),
-    "tie_rod_inner": ("Tierod", "Location Chassis"),
-    "wheel_center": ("Spindle", "COM"),
+    "MacPhersonStrut": BOTH
+    | {
+        "arm_front": ("Control Arm", "Location Chassis Front"),
+        "ball_joint": ("Control Arm", "Location Upright"),
+        "strut_top": ("Spring", "Location Chassis"),
+    },
+    "DoubleWishbone": BOTH
+    | {
+        "upper_arm_rear": ("Upper Control Arm", "Location Chassis Back"),
+        "lower_ball_joint": ("Lower Control Arm", "Location Upright"),
+        "spring_seat": ("Spring", "Location Arm"),
+    },
 }
 
 
 def attempt(random: Generator) -> None:
     """Read a file that was changed, with comments between its lines."""
-    strut, tire = STRUT, TIRE
+    strut, tire = FILES[random.integers(len(FILES))], TIRE
     if random.random() < 0.8:
-        strut = mutations.nested(random, STRUT)
+        strut = mutations.nested(random, strut)
     if random.random() < 0.2:
         tire = mutations.nested(random, TIRE)
     text = _commented(random, strut).encode("utf-8", "surrogatepass")
@@ -80,7 +89,7 @@ def _judge(error: InputError) -> None:
 
 def check(suspension: Any, given: dict[str, Any]) -> None:
     """Points and masses are those of the file."""
-    for name, (part, key) in POINTS.items():
+    for name, (part, key) in POINTS[given["Template"]].items():
         found = np.array(getattr(suspension.hardpoints, name))
         if not np.allclose(found, given[part][key], rtol=1e-12, atol=1e-12):
             raise WrongError(f"{name} = {found} m, in the file {given[part][key]}")
