@@ -242,6 +242,7 @@ def test_each_side_of_an_axle_has_its_own_bushes() -> None:
     [
         ({"nowhere": {"axial_N_per_mm": 1.0}}, "'nowhere' is not known"),
         ({"arm_rear": {"axial_N_per_mm": 1.0, "axial_damping_N_s_per_mm": 1.0}}, "damping of a"),
+        ({"arm_rear": {"axial_N_per_mm": 1.0, "loss_factor": 0.1}}, "dynamic stiffnesses"),
         ({"arm_rear": 3}, "must be a section"),
         (3, "must be sections"),
         ({"rack": {}}, "must be a section with axial_N_per_mm"),

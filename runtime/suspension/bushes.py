@@ -41,8 +41,8 @@ _LARGEST = 1e300
 # No bush is softer or stiffer than this, in its units for people.
 _SOFTEST, _STIFFEST = 1e-3, 1e12
 _NO_DAMPING = (
-    "Nothing here moves so fast that the damping of a bush is felt: loads and compliance are at "
-    "rest, and motions have rigid joints. Leave it out."
+    "The damping of a bush does nothing here: loads and compliance are at rest, and motions have "
+    "rigid joints. Leave it out; enter the dynamic stiffnesses where you want those of a frequency."
 )
 # Two directions nearer to each other than this angle [rad] tell no plane.
 _LEAST_ANGLE = 1e-3
@@ -225,7 +225,8 @@ def bushes_of(
             given.refuse(f"{title} must be a section, with {', '.join(_KEYS)}.")
             continue
         for key in (str(key) for key in table if key not in _KEYS):
-            meant = _NO_DAMPING if "damp" in key or "N_s" in key else suggestion(key, _KEYS)
+            damps = any(word in key for word in ("damp", "N_s", "loss"))
+            meant = _NO_DAMPING if damps else suggestion(key, _KEYS)
             given.refuse(f"{title} {key} is not known. {meant}")
         if not any(key in table for key in _STIFFNESSES):
             given.refuse(f"{title}: one of {', '.join(_STIFFNESSES)} is needed, or it is rigid.")
