@@ -1,8 +1,9 @@
 """Files of Project Chrono, and input files as they are written.
 
 tests/data/chrono has files of Project Chrono; their source and licence are named in them. It
-publishes no curves of its double wishbone that we know of: its wheel is held against a carrier on
-five rods (`oracle.links`) instead, whose points are taken from the file once more.
+publishes no curves of its double wishbone and its multi-link that we know of: their wheels are held
+against a carrier on five rods (`oracle.links`) and against their joints in coordinates of all
+parts, whose points are taken from the files once more.
 """
 
 import json
@@ -20,11 +21,13 @@ from kintrafo.study.characteristics import travel
 from kintrafo.suspension.starter import packaged
 from kintrafo.suspension.toml_writer import toml_text, write_toml
 from oracle.links import Carrier
+from scipy.optimize import root
+from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
 FOLDER = Path(__file__).parent / "data/chrono"
 STRUT, TIRE = FOLDER / "MacPhersonStrut.json", FOLDER / "RigidTire.json"
-WISHBONES = FOLDER / "DoubleWishbone.json"
+WISHBONES, LINKS = FOLDER / "DoubleWishbone.json", FOLDER / "MultiLink.json"
 GENERIC = Suspension.load("chrono_generic")
 
 
@@ -190,6 +193,56 @@ class TestDoubleWishbone:
         heads = ["rack", "tyre", "damper", "tie rod", "bushes", "stops"]
         assert [text.partition(":")[0] for text in told] == heads
         assert found.damper.force_N == (-2000.0, 0.0, 900.0)
+
+
+class TestMultiLink:
+    def test_its_wheel_moves_on_the_five_links_that_the_refusal_tells(self):
+        """Against the joints of Chrono: a hinge of the arm, and rods of constant length."""
+        with pytest.raises(InputError, match="upper arm is two links with one outer point"):
+            chrono.read(LINKS)
+        data = content(LINKS)
+        arm, links = data["Upper Arm"], (data["Lateral"], data["Trailing Link"], data["Tierod"])
+        rods = [(link["Location Chassis"], link["Location Upright"]) for link in links]
+        names = ("front_lower_link", "rear_lower_link", "tie_rod")
+        ends = dict(zip(names, rods, strict=True)) | {
+            f"{end}_upper_link": (arm[f"Location Chassis {key}"], arm["Location Upright"])
+            for end, key in (("front", "Front"), ("rear", "Back"))
+        }
+        points = {f"{name}_{end}": p for name, pair in ends.items()
+                  for end, p in zip(("inner", "outer"), pair, strict=True)}  # fmt: skip
+        points["wheel_center"] = data["Spindle"]["COM"]
+        points |= {"spring_top": data["Spring"]["Location Chassis"],
+                   "spring_seat": data["Spring"]["Location Link"]}  # fmt: skip
+        changes = {f"hardpoints.{name}.{axis}": 1e3 * value for name, point in points.items()
+                   for axis, value in zip("xyz", point, strict=True)}  # fmt: skip
+        straight = {"wheel.camber_deg": 0.0, "wheel.toe_deg": 0.0, "tyre.radius_mm": 300.0}
+        left = Suspension.load("multi_link_car").mirrored().with_changes(changes | straight)
+        places = np.array([-0.05, 0.0, 0.05])
+        ours = sweep.positions(Model(left), places)
+        center = np.array(points["wheel_center"])
+        front, back, ball = (np.array(arm[f"Location {key}"]) for key in
+                             ("Chassis Front", "Chassis Back", "Upright"))  # fmt: skip
+        hinge = (front - back) / np.linalg.norm(front - back)
+
+        def left_over(pose, height):
+            turned = Rotation.from_rotvec(pose[3:6]).as_matrix()
+            arm_turned = Rotation.from_rotvec(pose[6] * hinge).as_matrix()
+            moved = center + pose[:3] + turned @ (ball - center)
+            lengths = [
+                np.linalg.norm(center + pose[:3] + turned @ (np.array(outer) - center) - inner)
+                - np.linalg.norm(np.subtract(outer, inner))
+                for inner, outer in rods
+            ]
+            return [*(moved - back - arm_turned @ (ball - back)), *lengths, pose[2] - height]
+
+        for i, place in enumerate(places):
+            found = root(left_over, np.zeros(7), args=(place,), tol=1e-13)
+            x, y, z = Rotation.from_rotvec(found.x[3:6]).apply([0.0, 1.0, 0.0])
+            assert ours["toe"].values[i] == pytest.approx(np.arctan2(x, y), abs=1e-10)
+            assert ours["camber"].values[i] == pytest.approx(np.arctan2(-z, y), abs=1e-10)
+            assert ours["wheel_center_y"].values[i] == pytest.approx(
+                center[1] + found.x[1], abs=1e-10
+            )
 
 
 class TestMistakes:

@@ -3,14 +3,13 @@
 The same data give the same bytes: the time of writing is not in the file.
 """
 
+import math
 import shutil
 from collections.abc import Iterable, Mapping
 from datetime import datetime
 from pathlib import Path
 from typing import Any
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
-
-import numpy as np
 
 from ..core.errors import InputError
 from ..core.legible import legible
@@ -107,7 +106,7 @@ def _cells(column: Any, text: Any) -> Iterable[Any]:
         return (text(value) if value != "" else None for value in values)
     # a sheet has no infinite numbers
     return (
-        value if np.isfinite(value) else None if np.isnan(value) else text(value)
+        value if math.isfinite(value) else None if math.isnan(value) else text(value)
         for value in values.tolist()
     )
 
