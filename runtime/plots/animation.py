@@ -54,9 +54,10 @@ def write_gif(
     palette: Image.Image | None = None
     for index, time in enumerate(times):
         drawer.draw(index, f"t = {time:.3f} s")
-        canvas.draw()
+        canvas.draw()  # type: ignore[no-untyped-call]
         drawer.figure.set_layout_engine("none")  # as the first is laid out: all are alike
-        shown = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
+        pixels = canvas.buffer_rgba()  # type: ignore[no-untyped-call]
+        shown = Image.fromarray(np.asarray(pixels)).convert("RGB")
         palette = palette or _palette(shown)
         frames.append(shown.quantize(palette=palette, dither=Image.Dither.NONE))
     frames[0].save(
