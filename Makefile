@@ -136,7 +136,7 @@ benchmark-studies: build ## How long sensitivity, tolerance and optimise take; t
 	@$(PYTHON) -m benchmarks.studies
 
 benchmark-derivatives: build ## What exact derivatives by parameters cost, and their page in docs/
-	@$(PYTHON) -m benchmarks.derivatives
+	@$(PYTHON) -m benchmarks.derivatives $(ARGS)
 
 benchmark-speed: build ## Times of everything, with pytest-benchmark (ARGS=--benchmark-compare)
 	@$(PYTHON) -m pytest -q benchmarks/test_speed.py -p no:xdist --benchmark-only \

@@ -5,16 +5,18 @@ import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
+from unittest.mock import patch
 
 import kintrafo
 import numpy as np
+import typer
 from kintrafo import Suspension, variation
 from kintrafo.generator.mechanisms import MODELS
 from scipy.optimize import least_squares
 
 from . import studies
-from .report import fill_page, milliseconds
+from .report import fill_page, load, milliseconds
 
 PAGE = Path(__file__).parent.parent / "docs/derivatives.md"
 MECHANISMS = ("four_bar", "macpherson", "multi_link")
@@ -22,18 +24,24 @@ TRAVEL = studies.TRAVEL
 FREE = [(point, axis) for point in ("tie_rod_inner", "tie_rod_outer") for axis in "xyz"]
 REACH_MM, WITHIN, RELUCTANCE = 10.0, np.deg2rad(0.05), 0.01
 STATES = 200
-REPEATED = 5
+REPEATED = 30
 SHIPPED = {model.name: model for model in MODELS}
 
 
-def main() -> None:
+def main(
+    *, only_motion: Annotated[bool, typer.Option("--motion", help="Only of a motion.")] = False
+) -> None:
     """Measure everything and fill the page."""
     where = (
-        f"On {platform.machine()}, one core, Python {platform.python_version()}; the quickest of"
+        f"On {platform.machine()}, one core, Python {platform.python_version()}; the quickest of "
+        f"{REPEATED} runs."
     )
-    text = "\n".join([*costs(), "", *toe(), "", *motion(), "", f"{where} {REPEATED} runs."])
-    print(text)
-    fill_page(PAGE, {"derivatives": text})
+    of_motion = f"{where.replace('one core', 'directions on all cores')} {load()}"
+    blocks = {"derivatives motion": "\n".join([*motion(), "", of_motion])}
+    if not only_motion:
+        blocks["derivatives"] = "\n".join([*costs(), "", *toe(), "", where])
+    print(*blocks.values(), sep="\n\n")
+    fill_page(PAGE, blocks)
 
 
 def quickest(call: Callable[[], Any]) -> float:
@@ -185,14 +193,17 @@ def motion() -> list[str]:
         )
 
     forward, backward = quickest(simulated), quickest(differentiated)
-    one, many = (milliseconds(quickest(lambda n=n: over_time(n))) for n in (1, 20))
+    in_lanes = [quickest(lambda n=n: over_time(n)) for n in (1, 20)]
+    with patch("kintrafo.simulation.forwards.in_lanes", lambda *_: None):
+        in_numpy = [quickest(lambda n=n: over_time(n)) for n in (1, 20)]
     times_longer = f"{milliseconds(backward)}, {backward / forward:.0f} times"
     return [
         "| a second of the reference car, ms | |",
         "|---|---:|",
         f"| simulated, with a signal at 201 times | {milliseconds(forward)} |",
         f"| with the gradient of its RMS by {len(differentiated().by)} | {times_longer} |",
-        f"| with derivatives over time by 1, by 20 | {one}, {many} |",
+        f"| with derivatives over time by 1, by 20 | {', '.join(map(milliseconds, in_lanes))} |",
+        f"| the same in NumPy | {', '.join(map(milliseconds, in_numpy))} |",
     ]
 
 
@@ -242,4 +253,4 @@ def toe() -> list[str]:
 
 
 if __name__ == "__main__":
-    main()
+    typer.run(main)

@@ -36,6 +36,7 @@ from .report import (
     count,
     environment,
     fill_page,
+    load,
     machine_line,
     markdown_table,
     seconds_of,
@@ -344,8 +345,7 @@ def _beside() -> str:
     """Say which other tools there are, and how much else the machine had to do."""
     there = [name for name in OTHERS if importlib.util.find_spec(name)]
     versions = ", ".join(f"{name} {metadata.version(name)}" for name in there)
-    load = f"{os.getloadavg()[0]:.0f} programs at a time wanted the {usual_threads()} cores"
-    return f"{versions}. {load}."
+    return f"{versions}. {load()}"
 
 
 def _told(number: float, digits: int = 3) -> str:

@@ -16,6 +16,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from kintrafo.simulation.lanes.run import usual_threads
 from kintrafo.simulation.solvers import native_available, native_version
 
 NO_SUNDIALS = (
@@ -135,6 +136,12 @@ def milliseconds(seconds: float) -> str:
 def count(number: float) -> str:
     """Return a whole number in groups of three."""
     return f"{round(number):,}".replace(",", " ")
+
+
+def load() -> str:
+    """Say how much the machine has to do."""
+    there = f"{os.getloadavg()[0]:.0f} programs at a time wanted the {usual_threads()} cores"
+    return f"Meanwhile {there}."
 
 
 # -- writing ------------------------------------------------------------------------------------

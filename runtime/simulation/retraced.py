@@ -33,7 +33,16 @@ _LAST = np.array(
 
 
 class Steps:
-    """The steps of a motion, and what its stages were, evaluated again for all of them at once."""
+    """The steps of a motion, and what its stages were, evaluated again for all of them at once.
+
+    Attributes
+    ----------
+    begin, length : ndarray, shape (steps,)
+        [s]
+    anew : ndarray of bool, shape (steps,)
+        Before which of them inputs may jump: the others begin as the one before has ended.
+    states, inputs, rates : ndarray, shape (steps, stages, ...)
+    """
 
     def __init__(self, system: System, motion: Simulation, courses: TimeInputs) -> None:
         self.begin, self.length = motion.t[:-1], np.diff(motion.t)
@@ -41,6 +50,8 @@ class Steps:
         self._of_segment = [
             slice(*np.searchsorted(self.begin, (part.start, part.end))) for part in courses.segments
         ]
+        self.anew = np.zeros(self.begin.size, dtype=bool)
+        self.anew[[own.start for own in self._of_segment if own.start < own.stop]] = True
         self.states = np.repeat(motion.y.T[:-1, None], NODES.size, axis=1)
         self.inputs = np.empty((*self.states.shape[:2], len(system.input_names)))
         for node, part in enumerate(NODES):

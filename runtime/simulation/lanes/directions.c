@@ -50,7 +50,9 @@ static void go_through(crew *w, long step)
 {
     const kt_motion *m = w->m;
     int n = m->state_count;
-    for (int s = 0; s < STAGES; ++s) {
+    int first = !m->anew[step]; /* else it is the last stage of the step before */
+    memcpy(w->rates, w->rates + (STAGES - 1) * n, (size_t)n * sizeof *w->rates);
+    for (int s = first; s < STAGES; ++s) {
         long place = step * STAGES + s;
         spread(w->state, m->states + place * n, n);
         spread(w->inputs, m->inputs + place * m->input_count, m->input_count);

@@ -16,6 +16,7 @@ typedef struct {
     /* the steps, and where their stages are: steps x stages x elements */
     long step_count;
     const double *lengths;
+    const int *anew; /* steps before which inputs may jump: their first stage is not the last one before */
     const double *states, *inputs;
 
     /* the outputs, in the order of their times */

@@ -2,6 +2,7 @@
 
 import ctypes
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,13 +12,14 @@ from numpy.typing import NDArray
 from ...systems.system import System
 from ..retraced import Steps, weights_within
 from . import library
+from .run import usual_threads
 
 Array = NDArray[np.float64]
 
 _DOUBLES, _INTS = ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_int)
 _LONGS = ctypes.POINTER(ctypes.c_long)
 _KINDS: dict[Any, type] = {_DOUBLES: np.float64, _INTS: np.intc, _LONGS: np.long}
-_NO_MEMORY = 1
+_DONE, _NO_MEMORY = 0, 1
 
 
 _FIELDS: list[tuple[str, Any]] = [
@@ -25,7 +27,9 @@ _FIELDS: list[tuple[str, Any]] = [
     *((f"{n}_count", ctypes.c_int) for n in ("constant", "state", "input", "signal")),
     ("constants", _DOUBLES),
     ("step_count", ctypes.c_long),
-    *((name, _DOUBLES) for name in ("lengths", "states", "inputs")),
+    ("lengths", _DOUBLES),
+    ("anew", _INTS),
+    *((name, _DOUBLES) for name in ("states", "inputs")),
     ("time_count", ctypes.c_long),
     ("step_of", _LONGS),
     *((name, _DOUBLES) for name in ("weights", "states_there", "inputs_there")),
@@ -96,10 +100,19 @@ def followed(
     described = _described(system, steps, times, along, items)
     motion, _kept = _in_c({**functions, **described, "found": found})
     call = library.solver("follow", width)
-    failed = call(ctypes.byref(motion), ctypes.c_long(0), ctypes.c_long(count))
-    if failed == _NO_MEMORY:
+
+    def some(first: int) -> int:
+        last = min(first + width, count)
+        return call(ctypes.byref(motion), ctypes.c_long(first), ctypes.c_long(last))
+
+    if count <= width:
+        failed = {some(0)}
+    else:  # without the interpreter's lock
+        with ThreadPoolExecutor(usual_threads()) as pool:
+            failed = set(pool.map(some, range(0, count, width)))
+    if _NO_MEMORY in failed:
         raise MemoryError
-    return None if failed else found
+    return found if failed == {_DONE} else None
 
 
 def _described(
@@ -116,6 +129,7 @@ def _described(
         "constants": system.constants,
         "step_count": steps.length.size,
         "lengths": steps.length,
+        "anew": steps.anew,
         "states": steps.states,
         "inputs": steps.inputs,
         "time_count": times.size,
