@@ -5,6 +5,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
 from c_text import sources
 from cases import MODELS, car_parameters
@@ -192,6 +193,39 @@ int main(void)
 }}
 """
 
+ITERATION = """
+#define KINTRAFO_LANES /* its functions are declared below, as of vectors */
+#include "multi_link.h"
+#include <stdlib.h>
+
+typedef double pair __attribute__((vector_size(16)));
+typedef long long words __attribute__((vector_size(16)));
+words in_lanes_rhs(const pair *, const pair *, const pair *, pair *);
+words in_lanes_prepare(const pair *, pair *), in_lanes_design_state(const pair *, pair *);
+
+static pair *exactly(size_t count)
+{{
+    return aligned_alloc(16, 16 * count); /* so that one element too far is seen */
+}}
+
+int main(void)
+{{
+    pair *parameters = exactly(MULTI_LINK_PARAMETER_COUNT), *out = exactly(MULTI_LINK_STATE_COUNT);
+    pair *constants = exactly(MULTI_LINK_CONSTANT_COUNT), *state = exactly(MULTI_LINK_STATE_COUNT);
+    pair *inputs = exactly(MULTI_LINK_INPUT_COUNT);
+    for (int i = 0; i < MULTI_LINK_INPUT_COUNT; ++i) inputs[i] = (pair){{0.0}};
+    const double values[] = {{{parameters}}};
+    for (int i = 0; i < MULTI_LINK_PARAMETER_COUNT; ++i) parameters[i] = values[i] + (pair){{0.0}};
+    words failed = in_lanes_prepare(parameters, constants);
+    in_lanes_design_state(parameters, state);
+    state[0] += (pair){{0.05, 7.0}}; /* near, and beyond what there is, round once */
+    words status = in_lanes_rhs(constants, state, inputs, out);
+    free(parameters), free(out), free(constants), free(state), free(inputs);
+    return failed[0] || failed[1] || status[0] || !status[1];
+}}
+"""
+
+
 # y' = c y, by c in the first two directions, twice as much in the second, and by y in the third; in
 # the fourth nothing is finite.
 DIRECTIONS = """
@@ -360,6 +394,18 @@ def test_solver_in_lanes(tmp_path):
     folder = ROOT / "runtime/simulation/lanes"
     files = [folder / name for name in ("model.c", "integrate.c", "width.c")]
     run_clean(tmp_path, text, files, [*flags, *renamed])
+
+
+@needs_gcc
+@pytest.mark.slow
+def test_iteration_in_lanes(tmp_path):
+    values = np.array([*Model("multi_link_car").parameters.values()])
+    text = ITERATION.format(parameters=listed(values))
+    names = ("prepare", "design_state", "rhs")
+    flags = ["-std=gnu11", "-DWIDTH=2", '-DMODEL="multi_link.c"']
+    renamed = [f"-Dmulti_link_{name}=in_lanes_{name}" for name in names]
+    source = ROOT / "runtime/simulation/lanes/model.c"
+    run_clean(tmp_path, text, [source], [*flags, *renamed])
 
 
 @needs_gcc

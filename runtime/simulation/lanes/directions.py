@@ -18,7 +18,11 @@ Array = NDArray[np.float64]
 
 _DOUBLES, _INTS = ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_int)
 _LONGS = ctypes.POINTER(ctypes.c_long)
-_KINDS: dict[Any, type] = {_DOUBLES: np.float64, _INTS: np.intc, _LONGS: np.long}
+_KINDS: dict[Any, Any] = {
+    _DOUBLES: np.float64,
+    _INTS: np.intc,
+    _LONGS: np.dtype(ctypes.c_long),
+}
 _DONE, _NO_MEMORY = 0, 1
 
 

@@ -113,10 +113,10 @@ static real follow_turns(const struct loops *loops, const real *given, const rea
         }
         const bits whole = turns != 0.0;
         if (loops->turns[c] && any(whole)) {
-            real turned[DRIVEN];
-            memcpy(turned, start, (size_t)loops->driven * sizeof *turned);
-            turned[c] += with_sign_of(SPREAD(FULL_TURN), turns);
-            bits back = follow(loops, given, start, turned, unit, whole, found);
+            real around[DRIVEN];
+            memcpy(around, start, (size_t)loops->driven * sizeof *around);
+            around[c] += with_sign_of(SPREAD(FULL_TURN), turns);
+            bits back = follow(loops, given, start, around, unit, whole, found);
             back &= found[loops->unknowns + loops->elements + 1] <= CLOSED * CLOSED;
             put(back, &end[c], end[c] - turns * FULL_TURN);
         }
