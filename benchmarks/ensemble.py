@@ -282,6 +282,43 @@ def beside(most: int, report: Callable[[str], None]) -> Iterator[Rate]:
         yield from timed("diffrax Tsit5, `vmap`", solve, many, cores)
 
 
+def iterating(most: int) -> str:
+    """Say what a car on five links takes, whose loops iterate."""
+    model = Model("multi_link_car")
+    height = float(model.signal("wheel_center_z", model.design_state))
+    begin = state_at_height(model, height - 0.010)
+    few, many = min(ONE_BY_ONE // 10, most), min(5 * ONE_BY_ONE, most)
+
+    def rates(number: int) -> Array:
+        return model.parameters["damper_rate"] * np.linspace(0.9, 1.1, number)
+
+    def in_a_loop() -> None:
+        for rate in rates(few).tolist():
+            one = System(model.equations, model.parameters | {"damper_rate": rate})
+            simulate(one, SPAN, begin, method="DormandPrince")
+
+    def together() -> None:
+        ensemble(model, {"damper_rate": rates(many)}, SPAN, begin)
+
+    alone, in_lanes = _processor_times(in_a_loop) / few, _processor_times(together) / many
+    return (
+        f"A second of one of {count(many)} cars on five links, whose loops iterate, takes "
+        f"{_told(1e6 * in_lanes)} µs of a core in {library.widths()[-1]} lanes, and "
+        f"{_told(1e6 * alone)} µs in a loop over `simulate` by the same method and tolerances: "
+        f"{_told(alone / in_lanes, digits=2)} times as much."
+    )
+
+
+def _processor_times(call: Callable[[], None]) -> float:
+    """Return the least time of some calls, of all cores [s]."""
+    taken = []
+    for _ in range(REPEATS):
+        before = processor_time()
+        call()
+        taken.append(processor_time() - before)
+    return min(taken)
+
+
 # -- results --------------------------------------------------------------------------------------
 
 
@@ -399,7 +436,9 @@ def run(
     ] = None,
     *,
     quick: Annotated[bool, typer.Option("--quick", help="Few cars, no other tools.")] = False,
-    others: Annotated[bool, typer.Option("--others", help="Only the table of others.")] = False,
+    others: Annotated[
+        bool, typer.Option("--others", help="Only these, and what iterates.")
+    ] = False,
 ) -> None:
     """Measure many cars at once."""
     console = Console()
@@ -417,6 +456,7 @@ def run(
             blocks |= {"machine": words, "calls": table_of_calls(costs)}
             blocks |= {"rates": table_of_rates(found), "sentence": sentence(found)}
             data |= {"calls": costs, "rates": [asdict(rate) for rate in found]}
+        blocks["iterating"] = iterating(sizes[-1])
         compared = [] if quick else list(beside(sizes[-1], status.update))
     if len(compared) > 1:
         blocks |= {"others": table_of_others(compared), "machine others": f"{words} {_beside()}"}
