@@ -28,7 +28,7 @@ def test_solutions_are_those_of_lapack(seed):
     entries = random_entries(seed)
     right = np.random.default_rng(seed + 100).uniform(-1.0, 1.0, (SIZE, 2, COUNT))
     found, accurate = eliminated(entries, right)
-    matrix = dense(entries, SIZE)
+    matrix = dense(entries, (SIZE, SIZE))
     expected = np.linalg.solve(matrix, np.moveaxis(right, -1, 0))
     assert accurate.mean() > 0.9
     error = np.abs(np.moveaxis(found, -1, 0) - expected).max((1, 2))
@@ -57,7 +57,7 @@ def test_dead_points_are_those_of_each_position():
     applied = np.ones((COUNT, SIZE))
     (found, sound), (expected, known) = (
         balanced_at_many(entries, applied),
-        balanced(dense(entries, SIZE), applied),
+        balanced(dense(entries, (SIZE, SIZE)), applied),
     )
     assert (sound == known).all()
     assert not sound[7]

@@ -15,7 +15,6 @@ from kintrafo import (
     equilibrium,
     loads,
     simulate,
-    variation,
 )
 from kintrafo.generator import DeclarationError, Direction, Input
 from kintrafo.generator.mechanisms import MODELS
@@ -140,9 +139,6 @@ def test_what_cannot_be_is_refused() -> None:
         equilibrium(Model(car), inputs={"contact_force_x": 1.0})
     with pytest.raises(InputError, match=r"contact_force_w.*contact_force_"):
         equilibrium(Model(car, wheel_loads=True), inputs={"contact_force_w": 1.0})
-    linked = Suspension.load("multi_link_car")
-    with pytest.raises(InputError, match="by iteration"):
-        variation.sweep(linked, {"spring.rate_N_per_m": [1e5]}, Scenario())
 
 
 def test_a_bearing_that_is_not_the_wheels_is_refused() -> None:

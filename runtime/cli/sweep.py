@@ -28,11 +28,12 @@ from .simulation_options import (
     Speed,
     Spin,
 )
+from .subject import studied
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from ..suspension.model import Model
+    from ..systems.system import System
 
 # More values of one place than anybody looks at.
 _MOST_VALUES = 100_000
@@ -90,11 +91,10 @@ def command(
     """
     from ..study import export, variation
     from ..study.variation.ways import model_of
-    from ..suspension.kinds import Suspension
 
     inputs = [Path(file), *([] if measured is None else [measured])]
     outputs = Outputs.of(out, plot, force=force, inputs=inputs)
-    suspension = Suspension.load(file)
+    suspension = studied(file)
     scenario = scenario_of(
         height=height,
         spin=spin,
@@ -115,7 +115,8 @@ def command(
         raise typer.BadParameter("a place is named twice: write all of its values together")
     if plot and len(grid) > 2:
         raise typer.BadParameter("a figure shows one value or two; leave out --plot, or a value")
-    reductions = _reductions(model_of(suspension), keep or _USUAL)
+    model = model_of(suspension)
+    reductions = _reductions(model, keep or _usual(model))
     with progress_bar("suspensions") as progress:
         found = variation.sweep(
             suspension, grid, scenario, reductions=reductions, progress=progress
@@ -152,7 +153,14 @@ def _numbers(text: str) -> tuple[str, list[float]]:
     )
 
 
-def _reductions(model: "Model", kept: tuple[str, ...] | list[str]) -> dict[str, list[Any]]:
+def _usual(model: "System") -> tuple[str, ...]:
+    """Return what is kept where nobody says: of a rigid axle that of both wheels."""
+    if _USUAL[0].partition(":")[0] in model.signal_names:
+        return _USUAL
+    return tuple(f"{side}_axle_{kept}" for kept in _USUAL for side in ("left", "right"))
+
+
+def _reductions(model: "System", kept: tuple[str, ...] | list[str]) -> dict[str, list[Any]]:
     """Read what is kept of each motion; levels are in units for people."""
     from ..core.quantities import attributes, display_of
 

@@ -2,7 +2,9 @@
 
 from typing import Any
 
+import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
 from ...simulation.result import Simulation
@@ -14,6 +16,8 @@ from ...suspension.wheel_loads import UNITS
 from ..axles.ride import WHEELS, of_the_axle, with_sides_told
 from ..recording import dataset_of
 from ..scenario import Scenario
+
+Array = NDArray[np.float64]
 
 
 def run(
@@ -44,6 +48,22 @@ def run(
     InputError, PositionError, SimulationError
         As `kintrafo.simulate` and `kintrafo.rigid_axles.equilibrium`.
     """
+    start, inputs = started(model, scenario, wheels=wheels)
+    events = [
+        f"{side}_axle_wheel_{what}_ground" for side in SIDES for what in ("leaves", "touches")
+    ]
+    span, times = (0.0, scenario.duration), scenario.times()
+    result = simulate(model, span, start, inputs=inputs, t_eval=times, events=events, **options)
+    return result, with_sides_told(dataset_of(model, result))
+
+
+def started(
+    model: RigidAxleModel, scenario: Scenario, *, wheels: str = "both"
+) -> tuple[Array, dict[str, Any]]:
+    """Return the rest that a scenario starts from, and its inputs by the names of the axle's.
+
+    Arguments and errors as of `run`.
+    """
     with Arguments("simulation") as given:
         given.kind("model", model, RigidAxleModel, RigidAxleModel.NEEDED)
         given.kind("scenario", scenario, Scenario, "a Scenario is needed")
@@ -60,9 +80,7 @@ def run(
                     "the tyres. Make it with wheel_loads=True."
                 )
     inputs = of_the_axle(scenario.inputs, WHEELS[wheels])
-    times = scenario.times()
-    span = (0.0, scenario.duration)
-    courses = time_inputs(model, inputs, span)
+    courses = time_inputs(model, inputs, (0.0, scenario.duration))
     first = dict(zip(model.input_names, courses.at(0.0, courses.segments[0]), strict=True))
     start = equilibrium(
         model,
@@ -74,8 +92,4 @@ def run(
             if name.endswith("_actuator") or (name in inputs and name.endswith(tuple(UNITS)))
         },
     )
-    events = [
-        f"{side}_axle_wheel_{what}_ground" for side in SIDES for what in ("leaves", "touches")
-    ]
-    result = simulate(model, span, start, inputs=inputs, t_eval=times, events=events, **options)
-    return result, with_sides_told(dataset_of(model, result))
+    return start, inputs

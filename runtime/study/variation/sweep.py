@@ -10,29 +10,25 @@ from numpy.typing import NDArray
 from ...core.arguments import Arguments
 from ...core.errors import InputError, KintrafoError
 from ...core.named_types import ArrayLike
-from ...suspension.kinds import Suspension
 from ...suspension.model import Model
-from ...suspension.rigid import RigidAxle
+from ...suspension.rigid.model import RigidAxleModel
 from ...suspension.wheel_loads import UNITS
 from ..ensembles import ensemble
 from ..ensembles.variants import without_mass
+from ..rigid.ride import started
 from ..scenario import Scenario
 from .curves import changed
 from .places import Place, matching, refuse_bushes
-from .ways import model_of
+from .ways import Subject, check_subject, model_of
 
 Array = NDArray[np.float64]
 
 _CAR = "car"
 _MOST_CARS = 1_000_000
-_ITERATED = (
-    "the loops of a {title} are closed by iteration, which many cars at once in lanes cannot do. "
-    "Simulate one after another: each with_changes of its own, by kintrafo.simulate."
-)
 
 
 def sweep(
-    suspension: Suspension,
+    suspension: Subject,
     values: Mapping[str, ArrayLike],
     scenario: Scenario | None = None,
     *,
@@ -47,13 +43,14 @@ def sweep(
 
     Parameters
     ----------
-    suspension : Suspension
+    suspension : Suspension or RigidAxle
     values : mapping of str to array_like
         The values that each place of the input file takes, in its unit for people (mm, deg, N/m,
         ...): ``{"strut.spring_rate_N_per_m": [20e3, 25e3]}``.
     scenario : Scenario, optional
         Road, rack and start; by default a second at rest. Where it gives no height, each suspension
-        starts at its own rest.
+        starts at its own rest. A rigid axle has the road under both wheels, or inputs by its own
+        names, such as ``left_road_height``.
     signals, reductions
         What is kept, as of `kintrafo.ensemble`: signals at the output times, and numbers.
     rtol, atol, max_steps
@@ -83,7 +80,7 @@ def sweep(
     ('strut.damper_rate_N_s_per_m',)
     """
     with Arguments("sweep") as given:
-        _check(given, suspension)
+        check_subject(given, suspension)
         scenario = Scenario() if scenario is None else scenario
         given.kind("scenario", scenario, Scenario, "a Scenario is needed")
         given.function("progress", progress)
@@ -100,7 +97,7 @@ def sweep(
         cars.variants(),
         (0.0, scenario.duration),
         cars.starts(),
-        inputs=scenario.inputs,
+        inputs=cars.inputs,
         signals=signals,
         reductions=reductions,
         t_eval=scenario.times(),
@@ -111,14 +108,7 @@ def sweep(
     return cars.over_the_grid(found)
 
 
-def _check(given: Arguments, suspension: Any) -> None:
-    if isinstance(suspension, RigidAxle):
-        given.refuse(_ITERATED.format(title="rigid axle"))
-        return
-    given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
-
-
-def _axes(given: Arguments, suspension: Suspension, grid: Mapping[Any, Any]) -> dict[Place, Array]:
+def _axes(given: Arguments, suspension: Subject, grid: Mapping[Any, Any]) -> dict[Place, Array]:
     """Return the values of each place in SI units."""
     axes: dict[Place, Array] = {}
     for name, along in grid.items():
@@ -146,11 +136,12 @@ class _Cars:
     """Suspensions over a grid, prepared one after the other."""
 
     def __init__(
-        self, suspension: Suspension, axes: Mapping[Place, Array], scenario: Scenario
+        self, suspension: Subject, axes: Mapping[Place, Array], scenario: Scenario
     ) -> None:
         self._suspension, self._scenario, self._axes = suspension, scenario, dict(axes)
-        on_wheel = not UNITS.keys().isdisjoint(scenario.inputs)
+        on_wheel = any(name.endswith(tuple(UNITS)) for name in scenario.inputs)
         self.model = model_of(suspension, wheel_loads=on_wheel)
+        self.inputs: Mapping[str, Any] = scenario.inputs
         self._shape = tuple(along.size for along in axes.values())
         self.count = int(np.prod(self._shape))
         self._parameters: dict[int, dict[str, float]] = {}
@@ -167,14 +158,20 @@ class _Cars:
             suspension = changed(self._suspension, changes)
             model = model_of(suspension, wheel_loads=self.model.wheel_loads)
             self._check_equations(model)
-            self._starts[car] = np.array(self._scenario.start(model))
+            self._starts[car] = self._start(model)
             self._parameters[car] = dict(model.parameters)
         except _OtherEquationsError as error:
             raise InputError([str(error)], "sweep") from None
         except KintrafoError as error:
             self._reasons[car] = str(error)
 
-    def _check_equations(self, model: Model) -> None:
+    def _start(self, model: Model | RigidAxleModel) -> Array:
+        if isinstance(model, Model):
+            return np.array(self._scenario.start(model))
+        start, self.inputs = started(model, self._scenario)
+        return start
+
+    def _check_equations(self, model: Model | RigidAxleModel) -> None:
         if model.equations is not self.model.equations:
             message = (
                 f"values: some ask for the equations {model.equations.NAME}, which have more in "

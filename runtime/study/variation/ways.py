@@ -117,13 +117,15 @@ def check_subject(given: Arguments, subject: Any, name: str = "suspension") -> N
 @overload
 def model_of(subject: Suspension, *, wheel_loads: bool = False) -> Model: ...
 @overload
-def model_of(subject: RigidAxle) -> RigidAxleModel: ...
+def model_of(subject: RigidAxle, *, wheel_loads: bool = False) -> RigidAxleModel: ...
+@overload
+def model_of(subject: Subject, *, wheel_loads: bool = False) -> Model | RigidAxleModel: ...
 @overload
 def model_of(subject: Subject | Axle) -> Looked: ...
 def model_of(subject: Subject | Axle, *, wheel_loads: bool = False) -> Looked:
     """Return what is evaluated; of a suspension the model in which every body with mass counts."""
     if isinstance(subject, RigidAxle):
-        return RigidAxleModel(subject)
+        return RigidAxleModel(subject, wheel_loads=wheel_loads)
     if isinstance(subject, Axle):
         return subject
     free_rack = bool(subject.neglected_masses())
