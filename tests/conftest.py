@@ -93,9 +93,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: places.get(item.path.name, len(places)))
 
 
-def pytest_collection_finish() -> None:
+def pytest_configure() -> None:
     """Let Python's search for circles of objects rest: it goes through all that was derived."""
     gc.disable()
+
+
+def pytest_collection_finish() -> None:
+    """Let that search pass over what was imported: it stays."""
     gc.freeze()
 
 

@@ -71,7 +71,8 @@ def sweep(
 
     Examples
     --------
-    >>> from kintrafo import roads
+    >>> from kintrafo import Suspension, roads
+    >>> from kintrafo.study.scenario import Scenario
     >>> bump = Scenario(inputs={"road_height": roads.step(0.02, at=0.1, end=1.0)})
     >>> rates = {"strut.damper_rate_N_s_per_m": [1000.0, 1500.0, 2000.0]}
     >>> car = Suspension.load("reference_car")
