@@ -18,10 +18,11 @@ def main(folder: Path) -> None:
     for block in re.findall(r"```sh\n(.*?)```", PAGE, flags=re.DOTALL):
         for line in block.splitlines():
             command = shlex.split(line, comments=True)
-            if command[1] == "compare":
-                text = (folder / "my_car.toml").read_text(encoding="utf-8")
+            if command[0] == "cp":  # nothing but `kintrafo` is on the path
+                text = (folder / command[1]).read_text(encoding="utf-8")
                 text = re.sub(r"^tie_rod_inner = .*$", changed, text, flags=re.MULTILINE)
-                (folder / "lower_rod.toml").write_text(text, encoding="utf-8")
+                (folder / command[2]).write_text(text, encoding="utf-8")
+                continue
             done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)  # noqa: S603 (this project's page)
             print("ok     " if done.returncode == 0 else "FAILED ", line)
             if done.returncode:

@@ -73,7 +73,7 @@ class Watched:
     def start_again(self):
         """Put back what a person can move."""
         self.page.set_viewport_size(DESKTOP)
-        self.page.emulate_media(color_scheme="light")
+        self.page.emulate_media(color_scheme="light", media="screen")
         self.page.mouse.move(0, 0)
         self.page.locator("#speed").select_option("0.1")
         self.page.evaluate(START_AGAIN)
@@ -443,8 +443,8 @@ def test_design_position_is_before_anything_has_moved(watched):
     assert (state["time"], state["travel"], state["rack"]) == (0.0, 0.0, 0.0)
 
 
-def test_what_is_for_paper_is_not_on_the_screen(watch):
-    page = watch().page
+def test_what_is_for_paper_is_not_on_the_screen(watched):
+    page = watched.page
     shown = "elements => elements.filter((e) => e.checkVisibility()).length"
     for_paper, for_screen = page.locator(".on-paper"), page.locator(".on-screen")
     assert for_paper.count() >= 2
