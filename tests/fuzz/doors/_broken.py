@@ -7,7 +7,7 @@ from kintrafo.core.errors import InputError
 
 from ..attempts import UnjudgedError, WrongError
 
-SECONDS = 0.2
+SECONDS = 0.1
 _WAYS = ("clean", "clear", "wrong", "raw", "hung", "exit", "clean", "unjudged")
 SHORT = len(_WAYS)
 
