@@ -72,14 +72,12 @@ class Equations:
             joint.unit_loads(poses.points, poses.turned, poses.design) for joint in self.joints
         ]
         held = [self.pushed(line) for line in holding] or self._upward()
-        self._rows_count = 6 * len(self.parts)
-        self._columns_count = sum(units.shape[-1] for units in self._units) + len(held)
+        rows, unknowns = 6 * len(self.parts), sum(u.shape[-1] for u in self._units) + len(held)
+        self._shape = (rows, unknowns)
         self._entries = self._of_joints() | self._last([self.applied(loads) for loads in held])
-        surplus = self._columns_count - self._rows_count
-        self.indeterminate = np.zeros((len(poses.states), self._columns_count, max(surplus, 0)))
-        if surplus > 0:
-            spaces = np.linalg.svd(self._dense())[2]
-            self.indeterminate = spaces[..., self._rows_count :, :].mT
+        self.indeterminate = np.zeros((len(poses.states), unknowns, 0))
+        if unknowns > rows:
+            self.indeterminate = np.linalg.svd(self._dense())[2][..., rows:, :].mT
 
     def _upward(self) -> list[list[Load]]:
         """Return a vertical force of 1 N on each wheel at its contact, or else at its centre."""
@@ -108,7 +106,7 @@ class Equations:
 
     def _last(self, held: list[Array]) -> dict[tuple[int, int], Array]:
         """Return the entries of the last columns, of loads that hold what is loaded."""
-        first = self._columns_count - len(held)
+        first = self._shape[1] - len(held)
         return {
             (int(row), first + place): loads[:, row]
             for place, loads in enumerate(held)
@@ -149,7 +147,7 @@ class Equations:
 
     def _dense(self) -> Array:
         """Return the matrices, (n, 6 parts, unknowns)."""
-        return dense(self._entries, (self._rows_count, self._columns_count))
+        return dense(self._entries, self._shape)
 
     def applied(self, loads: list[Load]) -> Array:
         """Return loads as a vector, (n, 6 parts)."""

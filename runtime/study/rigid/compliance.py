@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.named_types import ArrayLike
 from ...core.quantities import Display, display_of
 from ...core.vectors import cross
 from ...suspension.bushes import described_bushings, left_out, refuse_rigid

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
 
 from ...core.arguments import Arguments
+from ...core.named_types import ArrayLike
 from ...core.quantities import variable
 from ...suspension.rigid.axle import RigidAxle
 from ..axles.deflection import deflected, of_both, parts_of, straight, words_of

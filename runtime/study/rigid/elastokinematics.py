@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
 
 from ...core.arguments import Arguments
+from ...core.named_types import ArrayLike
 from ...suspension.rigid.axle import RigidAxle
 from ..axles.datasets import ROLL
 from ..axles.elastokinematics import on_both, over_motion
