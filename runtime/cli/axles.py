@@ -9,9 +9,9 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from . import goals as wanted
-from .console import console, curve_table, print_json, print_table, problems
-from .outputs import Outputs, name_files, named, title_of
+from .axle_curves import tell
+from .console import console, problems
+from .outputs import Outputs
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -82,43 +82,13 @@ def characteristics(
     json: bool,
 ) -> None:
     """All characteristics of an axle over the motions of a rig."""
-    from ..study import axles, export
-    from ..study.axles.sheet import at_design
-    from ..study.variation.ways import ways_of
+    from ..study import axles
     from ..suspension.axle import Axle
 
     axle = Axle.load(file)
     curves = {motion: axles.over(axle, motion, extent, **held) for motion in motions}
-    drawn = {motion: axles.by_side(dataset) for motion, dataset in curves.items()}
-    # both wheels of a curve are drawn together
-    of = [name.removesuffix("_left").removesuffix("_right") for name in of or ()]
-    names = named(of, drawn)
-    known = ways_of(axle)
-    aims = wanted.read(goals, [motion for motion in motions if motion in known], known)
-    judged = wanted.judged({file: axle}, aims) if aims else []
-    written = []
-    for motion, dataset in curves.items():
-        written += outputs.write(
-            dataset,
-            title=f"{title_of(file)}: {axles.MOTIONS[motion]}",
-            names=names[motion],
-            suffix=f"_{motion}",
-            drawn=drawn[motion],
-        )
-    if json:
-        found = {f"over_{motion}": export.as_dict(curves[motion]) for motion in curves}
-        print_json(found | ({"goals": judged} if judged else {}))
-        return
-    for motion, dataset in curves.items():
-        if motion == "bump":
-            for table in at_design(dataset, f"{file}: "):
-                print_table(table)
-            continue
-        told = [name for name in _TOLD.get(motion, _OF_ONE_WHEEL) if name in dataset]
-        console.print(curve_table(dataset, told, f"{file}: {axles.MOTIONS[motion]}"))
-    if judged:
-        console.print(wanted.table(judged, f"{file}: targets and limits of {goals}"))
-    name_files(written)
+    shown = {motion: _TOLD.get(motion, _OF_ONE_WHEEL) for motion in motions}
+    tell(file, axle, curves, axles.MOTIONS, shown, outputs, of=of, goals=goals, json=json)
 
 
 def compared(files: list[str], over: str | None) -> "Dataset":

@@ -9,11 +9,11 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from . import goals as wanted
+from .axle_curves import tell
 from .axles import Ride
-from .console import console, curve_table, print_json, print_table
+from .console import console
 from .options import among
-from .outputs import Outputs, name_files, named, title_of
+from .outputs import Outputs
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -100,45 +100,13 @@ def characteristics(
     json: bool,
 ) -> None:
     """All characteristics of a rigid axle over the motions of a rig."""
-    from ..study import export
     from ..study import rigid as study
-    from ..study.axles import by_side
-    from ..study.axles.sheet import at_design
-    from ..study.variation.ways import ways_of
     from ..suspension.rigid import RigidAxle
 
     axle = RigidAxle.load(file)
     curves = {motion: study.over(axle, motion, extent) for motion in chosen}
-    drawn = {motion: by_side(dataset) for motion, dataset in curves.items()}
-    # both wheels of a curve are drawn together
-    of = [name.removesuffix("_left").removesuffix("_right") for name in of or ()]
-    names = named(of, drawn)
-    known = ways_of(axle)
-    aims = wanted.read(goals, [motion for motion in chosen if motion in known], known)
-    judged = wanted.judged({file: axle}, aims) if aims else []
-    written = []
-    for motion, dataset in curves.items():
-        written += outputs.write(
-            dataset,
-            title=f"{title_of(file)}: {study.MOTIONS[motion]}",
-            names=names[motion],
-            suffix=f"_{motion}",
-            drawn=drawn[motion],
-        )
-    if json:
-        found = {f"over_{motion}": export.as_dict(curves[motion]) for motion in curves}
-        print_json(found | ({"goals": judged} if judged else {}))
-        return
-    for motion, dataset in curves.items():
-        if motion == "bump":
-            for table in at_design(dataset, f"{file}: "):
-                print_table(table)
-            continue
-        told = [name for name in _TOLD.get(motion, _OF_ONE_WHEEL) if name in dataset]
-        console.print(curve_table(dataset, told, f"{file}: {study.MOTIONS[motion]}"))
-    if judged:
-        console.print(wanted.table(judged, f"{file}: targets and limits of {goals}"))
-    name_files(written)
+    shown = {motion: _TOLD.get(motion, _OF_ONE_WHEEL) for motion in chosen}
+    tell(file, axle, curves, study.MOTIONS, shown, outputs, of=of, goals=goals, json=json)
 
 
 def compared(files: list[str], over: str | None) -> "Dataset":

@@ -1,0 +1,73 @@
+"""The curves of both wheels over the motions of a rig: files, pictures, tables, what is met."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from . import goals as wanted
+from .console import console, curve_table, print_json, print_table
+from .outputs import Outputs, name_files, named, title_of
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from ..suspension.axle import Axle
+    from ..suspension.rigid import RigidAxle
+
+
+def tell(
+    file: str,
+    axle: "Axle | RigidAxle",
+    curves: "Mapping[str, Dataset]",
+    words: Mapping[str, str],
+    shown: Mapping[str, Sequence[str]],
+    outputs: Outputs,
+    *,
+    of: list[str] | None,
+    goals: Path | None,
+    json: bool,
+) -> None:
+    """Write and print curves by the motion that they are over.
+
+    Parameters
+    ----------
+    words
+        What each motion is called.
+    shown
+        The curves that a table of each motion has; bump has its own tables.
+    """
+    from ..study import export
+    from ..study.axles import by_side
+    from ..study.axles.sheet import at_design
+    from ..study.variation.ways import ways_of
+
+    drawn = {motion: by_side(dataset) for motion, dataset in curves.items()}
+    # both wheels of a curve are drawn together
+    of = [name.removesuffix("_left").removesuffix("_right") for name in of or ()]
+    names = named(of, drawn)
+    known = ways_of(axle)
+    aims = wanted.read(goals, [motion for motion in curves if motion in known], known)
+    judged = wanted.judged({file: axle}, aims) if aims else []
+    written = []
+    for motion, dataset in curves.items():
+        written += outputs.write(
+            dataset,
+            title=f"{title_of(file)}: {words[motion]}",
+            names=names[motion],
+            suffix=f"_{motion}",
+            drawn=drawn[motion],
+        )
+    if json:
+        found = {f"over_{motion}": export.as_dict(curves[motion]) for motion in curves}
+        print_json(found | ({"goals": judged} if judged else {}))
+        return
+    for motion, dataset in curves.items():
+        if motion == "bump":
+            for table in at_design(dataset, f"{file}: "):
+                print_table(table)
+            continue
+        told = [name for name in shown[motion] if name in dataset]
+        console.print(curve_table(dataset, told, f"{file}: {words[motion]}"))
+    if judged:
+        console.print(wanted.table(judged, f"{file}: targets and limits of {goals}"))
+    name_files(written)
