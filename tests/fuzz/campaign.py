@@ -2,27 +2,28 @@
 
 from __future__ import annotations
 
-import json
-import os
+import multiprocessing
 import signal
-import subprocess
-import sys
 from collections import Counter
+from contextlib import suppress
 from dataclasses import dataclass, field
-from pathlib import Path
-from tempfile import TemporaryFile
+from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING
 
 from benchmarks.report import count as count_of
 from benchmarks.report import markdown_table
 
+from . import worker
 from .attempts import DEFECTS, OUTCOMES, Tried, door
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-_TESTS = Path(__file__).parents[1]
-_PATH = os.pathsep.join([str(_TESTS), str(_TESTS.parent)])
+_PROCESSES = multiprocessing.get_context("forkserver")
+# what doors have in common is imported once, for all processes
+_PROCESSES.set_forkserver_preload(
+    ["kintrafo.generator.mechanisms", "kintrafo.plots", "kintrafo.study.variation", "scipy.optimize"]
+)
 
 
 @dataclass
@@ -82,25 +83,26 @@ def campaign(
 
 def _worked(name: str, first: int, count: int) -> Iterator[Tried]:
     """Yield what one process tells, and at the end what the seed that ended it came to."""
-    command = [sys.executable, "-m", "fuzz.worker", name, str(first), str(count)]
-    environment = os.environ | {"PYTHONPATH": _PATH}
-    seed, plain = first, {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "text": True}
+    seed = first
+    told, tells = _PROCESSES.Pipe(duplex=False)
     # a file, since a pipe that nobody reads from would fill up
-    with (
-        TemporaryFile("w+", encoding="utf-8", errors="replace") as complaints,
-        subprocess.Popen(command, env=environment, stderr=complaints, **plain) as process,
-    ):
-        for line in process.stdout or ():
-            one = Tried(**json.loads(line))
-            seed = one.seed + 1
-            yield one
-        process.wait()
-        complaints.seek(0)
+    with NamedTemporaryFile("r", encoding="utf-8", errors="replace") as complaints:
+        process = _PROCESSES.Process(
+            target=worker.main, args=(name, first, count, tells, complaints.name)
+        )
+        process.start()
+        tells.close()
+        with suppress(EOFError):
+            while True:
+                one = told.recv()
+                seed = one.seed + 1
+                yield one
+        process.join()
         last_words = complaints.read().strip()
     if seed < first + count:
-        hung = process.returncode == -signal.SIGPROF or "Timeout (" in last_words
+        hung = process.exitcode == -signal.SIGPROF or "Timeout (" in last_words
         yield Tried(
-            seed, "hung" if hung else "raw", f"exit code {process.returncode}: {last_words[-2000:]}"
+            seed, "hung" if hung else "raw", f"exit code {process.exitcode}: {last_words[-2000:]}"
         )
 
 

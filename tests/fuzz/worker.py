@@ -1,4 +1,4 @@
-"""Try a door with a row of seeds, each told in a line of JSON: run by `fuzz.campaign`.
+"""Try a door with a row of seeds, each told as it comes: what processes of `fuzz.campaign` run.
 
 A seed that hangs ends the process by a timer that no Python code can stop; the seed that was begun
 and not told is the one. Time is that of the processor, which a busy machine does not make longer;
@@ -8,21 +8,32 @@ what waits for something is given ten times as much on the clock.
 from __future__ import annotations
 
 import faulthandler
-import json
 import os
 import signal
-import sys
-from dataclasses import asdict
+from typing import TYPE_CHECKING
 
 from .attempts import door, setting, tried
 
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
 
-def main(name: str, first: int, count: int) -> None:
-    """Try the seeds from `first` on."""
-    # lines go to the real standard output, whatever an attempt prints goes nowhere
-    told = os.fdopen(os.dup(1), "w", buffering=1)
-    nowhere = os.open(os.devnull, os.O_RDWR)
-    os.dup2(nowhere, 1)
+
+def main(name: str, first: int, count: int, told: Connection, complaints: str) -> None:
+    """Try the seeds from `first` on.
+
+    Parameters
+    ----------
+    name
+        Of the door.
+    first, count
+        The seeds.
+    told
+        Where what came of each is sent.
+    complaints
+        Path of the file for what goes to standard error.
+    """
+    _lead(os.devnull, 1)  # whatever an attempt prints goes nowhere
+    _lead(complaints, 2)
     module = door(name)
     seconds = setting(module, "SECONDS")
     faulthandler.register(signal.SIGPROF, chain=True)  # tells where, and the process ends
@@ -32,8 +43,11 @@ def main(name: str, first: int, count: int) -> None:
         found = tried(module, seed)
         signal.setitimer(signal.ITIMER_PROF, 0.0)
         faulthandler.cancel_dump_traceback_later()
-        told.write(json.dumps(asdict(found)) + "\n")
+        told.send(found)
 
 
-if __name__ == "__main__":
-    main(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]))
+def _lead(path: str, stream: int) -> None:
+    """Let what is written to a standard stream go to a file."""
+    file = os.open(path, os.O_WRONLY)
+    os.dup2(file, stream)
+    os.close(file)
