@@ -168,6 +168,8 @@ class Stiffness:
             stiff += 5e4 * np.outer(self.along(*stop), self.along(*stop))
         if held == "height":
             rigid.append(moved[2][None])
+        if held == "tyre":
+            stiff += self.car.tyre.rate_N_per_m * np.outer(moved[2], moved[2])
         return moved @ minimum(stiff, np.vstack(rigid), moved.T)
 
     def turned(self, body: str | int) -> np.ndarray:

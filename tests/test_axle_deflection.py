@@ -212,7 +212,7 @@ def test_nothing_is_left_of_the_potential(car: Suspension) -> None:
 # -- limits ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("held", ["height", "spring", "locked"])
+@pytest.mark.parametrize("held", ["height", "tyre", "spring", "locked"])
 @pytest.mark.parametrize("wheels", ["parallel", "opposed", "left"])
 def test_small_loads_are_those_of_the_unit_load_theorem(held: Any, wheels: str) -> None:
     """Without a static load both differ by a part in proportion to the load.
@@ -244,7 +244,7 @@ def test_small_loads_are_those_of_the_unit_load_theorem(held: Any, wheels: str) 
     assert (second < 0.13 * first + 1e-4).all()
 
 
-@pytest.mark.parametrize("held", ["height", "spring", "locked"])
+@pytest.mark.parametrize("held", ["height", "tyre", "spring", "locked"])
 def test_wheels_that_share_nothing_are_those_of_one_side(held: Any) -> None:
     """No bar, a rigid rack: each side by itself, its image among them, to rounding."""
     parts = 0.4, -1.0

@@ -7,7 +7,17 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, Model, Suspension, axles, characteristics, loads
+from kintrafo import (
+    Axle,
+    InputError,
+    Model,
+    RigidAxle,
+    Suspension,
+    axles,
+    characteristics,
+    loads,
+    rigid_axles,
+)
 from kintrafo.report.tables import input_tables
 from kintrafo.suspension.kinds import KINDS
 from kintrafo.suspension.toml_writer import write_toml
@@ -23,6 +33,7 @@ DATA = Path(__file__).parents[1] / "runtime/suspension/data"
         # spring and stop are free of force at design; 1e-9 m beyond it the stop has its rate
         ("spring", 1e-9, 0.0),
         ("height", 1e-9, 0.0),
+        ("tyre", 1e-9, 0.0),
         ("locked", 0.06, 0.03),
         ("locked", -0.05, -0.03),
     ],
@@ -151,7 +162,7 @@ WRONG: list[tuple[Any, dict[str, Any], str]] = [
     ({"strut_lower": {"axial_N_per_mm": 1.0}}, {}, "nothing along its axis"),
     ({"arm_rear": {"radial_axis": [1.0, 0.0, 0.0]}}, {}, "lies along the axis"),
     ({"arm_rear": {"tilt_Nm_per_deg": 1.0}}, {}, "one or more are needed that give way"),
-    ({"arm_rear": {"radial_N_per_mm": 1e3}}, {"held": "body"}, "height, spring, locked"),
+    ({"arm_rear": {"radial_N_per_mm": 1e3}}, {"held": "body"}, "height, tyre, spring, locked"),
     ({"arm_rear": {"radial_N_per_mm": 1e3}}, {"travel": [np.nan]}, "finite"),
 ]
 
@@ -166,6 +177,78 @@ def test_without_a_spring_nothing_holds_the_wheel() -> None:
     loose = Suspension.load("reference_car").with_changes({"strut.spring_rate_N_per_m": 0.0})
     with pytest.raises(InputError, match="nothing holds it"):
         loads.compliance(Model(loose), {"arm_rear": {"radial_N_per_mm": 1e3}}, [0.0])
+
+
+# -- tyres ----------------------------------------------------------------------------------------
+
+LATERAL, LONGITUDINAL = 1.5e5, 2.5e5
+ON_TYRES = {
+    "tyre.lateral_rate_N_per_m": LATERAL,
+    "tyre.longitudinal_rate_N_per_m": LONGITUDINAL,
+}
+SOFT_CAR = Suspension.load("reference_car").with_changes(ON_TYRES)
+BUSH: dict[str, Any] = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
+RODS = {"panhard_rod_chassis": {"axial_N_per_mm": 5000.0}}
+
+
+def test_a_contact_patch_moves_as_wheel_and_tyre_in_series() -> None:
+    """Each by what it carries: the wheel's linkage, and the tyre's rate along the force."""
+    rigid = loads.compliance(Model("reference_car"), BUSH, [0.0])
+    found = loads.compliance(Model(SOFT_CAR), BUSH, [0.0])
+    assert {*found} - {*rigid} == {f"patch_displacement_by_{n}" for n in ("lateral", "braking")}
+    for name in rigid:
+        np.testing.assert_array_equal(found[name], rigid[name])
+    for load, rate in (("lateral", LATERAL), ("braking", LONGITUDINAL)):
+        wheel, patch = (
+            float(found[f"{kind}_by_{load}"][0]) for kind in ("displacement", "patch_displacement")
+        )
+        assert patch == pytest.approx(wheel + 1.0 / rate, rel=1e-12)
+        assert found[f"patch_displacement_by_{load}"].attrs["display_units"] == "mm/kN"
+        large = loads.deflection(Model(SOFT_CAR), BUSH, load, [-3000.0], held="spring")
+        give = large["patch_displacement"] - large["displacement"]
+        np.testing.assert_allclose(give, -3000.0 / rate, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("module", "axle", "bushes"),
+    [
+        (axles, Axle.from_dict({"axle": "front", "side": SOFT_CAR}), BUSH),
+        (rigid_axles, RigidAxle.load("rigid_axle").with_changes(ON_TYRES), RODS),
+    ],
+)
+def test_contact_patches_of_both_wheels_go_with_their_own_loads(
+    module: Any, axle: Any, bushes: Any
+) -> None:
+    """A force to the left is inward on the right wheel and outward on the left one."""
+    found = module.compliance(axle, bushes, [0.0])
+    for how, inward in (("parallel", (-1.0, 1.0)), ("opposed", (1.0, 1.0))):
+        for side, part in zip(("left", "right"), inward, strict=True):
+            name = f"displacement_by_lateral_{how}_{side}"
+            give = float(found[f"patch_{name}"][0] - found[name][0])
+            assert give == pytest.approx(part / LATERAL, rel=1e-9), name
+    large = module.deflection(axle, bushes, "lateral", [2000.0], wheels=(0.5, -1.0))
+    for side, part in (("left", 0.5), ("right", -1.0)):
+        give = large[f"patch_displacement_{side}"] - large[f"displacement_{side}"]
+        np.testing.assert_allclose(give, 2000.0 * part / LATERAL, rtol=1e-9)
+
+
+def test_a_tyre_without_rate_holds_no_wheel() -> None:
+    flat = {"tyre.rate_N_per_m": 0.0}
+    car = Suspension.load("reference_car").with_changes(flat)
+    rigid = RigidAxle.load("rigid_axle").with_changes(flat)
+    both = Axle.from_dict({"axle": "front", "side": car})
+    doors: list[tuple[Any, Any, Any]] = [
+        (loads, Model(car), BUSH), (axles, both, BUSH), (rigid_axles, rigid, RODS),
+    ]  # fmt: skip
+    for module, subject, bushes in doors:
+        for call in (
+            lambda m=module, s=subject, b=bushes: m.compliance(s, b, [0.0], held="tyre"),
+            lambda m=module, s=subject, b=bushes: m.deflection(
+                s, b, "lateral", [10.0], held="tyre"
+            ),
+        ):
+            with pytest.raises(InputError, match=r"\[tyre\] rate_N_per_m = 0 N/m"):
+                call()
 
 
 # -- bushes of the hardpoint file ---------------------------------------------------------------

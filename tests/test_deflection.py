@@ -184,7 +184,7 @@ def with_rack(car: Suspension) -> dict[str, Any]:
 # -- limits ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("held", ["height", "spring", "locked"])
+@pytest.mark.parametrize("held", ["height", "tyre", "spring", "locked"])
 @pytest.mark.parametrize("car", CARS, ids=lambda car: car.suspension)
 def test_small_loads_are_those_of_the_unit_load_theorem(car: Suspension, held: Any) -> None:
     """Without a static load both differ by a part in proportion to the load."""

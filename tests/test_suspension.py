@@ -535,7 +535,7 @@ class TestKeys:
         problem = only_problem({"tyre.k2": 1.0})
         assert problem == (
             "[tyre] k2 is not a known key. Known are: rate_N_per_m, free_height_mm, radius_mm, "
-            "damper_rate_N_s_per_m, lifts_off."
+            "lateral_rate_N_per_m, longitudinal_rate_N_per_m, damper_rate_N_s_per_m, lifts_off."
         )
 
     @pytest.mark.parametrize(

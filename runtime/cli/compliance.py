@@ -28,7 +28,7 @@ EXAMPLES = (
     "kintrafo compliance rigid_axle axle_bushes.toml",
 )
 
-Held = Literal["height", "spring", "locked"]
+Held = Literal["height", "tyre", "spring", "locked"]
 Bushes = Annotated[
     Path | None,
     typer.Argument(

@@ -43,7 +43,7 @@ def compare(
         the suspensions reach it.
     over : {'travel', 'rack'}, optional
         What varies.
-    held : {'height', 'spring', 'locked'}, optional
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
         With it, their compliance on the bushes of their files comes too, over wheel travel: what
         holds the wheel under loads, see `kintrafo.loads.compliance`.
     progress : callable, optional
@@ -109,13 +109,13 @@ def on_bushes(
         Its file has bushes.
     travels : ndarray
         Wheel travel [m].
-    held : {'height', 'spring', 'locked'}
+    held : {'height', 'tyre', 'spring', 'locked'}
         What holds the wheel under loads.
     rack_position : float, optional
         [m]
     """
     soft = compliance(model, None, travels, rack_position=rack_position, held=held)
-    return found.assign({name: soft[name].variable for name in COMPLIANCES})
+    return found.assign({name: soft[name].variable for name in COMPLIANCES if name in soft})
 
 
 def common_positions(models: Mapping[str, Model], *, over: Over = "travel") -> Array:

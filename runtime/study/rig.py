@@ -143,7 +143,7 @@ def beside(
         By the names that stand beside their curves.
     name : str, optional
         That of the measurement.
-    held : {'height', 'spring', 'locked'}, optional
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
         What held the wheel when compliance was measured, see `kintrafo.loads.compliance`.
 
     Returns

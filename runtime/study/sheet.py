@@ -64,7 +64,7 @@ def sheet(
     bushings : mapping, optional
         As of `kintrafo.loads.compliance`, in the place of those of the file. Where neither has
         any, the sheet has no compliance.
-    held : {'height', 'spring', 'locked'}, optional
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
         What holds a wheel under the loads of the compliance.
 
     Returns

@@ -143,6 +143,8 @@ class Vehicle:
         Of the wheel as a thin disc [m].
     tyre_rate : float or None
         Vertical stiffness of the tyre [N/m].
+    tyre_lateral_rate, tyre_longitudinal_rate : float or None
+        Of the standing tyre [N/m].
     wheelbase, center_of_gravity_height : float or None
         [m].
     front_brake_share : float or None
@@ -158,6 +160,8 @@ class Vehicle:
     side: float
     tyre_radius: float | None = None
     tyre_rate: float | None = None
+    tyre_lateral_rate: float | None = None
+    tyre_longitudinal_rate: float | None = None
     wheelbase: float | None = None
     center_of_gravity_height: float | None = None
     front_brake_share: float | None = None

@@ -26,7 +26,7 @@ from ...suspension.reach import at_rest
 from ..characteristics.datasets import TRAVEL
 from ..characteristics.from_model import corner
 from ..loads.compliance import LOADED, MOVED, RIG_LOADS, RigLoad, load_at_contact, told
-from ..loads.flexibility import HELD, Held, Side, flexibility, soft_lines
+from ..loads.flexibility import HELD, Held, Side, flexibility, refuse_without_rate, soft_lines
 from ..loads.poses import Poses, wheel_axes
 from . import motions
 from .between import SIDES, pull_of_bar
@@ -98,7 +98,7 @@ def compliance(
         Heights of both wheel centres above design [m]; by default the usual range.
     rack_position : float, optional
         Displacement of the rack [m].
-    held : {'height', 'spring', 'locked'}, optional
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
         What holds each wheel; the anti-roll bar acts besides.
 
     Returns
@@ -143,6 +143,7 @@ def compliance(
             bushes = {s: side.bushes(given, described[s]) for s, side in axle.sides.items()}
             rack = softness_of_rack(given, described[axle.bar_side])
             refuse_rigid(given, [*bushes[LEFT], *bushes[RIGHT]], rack)
+            refuse_without_rate(given, held, *(side.tyre for side in axle.sides.values()))
             if any(side.tyre_radius() is None for side in axle.sides.values()):
                 given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
     travels = motions.travels(axle, Extent()) if travel is None else np.asarray(travel)
@@ -221,12 +222,12 @@ def dataset_of_both(
         As of `under_loads`.
     travels : ndarray, shape (n,)
         [m].
-    held : {'height', 'spring', 'locked'}
+    held : {'height', 'tyre', 'spring', 'locked'}
     """
     found: dict[Any, Any] = {}
     for test, how, moved in under_loads(wheels, flexible):
-        for side, one, its in zip(SIDES, wheels, moved, strict=True):
-            found |= _variables(test, how, side, one, its)
+        for side, one, its, part in zip(SIDES, wheels, moved, how.parts, strict=True):
+            found |= _variables(test, how, side, one, its, part)
     axes = np.zeros((len(travels), 12, 12))
     for i, one in enumerate(wheels):
         for begin in (6 * i, 6 * i + 3):
@@ -244,12 +245,12 @@ def dataset_of_both(
 
 
 def _variables(
-    test: RigLoad, how: Together, side: str, one: RoadWheel, moved: Array
+    test: RigLoad, how: Together, side: str, one: RoadWheel, moved: Array, part: float
 ) -> dict[str, xr.Variable]:
     """Return what a wheel does under loads on both."""
     named = replace(test, name=f"{test.name}_{how.name}", words=WORDS[test.name])
     words = f"{how.words}, {side}"
     return {
         f"{quantity.name}_{side}": xr.Variable(TRAVEL.name, values, quantity.attributes())
-        for quantity, values in told(named, one, moved, how=words)
+        for quantity, values in told(named, one, moved, how=words, part=part)
     }

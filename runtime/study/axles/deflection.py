@@ -25,7 +25,7 @@ from ..loads.elastic.deflection import (
 )
 from ..loads.elastic.equilibrium import Equilibrium, State
 from ..loads.elastic.held import HARDPOINTS, Hardpoints, at_height, gives_way
-from ..loads.flexibility import HELD, Held
+from ..loads.flexibility import HELD, Held, refuse_without_rate
 from .between import SIDES
 from .compliance import LOADINGS, WORDS, compliance
 from .on_bushes import axle_on, softs_of
@@ -72,7 +72,7 @@ def deflection(
         pushes both inward, the right one with half the force.
     travel, rack_position : float, optional
         Where both wheels and the rack are before [m].
-    held : {'height', 'spring', 'locked'}, optional
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
         What holds each wheel; the anti-roll bar acts besides.
     hardpoints : {'loaded', 'relaxed'}, optional
         As of `kintrafo.loads.elastokinematics`.
@@ -119,6 +119,8 @@ def deflection(
         rack_position = given.number("rack_position", rack_position, "m")
         wanted = amounts_of(given, amounts)
         softs = softs_of(given, axle, bushings, hardpoints)
+        if not given.refused:
+            refuse_without_rate(given, held, *(side.tyre for side in axle.sides.values()))
     load = replace(BY_NAME[under], words=words_of(under, wheels, parts))
     at, rack = np.array([travel]), np.array([rack_position])
     pair = Pair.at(axle, at, at, rack)
@@ -128,7 +130,9 @@ def deflection(
     linear = None
     if any(gives_way(soft) for soft in softs.values()):
         linear = compliance(axle, bushings, at, rack_position=rack_position, held=held)
-    data = deflected(suspension, base, states, load, straight(linear, load, parts, wanted))
+    amounts = np.multiply.outer(parts, wanted)
+    first_order = straight(linear, load, parts, wanted)
+    data = deflected(suspension, base, states, load, amounts, first_order)
     if axle.halves:
         torque = np.concatenate([suspension.torque_of_bar(state) for state in states])
         words = "torque of the anti-roll bar, positive with the left half turned the farther"
@@ -149,6 +153,7 @@ def deflected(
     base: State,
     states: list[State],
     load: RigLoad,
+    amounts: Array,
     linear: Callable[[str, str], Array],
 ) -> dict[str, xr.Variable]:
     """Return what both wheels do under some amounts of a load, and what they carry.
@@ -162,12 +167,14 @@ def deflected(
     states : list of State
         Under each amount.
     load : RigLoad
+    amounts : ndarray, shape (2, n)
+        How much of it each wheel has.
     linear : callable
         Returns what is told to first order, by the kind and the side.
     """
     data: dict[str, xr.Variable] = {}
     for which, side in enumerate(SIDES):
-        changed = changes(suspension, base, states, load, which)
+        changed = changes(suspension, base, states, load, amounts[which], which)
         data |= beside(changed, {kind: linear(kind, side) for kind in changed}, side)
     for which, side in enumerate(SIDES):
         road = np.concatenate([state.road[:, which] for state in states])

@@ -99,6 +99,8 @@ def vehicle(suspension: Suspension) -> Vehicle:
         side=given.sign,
         tyre_radius=_spread(suspension.tyre_radius()),
         tyre_rate=_spread(suspension.tyre.rate_N_per_m),
+        tyre_lateral_rate=_spread(suspension.tyre.lateral_rate_N_per_m),
+        tyre_longitudinal_rate=_spread(suspension.tyre.longitudinal_rate_N_per_m),
         wheelbase=_metres(given.wheelbase_mm),
         center_of_gravity_height=_metres(given.center_of_gravity_height_mm),
         front_brake_share=_spread(given.front_brake_share),

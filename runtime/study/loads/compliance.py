@@ -22,7 +22,7 @@ from ..characteristics.catalogue import Quantity
 from ..characteristics.datasets import TRAVEL
 from ..characteristics.from_model import corner
 from ..sweep import usual_travel
-from .flexibility import HELD, Held, Side, flexibility, soft_lines
+from .flexibility import HELD, Held, Side, flexibility, refuse_without_rate, soft_lines
 from .poses import CENTER, CONTACT, Poses, rotated, touching, wheel_axes
 
 Array = NDArray[np.float64]
@@ -48,6 +48,8 @@ class RigLoad:
         Direction in which a displacement is told, on a left wheel.
     where : str
         That direction in words; empty where no displacement is told.
+    through : str
+        The rate of the tyre through which it goes, in `Vehicle`; empty where there is none.
     """
 
     name: str
@@ -59,15 +61,16 @@ class RigLoad:
     shown: Display
     sense: Vector
     where: str
+    through: str = ""
 
 
 _KILONEWTON = Display("kN", 1e3)
 _INWARD, _REARWARD, _NOTHING = (0.0, -1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 0.0)
 RIG_LOADS = (
     RigLoad("lateral", "a lateral force inward at the contact", CONTACT, _INWARD, _NOTHING, "N",
-          _KILONEWTON, _INWARD, "inward"),
+          _KILONEWTON, _INWARD, "inward", "tyre_lateral_rate"),
     RigLoad("braking", "a braking force at the contact", CONTACT, _REARWARD, _NOTHING, "N",
-          _KILONEWTON, _REARWARD, "rearward"),
+          _KILONEWTON, _REARWARD, "rearward", "tyre_longitudinal_rate"),
     RigLoad("recession", "a rearward force at the wheel centre", CENTER, _REARWARD, _NOTHING, "N",
           _KILONEWTON, _REARWARD, "rearward"),
     RigLoad("aligning", "a torque about the vertical towards toe-out", CONTACT, _NOTHING,
@@ -107,15 +110,18 @@ def compliance(
         Heights of the wheel centre above its design height [m]; by default the usual range.
     rack_position : float, optional
         Displacement of the rack [m].
-    held : {'height', 'spring', 'locked'}, optional
-        What holds the wheel: the contact stays at its height, as on a rig whose pads do not move
-        vertically; spring and stops, as on one that keeps the vertical force; or a locked spring.
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
+        What holds the wheel: the contact of the rigid wheel stays at its height; or the pad beneath
+        its tyre does, so that the wheel goes up and down as the tyre gives way; spring and stops,
+        as on a rig that keeps the vertical force; or a locked spring.
 
     Returns
     -------
     xarray.Dataset
         Over ``wheel_travel``: toe, camber and displacement by a lateral force inward, a braking
-        force, a rearward force at the wheel centre and an aligning torque; and ``flexibility``,
+        force, a rearward force at the wheel centre and an aligning torque. Where the file has the
+        tyre's rates along these forces, ``patch_displacement_by_...``: the wheel's at the contact
+        and what the standing tyre gives way, as the pad of a rig moves. And ``flexibility``,
         displacement and rotation of the contact by force and moment on the wheel there, tyre axes,
         of shape (n, 6, 6) [m/N], [rad/N], [m/(N m)], [rad/(N m)].
 
@@ -152,6 +158,7 @@ def compliance(
             bushes = model.suspension.bushes(given, described)
             rack = softness_of_rack(given, described)
             refuse_rigid(given, bushes, rack)
+            refuse_without_rate(given, held, model.suspension.tyre)
             if model.suspension.tyre_radius() is None:
                 given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
     travels = usual_travel(model, rack=rack_position) if travel is None else travel
@@ -212,7 +219,7 @@ def sense_of(test: RigLoad, on_road: RoadWheel) -> Array:
 
 
 def told(
-    test: RigLoad, on_road: RoadWheel, moved: Array, *, how: str = ""
+    test: RigLoad, on_road: RoadWheel, moved: Array, *, how: str = "", part: float = 1.0
 ) -> Iterator[tuple[Quantity, Array]]:
     """Yield what the wheel does under a load, by the formulas of the characteristics.
 
@@ -224,6 +231,8 @@ def told(
         Displacement and rotation of the contact, chassis axes [m], [rad].
     how : str, optional
         How both wheels of an axle are loaded.
+    part : float, optional
+        How much of the load this wheel has.
     """
     turn = moved[:, 3:]
     shift = moved[:, :3] + cross(turn, _where(test, on_road) - touching(on_road))
@@ -234,7 +243,19 @@ def told(
         "displacement": (sense_of(test, on_road) * shift).sum(axis=-1),
     }
     for kind, quantity in _quantities(test, how).items():
-        yield quantity, values[kind]
+        if kind in values:
+            yield quantity, values[kind]
+        elif soft := give_of_tyre(test, on_road):
+            yield quantity, values["displacement"] + part * soft
+
+
+def give_of_tyre(test: RigLoad, on_road: RoadWheel) -> float | None:
+    """Return how far the standing tyre gives way to a unit of a load [m/N].
+
+    None where the load does not go through it, or its rate is not known.
+    """
+    rate = getattr(on_road.vehicle, test.through) if test.through else None
+    return None if rate is None else 1.0 / rate
 
 
 def _quantities(test: RigLoad, how: str = "") -> dict[str, Quantity]:
@@ -245,16 +266,23 @@ def _quantities(test: RigLoad, how: str = "") -> dict[str, Quantity]:
     ]
     if test.where:
         kinds.append(("displacement", "m", f"displacement {test.where}", ""))
+    if test.through:
+        words = f"displacement {test.where} of the contact patch"
+        kinds.append(("patch_displacement", "m", words, ""))
     found = {}
     for name, unit, words, sign in kinds:
         shown = display_of({"units": unit})
         display = Display(f"{shown.units}/{test.shown.units}", shown.factor * test.shown.factor)
-        where = f"of the {test.at.replace('_', ' ').replace('center', 'centre')}"
+        at = test.at.replace("_", " ").replace("center", "centre")
+        meaning = {
+            "displacement": f"{words} of the {at}",
+            "patch_displacement": f"{words}, on a tyre that gives way",
+        }
         found[name] = Quantity(
             f"{name}_by_{test.name}",
             f"{unit}/({test.unit})" if " " in test.unit else f"{unit}/{test.unit}",
             f"{words} by {test.words}{how and f', {how}'}",
-            f"{words} {where}" if name == "displacement" else f"change of {words}",
+            meaning.get(name, f"change of {words}"),
             sign or f"positive {test.where}",
             display=display,
         )

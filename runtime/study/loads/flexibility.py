@@ -12,19 +12,22 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...suspension.bushes import Bush
 from ...suspension.corner import Corner
+from ...suspension.input.vehicle import Tyre
 from ...suspension.structure import GROUND, Joint
 from ..characteristics import wheel
 from .poses import CONTACT, Assembled, rotated, touching
 from .reactions import Equations, Load
 
 Array = NDArray[np.float64]
-Held = Literal["height", "spring", "locked"]
+Held = Literal["height", "tyre", "spring", "locked"]
 
 HELD = {
     "height": "the contact stays at its height",
+    "tyre": "the tyre stands on a road that stays at its height",
     "spring": "spring and stops carry the wheel",
     "locked": "the spring is locked",
 }
@@ -77,7 +80,7 @@ def flexibility(sides: Sequence[Side], held: Held, *, rack: float = 0.0, bar: fl
     ----------
     sides : sequence of Side
         A suspension, both of an axle, or a rigid axle.
-    held : {'height', 'spring', 'locked'}
+    held : {'height', 'tyre', 'spring', 'locked'}
         What holds each wheel.
     rack : float, optional
         How far the rack gives way along its axis for a unit force [m/N].
@@ -108,9 +111,26 @@ def flexibility(sides: Sequence[Side], held: Held, *, rack: float = 0.0, bar: fl
     if has_bar:
         energy[:, applied, applied] += bar
     total = _released(energy, list(range(applied, size)))
-    if held != "height":
+    if held not in ("height", "tyre"):
         return total
-    return _released(total, [_COMPONENTS * i + _VERTICAL for i in range(wheels)], keep=True)
+    soft = [1.0 / rate for rate in rates_of_tyres(sides)] if held == "tyre" else [0.0] * wheels
+    upward = [_COMPONENTS * i + _VERTICAL for i in range(wheels)]
+    return _released(total, upward, soft=np.diag(soft), keep=True)
+
+
+def rates_of_tyres(sides: Sequence[Side]) -> list[float]:
+    """Return the vertical rates of the tyres, which callers have seen to be there [N/m]."""
+    wheels = [wheel for side in sides for wheel in side.poses.wheels.values()]
+    return [wheel.vehicle.tyre_rate or 0.0 for wheel in wheels]
+
+
+def refuse_without_rate(given: Arguments, held: Held, *tyres: Tyre) -> None:
+    """Refuse to let a tyre hold its wheel that has no vertical rate."""
+    if held == "tyre" and not all(tyre.rate_N_per_m > 0.0 for tyre in tyres):
+        given.refuse(
+            "held: the tyre is to hold the wheel, and [tyre] rate_N_per_m = 0 N/m. Enter its rate, "
+            "or let something else hold the wheel: height, spring, locked."
+        )
 
 
 class _Energy:
@@ -255,13 +275,16 @@ def _energy(forces: Array, soft: Array | float) -> Array:
     return result
 
 
-def _released(flexibility: Array, held: list[int], *, keep: bool = False) -> Array:
+def _released(
+    flexibility: Array, held: list[int], *, soft: Array | float = 0.0, keep: bool = False
+) -> Array:
     """Return a flexibility where some displacements are zero, by the forces that this takes.
 
-    What belongs to them is left out, unless it is to be kept as zeros.
+    What belongs to them is left out, unless it is to be kept: as zeros, or where what holds them is
+    soft itself, as what it lets them do.
     """
     rows = np.array(held, dtype=int)
-    inner = flexibility[:, rows[:, None], rows]
+    inner = flexibility[:, rows[:, None], rows] + soft
     # what is rigid on all sides carries nothing by itself
     forces = np.linalg.pinv(inner, hermitian=True) @ flexibility[:, rows]
     result: Array = flexibility - flexibility[:, :, rows] @ forces

@@ -10,9 +10,9 @@ from ...core.tabulated import Tabulated, significant, whole
 
 # What stands in tables of deflections, and what the other curve is called there.
 _IN_TABLES = (
-    "toe", "toe_change", "camber", "camber_change", "displacement", "wheel_rate", "roll_stiffness",
-    "bar_torque", "axle_steer", "axle_lateral", "axle_steer_change", "axle_lateral_change",
-    "axle_longitudinal_change",
+    "toe", "toe_change", "camber", "camber_change", "displacement", "patch_displacement",
+    "wheel_rate", "roll_stiffness", "bar_torque", "axle_steer", "axle_lateral",
+    "axle_steer_change", "axle_lateral_change", "axle_longitudinal_change",
 )  # fmt: skip
 _BESIDE = {"elastokinematic": "on bushes", "linear": "linear"}
 
@@ -105,10 +105,12 @@ def compliances(found: xr.Dataset, title: str, at: float = 0.0) -> Tabulated:
     """
     here = found.sel(wheel_travel=at, method="nearest")
     on_axle = "toe_by_lateral" not in here
+    told = ["toe", "camber", "displacement"]
+    told += ["patch_displacement"] if any(n.startswith("patch_") for n in map(str, here)) else []
     rows = []
     for name in (n for n in map(str, here) if n.startswith("toe_by_")):
         load = name.removeprefix("toe_by_")
-        keys = [f"{kind}_by_{load}" for kind in ("toe", "camber", "displacement")]
+        keys = [f"{kind}_by_{load}" for kind in told]
         cells = [significant(float(displayed(here[k]))) if k in here else "-" for k in keys]
         per = display_of(here[name].attrs).units.partition("/")[2]
         words = long_name(here[name]).partition(" by ")[2].removeprefix("a ")
@@ -116,6 +118,7 @@ def compliances(found: xr.Dataset, title: str, at: float = 0.0) -> Tabulated:
         rows.append((by, *[wheel][: int(on_axle)], per, *cells))
     first = ("by", "wheel", "per") if on_axle else ("by", "per")
     columns = (*first, "toe-in [deg]", "camber [deg]", "inward, rearward [mm]")
+    columns += ("contact patch [mm]",) * (len(told) - 3)
     return Tabulated(title, columns, tuple(rows), frozenset(range(len(first))))
 
 

@@ -19,7 +19,7 @@ from ..axles.motions import Extent
 from ..characteristics.catalogue import Quantity
 from ..characteristics.datasets import TRAVEL
 from ..loads.compliance import RigLoad
-from ..loads.flexibility import HELD, Held, Side, SoftLines, flexibility
+from ..loads.flexibility import HELD, Held, Side, SoftLines, flexibility, refuse_without_rate
 from ..loads.poses import touching
 from .beam import SIDES, Beam
 from .datasets import usual
@@ -45,7 +45,7 @@ def compliance(
         `kintrafo.loads.compliance`. The axis of a bush is by default that of its rod.
     travel : array_like, shape (n,), optional
         Heights of both wheel centres above design [m]; by default the usual range.
-    held : {'height', 'spring', 'locked'}, optional
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
         What holds each wheel; the anti-roll bar acts besides.
 
     Returns
@@ -87,6 +87,7 @@ def compliance(
         if not given.refused:
             bushes = axle.bushes(given, described_bushings(given, bushings, axle.bushings))
             refuse_rigid(given, bushes, 0.0)
+            refuse_without_rate(given, held, axle.tyre)
             if axle.tyre_radius() is None:
                 given.refuse("[tyre] radius_mm is needed: where the road touches the wheels.")
     travels = usual(axle, "bump", Extent()) if travel is None else np.asarray(travel)

@@ -15,7 +15,7 @@ from ..axles.deflection import deflected, of_both, parts_of, straight, words_of
 from ..characteristics.datasets import DATA_SET
 from ..loads.elastic.deflection import BY_NAME, LOAD, amounts_of, coordinates_of, under_amounts
 from ..loads.elastic.held import HARDPOINTS, Hardpoints, at_height, gives_way
-from ..loads.flexibility import HELD, Held
+from ..loads.flexibility import HELD, Held, refuse_without_rate
 from .compliance import OF_AXLE, compliance
 from .on_bushes import axle_on, guided, parts_at, place_of, soft_of, torque_of_bar
 
@@ -47,7 +47,7 @@ def deflection(
         Which wheels have it, as of `kintrafo.axles.deflection`.
     travel : float, optional
         Where both wheels are before [m].
-    held : {'height', 'spring', 'locked'}, optional
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
         What holds each wheel; the anti-roll bar acts besides.
     hardpoints : {'loaded', 'relaxed'}, optional
         As of `kintrafo.loads.elastokinematics`.
@@ -81,13 +81,16 @@ def deflection(
         travel = given.number("travel", travel, "m")
         wanted = amounts_of(given, amounts)
         soft = soft_of(given, axle, bushings, hardpoints)
+        if not given.refused:
+            refuse_without_rate(given, held, axle.tyre)
     load, at = replace(BY_NAME[under], words=words_of(under, wheels, parts)), np.array([travel])
     suspension = axle_on(parts_at(guided(axle), at, at), soft)
     base = at_height(suspension, at)
     states = under_amounts(suspension, base, of_both(suspension, load, parts), held, load, wanted)
     linear = compliance(axle, bushings, at, held=held) if gives_way(soft) else None
     first_order = straight(linear, load, parts, wanted)
-    data = deflected(suspension, base, states, load, first_order)
+    amounts = np.multiply.outer(parts, wanted)
+    data = deflected(suspension, base, states, load, amounts, first_order)
     before = place_of(suspension, base)
     after = [place_of(suspension, state) for state in states]
     for name, (unit, words, sign) in OF_AXLE.items():

@@ -101,10 +101,11 @@ class Parts:
     @cached_property
     def wheels(self) -> dict[str, RoadWheel]:
         """Both wheels, the left one first, by their parts."""
-        radius = self.axle.tyre_radius()
+        radius, tyre = self.axle.tyre_radius(), self.axle.tyre
+        rates = tyre.rate_N_per_m, tyre.lateral_rate_N_per_m, tyre.longitudinal_rate_N_per_m
         return {
             f"wheel_{side}": RoadWheel(
-                Vehicle(SENSE[side], radius),
+                Vehicle(SENSE[side], radius, *rates),
                 self.points[f"{CENTER}_{side}"],
                 self.design[f"{CENTER}_{side}"],
                 SENSE[side] * self.wheel_axis(side),

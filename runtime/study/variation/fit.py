@@ -134,7 +134,7 @@ def fit(
         default 2 % of what the curve varies by.
     names : sequence of str, optional
         Which of the curves are to be explained; by default all.
-    held : {'height', 'spring', 'locked'}, optional
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
         What held the wheel when compliance was measured, see `kintrafo.loads.compliance`.
     progress : callable, optional
         Called after every step of the solver with the cost that is left, as a part of that at the

@@ -150,7 +150,7 @@ def values_of(
     if isinstance(model, Model):
         if over in HELD:
             found = compliance(model, None, positions, held=cast("Held", over))
-            return {name: found[name].values for name in COMPLIANCES}
+            return {name: found[name].values for name in COMPLIANCES if name in found}
         values = over_travel if over == "travel" else over_rack
         return {q.name: v for q, v in values(model, positions, names=names).items()}
     if isinstance(model, RigidAxleModel):

@@ -16,8 +16,15 @@ from ....suspension.corner import RoadWheel
 from ....suspension.model import Model
 from ...characteristics import wheel
 from ...characteristics.datasets import DATA_SET
-from ..compliance import RIG_LOADS, RigLoad, compliance, load_at_contact, sense_of
-from ..flexibility import HELD, Held
+from ..compliance import (
+    RIG_LOADS,
+    RigLoad,
+    compliance,
+    give_of_tyre,
+    load_at_contact,
+    sense_of,
+)
+from ..flexibility import HELD, Held, refuse_without_rate
 from ..poses import CENTER, CONTACT
 from .equilibrium import Equilibrium, State
 from .held import (
@@ -39,6 +46,7 @@ _MEANINGS = {
     "toe": ("change of toe angle, positive toe-in", "rad"),
     "camber": ("change of camber, positive with the top outboard", "rad"),
     "displacement": ("displacement in the direction of the force", "m"),
+    "patch_displacement": ("displacement of the contact patch in the direction of the force", "m"),
 }
 BY_NAME = {load.name: load for load in RIG_LOADS}
 _GREATEST = 1e6
@@ -71,8 +79,9 @@ def deflection(
         How great the load is, of either sign [N], [N m].
     travel, rack_position : float, optional
         Where the suspension is before [m], see `elastokinematics`.
-    held : {'height', 'spring', 'locked'}, optional
-        What holds the wheel, see `compliance`.
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
+        What holds the wheel, see `compliance`; ``tyre``: on a road that stays where the tyre
+        carries the wheel without the load.
     hardpoints : {'loaded', 'relaxed'}, optional
         See `elastokinematics`.
 
@@ -81,7 +90,8 @@ def deflection(
     xarray.Dataset
         Over ``data_set`` ('equilibrium', 'linear') and ``load``: ``toe_change`` and
         ``camber_change`` [rad], and ``displacement`` in the direction of a force [m], all against
-        what is there without the load; and ``wheel_load`` [N]. The linear ones are those of
+        what is there without the load; ``patch_displacement`` on the standing tyre where the file
+        has its rate, see `compliance`; and ``wheel_load`` [N]. The linear ones are those of
         `compliance`.
 
     Raises
@@ -118,12 +128,14 @@ def deflection(
         rack_position = given.number("rack_position", rack_position, "m")
         wanted = amounts_of(given, amounts)
         soft = soft_of(given, model, bushings, hardpoints)
+        if not given.refused:
+            refuse_without_rate(given, held, model.suspension.tyre)
     load = BY_NAME[under]
     suspension = suspension_on(model, np.array([travel]), rack_position, soft)
     base = at_height(suspension, np.array([travel]))
     unit = unit_load(load, suspension.wheels[0])[:, None]
     states = under_amounts(suspension, base, unit, held, load, wanted)
-    changed = changes(suspension, base, states, load)
+    changed = changes(suspension, base, states, load, wanted)
     straight = {kind: np.zeros_like(wanted) for kind in changed}
     if gives_way(soft):
         linear = compliance(model, bushings, [travel], rack_position=rack_position, held=held)
@@ -161,7 +173,7 @@ def under_amounts(
     for sense in (1.0, -1.0):
         state, at = base, 0.0
         for amount in sorted({a for a in wanted.tolist() if sense * a >= 0.0}, key=abs):
-            state = _towards(suspension, state, (at, amount), unit, held, load)
+            state = _towards(suspension, base, state, (at, amount), unit, held, load)
             at, found[amount] = amount, state
     states = [found[amount] for amount in wanted.tolist()]
     _refuse_beyond(suspension, states, load, wanted)
@@ -170,6 +182,7 @@ def under_amounts(
 
 def _towards(
     suspension: Equilibrium,
+    base: State,
     state: State,
     amounts: tuple[float, float],
     unit: Array,
@@ -181,7 +194,7 @@ def _towards(
     step = end - at
     while at != end:
         to = end if abs(step) >= abs(end - at) else at + step
-        there = suspension.under(to * unit, held, state)
+        there = suspension.under(to * unit, held, state, base)
         if there.found.all():
             state, at, step = there, to, 2.0 * step
             continue
@@ -213,7 +226,12 @@ def _refuse_beyond(
 
 
 def changes(
-    suspension: Equilibrium, base: State, states: list[State], load: RigLoad, side: int = 0
+    suspension: Equilibrium,
+    base: State,
+    states: list[State],
+    load: RigLoad,
+    amounts: Array,
+    side: int = 0,
 ) -> dict[str, Array]:
     """Return what a wheel does under some amounts of a load, by the kind of it.
 
@@ -225,6 +243,8 @@ def changes(
     states : list of State
         Under each amount.
     load : RigLoad
+    amounts : ndarray, shape (n,)
+        How much of it this wheel has.
     side : int, optional
         Which wheel.
     """
@@ -240,7 +260,10 @@ def changes(
         found["displacement"].append((along * shift).sum(axis=-1))
     if not load.where:
         del found["displacement"]
-    return {kind: np.concatenate(values) for kind, values in found.items()}
+    changed = {kind: np.concatenate(values) for kind, values in found.items()}
+    if soft := give_of_tyre(load, suspension.wheels[side]):
+        changed["patch_displacement"] = changed["displacement"] + amounts * soft
+    return changed
 
 
 def beside(changed: dict[str, Array], straight: dict[str, Array], side: str = "") -> dict[str, Any]:
@@ -257,7 +280,7 @@ def beside(changed: dict[str, Array], straight: dict[str, Array], side: str = ""
     for kind, values in changed.items():
         words, unit = _MEANINGS[kind]
         name, mark, sign = words.partition(", positive")
-        key = kind if kind == "displacement" else f"{kind}_change"
+        key = kind if kind.endswith("displacement") else f"{kind}_change"
         both = np.stack([values, straight[kind]])
         of_it = f"{name}{side and f', {side}'}{mark}{sign}"
         found[f"{key}{side and f'_{side}'}"] = variable((DATA_SET, LOAD), both, of_it, unit)

@@ -6,6 +6,7 @@ wheels. The matrix is exact; steps are those of all positions at once.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,6 +62,13 @@ class State:
     found: NDArray[np.bool_]
 
 
+class _Rest(NamedTuple):
+    """What springs and tyres remember of a state: lengths [m], and forces of the road [N]."""
+
+    length: Array
+    road: Array
+
+
 class Equilibrium:
     """A suspension on bushes in many positions, under loads at the contacts of its wheel.
 
@@ -110,6 +118,7 @@ class Equilibrium:
             for wheel, body in zip(self.wheels, connections.wheels, strict=True)
         ]
         self._heights = self._contact_heights(connections.start)
+        self._rates = np.array([wheel.vehicle.tyre_rate or 0.0 for wheel in self.wheels])
 
     # -- where a wheel is -------------------------------------------------------------------------
 
@@ -167,7 +176,7 @@ class Equilibrium:
 
     # -- equilibrium ------------------------------------------------------------------------------
 
-    def under(self, load: Array, held: Held, near: State) -> State:
+    def under(self, load: Array, held: Held, near: State, since: State | None = None) -> State:
         """Return the equilibrium under a load.
 
         Parameters
@@ -175,25 +184,28 @@ class Equilibrium:
         load : ndarray, shape (n, wheels, 9)
             Force and moment on each wheel at its lowest point, and force at its centre, chassis
             axes [N], [N m].
-        held : {'height', 'spring', 'locked'}
+        held : {'height', 'tyre', 'spring', 'locked'}
             What holds a wheel: the road at the height where the contact was with rigid joints, or
-            a force of the road as in `near`, the spring as it is or as long as it is there.
+            a tyre on a road that stays where it was in `since`; or a force of the road as in
+            `near`, the spring as it is or as long as it was in `since`.
         near : State
             Where to begin; it need not be an equilibrium.
+        since : State, optional
+            Without the load; by default `near`.
         """
         state = near
-        length = self._connections.at(near.places).value[:, self._connections.springs]
+        rest = self._rest(since or near)
         found = np.zeros(len(load), dtype=bool)
         for _ in range(_MOST_STEPS):
-            matrix, left = self._linear(state, load, held, length)
+            matrix, left = self._linear(state, load, held, rest)
             step = _solution(matrix, left)
             step[found] = 0.0
             state, far = self._moved(state, step, held)
             found |= far < _LAST_STEP
             if found.all() or not np.isfinite(far).any():
                 break
-        matrix, _ = self._linear(state, load, held, length)
-        return replace(state, found=found & self._lasts(matrix))
+        matrix, _ = self._linear(state, load, held, rest)
+        return replace(state, found=found & self._lasts(matrix, held))
 
     def rate(self, state: State, load: Array) -> Array:
         """Return how the forces of the road rise with the heights, (n, wheels, wheels) [N/m].
@@ -205,7 +217,7 @@ class Equilibrium:
         load : ndarray, shape (n, wheels, 9)
         """
         wheels = state.road.shape[1]
-        matrix, left = self._linear(state, load, "height", np.zeros_like(state.road))
+        matrix, left = self._linear(state, load, "height", self._rest(state))
         columns = []
         for wheel in range(wheels):
             higher = np.zeros_like(left)
@@ -233,13 +245,17 @@ class Equilibrium:
         forces = state.forces + part[:, None] * step[:, size : size + len(self._rigid)] * _FORCE
         state = replace(state, places=state.places.moved(np.nan_to_num(by)), forces=forces)
         if held != "spring":
-            name = "road" if held == "height" else "lock"
+            name = "lock" if held == "locked" else "road"
             own = step[:, -state.road.shape[1] :]
             more = getattr(state, name) + part[:, None] * own * _FORCE
             state = replace(state, **{name: more})
         return state, far
 
-    def _linear(self, state: State, load: Array, held: Held, length: Array) -> tuple[Array, Array]:
+    def _rest(self, since: State) -> _Rest:
+        measured = self._connections.at(since.places).value
+        return _Rest(measured[:, self._connections.springs], since.road)
+
+    def _linear(self, state: State, load: Array, held: Held, rest: _Rest) -> tuple[Array, Array]:
         """Return the derivative of what is left of all equations, and what is left."""
         measured = self._connections.at(state.places)
         n, size = len(load), 6 * (self._count - 1)
@@ -250,12 +266,14 @@ class Equilibrium:
         direction = -conditions.mT
         if held != "spring":
             rows = slopes[:, self._connections.springs]
-            off = measured.value[:, self._connections.springs] - length
+            off = measured.value[:, self._connections.springs] - rest.length
             columns = -rows.mT
-            if held == "height":
+            if held != "locked":
                 rows = self._upward(state.places, load)
                 columns = rows.mT
                 off = self._contact_heights(state.places) - self._heights
+            if held == "tyre":
+                off = off + (state.road - rest.road) / self._rates
             conditions = np.concatenate([conditions, rows], axis=1)
             direction = np.concatenate([direction, columns], axis=2)
             values = np.concatenate([values, off], axis=1)
@@ -263,6 +281,9 @@ class Equilibrium:
         matrix[:, :size, :size] = (outer_by - stiffness) / _FORCE
         matrix[:, :size, size:] = direction
         matrix[:, size:, :size] = conditions
+        if held == "tyre":
+            own = slice(-len(self.wheels), None)
+            matrix[:, own, own] = np.diag(_FORCE / self._rates)
         return matrix, np.concatenate([(outer - inner) / _FORCE, values], axis=1)
 
     def _inner(self, state: State, measured: Measured, slopes: Array) -> tuple[Array, Array]:
@@ -331,10 +352,14 @@ class Equilibrium:
         return total[:, 1:].reshape(n, -1)
 
     @in_one_thread
-    def _lasts(self, matrix: Array) -> NDArray[np.bool_]:
+    def _lasts(self, matrix: Array, held: Held) -> NDArray[np.bool_]:
         """Tell where all that the conditions leave free is resisted."""
         size = 6 * (self._count - 1)
         stiffness, conditions = -matrix[:, :size, :size], matrix[:, size:, :size]
+        if held == "tyre":  # a spring is no condition
+            rows = conditions[:, -len(self.wheels) :]
+            stiffness = stiffness + rows.mT @ (self._rates[:, None] / _FORCE * rows)
+            conditions = conditions[:, : -len(self.wheels)]
         fine = np.isfinite(matrix.reshape(len(matrix), -1).sum(axis=1))
         _, _, right = np.linalg.svd(np.where(fine[:, None, None], conditions, 0.0))
         free = right[:, conditions.shape[1] :]
