@@ -50,6 +50,7 @@ MISTAKES = [
     (REFERENCE, {"rack.axis": [1.0, 0.0, 0.0]}, "[rack] axis", "across the car"),
     (REFERENCE, {"rack.axis": [0.0, 0.0, 1.0]}, "[rack] axis", "across the car"),
     (REFERENCE, {"tyre.rate_N_per_m": 200.0}, "[tyre] rate", "N/mm"),
+    (REFERENCE, {"tyre.lateral_rate_N_per_m": 150.0}, "[tyre] lateral_rate", "N/mm"),
     (REFERENCE, {"strut.spring_rate_N_per_m": 25.0}, "[strut] spring_rate", "N/mm"),
     (REFERENCE, {"strut.damper_rate_N_s_per_m": 1.5}, "[strut] damper_rate", "N s/mm"),
     (REFERENCE, {"bodies.wheel.mass_kg": 22000.0}, "bodies", "grams"),

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..core.vectors import angle_between_lines
 from .input.bodies import RigidBody, WheelBody
-from .input.vehicle import Wheel
+from .input.vehicle import Tyre, Wheel
 from .kinds import Suspension
 from .typical import typical_ranges
 
@@ -48,6 +48,8 @@ _APART = 5.6
 _TYRE_TO_SPRING = (0.05, 500.0)
 # Of the damping that would keep the wheel on its tyre from oscillating, dampers have 10 to 60 %.
 _DAMPING = (0.005, 20.0)
+# Rates of one tyre are alike; one in N/mm is 1,000 times less, and half way, by factors, is this.
+_ALIKE = 31.6
 # Nothing that rolls has more inertia than a hoop. In kg mm^2 an inertia is 1,000,000 times as much;
 # half way, by factors, leaves room for what is counted with a wheel.
 _HOOPS = 1e3
@@ -111,6 +113,7 @@ def plausibility(suspension: Suspension) -> Plausibility:
         *_stray(suspension),
         *_rack(suspension),
         *_rates(suspension),
+        *unlikely_tyre(suspension.tyre),
         *_inertia(suspension),
         *unlikely_wheel(suspension.bodies.wheel, suspension.tyre_radius()),
         *unlikely_vehicle(suspension.vehicle),
@@ -294,6 +297,17 @@ def unusual_alignment(wheel: Wheel) -> Iterator[str]:
         value = getattr(wheel, name)
         if abs(value) > _MOST_ALIGNMENT:
             yield f"[wheel] {name} = {value:g} deg: cars have some degrees. Is it right?"
+
+
+def unlikely_tyre(tyre: Tyre) -> Iterator[str]:
+    """Compare the rates of a tyre along the ground with that of its springing."""
+    for name in ("lateral_rate_N_per_m", "longitudinal_rate_N_per_m"):
+        rate, vertical = getattr(tyre, name), tyre.rate_N_per_m
+        if rate is not None and vertical and not 1.0 / _ALIKE <= rate / vertical <= _ALIKE:
+            yield (
+                f"[tyre] {name} = {rate:g} N/m, beside a rate_N_per_m of {vertical:g} N/m: tyres "
+                "give way in all directions by much the same. Is one of them in N/mm?"
+            )
 
 
 def unlikely_wheel(wheel: WheelBody, radius: float | None) -> Iterator[str]:

@@ -14,6 +14,7 @@ _IN_TABLES = (
     "wheel_rate", "roll_stiffness", "bar_torque", "axle_steer", "axle_lateral",
     "axle_steer_change", "axle_lateral_change", "axle_longitudinal_change",
 )  # fmt: skip
+_WORDS = {"patch_displacement": "contact patch"}
 _BESIDE = {"elastokinematic": "on bushes", "linear": "linear"}
 
 _ACTING = ("spring", "damper", "road", "drive", "steering", "bar")
@@ -164,7 +165,7 @@ def deflections(found: xr.Dataset, title: str, most: int = 11) -> Tabulated:
     columns = [_heading(over.replace("_", " "), here[over])]
     cells = [[f"{value:g}" for value in displayed(here[over])]]
     for name in (name for name in _IN_TABLES if name in here and here[name].ndim > 1):
-        word = name.removesuffix("_change").replace("_", " ")
+        word = _WORDS.get(name) or name.removesuffix("_change").replace("_", " ")
         columns += [_heading(word, here[name]), *(_BESIDE[other] for other in others)]
         cells += [[_number(value) for value in row] for row in displayed(here[name])]
     return Tabulated(title, tuple(columns), tuple(zip(*cells, strict=True)), frozenset())

@@ -12,6 +12,7 @@ from ...suspension.plausibility import (
     stray_points,
     unlikely_inertia,
     unlikely_rates,
+    unlikely_tyre,
     unlikely_vehicle,
     unlikely_wheel,
     unusual_alignment,
@@ -140,6 +141,7 @@ def _unlikely(axle: RigidAxle) -> Iterator[str]:
     yield from stray_points(given, unit)
     yield from unlikely_vehicle(axle.vehicle)
     size = axle.half_track + max(float(np.linalg.norm(at - axle.center)) for at in given.values())
+    yield from unlikely_tyre(axle.tyre)
     yield from unlikely_inertia({"beam": axle.bodies.beam}, size)
     yield from unlikely_wheel(axle.bodies.wheel, axle.tyre_radius())
     half = 0.5 * axle.bodies.beam.mass_kg + axle.bodies.wheel.mass_kg
