@@ -4,19 +4,19 @@ import numpy as np
 import pytest
 from kintrafo import System
 from kintrafo.generator.backends.c import pieces, source
-from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms.held_by_rods import MODELS
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.systems.compile.loader import load
+from own_models import derive
 
 FUNCTIONS = ("rhs", "rhs_jacobian", "margins", "poses", "jacobians")
 
 
 @pytest.mark.parametrize("model", [n_four_bar(8), MODELS[0]], ids=["closed", "iterated"])
 def test_pieces_return_the_bits_of_the_whole(tmp_path, monkeypatch, model):
-    derived = generate(model)
+    derived = derive(model)
     results = []
     for number, (long, piece) in enumerate(((10**9, 10**9), (0, 300))):
         monkeypatch.setattr(source, "LONG", long)
@@ -41,7 +41,7 @@ def _arrays(found):
 
 
 def test_short_functions_stay_in_one_piece_and_so_does_what_comes_with_the_project():
-    derived = generate(n_four_bar(8))
+    derived = derive(n_four_bar(8))
     for long, in_pieces, cut in ((10**9, True, False), (0, False, False), (0, True, True)):
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(source, "LONG", long)

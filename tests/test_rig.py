@@ -188,7 +188,7 @@ def test_compliance_of_several_is_compared() -> None:
     ("models", "changes", "words"),
     [
         ({"a": Model(SOFT), "b": MODEL}, {"held": "height"}, r"held: b has no \[bushings\]"),
-        ({"a": Model(SOFT)} | {"b": Model(SOFT)}, {"held": "body"}, "height, spring, locked"),
+        ({"a": Model(SOFT)} | {"b": Model(SOFT)}, {"held": "body"}, "height, tyre, spring, locked"),
         (
             {"a": Model(SOFT), "b": Model(SOFT)},
             {"held": "height", "over": "rack"},
