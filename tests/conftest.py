@@ -19,10 +19,12 @@ from hypothesis import HealthCheck, settings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterator
+    from pathlib import Path
     from types import ModuleType
 
     import xarray as xr
     from kintrafo.generator.equations.outputs import Derivation
+    from kintrafo.plots.animation import Array, Skeleton
 
     Pages = dict[str, tuple[Hashable, ...]]
     """Groups of curves by name, with their variables."""
@@ -149,6 +151,22 @@ def coarse_report(monkeypatch: pytest.MonkeyPatch) -> None:
 
     grid = Grid(Axis(-0.05, 0.025, 5), Axis(-0.04, 0.02, 5))
     monkeypatch.setattr("kintrafo.report.page.reachable_grid", lambda _: grid)
+
+
+@pytest.fixture
+def few_frames(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let GIFs show every tenth frame, where it does not matter how smoothly they move."""
+    from kintrafo.report import animation
+
+    whole = animation.write_gif
+
+    def short(
+        path: Path, skeleton: Skeleton, times: Array, places: dict[str, Array], fps: float
+    ) -> None:
+        some = {body: at[::10] for body, at in places.items()}
+        whole(path, skeleton, times[::10], some, fps / 10.0)
+
+    monkeypatch.setattr(animation, "write_gif", short)
 
 
 @pytest.fixture

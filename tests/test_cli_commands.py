@@ -70,7 +70,7 @@ LINES = commands_of(PAGE)
 
 
 # whole reports: test_report.py
-@pytest.mark.usefixtures("coarse_report", "each_page_of_curves_once")
+@pytest.mark.usefixtures("coarse_report", "each_page_of_curves_once", "few_frames")
 def test_the_documented_commands_run(kintrafo, tmp_path):
     tables = re.findall(r"```csv\n(.*?)```", PAGE, flags=re.DOTALL)
     for name, text in zip(("rig.csv", "road.csv"), tables, strict=True):

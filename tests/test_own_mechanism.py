@@ -98,6 +98,7 @@ class TestPage:
             system.signals(system.state(arm_angle=-0.6))
         assert str(caught.value) == " ".join(blocks("text")[2].split())
 
+    @pytest.mark.usefixtures("few_frames")
     def test_the_commands_run(self, tmp_path, monkeypatch):
         shutil.copy(EXAMPLE, tmp_path)
         monkeypatch.chdir(tmp_path)
