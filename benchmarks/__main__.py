@@ -72,7 +72,11 @@ def _measure(progress: Progress, *, quick: bool) -> dict[str, Any]:
     total = passes * len(chosen) * len(work_precision.curves())
     bar = progress.add_task("free steps", total=total)
     results["work_precision"] = work_precision.measure(
-        case, chosen, passes=passes, advance=lambda: progress.advance(bar)
+        case,
+        chosen,
+        passes=passes,
+        budget=0.0 if quick else work_precision.BUDGET,
+        advance=lambda: progress.advance(bar),
     )
     speeds = friction.SPEEDS[1:4:2] if quick else friction.SPEEDS
     last = progress.add_task("friction", total=len(speeds) * len(friction.methods()))

@@ -25,6 +25,7 @@ from scipy.integrate import solve_ivp
 from .paper_timing import ATOL_PER_RTOL, NAMES, Case, native_call
 from .report import Timing, count, markdown_table, milliseconds, power, seconds_of, timing_of
 
+BUDGET = 0.1  # a point is repeated for so long [s]
 TOLERANCES = tuple(10.0**-k for k in range(3, 12))
 ERROR_OF_COMPARISON = 1e-6
 NATIVE = ("Verner", "DormandPrince", "BDF", "Adams")
@@ -101,7 +102,7 @@ def measure(
     tolerances: Sequence[float] = TOLERANCES,
     *,
     passes: int = 3,
-    budget: float = 0.1,
+    budget: float = BUDGET,
     advance: Callable[[], None] = lambda: None,
 ) -> list[Point]:
     """Integrate with every method at every tolerance.

@@ -1,22 +1,17 @@
 """The benchmark scripts in a reduced mode: they run, their results have the right structure."""
 
 import json
-import os
 import re
 import shutil
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from as_commands import ROOT, run_module
 from kintrafo.simulation import solvers
 from kintrafo.simulation.lanes.library import widths
 from kintrafo.simulation.solvers import native_available
 
 from benchmarks import friction, paper_timing, report, work_precision
-
-ROOT = Path(__file__).parents[1]
 
 NEEDS_SUNDIALS = pytest.mark.skipif(not native_available(), reason="SUNDIALS is not built in")
 PAGE = ROOT / "docs/gear-against-runge-kutta.md"
@@ -36,8 +31,7 @@ def test_command_writes_everything(tmp_path):
     page = tmp_path / "docs" / "page.md"
     (page.parent / "images").mkdir(parents=True)
     shutil.copy(PAGE, page)
-    command = [sys.executable, "-m", "benchmarks", "--quick", "--out", tmp_path, "--page", page]
-    subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    run_module("benchmarks", "--quick", "--out", tmp_path, "--page", page)
     results = json.loads((tmp_path / "gear_against_runge_kutta.json").read_text())
     assert set(results) == {
         "environment",
@@ -148,9 +142,7 @@ def test_ensemble_writes_everything(tmp_path):
     page = tmp_path / "docs" / "ensembles.md"
     (page.parent / "images").mkdir(parents=True)
     shutil.copy(ROOT / "docs/ensembles.md", page)
-    command = [sys.executable, "-m", "benchmarks.ensemble", "--quick", "--out", tmp_path]
-    path = {**os.environ, "PYTHONPATH": str(ROOT / "tests")}
-    subprocess.run([*command, "--page", page], cwd=ROOT, check=True, capture_output=True, env=path)
+    run_module("benchmarks.ensemble", "--quick", "--out", tmp_path, "--page", page)
     found = json.loads((tmp_path / "ensemble.json").read_text())
     assert [call["lanes"] for call in found["calls"]] == [1, *widths()]
     assert all(rate["error"] <= 1e-6 for rate in found["rates"])
@@ -163,8 +155,7 @@ def test_what_is_kept_of_stiff_cars_is_measured(tmp_path):
     page = tmp_path / "ensembles.md"
     page.write_text("".join(f"<!-- begin {n} -->\n<!-- end {n} -->\n" for n in ("stiff", "kept")))
     keep = "('percentile', 95)"
-    page_of = [sys.executable, "-m", "benchmarks.ensemble_stiff", "--quick", "--page", page]
-    subprocess.run(page_of, cwd=ROOT, check=True, capture_output=True)
+    run_module("benchmarks.ensemble_stiff", "--quick", "--page", page)
     assert "DormandPrince" in page.read_text()
     assert keep in page.read_text()
 
@@ -173,7 +164,6 @@ def test_what_is_kept_of_stiff_cars_is_measured(tmp_path):
 def test_steps_of_one_length_are_measured(tmp_path):
     page = tmp_path / "real-time.md"
     page.write_text("<!-- begin steps -->\n<!-- end steps -->\n")
-    command = [sys.executable, "-m", "benchmarks.real_time", "--quick", "--page", page]
-    subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    run_module("benchmarks.real_time", "--quick", "--page", page)
     assert "ms at most" in page.read_text()
     assert "| 20 " in page.read_text()

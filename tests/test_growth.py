@@ -1,13 +1,11 @@
 """A chain of many loops: its exact motion, what grows with its length, and which loop fails."""
 
 import json
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from as_commands import ROOT, run_module
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.backends.numpy.printer import ArraysPrinter
 from kintrafo.generator.equations.outputs import Derivation, generate
@@ -15,7 +13,6 @@ from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import Plan
 from own_models import Built, derive, needs_gcc, own
 
-ROOT = Path(__file__).parents[1]
 LONG = 16  # loops: more guards than a status word has bits
 
 
@@ -91,10 +88,7 @@ def test_benchmark_writes_everything(tmp_path: Path) -> None:
     page = tmp_path / "docs" / "page.md"
     (page.parent / "images").mkdir(parents=True)
     page.write_text((ROOT / "docs/growth.md").read_text(encoding="utf-8"), encoding="utf-8")
-    command = [sys.executable, "-m", "benchmarks.growth", "--quick"]
-    command += ["--out", str(tmp_path), "--page", str(page)]
-    environment = os.environ | {"CFLAGS": "-O0"}  # how long it takes is not looked at
-    subprocess.run(command, cwd=ROOT, env=environment, check=True, capture_output=True)
+    run_module("benchmarks.growth", "--quick", "--out", tmp_path, "--page", page)
     points = json.loads((tmp_path / "growth.json").read_text(encoding="utf-8"))["points"]
     assert [p["loops"] for p in points] == [1, 2, 3]
     for point in points:
