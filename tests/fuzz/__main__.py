@@ -8,7 +8,7 @@ from pathlib import Path
 
 from benchmarks.report import fill_page
 
-from .attempts import door, names, setting
+from .attempts import names, short
 from .campaign import Campaign, campaign, table
 
 
@@ -30,7 +30,7 @@ def main() -> int:
     options = parser.parse_args()
     campaigns = []
     for name in options.doors:
-        count = options.attempts or options.rounds * setting(door(name), "SHORT")
+        count = options.attempts or options.rounds * short(name)
         found = campaign(name, count, first=options.first, told=_progress)
         campaigns.append(found)
         for one in found.defects:

@@ -12,14 +12,17 @@ and with a function ``attempt(random)`` that tries it once with what it draws fr
 - raise anything else, or end the interpreter: raw;
 - not return within ``SECONDS`` (20 if the door does not say): hung.
 
-A door may set ``SHORT``, the number of attempts in a test run (40 if it does not).
+A door may set ``SHORT``, the number of attempts in a test run (40 if it does not), to a number that
+stands there as it is.
 """
 
 from __future__ import annotations
 
+import ast
 import importlib
 import pkgutil
 from dataclasses import dataclass
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -78,9 +81,31 @@ def door(name: str) -> ModuleType:
     return importlib.import_module(f"{doors.__name__}.{name}")
 
 
+def what_is_tried(name: str) -> str:
+    """Return the first line of what a door says."""
+    return (ast.get_docstring(_text_of(name)) or "").partition("\n")[0].rstrip(".")
+
+
+def short(name: str) -> int:
+    """Return the number of attempts in a test run."""
+    found = 40
+    for line in _text_of(name).body:
+        if isinstance(line, ast.Assign) and ast.unparse(line.targets[0]) == "SHORT":
+            found = ast.literal_eval(line.value)
+    return found
+
+
+def _text_of(name: str) -> ast.Module:
+    """Return a door as it is written: to import it is for the processes that try it."""
+    found = find_spec(f"{doors.__name__}.{name}")
+    if found is None or found.loader is None:
+        raise ModuleNotFoundError(name)
+    return ast.parse(found.loader.get_source(found.name))
+
+
 def setting(module: ModuleType, name: str) -> Any:
     """Return a setting of a door, or its default."""
-    defaults = {"SECONDS": 20.0, "SHORT": 40, "CLEAR": ()}
+    defaults = {"SECONDS": 20.0, "CLEAR": ()}
     return getattr(module, name, defaults[name])
 
 

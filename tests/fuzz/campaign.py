@@ -14,7 +14,7 @@ from benchmarks.report import count as count_of
 from benchmarks.report import markdown_table
 
 from . import worker
-from .attempts import DEFECTS, OUTCOMES, Tried, door
+from .attempts import DEFECTS, OUTCOMES, Tried, what_is_tried
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -74,7 +74,7 @@ def campaign(
     told
         Called after every attempt with what there is so far.
     """
-    found = Campaign(name, (door(name).__doc__ or "").splitlines()[0].rstrip("."))
+    found = Campaign(name, what_is_tried(name))
     seed, end = first, first + count
     while seed < end:
         for one in _worked(name, seed, end - seed):

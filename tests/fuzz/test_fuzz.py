@@ -2,13 +2,13 @@
 
 import pytest
 
-from fuzz.attempts import OUTCOMES, door, names, setting
+from fuzz.attempts import OUTCOMES, names, short
 from fuzz.campaign import campaign, table
 
 
 @pytest.mark.parametrize("name", names())
 def test_nothing_wrong_raw_or_hung(name):
-    found = campaign(name, setting(door(name), "SHORT"))
+    found = campaign(name, short(name))
     assert not found.defects, "\n".join(
         f"seed {one.seed}: {one.outcome}: {one.text}" for one in found.defects
     )
@@ -16,7 +16,7 @@ def test_nothing_wrong_raw_or_hung(name):
 
 def test_what_goes_wrong_is_told():
     """Hanging and dying cost their own seed only, and both are seen."""
-    found = campaign("_broken", setting(door("_broken"), "SHORT"))
+    found = campaign("_broken", short("_broken"))
     assert [found.counts[outcome] for outcome in OUTCOMES] == [2, 1, 1, 1, 2, 1]
     assert [(one.seed, one.outcome) for one in found.defects] == [
         (2, "wrong"),
