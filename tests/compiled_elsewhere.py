@@ -9,3 +9,10 @@ def simulated_end(start: float) -> list[float]:
     system = kintrafo.System(kintrafo.compile(FOUR_BAR))
     end = kintrafo.simulate(system, (0.0, 0.5), system.state(crank_angle=start)).y[:, -1]
     return [float(number) for number in end]
+
+
+def what_is_needed() -> None:
+    """Import what deriving, compiling and simulating import when they are first asked for."""
+    import kintrafo.generator.backends.files
+    import kintrafo.generator.equations.outputs
+    import kintrafo.simulation.simulate  # noqa: F401
