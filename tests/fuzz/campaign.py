@@ -21,13 +21,14 @@ if TYPE_CHECKING:
 
 _PROCESSES = multiprocessing.get_context("forkserver")
 # what doors have in common is imported once, for all processes
-_SHARED = (
-    "kintrafo.generator.mechanisms",
-    "kintrafo.plots",
-    "kintrafo.study.variation",
-    "scipy.optimize",
+_PROCESSES.set_forkserver_preload(
+    [
+        "kintrafo.generator.mechanisms",
+        "kintrafo.plots",
+        "kintrafo.study.variation",
+        "scipy.optimize",
+    ]
 )
-_PROCESSES.set_forkserver_preload(list(_SHARED))
 
 
 @dataclass

@@ -260,30 +260,29 @@ def give_of_tyre(test: RigLoad, on_road: RoadWheel) -> float | None:
 
 def _quantities(test: RigLoad, how: str = "") -> dict[str, Quantity]:
     """Return what is told under a load, by what of the wheel it is."""
+    toe, camber = "toe angle", "camber"
     kinds = [
-        ("toe", "rad", "toe angle", "positive toe-in"),
-        ("camber", "rad", "camber", "positive with the top outboard"),
+        ("toe", "rad", toe, f"change of {toe}", "positive toe-in"),
+        ("camber", "rad", camber, f"change of {camber}", "positive with the top outboard"),
     ]
+    words, sign = f"displacement {test.where}", f"positive {test.where}"
     if test.where:
-        kinds.append(("displacement", "m", f"displacement {test.where}", ""))
+        at = test.at.replace("_", " ").replace("center", "centre")
+        kinds.append(("displacement", "m", words, f"{words} of the {at}", sign))
     if test.through:
-        words = f"displacement {test.where} of the contact patch"
-        kinds.append(("patch_displacement", "m", words, ""))
+        words += " of the contact patch"
+        meaning = f"{words}, on a tyre that gives way"
+        kinds.append(("patch_displacement", "m", words, meaning, sign))
     found = {}
-    for name, unit, words, sign in kinds:
+    for name, unit, words, meaning, sign in kinds:
         shown = display_of({"units": unit})
         display = Display(f"{shown.units}/{test.shown.units}", shown.factor * test.shown.factor)
-        at = test.at.replace("_", " ").replace("center", "centre")
-        meaning = {
-            "displacement": f"{words} of the {at}",
-            "patch_displacement": f"{words}, on a tyre that gives way",
-        }
         found[name] = Quantity(
             f"{name}_by_{test.name}",
             f"{unit}/({test.unit})" if " " in test.unit else f"{unit}/{test.unit}",
             f"{words} by {test.words}{how and f', {how}'}",
-            meaning.get(name, f"change of {words}"),
-            sign or f"positive {test.where}",
+            meaning,
+            sign,
             display=display,
         )
     return found

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...suspension.bushes import Bush
-from ...suspension.corner import Corner
+from ...suspension.corner import Corner, RoadWheel
 from ...suspension.input.vehicle import Tyre
 from ...suspension.structure import GROUND, Joint
 from ..characteristics import wheel
@@ -93,8 +93,8 @@ def flexibility(sides: Sequence[Side], held: Held, *, rack: float = 0.0, bar: fl
         Chassis axes; force and moment on each wheel in turn.
     """
     energies = [_Energy(side) for side in sides]
-    wheels = sum(len(side.poses.wheels) for side in sides)
-    applied = _COMPONENTS * wheels
+    wheels = [wheel for side in sides for wheel in side.poses.wheels.values()]
+    applied = _COMPONENTS * len(wheels)
     has_bar = any(side.bar for side in sides)
     size = applied + has_bar + sum(each.tensions for each in energies)
     energy = np.zeros((len(sides[0].poses.states), size, size))
@@ -113,15 +113,14 @@ def flexibility(sides: Sequence[Side], held: Held, *, rack: float = 0.0, bar: fl
     total = _released(energy, list(range(applied, size)))
     if held not in ("height", "tyre"):
         return total
-    soft = [1.0 / rate for rate in rates_of_tyres(sides)] if held == "tyre" else [0.0] * wheels
-    upward = [_COMPONENTS * i + _VERTICAL for i in range(wheels)]
-    return _released(total, upward, soft=np.diag(soft), keep=True)
+    upward = [_COMPONENTS * i + _VERTICAL for i in range(len(wheels))]
+    tyres = np.diag(1.0 / rates_of_tyres(wheels)) if held == "tyre" else 0.0
+    return _released(total, upward, soft=tyres, keep=True)
 
 
-def rates_of_tyres(sides: Sequence[Side]) -> list[float]:
-    """Return the vertical rates of the tyres, which callers have seen to be there [N/m]."""
-    wheels = [wheel for side in sides for wheel in side.poses.wheels.values()]
-    return [wheel.vehicle.tyre_rate or 0.0 for wheel in wheels]
+def rates_of_tyres(wheels: Sequence[RoadWheel]) -> Array:
+    """Return the vertical rates of the tyres, zero where there is none, (wheels,) [N/m]."""
+    return np.array([wheel.vehicle.tyre_rate or 0.0 for wheel in wheels])
 
 
 def refuse_without_rate(given: Arguments, held: Held, *tyres: Tyre) -> None:

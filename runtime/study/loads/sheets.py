@@ -15,6 +15,12 @@ _IN_TABLES = (
     "axle_steer_change", "axle_lateral_change", "axle_longitudinal_change",
 )  # fmt: skip
 _WORDS = {"patch_displacement": "contact patch"}
+_COMPLIANCES = {
+    "toe": "toe-in [deg]",
+    "camber": "camber [deg]",
+    "displacement": "inward, rearward [mm]",
+    "patch_displacement": "contact patch [mm]",
+}
 _BESIDE = {"elastokinematic": "on bushes", "linear": "linear"}
 
 _ACTING = ("spring", "damper", "road", "drive", "steering", "bar")
@@ -106,8 +112,11 @@ def compliances(found: xr.Dataset, title: str, at: float = 0.0) -> Tabulated:
     """
     here = found.sel(wheel_travel=at, method="nearest")
     on_axle = "toe_by_lateral" not in here
-    told = ["toe", "camber", "displacement"]
-    told += ["patch_displacement"] if any(n.startswith("patch_") for n in map(str, here)) else []
+    told = [
+        kind
+        for kind in _COMPLIANCES
+        if any(name.startswith(f"{kind}_by_") for name in map(str, here))
+    ]
     rows = []
     for name in (n for n in map(str, here) if n.startswith("toe_by_")):
         load = name.removeprefix("toe_by_")
@@ -118,8 +127,7 @@ def compliances(found: xr.Dataset, title: str, at: float = 0.0) -> Tabulated:
         by, wheel = words.rsplit(", ", 1) if on_axle else (words, "")
         rows.append((by, *[wheel][: int(on_axle)], per, *cells))
     first = ("by", "wheel", "per") if on_axle else ("by", "per")
-    columns = (*first, "toe-in [deg]", "camber [deg]", "inward, rearward [mm]")
-    columns += ("contact patch [mm]",) * (len(told) - 3)
+    columns = (*first, *(_COMPLIANCES[kind] for kind in told))
     return Tabulated(title, columns, tuple(rows), frozenset(range(len(first))))
 
 

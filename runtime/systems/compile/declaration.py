@@ -144,12 +144,14 @@ def _run(path: Path) -> ModuleType:
 
 def _package_of(path: Path) -> str:
     """Return the package of a page of the generator's own, such as one that ships; else nothing."""
-    from ... import generator
+    # `from ... import generator` would go by way of the front door, which imports this
+    from ...generator import __file__ as file
+    from ...generator import __name__ as name
 
-    home, folder = Path(generator.__file__).resolve().parent, path.resolve().parent
+    home, folder = Path(file).resolve().parent, path.resolve().parent
     if not folder.is_relative_to(home):
         return ""
-    return ".".join((generator.__name__, *folder.relative_to(home).parts))
+    return ".".join((name, *folder.relative_to(home).parts))
 
 
 @contextmanager

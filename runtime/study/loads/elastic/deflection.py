@@ -280,7 +280,7 @@ def beside(changed: dict[str, Array], straight: dict[str, Array], side: str = ""
     for kind, values in changed.items():
         words, unit = _MEANINGS[kind]
         name, mark, sign = words.partition(", positive")
-        key = kind if kind.endswith("displacement") else f"{kind}_change"
+        key = f"{kind}_change" if name.startswith("change") else kind
         both = np.stack([values, straight[kind]])
         of_it = f"{name}{side and f', {side}'}{mark}{sign}"
         found[f"{key}{side and f'_{side}'}"] = variable((DATA_SET, LOAD), both, of_it, unit)

@@ -15,7 +15,7 @@ from ....core.threads import in_one_thread
 from ....core.vectors import cross
 from ....suspension.corner import UP
 from ...characteristics.wheel import lowest_point
-from ..flexibility import Held
+from ..flexibility import Held, rates_of_tyres
 from ..poses import Assembled
 from .connections import Bar, Connections, RollBar, Soft
 from .places import Measured, Places, cross_matrix
@@ -118,7 +118,7 @@ class Equilibrium:
             for wheel, body in zip(self.wheels, connections.wheels, strict=True)
         ]
         self._heights = self._contact_heights(connections.start)
-        self._rates = np.array([wheel.vehicle.tyre_rate or 0.0 for wheel in self.wheels])
+        self._rates = rates_of_tyres(self.wheels)
 
     # -- where a wheel is -------------------------------------------------------------------------
 
