@@ -41,12 +41,7 @@ INLINE turned reduced(real angle)
     real middle = first - second, last = middle - third;
     real rest = lost(first, second, middle) + lost(middle, third, last)
         - count * 8.47842766036889956997e-32;
-    turned t;
-    t.high = last + rest;
-    t.low = (last - t.high) + rest;
-    t.high = choose(possible, t.high, SPREAD(NAN));
-    t.quarters = (bits)moved;
-    return t;
+    return (turned){choose(possible, last, SPREAD(NAN)), rest, (bits)moved};
 }
 
 INLINE real sine_of_small(real x, real low)
@@ -55,7 +50,7 @@ INLINE real sine_of_small(real x, real low)
     real r = 8.33333333332248946124e-03
         + z * (-1.98412698298579493134e-04 + z * 2.75573137070700676789e-06)
         + z * (z * z) * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10);
-    return x - ((z * (0.5 * low - cube * r) - low) + cube * 1.66666666666666324348e-01);
+    return x + (cube * (z * r - 1.66666666666666324348e-01) + low * (1.0 - 0.5 * z));
 }
 
 INLINE real cosine_of_small(real x, real low)

@@ -12,7 +12,7 @@
 /* A status word for each lane. */
 typedef bits status_word;
 
-INLINE real at_least(real x, real least) { return choose(x < least, least, x); }
+INLINE real at_least(real x, real least) { return greater(x, least); }
 
 INLINE bits guard_bit(real quantity, real least, int bit) { return ~(quantity > least) & bit; }
 

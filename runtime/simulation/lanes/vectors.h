@@ -47,11 +47,25 @@ INLINE real with_sign_of(real x, real sign)
     return (real)((bits)magnitude(x) | ((bits)sign & ~0x7fffffffffffffffLL));
 }
 
-INLINE real greater(real x, real y) { return choose(x < y, y, x); }
+/* The compiler makes one instruction of each of these. */
+INLINE real greater(real x, real y)
+{
+    real z;
+    for (int i = 0; i < WIDTH; ++i) {
+        z[i] = x[i] < y[i] ? y[i] : x[i];
+    }
+    return z;
+}
 
-INLINE real lesser(real x, real y) { return choose(y < x, y, x); }
+INLINE real lesser(real x, real y)
+{
+    real z;
+    for (int i = 0; i < WIDTH; ++i) {
+        z[i] = y[i] < x[i] ? y[i] : x[i];
+    }
+    return z;
+}
 
-/* The compiler makes one instruction of it. */
 INLINE real root(real x)
 {
     real y;
