@@ -3,7 +3,7 @@
  *
  * Polynomials and constants are those of Sun's fdlibm ("Developed at SunPro, a Sun Microsystems, Inc.
  * business. Permission to use, copy, modify, and distribute this software is freely granted, provided
- * that this notice is preserved."), without its branches, and in halves that are summed side by side.
+ * that this notice is preserved."), without its branches, and in parts that are summed side by side.
  */
 #ifndef KINTRAFO_ELEMENTARY_H
 #define KINTRAFO_ELEMENTARY_H
@@ -30,7 +30,10 @@ typedef struct {
 
 /*
  * Take away quarter turns. Each part of pi/2 but the last has 33 digits, so that its products with up to
- * 2^20 are exact; all four together have 151. Where the angle is too great, or none, it is NaN.
+ * 2^20 are exact; all four together have 151.
+ *
+ * The equations wait for a sine as for nothing else: so neither the angle nor the polynomials of it wait
+ * for its low part, and their terms are summed in pairs.
  */
 INLINE turned reduced(real angle)
 {
@@ -39,29 +42,29 @@ INLINE turned reduced(real angle)
     real first = angle - count * 1.57079632673412561417e+00;
     real second = count * 6.07710050630396597660e-11, third = count * 2.02226624871116645580e-21;
     real middle = first - second, last = middle - third;
-    real rest = lost(first, second, middle) + lost(middle, third, last)
-        - count * 8.47842766036889956997e-32;
-    return (turned){choose(possible, last, SPREAD(NAN)), rest, (bits)moved};
+    real rest = lost(first, second, middle) - count * 8.47842766036889956997e-32
+        + lost(middle, third, last);
+    /* what is no angle, or too great, has a result that is NaN through its rest */
+    return (turned){last, choose(possible, rest, SPREAD(NAN)), (bits)moved};
 }
 
 INLINE real sine_of_small(real x, real low)
 {
-    real z = x * x, cube = z * x;
-    real r = 8.33333333332248946124e-03
-        + z * (-1.98412698298579493134e-04 + z * 2.75573137070700676789e-06)
-        + z * (z * z) * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10);
-    return x + (cube * (z * r - 1.66666666666666324348e-01) + low * (1.0 - 0.5 * z));
+    real z = x * x, w = z * z;
+    real first = z * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+    real second = z * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+    real third = z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+    return x + (z * x * (first + w * second + w * w * third) + low * (1.0 - 0.5 * z));
 }
 
 INLINE real cosine_of_small(real x, real low)
 {
     real z = x * x, w = z * z;
-    real r = z * (4.16666666666666019037e-02
-        + z * (-1.38888888888741095749e-03 + z * 2.48015872894767294178e-05))
-        + w * w * (-2.75573143513906633035e-07
-        + z * (2.08757232129817482790e-09 - z * 1.13596475577881948265e-11));
+    real first = z * -1.38888888888741095749e-03 + 4.16666666666666019037e-02;
+    real second = z * -2.75573143513906633035e-07 + 2.48015872894767294178e-05;
+    real third = z * -1.13596475577881948265e-11 + 2.08757232129817482790e-09;
     real half = 0.5 * z, most = 1.0 - half;
-    return most + (((1.0 - most) - half) + (z * r - x * low));
+    return most + (((1.0 - most) - half) + (w * (first + w * second + w * w * third) - x * low));
 }
 
 /* Sine or cosine, whichever a number of quarter turns asks for; two of them turn the sign. */
