@@ -23,17 +23,16 @@ from .accuracy import Accuracy, accuracy_of, outputs_of, span_of
 from .courses import Signal
 from .kinks import ended_at_kinks
 from .result import Simulation
-from .retraced import NODES, STAGES, Steps, weights_within
+from .retraced import Steps
 from .signals import TimeInputs, time_inputs
 from .simulate import simulate_inputs
+from .sweep import Sweep
 
 Array = NDArray[np.float64]
 Measure = Literal["mean", "rms"]
 
 OUTPUTS = 201
 MOST_STEPS = 10_000_000
-# Rows that are differentiated at a time: some MB.
-_ROWS = 4096
 # Steps whose Jacobian is looked at, and by how much they may be longer than it allows.
 _LOOKS = 32
 _MORE = 1.2
@@ -136,8 +135,10 @@ def motion_gradient(
     held = inputs_of(y0, system.names_of_states)
     courses = time_inputs(system, inputs, span, held=held, max_step=max_step)
     motion, steps = followed(system, courses, np.array(y0, dtype=float), accuracy)
-    value, weights = _judged(system, asked, times, *steps.point(*steps.places(times)))
-    swept = _Sweep(system, directions, steps).backwards(times, weights)
+    places = steps.places(times)
+    point = steps.point(*places)
+    value, weights = _judged(system, asked, times, *point)
+    swept = Sweep(system, steps).backwards(places, point, weights)
     return MotionGradient(value, _named(system, directions, courses, *swept), motion)
 
 
@@ -267,89 +268,3 @@ def _named(
     found = {**dict(zip(system.parameters, by, strict=True)), **inputs}
     found |= dict(zip(system.state_names, start, strict=True))
     return {name: float(value) for name, value in found.items()}
-
-
-class _Sweep:
-    """The way back through the steps.
-
-    Of a step from y to z = y + h sum b_i k_i, with k_i = f(y + h sum a_ij k_j), what z counts for
-    the result, l, becomes what y does: with J the Jacobian of f at a stage, from the last stage on,
-    K_i = h b_i l + h sum a_ji M_j, M_i = J_i' K_i, and l + sum M_i. What signals within the step
-    push at y and at the stages is added to these.
-    """
-
-    def __init__(self, system: System, directions: Any, steps: Steps) -> None:
-        self._system, self._directions, self._steps = system, directions, steps
-        jacobians = system.evaluate("rhs_jacobian", steps.states, steps.inputs)
-        self._back = jacobians.swapaxes(-1, -2)
-
-    def backwards(self, times: Array, weights: Mapping[str, Array]) -> tuple[Array, Array, Array]:
-        """Return the derivatives of a weighted sum by constants, the start, and inputs."""
-        system, steps = self._system, self._steps
-        states, inputs = steps.point(*steps.places(times))
-        of_signals = np.zeros((times.size, len(system.signal_names)))
-        pushed = np.zeros_like(states)
-        for name, row in weights.items():
-            if name in system.signal_names:
-                of_signals[:, system.signal_names.index(name)] = row
-            else:
-                pushed[:, system.state_names.index(name)] = row
-        constants, by_states, held = self._summed("signals", states, inputs, of_signals)
-        at_begin, at_stages = self._within(times, pushed + by_states)
-        stages, start = self._counted(at_begin, at_stages)
-        more, _, more_held = self._summed("rhs", steps.states, steps.inputs, stages)
-        return constants + more, start, held + more_held
-
-    def _summed(
-        self, function: str, states: Array, inputs: Array, weights: Array
-    ) -> tuple[Array, Array, Array]:
-        """Return derivatives of a weighted sum: by constants, by each state, and by inputs."""
-        count = states[..., 0].size  # inputs may have no elements, whose rows cannot be counted
-        rows = [array.reshape(count, array.shape[-1]) for array in (states, inputs, weights)]
-        constants, found = np.zeros(self._system.constants.size), np.empty_like(rows[0])
-        held = np.zeros(rows[1].shape[-1])
-        for first in range(0, len(rows[0]), _ROWS):
-            part = slice(first, first + _ROWS)
-            of_rows, found[part], of_inputs = self._directions.adjoint(
-                function, (self._system.constants, rows[0][part], rows[1][part]), rows[2][part]
-            )
-            constants += of_rows.sum(0)
-            held += of_inputs.sum(0)
-        return constants, found, held
-
-    def _within(self, times: Array, pushed: Array) -> tuple[Array, Array]:
-        """Return what states at times push at the begin of their steps, and at the stages."""
-        step, part = self._steps.places(times)
-        weights = weights_within(part)
-        count, size = self._steps.length.size, pushed.shape[-1]
-        at_begin, at_stages = np.zeros((count, size)), np.zeros((count, NODES.size, size))
-        np.add.at(at_begin, step, pushed)
-        lengths = self._steps.length[step, None, None]
-        np.add.at(at_stages, step, lengths * weights[:, :, None] * pushed[:, None])
-        return at_begin, at_stages
-
-    def _counted(self, at_begin: Array, at_stages: Array) -> tuple[Array, Array]:
-        """Return K of every stage, and what the state at the start counts."""
-        steps, size = at_begin.shape
-        # all steps at once, for each direction of l; the last column is what is pushed within
-        columns = np.broadcast_to(np.eye(size, size + 1), (steps, size, size + 1))
-        pushed = np.zeros((*at_stages.shape, size + 1))
-        pushed[..., -1] = at_stages
-        stages, before = self._through(columns, pushed)
-        before[..., -1] += at_begin
-        counts = np.zeros((steps + 1, size))
-        for step in reversed(range(steps)):
-            matrix = before[step]
-            counts[step] = matrix[:, :-1] @ counts[step + 1] + matrix[:, -1]
-        found = stages[..., :-1] @ counts[1:, None, :, None]
-        return found[..., 0] + stages[..., -1], counts[0]
-
-    def _through(self, counts: Array, at_stages: Array) -> tuple[Array, Array]:
-        """Return K of each stage, and l before each step, for columns of l behind it."""
-        length = self._steps.length[:, None, None]
-        stages, back = np.empty(at_stages.shape), np.zeros(at_stages.shape)
-        for i in reversed(range(NODES.size)):
-            later = np.tensordot(STAGES[i + 1 :, i], back[:, i + 1 :], (0, 1))
-            stages[:, i] = length * (STAGES[-1, i] * counts + later) + at_stages[:, i]
-            back[:, i] = self._back[:, i] @ stages[:, i]
-        return stages, counts + back.sum(1)
