@@ -4,7 +4,7 @@
 	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-bushes benchmark-cluster benchmark-derivatives benchmark-ensemble benchmark-growth benchmark-loads benchmark-loops benchmark-page benchmark-peers benchmark-real-time benchmark-speed benchmark-stiff benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
-EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/equations/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
+EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/equations/*.pyx runtime/simulation/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)

@@ -260,10 +260,14 @@ class Build(build_ext):
 
 if not list(GENERATED.glob("*.pyx")):
     sys.exit("kintrafo: no generated models in generated/; run `make generate` first")
-CALLS = Extension(
-    "kintrafo.equations._calls", ["runtime/equations/_calls.pyx"], extra_compile_args=FLAGS
-)
-EXTENSIONS = [CALLS, *(model_extension(path) for path in sorted(GENERATED.glob("*.pyx")))]
+# what calls the functions of any model
+CALLS = [
+    Extension(
+        f"kintrafo.{name.replace('/', '.')}", [f"runtime/{name}.pyx"], extra_compile_args=FLAGS
+    )
+    for name in ("equations/_calls", "simulation/_steps")
+]
+EXTENSIONS = [*CALLS, *(model_extension(path) for path in sorted(GENERATED.glob("*.pyx")))]
 SOLVER = solver_extension()
 MODULES = cythonize([*EXTENSIONS, *([SOLVER] if SOLVER else [])], build_dir="build/cython")
 for module in MODULES:

@@ -4,13 +4,12 @@ Against motions beside it, the gradient backwards, motions of complex numbers, a
 found in lanes, the same in NumPy and in other lanes.
 """
 
-import sys
-from types import SimpleNamespace
 from typing import Any
 
 import kintrafo
 import numpy as np
 import pytest
+from complex_numbers import STEP, printed
 from kintrafo import InputError, Samples
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
@@ -177,19 +176,15 @@ def test_what_lanes_refuse_is_found_in_numpy(
 def test_against_a_motion_of_complex_numbers(
     four_bar: kintrafo.System, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """By another method, of the printed NumPy: changes are imaginary, and too small to matter."""
-    equations = kintrafo.compile(FOUR_BAR, backend="numpy")
-    printed: Any = sys.modules[f"{equations.__name__.rpartition('.')[0]}._four_bar"]
-    sign = {"copysign": lambda size, of: np.copysign(size, of.real)}
-    monkeypatch.setattr(printed, "np", SimpleNamespace(**vars(np) | sign))
+    """By another method, of the printed NumPy."""
+    model = printed(FOUR_BAR, monkeypatch)
     moved = {"crank_mass": 1.0, "rocker_bearing_x": 1e-2, "spring_rate": -30.0, "crank_angle": 0.1}
-    step = 1e-40j
-    parameters = np.array([v + step * moved.get(n, 0.0) for n, v in four_bar.parameters.items()])
-    start = four_bar.state(crank_angle=0.3) + step * np.array([moved["crank_angle"], 0.0])
-    constants, times = np.array(printed.prepare(parameters)[0]), np.linspace(0.0, 0.5, 11)
+    parameters = np.array([v + STEP * moved.get(n, 0.0) for n, v in four_bar.parameters.items()])
+    start = four_bar.state(crank_angle=0.3) + STEP * np.array([moved["crank_angle"], 0.0])
+    constants, times = np.array(model.prepare(parameters)[0]), np.linspace(0.0, 0.5, 11)
 
     def rates(_: float, state: np.ndarray) -> np.ndarray:
-        return np.array(printed.rhs(constants, state, np.zeros(1))[0])
+        return np.array(model.rhs(constants, state, np.zeros(1))[0])
 
     exact = solve_ivp(
         rates, (0.0, 0.5), start, method="DOP853", t_eval=times, rtol=1e-13, atol=1e-14
@@ -198,7 +193,7 @@ def test_against_a_motion_of_complex_numbers(
         four_bar, (0.0, 0.5), start.real, {"moved": moved}, t_eval=times, **TIGHT
     )
     for row, name in zip(exact.y, four_bar.state_names, strict=True):
-        along = row.imag / step.imag
+        along = row.imag / STEP.imag
         # some hundred times what both tolerate
         most = 1e-9 * np.abs(along).max()
         np.testing.assert_allclose(found.by["moved"][name], along, rtol=0.0, atol=most)

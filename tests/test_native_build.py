@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from kintrafo.equations import _calls
 from kintrafo.generated import _macpherson
+from kintrafo.simulation import _steps
 from kintrafo.simulation.solvers import native_available, native_version, sundials
 
 OF_EVERY_SYSTEM = {"linux-vdso", "linux-gate", "ld-linux", "libc", "libm", "libpthread"}
@@ -46,7 +47,7 @@ def test_without_a_compiler_it_is_said_what_to_install(tmp_path):
 
 
 @needs_ldd
-@pytest.mark.parametrize("module", [_macpherson, _calls])
+@pytest.mark.parametrize("module", [_macpherson, _calls, _steps])
 def test_a_model_needs_nothing_but_the_c_library(module):
     assert needed(module) <= OF_EVERY_SYSTEM
 

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..systems.system import System
+from . import _steps
 from .result import Simulation
 from .signals import TimeInputs
 
@@ -52,24 +53,36 @@ class Steps:
         ]
         self.anew = np.zeros(self.begin.size, dtype=bool)
         self.anew[[own.start for own in self._of_segment if own.start < own.stop]] = True
+        self.inputs = self._inputs_at(self.begin[:, None] + NODES * self.length[:, None])
         self.states = np.repeat(motion.y.T[:-1, None], NODES.size, axis=1)
-        self.inputs = np.empty((*self.states.shape[:2], len(system.input_names)))
-        for node, part in enumerate(NODES):
-            self.inputs[:, node] = self._inputs_at(self.begin + part * self.length)
         self.rates = np.empty_like(self.states)
-        for stage, row in enumerate(STAGES):
-            moved = np.tensordot(self.rates[:, :stage], row[:stage], (1, 0))
-            self.states[:, stage] += self.length[:, None] * moved
-            at = self.states[:, stage], self.inputs[:, stage]
-            self.rates[:, stage] = system.evaluate("rhs", *at)
+        # functions over NumPy arrays; and what is refused, which is told here
+        if not self._compiled(system):
+            self._at_once(system)
 
     def _inputs_at(self, times: Array) -> Array:
-        """Return the inputs at a time within each step."""
+        """Return the inputs at times within each step, shape (steps, times, inputs)."""
         rows = [
-            self._courses.table(times[own], part)
+            self._courses.table(times[own].ravel(), part)
             for own, part in zip(self._of_segment, self._courses.segments, strict=True)
         ]
-        return np.concatenate(rows)
+        return np.concatenate(rows).reshape(*times.shape, self._courses.constant.size)
+
+    def _compiled(self, system: System) -> bool:
+        """Fill states and rates of the stages, one after the other, and tell whether it is done."""
+        rhs = system.equations.ADDRESSES.get("rhs")
+        return rhs is not None and _steps.go_through(
+            rhs, system.constants, STAGES, self.length, self.anew.view(np.uint8), self.inputs,
+            self.states, self.rates,
+        )  # fmt: skip
+
+    def _at_once(self, system: System) -> None:
+        """Fill states and rates of the stages, all steps at once."""
+        for stage, row in enumerate(STAGES):
+            moved = np.tensordot(self.rates[:, :stage], row[:stage], (1, 0))
+            self.states[:, stage] = self.states[:, 0] + self.length[:, None] * moved
+            at = self.states[:, stage], self.inputs[:, stage]
+            self.rates[:, stage] = system.evaluate("rhs", *at)
 
     def time(self, step: Indices, part: Array) -> Array:
         """Return times by their place: a step, and a part of it from 0 to 1."""

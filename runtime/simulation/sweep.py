@@ -4,6 +4,9 @@ Of a step from y to z = y + h sum b_i k_i, with k_i = f(y + h sum a_ij k_j), wha
 result, l, becomes what y does: with J the Jacobian of f at a stage, from the last stage on,
 K_i = h b_i l + h sum a_ji M_j, M_i = J_i' K_i, and l + sum M_i. What signals within the step push
 at y and at the stages is added to these.
+
+Compiled equations are called stage after stage: M_i comes with what the constants and inputs count.
+Functions over NumPy arrays are called for all stages at once, since each call takes long.
 """
 
 from collections.abc import Mapping
@@ -12,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..systems.system import System
+from . import _steps
 from .retraced import NODES, STAGES, Steps, weights_within
 
 Array = NDArray[np.float64]
@@ -59,8 +63,24 @@ class Sweep:
             else:
                 pushed[:, system.state_names.index(name)] = row
         constants, by_states, held = self._summed("signals", states, inputs, of_signals)
-        found = self._at_once(*self._within(*places, pushed + by_states))
+        pushed_within = self._within(*places, pushed + by_states)
+        # functions over NumPy arrays; and what is refused, which is told here
+        found = self._compiled(*pushed_within) or self._at_once(*pushed_within)
         return constants + found[0], found[1], held + found[2]
+
+    def _compiled(self, at_begin: Array, at_stages: Array) -> tuple[Array, Array, Array] | None:
+        """Return derivatives by constants, the start, and inputs; nothing if it cannot be done."""
+        steps, system = self._steps, self._system
+        adjoint = system.equations.ADDRESSES.get("rhs_adjoint")
+        if adjoint is None:
+            return None
+        sizes = system.constants.size, steps.states.shape[-1], steps.inputs.shape[-1]
+        constants, start, held = map(np.zeros, sizes)
+        done = _steps.go_back(
+            adjoint, system.constants, STAGES, steps.length, steps.anew.view(np.uint8),
+            steps.inputs, steps.states, at_begin, at_stages, constants, start, held,
+        )  # fmt: skip
+        return (constants, start, held) if done else None
 
     def _summed(
         self, function: str, states: Array, inputs: Array, weights: Array
@@ -87,10 +107,14 @@ class Sweep:
         np.add.at(at_begin, step, pushed)
         lengths = self._steps.length[step, None, None]
         np.add.at(at_stages, step, lengths * weights[:, :, None] * pushed[:, None])
+        # the last stage of a step is the first one of the next, where that does not begin anew
+        ends = np.flatnonzero(~self._steps.anew[1:])
+        at_stages[ends + 1, 0] += at_stages[ends, -1]
+        at_stages[ends, -1] = 0.0
         return at_begin, at_stages
 
     def _at_once(self, at_begin: Array, at_stages: Array) -> tuple[Array, Array, Array]:
-        """Return derivatives by constants, the start, and inputs; all steps at once."""
+        """Return the same, all steps at once."""
         steps, size = at_begin.shape
         # for each direction of l; the last column is what is pushed within
         columns = np.broadcast_to(np.eye(size, size + 1), (steps, size, size + 1))
