@@ -1,5 +1,6 @@
 """Gradients of what a motion is judged by, against differences of motions."""
 
+from dataclasses import replace
 from typing import Any
 
 import kintrafo
@@ -132,6 +133,21 @@ def test_a_signal_that_stays_has_no_slope_of_its_rms() -> None:
     found = kintrafo.motion_gradient(floating, SPAN, start, {"crank_angle": "rms"}, t_eval=TIMES)
     assert found.value == 0.0
     assert not any(found.by.values())
+
+
+def test_a_mechanism_without_signals() -> None:
+    """It has the gradient of the same with a spring and a damper that do nothing."""
+    bare = replace(FOUR_BAR, name="bare", forces=())
+    found = []
+    for declared, idle in ((FOUR_BAR, {"spring_rate": 0.0, "damper_rate": 0.0}), (bare, {})):
+        module = kintrafo.compile(declared, parameter_derivatives=True)
+        system = kintrafo.System(module, idle)
+        start = system.state(crank_angle=0.3, crank_angle_rate=1.0)
+        found.append(kintrafo.motion_gradient(system, SPAN, start, {"crank_angle": "rms"}).by)
+    given, alone = found
+    assert set(alone) < set(given)
+    assert any(alone.values())
+    assert alone == pytest.approx({n: given[n] for n in alone}, rel=1e-9, abs=1e-12, nan_ok=True)
 
 
 def test_rounding_of_what_stays_has_no_slope_either(system: kintrafo.System) -> None:

@@ -88,8 +88,10 @@ class Sweep:
         """Return derivatives of a weighted sum: by constants, by each state, and by inputs."""
         count = states[..., 0].size  # inputs may have no elements, whose rows cannot be counted
         rows = [array.reshape(count, array.shape[-1]) for array in (states, inputs, weights)]
-        constants, found = np.zeros(self._system.constants.size), np.empty_like(rows[0])
+        constants, found = np.zeros(self._system.constants.size), np.zeros_like(rows[0])
         held = np.zeros(rows[1].shape[-1])
+        if not weights.shape[-1]:  # there is no such function
+            return constants, found, held
         for first in range(0, len(rows[0]), _ROWS):
             part = slice(first, first + _ROWS)
             of_rows, found[part], of_inputs = self._system.equations.DIRECTIONS.adjoint(
