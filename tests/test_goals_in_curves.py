@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import InputError, Model, Suspension, characteristics, variation
+from kintrafo import Axle, InputError, Model, Suspension, axles, characteristics, variation
 from kintrafo.cli import app
 from kintrafo.plots import curves
 from kintrafo.report import goals_chapter
@@ -65,7 +65,7 @@ def test_characteristics_and_compare_tell_and_draw(goals: Path, tmp_path: Path) 
         ("scrub_radius", False),
     ]
     both = called("compare", "reference_car", "offset_strut_car", "--goals", str(goals), "--json")
-    assert [goal["file"] for goal in json.loads(both.output)["goals"]] == [
+    assert [goal["file"] for goal in json.loads(both.stdout)["goals"]] == [
         "reference_car",
         "offset_strut_car",
     ]
@@ -97,10 +97,103 @@ def test_marks_are_at_their_values(goals: Path) -> None:
     assert not without.containers
 
 
+def drawn(axes: Any, label: str) -> list[list[list[float]]]:
+    """Return the points of all marks that are called so."""
+    bars = [one.lines[0] for one in axes.containers if one.get_label() == label]
+    lines = [one for one in axes.get_lines() if one.get_label() == label]
+    return [one.get_xydata().tolist() for one in (*bars, *lines)]
+
+
+def test_goals_of_an_axle_are_those_of_its_sides() -> None:
+    at = [-40.0, 40.0]
+    same = {"at_mm": at, "value": [0.5, -0.5], "within": 0.1}
+    described = {
+        "targets": {"camber_left": same, "camber_right": same},
+        "limits": {
+            "toe_left": {"at_mm": at, "least": -0.2, "most": 0.1},
+            "toe_right": {"at_mm": at, "most": 0.3},
+            "roll_center_height": {"at_mm": at, "least": 20.0},
+        },
+    }
+    wanted = variation.goals(described, ["bump"])
+    dataset = axles.by_side(axles.bump(Axle.load("reference_axle"), np.linspace(-0.05, 0.05, 11)))
+    panels = curves.figure(dataset, ["camber", "toe", "roll_center_height"], goals=wanted)
+    camber, toe, height = panels.get_axes()
+    # what is the same for both is one mark, and of one side it has the colour of its curve
+    assert drawn(camber, "target") == [pytest.approx(np.array([[-40.0, 0.5], [40.0, -0.5]]))]
+    assert not drawn(camber, "target, left")
+    left, right = (line.get_color() for line in toe.get_lines()[:2])
+    for side, colour, bounds in (("left", left, [-0.2, 0.1]), ("right", right, [0.3])):
+        marks = [line for line in toe.get_lines() if line.get_label() == f"limit, {side}"]
+        assert [line.get_color() for line in marks] == [colour] * len(bounds)
+        expected = [[[x, bound] for x in at] for bound in bounds]
+        np.testing.assert_allclose(drawn(toe, f"limit, {side}"), expected, atol=1e-12)
+    assert not drawn(toe, "limit")
+    np.testing.assert_allclose(drawn(height, "limit"), [[[x, 20.0] for x in at]])
+
+
+def test_goals_over_one_axis_are_not_mixed_up() -> None:
+    limit = {"camber_left": [{"most": 1.0}, {"most": 2.0, "over": "left"}]}
+    wanted = variation.goals({"limits": limit}, ["bump", "left"])
+    dataset = axles.by_side(axles.bump(Axle.load("reference_axle"), [-0.01, 0.01]))
+    with pytest.raises(InputError, match="camber over bump and left have one axis"):
+        curves.figure(dataset, ["camber"], goals=wanted)
+    assert curves.figure(dataset, ["camber"], goals=wanted[:1])
+
+
+@pytest.mark.parametrize(
+    ("file", "goal", "words"),
+    [
+        ("reference_axle", "[limits.camber_left]\nat_mm = 40\nmost = 0.5", "limit: camber, left"),
+        (
+            "rigid_axle",
+            '[targets.axle_steer]\nover = "roll"\nat_deg = 2\nvalue = 1\nwithin = 0.1',
+            "target: steer angle of the axle",
+        ),
+    ],
+)
+def test_goals_of_axles_are_drawn_over_their_motion_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, file: str, goal: str, words: str
+) -> None:
+    (tmp_path / "goals.toml").write_text(goal, encoding="utf-8")
+    given: dict[str, int] = {}
+
+    def note(_: Any, path: Path, *__: Any, goals: Any, **___: Any) -> Path:
+        given[path.name] = len(goals)
+        return path
+
+    monkeypatch.setattr(curves, "write_overview", note)
+    asked = ["--goals", str(tmp_path / "goals.toml"), "--motion", "bump", "--motion", "roll"]
+    shown = called("characteristics", file, *asked, "--plot", str(tmp_path / "a.png"))
+    assert shown.exit_code == 0, shown.output
+    assert words in shown.output
+    over_roll = "at_deg" in goal
+    assert given == {"a_bump.png": not over_roll, "a_roll.png": over_roll}
+
+
+def test_goals_beyond_the_curves_are_refused_where_they_are_drawn(
+    goals: Path, tmp_path: Path
+) -> None:
+    asked = ["characteristics", "reference_car", "--goals", str(goals), "--bump", "30"]
+    page = tmp_path / "page.png"
+    shown = called(*asked, "--plot", str(page))
+    assert "toe: 40 mm of wheel travel is beyond its curve, which goes from -80 to 30 mm" in str(
+        shown.exception
+    )
+    assert not list(tmp_path.glob("*.png"))
+    assert called(*asked).exit_code == 0
+
+
+def test_goals_that_are_not_looked_at_are_named(goals: Path) -> None:
+    shown = called("compare", "reference_car", "offset_strut_car", "--goals", str(goals))
+    assert "not about these curves: scrub_radius over rack" in " ".join(shown.stderr.split())
+
+
 @pytest.mark.parametrize(
     ("words", "text"),
     [
         (["reference_axle"], "over 'rack' is not known. Known are: bump, roll"),
+        (["reference_axle", "--motion", "steer"], "over bump, roll, left or right, and these are"),
         (["reference_car", "--rack", "10"], "in its middle"),
         (["trailing_arm_car"], "over travel"),
     ],

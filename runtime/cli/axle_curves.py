@@ -45,9 +45,10 @@ def tell(
     # both wheels of a curve are drawn together
     of = [name.removesuffix("_left").removesuffix("_right") for name in of or ()]
     names = named(of, drawn)
-    known = ways_of(axle)
-    aims = wanted.read(goals, [motion for motion in curves if motion in known], known)
+    aims = wanted.read(goals, [*curves], ways_of(axle))
     judged = wanted.judged({file: axle}, aims) if aims else []
+    if outputs.drawn:
+        wanted.refuse_beyond(aims, curves)
     written = []
     for motion, dataset in curves.items():
         written += outputs.write(
@@ -56,6 +57,7 @@ def tell(
             names=names[motion],
             suffix=f"_{motion}",
             drawn=drawn[motion],
+            goals=[goal for goal in aims if goal.over == motion],
         )
     if json:
         found = {f"over_{motion}": export.as_dict(curves[motion]) for motion in curves}

@@ -120,6 +120,9 @@ def command(
         curves["rack"] = characteristics.steering(model, racks, travel=at_travel)
     refuse_of_steering(model.suspension, of or ())
     drawn = named(of, curves)
+    judged = wanted.judged({file: model.suspension}, aims)
+    if outputs.drawn:
+        wanted.refuse_beyond(aims, curves)
     written = [
         path
         for over, dataset in curves.items()
@@ -127,7 +130,6 @@ def command(
             dataset, title=title_of(file), suffix=f"_{over}", names=drawn[over], goals=aims
         )
     ]
-    judged = wanted.judged({file: model.suspension}, aims)
     if json:
         found = {f"over_{over}": export.as_dict(curves[over]) for over in curves}
         print_json(found | ({"goals": judged} if aims else {}))

@@ -9,11 +9,17 @@ from rich.markup import escape
 from rich.table import Table
 
 from ..core.tabulated import significant
+from .console import problems
 
 if TYPE_CHECKING:
+    from xarray import Dataset
+
     from ..study.variation.goals import Goal
     from ..study.variation.ways import Subject
     from ..suspension.axle import Axle
+
+# Positions that are nearer to the end of a curve are at its end [m] or [rad].
+_ROUNDING = 1e-9
 
 Goals = Annotated[
     Path | None,
@@ -21,7 +27,7 @@ Goals = Annotated[
         "--goals",
         metavar="FILE",
         help="TOML with [targets] and [limits] of characteristics, as of kintrafo optimise: they "
-        "are drawn into curves, and a table says which are met; of axles the table.",
+        "are drawn into curves, and a table says which are met.",
     ),
 ]
 
@@ -43,16 +49,58 @@ def read(
         return []
     from ..core.errors import InputError
     from ..study import variation
+    from ..study.variation.ways import way
 
-    goals = [goal for goal in variation.goals(variation.read(path), known) if goal.over in ways]
-    if not goals:
-        words = " or ".join(ways)
+    looked_at = [over for over in ways if over in known]
+    if not looked_at:
+        problem = f"goals are about curves over {_or(known)}, and these are over {_or(ways)}."
+        raise InputError([problem], str(path))
+    every = variation.goals(variation.read(path), known)
+    found = [goal for goal in every if goal.over in ways]
+    if not found:
+        example = "toe" if known[0] == "travel" else "camber_left"
         problem = (
-            f"it has no [targets.NAME] and no [limits.NAME] over {words}: one is needed, such as "
-            "[limits.toe] with at_mm, least and most."
+            f"it has no [targets.NAME] and no [limits.NAME] over {_or(looked_at)}: one is needed, "
+            f"such as [limits.{example}] with at_{way(looked_at[0]).unit}, least and most."
         )
         raise InputError([problem], str(path))
-    return goals
+    others = dict.fromkeys(f"{g.name} over {g.over}" for g in every if g.over not in ways)
+    if others:
+        problems.print(f"{path}: not about these curves: {', '.join(others)}.", markup=False)
+    return found
+
+
+def _or(names: Sequence[str]) -> str:
+    return " or ".join(part for part in (", ".join(names[:-1]), names[-1]) if part)
+
+
+def refuse_beyond(goals: "Sequence[Goal]", curves: "Mapping[str, Dataset]") -> None:
+    """Refuse goals beyond the ends of the curves into which they are to be drawn.
+
+    Parameters
+    ----------
+    goals : sequence of Goal
+    curves : mapping of str to Dataset
+        By what they are over.
+    """
+    from ..core.arguments import Arguments
+    from ..study.variation.ways import way
+
+    with Arguments("goals") as given:
+        for goal in goals:
+            over = way(goal.over)
+            along = curves[goal.over][over.along.name].values
+            ends = float(along.min()), float(along.max())
+            beyond = goal.at[(goal.at < ends[0] - _ROUNDING) | (goal.at > ends[1] + _ROUNDING)]
+            if beyond.size:
+                places, (low, high) = (
+                    [f"{over.factor * at + 0.0:g}" for at in values] for values in (beyond, ends)
+                )
+                given.refuse(
+                    f"{goal.name}: {', '.join(places)} {over.unit} of {over.words} is beyond its "
+                    f"curve, which goes from {low} to {high} {over.unit}. Let the curve go as far, "
+                    "or leave that position out."
+                )
 
 
 def judged(

@@ -109,6 +109,11 @@ class Outputs:
         refuse(paths, force=force, inputs=inputs)
         return cls(data or (), pages or (), figures, formats or ("png",), force, inputs)
 
+    @property
+    def drawn(self) -> bool:
+        """Whether curves are drawn."""
+        return bool(self.pages) or self.figures is not None
+
     def write(
         self,
         dataset: "Dataset",
@@ -136,7 +141,7 @@ class Outputs:
             Targets and limits that are drawn into the curves.
         """
         written = self.write_data(dataset, suffix)
-        if self.pages or self.figures:
+        if self.drawn:
             rule: _Rule = {"force": self.force, "inputs": self.inputs}
             curves = dataset if drawn is None else drawn
             written += self._drawn(curves, title, names, suffix, goals, rule)

@@ -28,7 +28,7 @@ from ..core.quantities import bracketed, display_of, displayed, long_name
 from ..study.characteristics.groups import ORDER, group_of
 from ..study.variation.goals import Goal
 from .figures import BLUE, GREEN, METADATA, ORANGE, STYLE, lay_out, save, written_plainly
-from .goals import mark, over_of
+from .goals import about, mark_sides
 from .labels import label_lines
 
 Array = NDArray[np.float64]
@@ -326,8 +326,8 @@ def _draw(axes: Axes, data: xr.DataArray, goals: Sequence[Goal] = ()) -> str:
             at_design = values[position == 0.0]
             dot = "black" if len(lines) == 1 else colour
             axes.plot(np.zeros(at_design.size), at_design, "o", color=dot, markersize=4)
-    over = over_of(along)
-    marked = mark(axes, goals, str(data.name), over) if over else np.empty(0)
+    colours = {label: colour for (label, _), (colour, _) in zip(lines, styles, strict=True)}
+    marked = mark_sides(axes, about(goals, data, along), colours)
     axes.margins(x=0.02)
     whole = np.concatenate([marked, *(v for _, v in lines)])
     _limit(axes, whole, may_have_pole=along in _WITH_DESIGN)
@@ -492,7 +492,8 @@ def _legend_of_goals(axes: Axes) -> None:
     """Name the marks of targets and limits, where there are some."""
     named = _marks_of_goals(axes)
     if named:
-        axes.legend([*named.values()], [*named], loc="best", fontsize=8)
+        # opaque, so that no axis is read through its words
+        axes.legend([*named.values()], [*named], loc="best", fontsize=8, framealpha=1.0)
 
 
 def _marks_of_goals(axes: Axes) -> dict[str, Any]:

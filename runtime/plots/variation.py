@@ -19,7 +19,7 @@ from ..study.variation.sensitivity import PLACE, Effect, effects
 from ..study.variation.tolerance import QUANTILE
 from ..study.variation.ways import common_positions, model_of, way
 from .figures import BLUE, ORANGE
-from .goals import mark
+from .goals import mark, of_curve
 from .panels import write_panels
 
 # Before and after, told apart in black and white too.
@@ -154,7 +154,7 @@ def write_optimum(
         for (label, model), (colour, dashes) in zip(models.items(), _PAIR, strict=True):
             values = Curves(panel.over, along, (panel.name,)).of(model)[0]
             axes.plot(step * along, factor * values, dashes, color=colour, label=label)
-        mark(axes, goals, panel.name, panel.over)
+        mark(axes, of_curve(goals, panel.name, panel.over))
         _around(axes, over.attributes() | {"long_name": over.long_name}, quantity.attributes())
 
     return write_panels(draw, [*panels], path, height=2.6, title=title, force=force, inputs=inputs)
@@ -189,7 +189,7 @@ def _bands(axes: Axes, dataset: xr.Dataset, name: str, limits: Sequence[Limit]) 
     axes.fill_between(position, low, high, color=BLUE, alpha=0.35, label="nine in ten", linewidth=0)
     nominal = displayed(dataset[f"{name}_nominal"])
     axes.plot(position, nominal, color="black", linewidth=1.4, label="as drawn")
-    mark(axes, limits, name, str(dataset.attrs["over"]))
+    mark(axes, of_curve(limits, name, str(dataset.attrs["over"])))
     _around(axes, dataset[along].attrs, data.attrs)
 
 
