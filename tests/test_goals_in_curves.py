@@ -6,7 +6,17 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, Model, Suspension, axles, characteristics, variation
+from kintrafo import (
+    Axle,
+    InputError,
+    Model,
+    RigidAxle,
+    Suspension,
+    axles,
+    characteristics,
+    rigid_axles,
+    variation,
+)
 from kintrafo.cli import app
 from kintrafo.plots import curves
 from kintrafo.report import goals_chapter
@@ -129,6 +139,13 @@ def test_goals_of_an_axle_are_those_of_its_sides() -> None:
         expected = [[[x, bound] for x in at] for bound in bounds]
         np.testing.assert_allclose(drawn(toe, f"limit, {side}"), expected, atol=1e-12)
     assert not drawn(toe, "limit")
+    # all of it is named once, where it covers nothing
+    (legend,) = panels.legends
+    words = [text.get_text() for text in legend.get_texts()]
+    assert sorted(words) == sorted(
+        {"left", "right", "target", "limit, left", "limit, right", "limit"}
+    )
+    assert all(axes.get_legend() is None for axes in panels.get_axes())
     np.testing.assert_allclose(drawn(height, "limit"), [[[x, 20.0] for x in at]])
 
 
@@ -171,6 +188,40 @@ def test_goals_of_axles_are_drawn_over_their_motion_alone(
     assert given == {"a_bump.png": not over_roll, "a_roll.png": over_roll}
 
 
+def test_axles_are_compared_with_goals(tmp_path: Path) -> None:
+    (tmp_path / "goals.toml").write_text(
+        '[limits.roll_stiffness]\nover = "roll"\nat_deg = [-2, 2]\nmost = 600', encoding="utf-8"
+    )
+    asked = ["--over", "roll", "--goals", str(tmp_path / "goals.toml"), "--json"]
+    for file, curves_over_roll in (
+        ("reference_axle", axles.roll),
+        ("rigid_axle", rigid_axles.roll),
+    ):
+        shown = called("compare", file, file, *asked)
+        assert shown.exit_code == 0, shown.output
+        goals = json.loads(shown.stdout)["goals"]
+        assert [goal["file"] for goal in goals] == [file, f"{file} (2)"]
+        axle: Any = (Axle if file == "reference_axle" else RigidAxle).load(file)
+        stiffness = curves_over_roll(axle, np.deg2rad([-2.0, 2.0]))["roll_stiffness"].values
+        beyond = stiffness.max() - np.rad2deg(600.0)
+        for goal in goals:
+            assert goal["beyond"] == pytest.approx(beyond)
+            assert goal["met"] == (beyond <= 0.0)
+
+
+def test_cars_beside_a_measurement_are_judged(goals: Path, tmp_path: Path) -> None:
+    rig = tmp_path / "rig.csv"
+    rig.write_text("wheel_travel [mm],toe [deg]\n-40,-0.1\n0,0\n40,0.1\n", encoding="utf-8")
+    asked = ["compare", str(rig), "reference_car", "--goals", str(goals)]
+    shown = called(*asked, "--plot", str(tmp_path / "rig.png"), "--json")
+    assert [goal["file"] for goal in json.loads(shown.stdout)["goals"]] == ["reference_car"]
+    held = "wheel_travel [mm],toe [deg],rack_position [mm]\n-40,-0.1,12\n40,0.1,12\n"
+    rig.write_text(held, encoding="utf-8")
+    shown = called(*asked)
+    assert shown.exit_code == 2
+    assert "the rack in its middle" in " ".join(shown.output.replace("│", " ").split())
+
+
 def test_goals_beyond_the_curves_are_refused_where_they_are_drawn(
     goals: Path, tmp_path: Path
 ) -> None:
@@ -195,6 +246,7 @@ def test_goals_that_are_not_looked_at_are_named(goals: Path) -> None:
         (["reference_axle"], "over 'rack' is not known. Known are: bump, roll"),
         (["reference_axle", "--motion", "steer"], "over bump, roll, left or right, and these are"),
         (["reference_car", "--rack", "10"], "in its middle"),
+        (["reference_axle", "--rack", "10"], "in its middle"),
         (["trailing_arm_car"], "over travel"),
     ],
 )

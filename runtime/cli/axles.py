@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ..simulation.result import Simulation
     from ..study.axles.checkup import AxleCheckup
     from ..study.axles.motions import Extent
+    from ..suspension.axle import Axle
 
 # Beside the tables at design: what changes over roll, over steering, and over one wheel's travel.
 _TOLD = {
@@ -91,17 +92,16 @@ def characteristics(
     tell(file, axle, curves, axles.MOTIONS, shown, outputs, of=of, goals=goals, json=json)
 
 
-def compared(files: list[str], over: str | None) -> "Dataset":
-    """Return the characteristics of several axles over one motion."""
+def compared(files: list[str], motion: str) -> "tuple[Dataset, str, dict[str, Axle]]":
+    """Return the characteristics of several axles, their motion and the axles."""
     from ..core.quantities import distinct
     from ..study import axles
     from ..suspension.axle import Axle
 
-    motion = over or "bump"
     if motion not in axles.MOTIONS:
-        raise typer.BadParameter(f"--over {over}: of axles it is {', '.join(axles.MOTIONS)}")
+        raise typer.BadParameter(f"--over {motion}: of axles it is {', '.join(axles.MOTIONS)}")
     found = dict(zip(distinct(files), map(Axle.load, files), strict=True))
-    return axles.compare(found, over=motion)
+    return axles.compare(found, over=motion), motion, found
 
 
 def looked_at(file: str) -> "AxleCheckup":

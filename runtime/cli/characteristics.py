@@ -73,6 +73,8 @@ def command(
     from ..suspension.axle import Axle
     from ..suspension.kinds import Suspension
 
+    if goals and (travel or rack):
+        raise typer.BadParameter(wanted.ELSEWHERE)
     of_axle, of_rigid_axle = axles.is_axle(file), rigid.is_rigid_axle(file)
     if of_rigid_axle:
         steered, chosen = False, rigid.motions(motion)
@@ -107,8 +109,6 @@ def command(
         axles.characteristics(file, chosen, extent, held, outputs, of=of, goals=goals, json=json)
         return
     axles.refuse_options("the file of an axle", {"--motion": motion, "--roll": roll})
-    if goals and (travel or rack):
-        raise typer.BadParameter("--goals are about the rack in its middle and the wheel at design")
     aims = wanted.read(goals, ways)
     model = load(file)
     ends: dict[str, Any] = {"rebound": metres(rebound), "bump": metres(bump)}

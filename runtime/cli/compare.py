@@ -1,7 +1,6 @@
 """``kintrafo compare``: curves of several suspensions over each other, and what differs."""
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import typer
 from rich.markup import escape
@@ -16,11 +15,13 @@ from .options import Files, Force, Json, Of, among, load
 from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, title_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from xarray import Dataset
 
     from ..study.compare import Difference
+    from ..study.variation.ways import Subject
+    from ..suspension.axle import Axle
     from ..suspension.model import Model
 
 EXAMPLES = (
@@ -66,13 +67,19 @@ def command(
     [mm] and toe [deg] and so on in its first line: the others are compared with it.
     """
     from ..study import compare
+    from ..study.variation.ways import ways_of
 
     outputs = Outputs.of(
         out, plot, figures, formats, force=force, inputs=[*files, *([goals] if goals else [])]
     )
-    dataset, models = _compared(files, over, held, goals)
-    aims = wanted.read(goals, [over or "travel"])
-    judged = wanted.judged({name: model.suspension for name, model in models.items()}, aims)
+    dataset, way, subjects = _compared(files, over, held)
+    known = ways_of(next(iter(subjects.values())))
+    aims = wanted.read(goals, [way], known)
+    if aims:
+        wanted.refuse_elsewhere(dataset)
+    if outputs.drawn:
+        wanted.refuse_beyond(aims, {way: dataset})
+    judged = wanted.judged(subjects, aims)
     both = [f"{name}_{side}" for name in of or () for side in ("left", "right")]
     of = [n for n in of or () if n in dataset or f"{n}_left" not in dataset] + [
         name for name in both if name in dataset
@@ -99,30 +106,40 @@ def command(
     name_files(written)
 
 
-def _compared(
-    files: list[str], over: str | None, held: Held | None, goals: Path | None
-) -> "tuple[Dataset, dict[str, Model]]":
-    """Return the curves beside each other, and the models of what are suspensions."""
-    from ..study import compare
+class _Compared(NamedTuple):
+    """Curves beside each other.
 
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+    way : str
+        What they are over, as goals have it.
+    subjects : dict of str to Suspension, Axle or RigidAxle
+        What has them, but for a measurement.
+    """
+
+    dataset: "Dataset"
+    way: str
+    subjects: "Mapping[str, Subject | Axle]"
+
+
+def _compared(files: list[str], over: str | None, held: Held | None) -> _Compared:
     measured = [file for file in files if file.lower().endswith(".csv")]
     of_rigid, of_axles = rigid.all_rigid(files), axles.all_axles(files)
     if held is not None and (of_rigid or of_axles):
         raise typer.BadParameter("--held is not for the files of axles")
-    if goals is not None and (measured or of_rigid or of_axles):
-        raise typer.BadParameter("--goals is for the files of suspensions, without a measurement")
     if of_rigid:
-        return rigid.compared(files, over), {}
+        return _Compared(*rigid.compared(files, over or "bump"))
     if of_axles:
-        return axles.compared(files, over), {}
+        return _Compared(*axles.compared(files, over or "bump"))
     if over not in (None, "travel", "rack"):
         raise typer.BadParameter(f"--over {over} is only for the files of axles")
+    models = _models([file for file in files if file not in measured])
     if measured:
-        return _beside(files, measured, over, held or "height"), {}
-    models = _models(files)
-    with progress_bar("characteristics") as progress:
-        along: Any = over or "travel"
-        return compare.compare(models, over=along, held=held, progress=progress), models
+        dataset, way = _beside(models, measured, over, held or "height")
+    else:
+        dataset, way = _together(models, over or "travel", held), over or "travel"
+    return _Compared(dataset, way, {name: model.suspension for name, model in models.items()})
 
 
 def _models(files: list[str]) -> "dict[str, Model]":
@@ -131,8 +148,18 @@ def _models(files: list[str]) -> "dict[str, Model]":
     return dict(zip(distinct(files), map(load, files), strict=True))
 
 
-def _beside(files: list[str], measured: list[str], over: str | None, held: Held) -> "Dataset":
-    """Return the curves of suspensions beside those of a measurement."""
+def _together(models: "dict[str, Model]", over: Any, held: Held | None) -> "Dataset":
+    """Return the curves of suspensions over each other."""
+    from ..study import compare
+
+    with progress_bar("characteristics") as progress:
+        return compare.compare(models, over=over, held=held, progress=progress)
+
+
+def _beside(
+    models: "dict[str, Model]", measured: list[str], over: str | None, held: Held
+) -> "tuple[Dataset, str]":
+    """Return the curves of suspensions beside those of a measurement, and what they are over."""
     from ..study import rig
     from ..study.characteristics.datasets import ALONG
 
@@ -141,10 +168,10 @@ def _beside(files: list[str], measured: list[str], over: str | None, held: Held)
     curves = rig.measured_curves(measured[0])
     if over is not None and ALONG[over].name not in curves.dims:
         raise typer.BadParameter(f"--over {over}: the measured curves are not over that")
-    models = _models([file for file in files if file not in measured])
     if not models:
         raise typer.BadParameter("a hardpoint file is needed besides the measured curves")
-    return rig.beside(curves, models, measured[0], held=held)
+    way = next((name for name, along in ALONG.items() if along.name in curves.dims), "travel")
+    return rig.beside(curves, models, measured[0], held=held), way
 
 
 def _titles(files: "Iterable[Any]") -> list[str]:

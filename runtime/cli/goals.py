@@ -18,8 +18,12 @@ if TYPE_CHECKING:
     from ..study.variation.ways import Subject
     from ..suspension.axle import Axle
 
+ELSEWHERE = "--goals are about the rack in its middle and the wheel at design"
+
 # Positions that are nearer to the end of a curve are at its end [m] or [rad].
 _ROUNDING = 1e-9
+# What stands still on a rig is held so well [m].
+_HELD = 1e-4
 
 Goals = Annotated[
     Path | None,
@@ -72,6 +76,13 @@ def read(
 
 def _or(names: Sequence[str]) -> str:
     return " or ".join(part for part in (", ".join(names[:-1]), names[-1]) if part)
+
+
+def refuse_elsewhere(curves: "Dataset") -> None:
+    """Refuse goals for curves with the rack, or the wheel, held elsewhere than at design."""
+    held = [curve for curve in curves.coords.values() if not curve.ndim and curve.dtype.kind == "f"]
+    if any(abs(float(curve)) > _HELD for curve in held):
+        raise typer.BadParameter(ELSEWHERE)
 
 
 def refuse_beyond(goals: "Sequence[Goal]", curves: "Mapping[str, Dataset]") -> None:

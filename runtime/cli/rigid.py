@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from ..report import Chapter
     from ..study.axles.motions import Extent
     from ..study.rigid.checkup import RigidAxleCheckup
+    from ..suspension.rigid import RigidAxle
 
 # Beside the tables at design: what changes over roll, and over one wheel's travel.
 _TOLD = {
@@ -109,17 +110,18 @@ def characteristics(
     tell(file, axle, curves, study.MOTIONS, shown, outputs, of=of, goals=goals, json=json)
 
 
-def compared(files: list[str], over: str | None) -> "Dataset":
-    """Return the characteristics of several rigid axles over one motion."""
+def compared(files: list[str], motion: str) -> "tuple[Dataset, str, dict[str, RigidAxle]]":
+    """Return the characteristics of several rigid axles, their motion and the axles."""
     from ..core.quantities import distinct
     from ..study import rigid as study
     from ..suspension.rigid import RigidAxle
 
-    motion = over or "bump"
     if motion not in study.MOTIONS:
-        raise typer.BadParameter(f"--over {over}: of rigid axles it is {', '.join(study.MOTIONS)}")
+        raise typer.BadParameter(
+            f"--over {motion}: of rigid axles it is {', '.join(study.MOTIONS)}"
+        )
     found = dict(zip(distinct(files), map(RigidAxle.load, files), strict=True))
-    return study.compare(found, over=motion)
+    return study.compare(found, over=motion), motion, found
 
 
 def ride(file: str, wheels: str, refused: Mapping[str, Any], *, wheel_loads: bool) -> Ride:

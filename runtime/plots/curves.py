@@ -5,7 +5,8 @@ lines: several suspensions, or several positions of the rack. Names, units and s
 the variables' attributes, see `kintrafo.core.quantities`.
 """
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 from textwrap import fill
@@ -296,9 +297,6 @@ def figure(
         axes.remove()
     shape = np.array(size) / (columns, rows) - _AROUND
     _name_lines(result, panels, [dataset[name] for name in names], shape, alone=alone)
-    for axes in panels[: len(names)]:
-        if axes.get_legend() is None:
-            _legend_of_goals(axes)
     result.suptitle("\n".join(line for line in (title, _held(dataset)) if line), fontsize=11)
     return written_plainly(result)
 
@@ -454,51 +452,63 @@ def _name_lines(
             continue
         names = [name for name, _ in _lines(data)[1]]
         named |= label_lines(axes, _drawn_lines(axes, len(names)), names, shape)
-    if not named:
-        for axes, data in zip(panels, curves, strict=False):
-            if data.ndim > 1:
-                _legend(result, axes, data, alone=alone)
-                break
+    pairs = zip(panels, curves, strict=False)
+    several = next(((axes, data) for axes, data in pairs if data.ndim > 1), None)
+    lines = _Named() if named or several is None else _named_lines(*several)
+    marks = _marks_of_goals(panels[: len(curves)])
+    if several is not None and not (alone or marks):
+        _legend_in(several[0], lines)
+    elif lines.handles or marks:
+        _legend_below(result, lines, marks)
 
 
 def _drawn_lines(axes: Axes, count: int) -> list[Line2D]:
     return [line for line in axes.get_lines() if line.get_linestyle() != "None"][:count]
 
 
-def _legend(result: Figure, axes: Axes, data: xr.DataArray, *, alone: bool) -> None:
-    """Name the lines of a curve: below it where it is alone, or in its panel of a page."""
+@dataclass(frozen=True)
+class _Named:
+    """What a legend has: lines, their names, and what these are."""
+
+    handles: Sequence[Any] = ()
+    labels: Sequence[str] = ()
+    title: str | None = None
+
+
+def _named_lines(axes: Axes, data: xr.DataArray) -> _Named:
     along, lines = _lines(data)
     across = next(d for d in data.dims if d != along)
-    handles: list[Any] = [*_drawn_lines(axes, len(lines))]
-    labels = [label for label, _ in lines]
     title = None if across == _FAMILY else long_name(data[across])
-    marks = _marks_of_goals(axes)
-    handles, labels = [*handles, *marks.values()], [*labels, *marks]
-    if alone:
-        result.legend(
-            handles,
-            labels,
-            title=title,
-            loc="outside lower center",
-            ncols=4,
-            frameon=False,
-            fontsize=9,
-        )
-    else:
-        axes.legend(handles, labels, title=title, loc="best", fontsize=8, title_fontsize=8)
+    return _Named(_drawn_lines(axes, len(lines)), [label for label, _ in lines], title)
 
 
-def _legend_of_goals(axes: Axes) -> None:
-    """Name the marks of targets and limits, where there are some."""
-    named = _marks_of_goals(axes)
-    if named:
-        # opaque, so that no axis is read through its words
-        axes.legend([*named.values()], [*named], loc="best", fontsize=8, framealpha=1.0)
+def _legend_in(axes: Axes, lines: _Named) -> None:
+    """Name lines in a panel of a page."""
+    if lines.handles:
+        size = {"fontsize": 8, "title_fontsize": 8}
+        axes.legend(lines.handles, lines.labels, title=lines.title, loc="best", **size)
 
 
-def _marks_of_goals(axes: Axes) -> dict[str, Any]:
+def _legend_below(result: Figure, lines: _Named, marks: Mapping[str, Any]) -> None:
+    """Name lines, and marks of targets and limits, where they cover nothing."""
+    result.legend(
+        [*lines.handles, *marks.values()],
+        [*lines.labels, *marks],
+        title=lines.title,
+        loc="outside lower center",
+        ncols=4,
+        frameon=False,
+        fontsize=9,
+    )
+
+
+def _marks_of_goals(panels: Iterable[Axes]) -> dict[str, Any]:
     """Return what stands for targets and for limits, by what it is called; curves have no label."""
-    return {label: mark for mark, label in zip(*axes.get_legend_handles_labels(), strict=True)}
+    return {
+        label: mark
+        for axes in panels
+        for mark, label in zip(*axes.get_legend_handles_labels(), strict=True)
+    }
 
 
 def _held(dataset: xr.Dataset) -> str:
