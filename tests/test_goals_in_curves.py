@@ -1,6 +1,7 @@
 """Targets and limits beside the curves of commands: which are met, and where they are drawn."""
 
 import json
+from base64 import b64decode
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from kintrafo import (
     Suspension,
     axles,
     characteristics,
+    report,
     rigid_axles,
     variation,
 )
@@ -89,8 +91,61 @@ def test_a_chapter_of_the_report_has_them(goals: Path) -> None:
         "Curves over wheel travel with targets and limits",
         "Curves over the rack with targets and limits",
     ]
+    assert chapter.words[0] == "0 of 2 are met, 2 missed."
     with pytest.raises(InputError, match="goals is empty"):
         goals_chapter(Model("reference_car"), [])
+    with pytest.raises(InputError, match=r"Axle or a kintrafo\.RigidAxle is needed"):
+        goals_chapter("reference_car", wanted)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("file", ["reference_axle", "rigid_axle"])
+def test_a_chapter_of_an_axle_has_the_curves_of_each_motion(file: str) -> None:
+    axle: Any = (Axle if file == "reference_axle" else RigidAxle).load(file)
+    over_roll = axles.roll if file == "reference_axle" else rigid_axles.roll
+    height = over_roll(axle, np.deg2rad([-2.0, 2.0]))["roll_center_height"].values * 1e3
+    described = {
+        "targets": {
+            "camber_left": {"over": "left", "value": 0.0, "within": 0.5},
+            "camber_right": {"over": "left", "value": 3.0, "within": 0.5},
+        },
+        # a millimetre less than the greatest
+        "limits": {"roll_center_height": {
+            "over": "roll", "at_deg": [-2.0, 2.0], "most": height.max() - 1.0}},
+    }  # fmt: skip
+    wanted = variation.goals(described, ["bump", "roll", "left", "right"])
+    chapter = goals_chapter(axle, wanted)
+    assert chapter.words[0] == "1 of 3 are met, 2 missed."
+    rows = [row[2:5] for row in chapter.tables[0].rows]
+    assert rows == [("left", "met", ""), ("left", "missed", "2.5"), ("roll", "missed", "1")]
+    assert [picture.words for picture in chapter.pictures] == [
+        "Curves over travel of the left wheel with targets and limits",
+        "Curves over roll with targets and limits",
+    ]
+    drawing = b64decode(chapter.pictures[0].source.partition("base64,")[2]).decode()
+    for words in ("target, left", "target, right", "camber [deg]"):
+        assert f">{words}<" in drawing
+
+
+@pytest.mark.parametrize("file", ["reference_axle", "rigid_axle"])
+def test_reports_of_axles_tell_how_many_goals_are_missed(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, file: str
+) -> None:
+    (tmp_path / "goals.toml").write_text(
+        "[limits.camber_left]\nat_mm = [0, 40]\nmost = 9\n"
+        "[limits.camber_right]\nat_mm = [0, 40]\nleast = 9\n",
+        encoding="utf-8",
+    )
+
+    def titles(*_: Any, chapters: Any, **__: Any) -> Path:
+        (chapter,) = (one for one in chapters if one.title == "Targets and limits")
+        assert chapter.words[0] == "1 of 2 are met, 1 missed."
+        return tmp_path / "report.html"
+
+    for name in ("write", "write_chapters"):
+        monkeypatch.setattr(report, name, titles)
+    asked = [str(tmp_path / "report.html"), "--goals", str(tmp_path / "goals.toml")]
+    shown = called("report", file, *asked)
+    assert shown.exit_code == 0, shown.exception
 
 
 def test_marks_are_at_their_values(goals: Path) -> None:

@@ -86,13 +86,11 @@ def command(
             )
         say(f"  {written}")
         return
-    if rigid.is_rigid_axle(file) or axles.is_axle(file):
-        axles.refuse_options("the file of one suspension", {"--goals": goals})
     if rigid.is_rigid_axle(file):
         with problems.status("report"):
             of = described_by(file)
             further = _of_loads(file, cases, wanted=loads)
-            further += [*_of_bushes(of, bushes), *_of_sheet(of, bushes)]
+            further += [*_of_bushes(of, bushes), *_of_goals(of, goals), *_of_sheet(of, bushes)]
             written = rigid.report(file, target, title, further, force=force, inputs=inputs)
         say(f"  {written}")
         return
@@ -102,7 +100,7 @@ def command(
         from ..report import write
 
         chapters = [*_of_axle(axle), *_of_loads(file, cases, wanted=loads)]
-        chapters += [*_of_bushes(axle or model, bushes), *_of_goals(model, goals)]
+        chapters += [*_of_bushes(axle or model, bushes), *_of_goals(axle or model, goals)]
         chapters += _of_sheet(axle or model, bushes)
         written = write(
             model,
@@ -158,13 +156,16 @@ def _of_loads(file: str, cases: Path | None, *, wanted: bool) -> "list[Chapter]"
     return [loads_chapter(carried(described.get("cases", usual), static_load=load_at_rest))]
 
 
-def _of_goals(model: "Model", goals: Path | None) -> "list[Chapter]":
+def _of_goals(of: "Model | Axle | RigidAxle", goals: Path | None) -> "list[Chapter]":
+    from ..report import goals_chapter
+    from ..study.variation.ways import ways_of
+    from ..suspension.model import Model
+
     if goals is None:
         return []
-    from ..report import goals_chapter
-
-    ways = ["travel", "rack"] if model.suspension.steered() else ["travel"]
-    return [goals_chapter(model, wanted.read(goals, ways))]
+    known = ways_of(of.suspension if isinstance(of, Model) else of)
+    there = known[:1] if isinstance(of, Model) and not of.suspension.steered() else known
+    return [goals_chapter(of, wanted.read(goals, there, known))]
 
 
 def _of_bushes(of: "Model | Axle | RigidAxle", bushes: Path | None) -> "list[Chapter]":

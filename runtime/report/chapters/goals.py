@@ -8,27 +8,30 @@ from matplotlib import rc_context
 from ...core.arguments import Arguments
 from ...core.quantities import bracketed, display_of
 from ...core.tabulated import Tabulated, significant
-from ...plots import curves
+from ...plots.curves import figure
 from ...plots.figures import STYLE
-from ...study import characteristics
-from ...study.characteristics.datasets import KNOWN
-from ...study.sweep import usual_rack, usual_travel
+from ...study.axles import by_side
+from ...study.axles.catalogue import SIDES
 from ...study.variation.goals import Goal, Verdict, judge
+from ...study.variation.ways import Looked, dataset_of, model_of, usual_positions, way
+from ...suspension.axle import Axle
 from ...suspension.model import Model
+from ...suspension.rigid import RigidAxle
 from .chapter import Chapter, Picture
 
 _MEANING = (
     "A target is met where it is off by no more than what matters of it, at all of its positions. "
     "Beyond is by how much more the worst position is off."
 )
+_NEEDED = "a kintrafo.Model, a kintrafo.Axle or a kintrafo.RigidAxle is needed"
 
 
-def goals_chapter(model: Model, goals: Sequence[Goal]) -> Chapter:
-    """Return which targets and limits a suspension meets, with its curves.
+def goals_chapter(subject: Model | Axle | RigidAxle, goals: Sequence[Goal]) -> Chapter:
+    """Return which targets and limits a suspension or an axle meets, with its curves.
 
     Parameters
     ----------
-    model : Model
+    subject : Model, Axle or RigidAxle
     goals : sequence of Goal
         From `kintrafo.variation.goals`; one or more.
 
@@ -42,51 +45,48 @@ def goals_chapter(model: Model, goals: Sequence[Goal]) -> Chapter:
         As of `kintrafo.variation.judge`.
     """
     with Arguments("goals_chapter") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+        given.kind("subject", subject, (Model, Axle, RigidAxle), _NEEDED)
         if isinstance(goals, list | tuple) and not goals:
             given.refuse("goals is empty: one target or limit is needed.")
-    verdicts = judge(model.suspension, goals)
-    met = sum(verdict.met for verdict in verdicts)
-    words = (
-        f"{met} of {len(verdicts)} are met.",
-        _MEANING,
-    )
-    pictures = [picture for over in KNOWN for picture in _drawn(model, goals, over)]
-    return Chapter("Targets and limits", words, (_table(verdicts),), tuple(pictures))
+    verdicts = judge(subject.suspension if isinstance(subject, Model) else subject, goals)
+    missed = sum(not verdict.met for verdict in verdicts)
+    words = f"{len(verdicts) - missed} of {len(verdicts)} are met, {missed} missed."
+    looked = subject if isinstance(subject, Model) else model_of(subject)
+    pictures = [_drawn(looked, goals, over) for over in dict.fromkeys(g.over for g in goals)]
+    table = _table(goals, verdicts)
+    return Chapter("Targets and limits", (words, _MEANING), (table,), tuple(pictures))
 
 
-def _drawn(model: Model, goals: Sequence[Goal], over: str) -> list[Picture]:
-    """Return the curves that goals are about, over travel or over the rack; none without goals."""
+def _drawn(looked: Looked, goals: Sequence[Goal], over: str) -> Picture:
+    """Return the curves that goals over something are about, with these."""
     own = [goal for goal in goals if goal.over == over]
-    if not own:
-        return []
-    at = np.concatenate([goal.at for goal in own])
-    if over == "travel":
-        dataset = characteristics.travel(model, np.union1d(usual_travel(model), at))
-    else:
-        dataset = characteristics.steering(model, np.union1d(usual_rack(model), at))
-    names = list(dict.fromkeys(goal.name for goal in own))
+    positions = [usual_positions(looked, over), *(goal.at for goal in own)]
+    dataset = by_side(dataset_of(looked, over, np.unique(np.concatenate(positions))))
+    names = dict.fromkeys(g.name if g.name in dataset else _both(g.name) for g in own)
+    words = f"Curves over {way(over).words} with targets and limits"
     with rc_context(STYLE):
-        figure = curves.figure(dataset, names, alone=False, goals=goals)
-        way = "wheel travel" if over == "travel" else "the rack"
-        return [Picture.of(figure, f"Curves over {way} with targets and limits")]
+        return Picture.of(figure(dataset, [*names], title=words, alone=False, goals=own), words)
 
 
-def _table(verdicts: Sequence[Verdict]) -> Tabulated:
+def _both(name: str) -> str:
+    """Return what a characteristic of one wheel is called where those of both are together."""
+    return next(name.removesuffix(f"_{side}") for side in SIDES if name.endswith(f"_{side}"))
+
+
+def _table(goals: Sequence[Goal], verdicts: Sequence[Verdict]) -> Tabulated:
     rows = []
-    for verdict in verdicts:
-        quantity = KNOWN[verdict.over][verdict.name]
-        factor = display_of(quantity.attributes()).factor
-        over = "rack" if verdict.over == "rack" else "travel"
+    for goal, verdict in zip(goals, verdicts, strict=True):
+        attributes, over = goal.quantity.attributes(), way(goal.over)
+        beyond = significant(display_of(attributes).factor * verdict.beyond)
         rows.append(
             (
-                bracketed(quantity.long_name, quantity.attributes()),
+                bracketed(goal.quantity.long_name, attributes),
                 verdict.kind,
-                over,
+                goal.over,
                 "met" if verdict.met else "missed",
-                "" if verdict.met else significant(factor * verdict.beyond),
-                f"{1e3 * verdict.at:g}",
+                "" if verdict.met else beyond,
+                f"{over.factor * verdict.at:g} {over.unit}",
             )
         )
-    columns = ("characteristic", "goal", "over", "", "beyond", "worst at [mm]")
+    columns = ("characteristic", "goal", "over", "", "beyond", "worst at")
     return Tabulated("Which are met", columns, tuple(rows), frozenset({0, 1, 2, 3}))

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any, cast, overload
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
@@ -18,12 +19,20 @@ from ...suspension.kinds import Suspension
 from ...suspension.model import Model
 from ...suspension.rigid import RigidAxle
 from ...suspension.rigid.model import RigidAxleModel
-from .. import axles
+from .. import axles, rigid
 from ..axles.catalogue import OVER_TRAVEL, SIDES
 from ..axles.datasets import ROLL
 from ..axles.motions import Extent, rolls, travels
 from ..characteristics.catalogue import Quantity
-from ..characteristics.datasets import ALONG, KNOWN, TRAVEL, over_rack, over_travel
+from ..characteristics.datasets import (
+    ALONG,
+    KNOWN,
+    TRAVEL,
+    over_rack,
+    over_travel,
+    steering,
+    travel,
+)
 from ..characteristics.datasets import refuse_of_steering as refuse_of_suspension
 from ..loads.compliance import COMPLIANCES, compliance
 from ..loads.flexibility import HELD, Held
@@ -143,6 +152,19 @@ def usual_positions(model: Looked, over: str) -> Array:
     return travels(model, Extent(), (over,) if over in SIDES else SIDES)
 
 
+def dataset_of(model: Looked, over: str, positions: Array) -> xr.Dataset:
+    """Return all that is told over something, to be drawn."""
+    if isinstance(model, Model):
+        return (travel if over == "travel" else steering)(model, positions)
+    study: Any = rigid if isinstance(model, RigidAxleModel) else axles
+    axle = model.axle if isinstance(model, RigidAxleModel) else model
+    if over in SIDES:
+        single: xr.Dataset = study.single(axle, positions, side=over)
+        return single
+    both: xr.Dataset = {"bump": study.bump, "roll": study.roll}[over](axle, positions)
+    return both
+
+
 def values_of(
     model: Looked, over: str, positions: Array, names: Collection[str] | None = None
 ) -> dict[str, Array]:
@@ -155,9 +177,7 @@ def values_of(
         return {q.name: v for q, v in values(model, positions, names=names).items()}
     if isinstance(model, RigidAxleModel):
         return values_over(model, over, positions, names)
-    own: Any = {"bump": axles.bump, "roll": axles.roll}.get(over)
-    found = axles.single(model, positions, side=over) if own is None else own(model, positions)
-    return {str(name): data.values for name, data in found.items()}
+    return {str(name): data.values for name, data in dataset_of(model, over, positions).items()}
 
 
 def there(model: Looked, over: str) -> tuple[str, ...]:
