@@ -162,6 +162,16 @@ def test_marks_are_at_their_values(goals: Path) -> None:
     assert not without.containers
 
 
+def test_what_is_marked_is_in_sight_however_far_from_the_curve(goals: Path) -> None:
+    dataset = characteristics.travel(Model("reference_car"), np.linspace(-0.05, 0.05, 201))
+    flat = dataset["toe"].copy(data=np.deg2rad(5.0) + 0.01 * dataset["toe"].values)
+    wanted = variation.goals(variation.read(goals))
+    (axes,) = curves.figure(dataset.assign(toe=flat), ["toe"], goals=wanted).get_axes()
+    low, high = axes.get_ylim()
+    # the targets are 0 deg with 0.2 deg to either side
+    assert low < -0.2 < 5.0 < high
+
+
 def drawn(axes: Any, label: str) -> list[list[list[float]]]:
     """Return the points of all marks that are called so."""
     bars = [one.lines[0] for one in axes.containers if one.get_label() == label]

@@ -54,6 +54,9 @@ _CONSTANT = 1e-6
 # A curve whose extremes are so many times farther apart than nine tenths of it passes a pole.
 _POLE = 10.0
 
+# Between what is marked and the end of its axis, as a part of this.
+_ROOM = 0.05
+
 # What spans less of a position's axis is drawn as little as it is, by the unit of the axis.
 LEAST_SPANS = {
     "deg": 0.1,
@@ -327,9 +330,11 @@ def _draw(axes: Axes, data: xr.DataArray, goals: Sequence[Goal] = ()) -> str:
     colours = {label: colour for (label, _), (colour, _) in zip(lines, styles, strict=True)}
     marked = mark_sides(axes, about(goals, data, along), colours)
     axes.margins(x=0.02)
-    whole = np.concatenate([marked, *(v for _, v in lines)])
-    _limit(axes, whole, may_have_pole=along in _WITH_DESIGN)
+    drawn = np.concatenate([v for _, v in lines])
+    _limit(axes, drawn, may_have_pole=along in _WITH_DESIGN)
+    _include(axes, marked)
     if along in _WITH_DESIGN:
+        whole = np.concatenate([drawn, marked])
         _widen(axes, whole, LEAST_SPANS.get(display_of(data.attrs).units, 0.0))
     low, high = axes.get_ylim()
     for curve, (_, values) in zip(curves, lines, strict=True):
@@ -409,6 +414,14 @@ def _limit(axes: Axes, values: Array, *, may_have_pole: bool) -> None:
         low, high = np.quantile(finite, (0.05, 0.95))
         if high > low and np.ptp(finite) > _POLE * (high - low):
             axes.set_ylim(1.5 * low - 0.5 * high, 1.5 * high - 0.5 * low)
+
+
+def _include(axes: Axes, marked: Array) -> None:
+    """Let an axis span what is marked, however far from the curve that is."""
+    low, high = axes.get_ylim()
+    least, most = np.min(marked, initial=low), np.max(marked, initial=high)
+    room = _ROOM * (most - least)
+    axes.set_ylim(least - room if least < low else low, most + room if most > high else high)
 
 
 def _widen(axes: Axes, values: Array, least: float) -> None:
