@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 import typer
 
 from .axles import refuse_options
-from .console import print_json, print_table, say
+from .console import note, print_json, print_table, say
 from .options import Bump, File, Force, Json, Rebound, metres
 from .outputs import Out, Outputs, Plot, name_files, title_of
 from .subject import described_by
@@ -110,7 +110,7 @@ def described(file: str, bushes: Path | None) -> dict[str, Any] | None:
 
     if bushes is None:
         return None
-    say(f"bushes: those of {bushes}, in place of any that {file} has.")
+    note(f"bushes: those of {bushes}, in place of any that {file} has.")
     return read_bushes(bushes)
 
 

@@ -49,6 +49,11 @@ def say(text: str) -> None:
     console.print(text, markup=False, highlight=False, soft_wrap=True)
 
 
+def note(text: str) -> None:
+    """Print a line on stderr, beside the results, in which brackets mean nothing."""
+    problems.print(text, markup=False, highlight=False)
+
+
 @contextmanager
 def progress_bar(text: str) -> Iterator[Callable[[float], None]]:
     """Show on stderr how much is done of something that may take long."""
