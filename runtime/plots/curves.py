@@ -47,6 +47,8 @@ _MOST_LINES = 7
 _COLUMNS = 3
 # What labels and ticks take of a panel [in].
 _AROUND = np.array([0.9, 0.7])
+# What the names of targets and limits take below the panels, which keep their size [in].
+_BELOW = 0.4
 # Round values only, and never an offset that must be added in the head.
 _TICK_STEPS = [1, 2, 2.5, 5, 10]
 # Less variation than this part of its size is rounding, and the curve a constant.
@@ -298,6 +300,8 @@ def figure(
             axes.set_xlabel(_with_sign(dataset[along]), fontsize=10 if alone else 9)
     for axes in panels[len(names) :]:
         axes.remove()
+    if _marks_of_goals(panels[: len(names)]):
+        result.set_size_inches(size[0], size[1] + _BELOW)
     shape = np.array(size) / (columns, rows) - _AROUND
     _name_lines(result, panels, [dataset[name] for name in names], shape, alone=alone)
     result.suptitle("\n".join(line for line in (title, _held(dataset)) if line), fontsize=11)
