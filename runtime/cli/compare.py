@@ -67,6 +67,7 @@ def command(
     [mm] and toe [deg] and so on in its first line: the others are compared with it.
     """
     from ..study import compare
+    from ..study.loads.compliance import COMPLIANCES
     from ..study.variation.ways import ways_of
 
     outputs = Outputs.of(
@@ -74,11 +75,12 @@ def command(
     )
     dataset, way, subjects = _compared(files, over, held)
     known = ways_of(next(iter(subjects.values())))
-    aims = wanted.read(goals, [way], known)
+    looked_at = [way] if {*dataset}.isdisjoint(COMPLIANCES) else [way, held or "height"]
+    aims = wanted.read(goals, looked_at, known)
     if aims:
         wanted.refuse_elsewhere(dataset)
     if outputs.drawn:
-        wanted.refuse_beyond(aims, {way: dataset})
+        wanted.refuse_beyond(aims, dict.fromkeys(looked_at, dataset))
     judged = wanted.judged(subjects, aims)
     both = [f"{name}_{side}" for name in of or () for side in ("left", "right")]
     of = [n for n in of or () if n in dataset or f"{n}_left" not in dataset] + [

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import typer
 
+from . import goals as wanted
 from .axles import refuse_options
-from .console import note, print_json, print_table, say
+from .console import console, note, print_json, print_table, say
 from .options import Bump, File, Force, Json, Rebound, metres
 from .outputs import Out, Outputs, Plot, name_files, title_of
 from .subject import described_by
@@ -24,6 +25,7 @@ EXAMPLES = (
     "kintrafo compliance my_car.toml",
     "kintrafo compliance my_car.toml bushes.toml",
     "kintrafo compliance my_car.toml bushes.toml --held spring --plot curves.png -o curves.csv",
+    "kintrafo compliance my_car.toml --goals goals.toml --plot goals.png",
     "kintrafo compliance reference_axle bushes.toml",
     "kintrafo compliance rigid_axle axle_bushes.toml",
 )
@@ -61,6 +63,7 @@ def command(
     rack: Annotated[float, typer.Option(metavar="MM", help="Rack held there.")] = 0.0,
     rebound: Rebound = None,
     bump: Bump = None,
+    goals: wanted.Goals = None,
     out: Out = None,
     plot: Plot = None,
     force: Force = False,
@@ -74,14 +77,23 @@ def command(
     from ..study import export
     from ..study.axles import by_side
     from ..study.loads.sheets import compliances, compliances_of_axle
+    from ..study.variation.ways import ways_of, with_bushes
     from ..suspension.model import Model
 
-    inputs: list[str | Path] = [file, *([] if bushes is None else [bushes])]
+    if goals and rack:
+        raise typer.BadParameter(wanted.ELSEWHERE)
+    inputs: list[str | Path] = [file, *(read for read in (bushes, goals) if read is not None)]
     outputs = Outputs.of(out, plot, force=force, inputs=inputs)
     where = _Where(at, rack / 1e3, metres(rebound), metres(bump), held)
     of = described_by(file)
-    found = _found(of, described(file, bushes), where)
+    bushings = described(file, bushes)
+    found = _found(of, bushings, where)
     curves = found.drop_dims(["moved", "by"])
+    subject = wanted.subject_of(of)
+    aims = wanted.read(goals, [held], ways_of(subject))
+    judged = wanted.judged({file: with_bushes(subject, bushings)}, aims) if aims else []
+    if outputs.drawn:
+        wanted.refuse_beyond(aims, {held: curves})
     written = outputs.write_data(found, rows=curves)
     if outputs.pages:
         from ..plots import curves as plots
@@ -89,16 +101,18 @@ def command(
         title = f"{title_of(file)}: compliance, {found.attrs['held']}"
         drawn = curves if isinstance(of, Model) else by_side(curves)
         written += [
-            plots.write_overview(drawn, path, (), title, force=force, inputs=inputs)
+            plots.write_overview(drawn, path, (), title, goals=aims, force=force, inputs=inputs)
             for path in outputs.pages
         ]
     if json:
-        print_json(export.as_dict(found))
+        print_json(export.as_dict(found) | ({"goals": judged} if aims else {}))
         return
     title = f"{file}: compliance, at {at:g} mm of wheel travel"
     print_table(compliances(curves, title, at / 1e3))
     for table in compliances_of_axle(curves, f"{title}, the axle", at / 1e3):
         print_table(table)
+    if aims:
+        console.print(wanted.table(judged, f"{file}: targets and limits of {goals}"))
     without = found.attrs["left_out"]
     say(f"{found.attrs['held']}; relaxed bushes, linear{without and f'; without {without}'}.")
     name_files(written)

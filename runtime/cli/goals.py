@@ -9,7 +9,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from ..core.tabulated import significant
-from .console import problems
+from .console import note
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from ..study.variation.goals import Goal
     from ..study.variation.ways import Subject
     from ..suspension.axle import Axle
+    from ..suspension.model import Model
+    from ..suspension.rigid import RigidAxle
 
 ELSEWHERE = "--goals are about the rack in its middle and the wheel at design"
 
@@ -39,13 +41,13 @@ Goals = Annotated[
 def read(
     path: Path | None, ways: Sequence[str], known: Sequence[str] = ("travel", "rack")
 ) -> "list[Goal]":
-    """Return the goals of a file about curves over some ways; none without a file.
+    """Return the goals of a file about curves over some ways, or compliance; none without a file.
 
     Parameters
     ----------
     path : Path or None
     ways : sequence of str
-        Those that are looked at.
+        Those that are looked at, and what holds the wheels of what is looked at under loads.
     known : sequence of str, optional
         Those that the file may have, the usual first.
     """
@@ -53,25 +55,47 @@ def read(
         return []
     from ..core.errors import InputError
     from ..study import variation
+    from ..study.loads.flexibility import HELD
     from ..study.variation.ways import way
 
-    looked_at = [over for over in ways if over in known]
+    looked_at = [over for over in ways if over in known or over in HELD]
     if not looked_at:
         problem = f"goals are about curves over {_or(known)}, and these are over {_or(ways)}."
         raise InputError([problem], str(path))
     every = variation.goals(variation.read(path), known)
     found = [goal for goal in every if goal.over in ways]
     if not found:
-        example = "toe" if known[0] == "travel" else "camber_left"
+        kinematic = "toe" if known[0] == "travel" else "camber_left"
+        soft = "toe_by_lateral" if known[0] == "travel" else "toe_by_lateral_opposed_left"
+        example = soft if looked_at[0] in HELD else kinematic
         problem = (
-            f"it has no [targets.NAME] and no [limits.NAME] over {_or(looked_at)}: one is needed, "
-            f"such as [limits.{example}] with at_{way(looked_at[0]).unit}, least and most."
+            f"it has no [targets.NAME] and no [limits.NAME] {_or(list(map(_over, looked_at)))}: "
+            f"one is needed, such as [limits.{example}] with at_{way(looked_at[0]).unit}, least "
+            "and most."
         )
         raise InputError([problem], str(path))
-    others = dict.fromkeys(f"{g.name} over {g.over}" for g in every if g.over not in ways)
+    others = dict.fromkeys(_said(goal) for goal in every if goal.over not in ways)
     if others:
-        problems.print(f"{path}: not about these curves: {', '.join(others)}.", markup=False)
+        note(f"{path}: not about these curves: {', '.join(others)}.")
     return found
+
+
+def subject_of(of: "Model | Axle | RigidAxle") -> "Subject | Axle":
+    """Return what is judged of what a file describes."""
+    from ..suspension.model import Model
+
+    return of.suspension if isinstance(of, Model) else of
+
+
+def _said(goal: "Goal") -> str:
+    """Return what a goal is about, in the words of its file."""
+    return f"{goal.name} {_over(goal.over)}"
+
+
+def _over(over: str) -> str:
+    from ..study.loads.flexibility import HELD
+
+    return f'with held = "{over}"' if over in HELD else f"over {over}"
 
 
 def _or(names: Sequence[str]) -> str:
@@ -130,6 +154,7 @@ def judged(
 def table(found: Sequence[Mapping[str, Any]], title: str) -> Table:
     """Return the table of what `judged` returns."""
     from ..core.quantities import bracketed, display_of
+    from ..study.loads.flexibility import HELD
     from ..study.variation.ways import way
 
     files = list(dict.fromkeys(row["file"] for row in found))
@@ -143,7 +168,10 @@ def table(found: Sequence[Mapping[str, Any]], title: str) -> Table:
         quantity = over.known[first["name"]]
         shown = display_of(quantity.attributes())
         words = bracketed(quantity.long_name, quantity.attributes())
-        words = words if first["over"] in ("travel", "bump") else f"{words} over {over.words}"
+        if first["over"] in HELD:
+            words = f"{words} (held: {first['over']})"
+        elif first["over"] not in ("travel", "bump"):
+            words = f"{words} over {over.words}"
         cells = [
             "met"
             if row["met"]

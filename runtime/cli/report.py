@@ -90,7 +90,7 @@ def command(
         with problems.status("report"):
             of = described_by(file)
             further = _of_loads(file, cases, wanted=loads)
-            further += [*_of_bushes(of, bushes), *_of_goals(of, goals), *_of_sheet(of, bushes)]
+            further += _of_wheels(of, bushes, goals)
             written = rigid.report(file, target, title, further, force=force, inputs=inputs)
         say(f"  {written}")
         return
@@ -100,8 +100,7 @@ def command(
         from ..report import write
 
         chapters = [*_of_axle(axle), *_of_loads(file, cases, wanted=loads)]
-        chapters += [*_of_bushes(axle or model, bushes), *_of_goals(axle or model, goals)]
-        chapters += _of_sheet(axle or model, bushes)
+        chapters += _of_wheels(axle or model, bushes, goals)
         written = write(
             model,
             target,
@@ -156,16 +155,32 @@ def _of_loads(file: str, cases: Path | None, *, wanted: bool) -> "list[Chapter]"
     return [loads_chapter(carried(described.get("cases", usual), static_load=load_at_rest))]
 
 
-def _of_goals(of: "Model | Axle | RigidAxle", goals: Path | None) -> "list[Chapter]":
+def _of_wheels(
+    of: "Model | Axle | RigidAxle", bushes: Path | None, goals: Path | None
+) -> "list[Chapter]":
+    """Return what is told of compliance, of targets and limits, and at design."""
+    return [*_of_bushes(of, bushes), *_of_goals(of, bushes, goals), *_of_sheet(of, bushes)]
+
+
+def _of_goals(
+    of: "Model | Axle | RigidAxle", bushes: Path | None, goals: Path | None
+) -> "list[Chapter]":
     from ..report import goals_chapter
-    from ..study.variation.ways import ways_of
-    from ..suspension.model import Model
+    from ..study.loads import read_bushes
+    from ..study.loads.flexibility import HELD
+    from ..study.variation.ways import model_of, ways_of, with_bushes
+    from ..suspension.kinds import Suspension
 
     if goals is None:
         return []
-    known = ways_of(of.suspension if isinstance(of, Model) else of)
-    there = known[:1] if isinstance(of, Model) and not of.suspension.steered() else known
-    return [goals_chapter(of, wanted.read(goals, there, known))]
+    subject = wanted.subject_of(of)
+    known = ways_of(subject)
+    unsteered = isinstance(subject, Suspension) and not subject.steered()
+    aims = wanted.read(goals, [*(known[:1] if unsteered else known), *HELD], known)
+    if bushes is None:
+        return [goals_chapter(of, aims)]
+    soft = with_bushes(subject, read_bushes(bushes))
+    return [goals_chapter(model_of(soft) if isinstance(soft, Suspension) else soft, aims)]
 
 
 def _of_bushes(of: "Model | Axle | RigidAxle", bushes: Path | None) -> "list[Chapter]":

@@ -140,7 +140,6 @@ def write_optimum(
     models = {"before": model_of(found.start), "after": model_of(found.suspension)}
     goals = [*found.targets, *found.limits]
     panels = {f"{goal.name} over {goal.over}": goal for goal in goals}
-    # goals under loads are only fitted
     positions = {over: common_positions(models, over) for over in {goal.over for goal in goals}}
 
     def draw(axes: Axes, key: str) -> None:

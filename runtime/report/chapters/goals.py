@@ -12,6 +12,7 @@ from ...plots.curves import figure
 from ...plots.figures import STYLE
 from ...study.axles import by_side
 from ...study.axles.catalogue import SIDES
+from ...study.loads.flexibility import HELD
 from ...study.variation.goals import Goal, Verdict, judge
 from ...study.variation.ways import Looked, dataset_of, model_of, usual_positions, way
 from ...suspension.axle import Axle
@@ -63,9 +64,11 @@ def _drawn(looked: Looked, goals: Sequence[Goal], over: str) -> Picture:
     positions = [usual_positions(looked, over), *(goal.at for goal in own)]
     dataset = by_side(dataset_of(looked, over, np.unique(np.concatenate(positions))))
     names = dict.fromkeys(g.name if g.name in dataset else _both(g.name) for g in own)
-    words = f"Curves over {way(over).words} with targets and limits"
+    kind = "Compliance" if over in HELD else "Curves"
+    words = f"{kind} over {way(over).words} with targets and limits"
+    title = f"{words}\n{HELD[over]}" if over in HELD else words
     with rc_context(STYLE):
-        return Picture.of(figure(dataset, [*names], title=words, alone=False, goals=own), words)
+        return Picture.of(figure(dataset, [*names], title=title, alone=False, goals=own), words)
 
 
 def _both(name: str) -> str:
@@ -82,7 +85,7 @@ def _table(goals: Sequence[Goal], verdicts: Sequence[Verdict]) -> Tabulated:
             (
                 bracketed(goal.quantity.long_name, attributes),
                 verdict.kind,
-                goal.over,
+                f"held: {goal.over}" if goal.over in HELD else goal.over,
                 "met" if verdict.met else "missed",
                 "" if verdict.met else beyond,
                 f"{over.factor * verdict.at:g} {over.unit}",

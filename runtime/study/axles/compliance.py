@@ -25,7 +25,15 @@ from ...suspension.positions import arm_angles, design_height
 from ...suspension.reach import at_rest
 from ..characteristics.datasets import TRAVEL
 from ..characteristics.from_model import corner
-from ..loads.compliance import LOADED, MOVED, RIG_LOADS, RigLoad, load_at_contact, told
+from ..loads.compliance import (
+    LOADED,
+    MOVED,
+    RIG_LOADS,
+    RigLoad,
+    load_at_contact,
+    quantities_under,
+    told,
+)
 from ..loads.flexibility import HELD, Held, Side, flexibility, refuse_without_rate, soft_lines
 from ..loads.poses import Poses, wheel_axes
 from . import motions
@@ -248,9 +256,24 @@ def _variables(
     test: RigLoad, how: Together, side: str, one: RoadWheel, moved: Array, part: float
 ) -> dict[str, xr.Variable]:
     """Return what a wheel does under loads on both."""
-    named = replace(test, name=f"{test.name}_{how.name}", words=WORDS[test.name])
-    words = f"{how.words}, {side}"
+    named, words = _on_both(test, how, side)
     return {
         f"{quantity.name}_{side}": xr.Variable(TRAVEL.name, values, quantity.attributes())
         for quantity, values in told(named, one, moved, how=words, part=part)
     }
+
+
+def _on_both(test: RigLoad, how: Together, side: str) -> tuple[RigLoad, str]:
+    """Return a load as it is called on both wheels, and words for what one of them does."""
+    named = replace(test, name=f"{test.name}_{how.name}", words=WORDS[test.name])
+    return named, f"{how.words}, {side}"
+
+
+COMPLIANCES = {
+    f"{quantity.name}_{side}": quantity
+    for test in RIG_LOADS
+    for how in LOADINGS[test.name]
+    for side in SIDES
+    for quantity in quantities_under(*_on_both(test, how, side)).values()
+}
+"""What is told of both wheels under loads, by name."""

@@ -242,7 +242,7 @@ def told(
         "camber": wheel.camber_rate(on_road, motion),
         "displacement": (sense_of(test, on_road) * shift).sum(axis=-1),
     }
-    for kind, quantity in _quantities(test, how).items():
+    for kind, quantity in quantities_under(test, how).items():
         if kind in values:
             yield quantity, values[kind]
         elif soft := give_of_tyre(test, on_road):
@@ -258,8 +258,8 @@ def give_of_tyre(test: RigLoad, on_road: RoadWheel) -> float | None:
     return None if rate is None else 1.0 / rate
 
 
-def _quantities(test: RigLoad, how: str = "") -> dict[str, Quantity]:
-    """Return what is told under a load, by what of the wheel it is."""
+def quantities_under(test: RigLoad, how: str = "") -> dict[str, Quantity]:
+    """Return what is told under a load, by what of the wheel it is; `how` as of `told`."""
     toe, camber = "toe angle", "camber"
     kinds = [
         ("toe", "rad", toe, f"change of {toe}", "positive toe-in"),
@@ -292,5 +292,5 @@ def _mirror(side: float) -> Array:
     return np.array([1.0, side, 1.0])
 
 
-COMPLIANCES = {q.name: q for test in RIG_LOADS for q in _quantities(test).values()}
+COMPLIANCES = {q.name: q for test in RIG_LOADS for q in quantities_under(test).values()}
 """What is told of a wheel under loads, by name."""

@@ -14,11 +14,12 @@ from ...core.vectors import cross
 from ...suspension.bushes import described_bushings, left_out, refuse_rigid
 from ...suspension.corner import Array, RoadWheel
 from ...suspension.rigid.axle import RigidAxle
-from ..axles.compliance import WORDS, Together, dataset_of_both, under_loads
+from ..axles.compliance import COMPLIANCES as OF_WHEELS
+from ..axles.compliance import LOADINGS, WORDS, Together, dataset_of_both, under_loads
 from ..axles.motions import Extent
 from ..characteristics.catalogue import Quantity
 from ..characteristics.datasets import TRAVEL
-from ..loads.compliance import RigLoad
+from ..loads.compliance import RIG_LOADS, RigLoad
 from ..loads.flexibility import HELD, Held, Side, SoftLines, flexibility, refuse_without_rate
 from ..loads.poses import touching
 from .beam import SIDES, Beam
@@ -202,3 +203,12 @@ def _quantity(name: str, test: RigLoad, how: Together) -> Quantity:
         sign,
         display=Display(f"{shown.units}/{test.shown.units}", shown.factor * test.shown.factor),
     )
+
+
+COMPLIANCES = OF_WHEELS | {
+    quantity.name: quantity
+    for test in RIG_LOADS
+    for how in LOADINGS[test.name]
+    for quantity in (_quantity(name, test, how) for name in OF_AXLE)
+}
+"""What is told of both wheels and of the axle under loads, by name."""

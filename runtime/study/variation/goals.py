@@ -21,6 +21,7 @@ from .ways import (
     OF_SUSPENSIONS,
     WAYS,
     Subject,
+    compliances_over,
     model_of,
     refuse_of_steering,
     there,
@@ -200,7 +201,7 @@ class Verdict:
     Attributes
     ----------
     name, over : str
-        The characteristic, and what it is over.
+        The characteristic, and what it is over; or what holds the wheel under loads.
     kind : str
         'target' or 'limit'.
     met : bool
@@ -282,8 +283,8 @@ def check_data(given: Arguments, suspension: Subject | Axle, goals: Iterable[Goa
     """
     model, ways = model_of(suspension), ways_of(suspension)
     for goal in goals:
-        name = f"{goal.name} over {'travel' if goal.over in HELD else goal.over}"
-        if goal.over not in ways and not (goal.over in HELD and "travel" in ways):
+        name = f"{goal.name} over {ways[0] if goal.over in HELD else goal.over}"
+        if goal.over not in (*ways, *HELD):
             given.refuse(f"{name}: what is looked at has curves over {', '.join(ways)}.")
             continue
         refuse_of_steering(suspension, [goal.name])
@@ -392,14 +393,18 @@ def _tables(
             )
             continue
         over = given.among(f"{title} over", table.get("over", ways[0]), ways)
-        at_key, known = f"at_{WAYS[over].unit}", WAYS[over].known
+        under_loads = compliances_over(over)
+        at_key, known = f"at_{WAYS[over].unit}", {**WAYS[over].known, **under_loads}
         known_keys = [at_key, "over", *sorted(keys)]
+        if name in under_loads:
+            known_keys.append("held")
+            over = given.among(f"{title} held", table.get("held", "height"), HELD)
         for key in table.keys() - {*known_keys}:
             given.refuse(f"{title} {key} is not known: there are {', '.join(known_keys)}.")
         if given.among("characteristic", name, known) != name:
             continue
         shown = display_of(known[name].attributes())
-        unit, factor = WAYS[over].unit, WAYS[over].factor
+        unit, factor = way(over).unit, way(over).factor
         at = given.array(f"{title} {at_key}", table.get(at_key, 0.0), unit, dimensions=[0, 1])
         positions = np.atleast_1d(at) / factor
         yield name, _Table(given, title, table, over, positions, shown.units, shown.factor)

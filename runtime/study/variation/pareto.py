@@ -11,6 +11,7 @@ from scipy.stats import qmc
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ..loads.flexibility import HELD
 from .candidates import Candidates
 from .front import compromise, spread, unbeaten
 from .goals import Limit, check_data, limits_of
@@ -202,10 +203,12 @@ def pareto(
         bounds = limits_of(given, _described(given, "limits", limits), ways)
         if not given.refused:
             _refuse_counts(given, len(objectives), population, generations)
-            check_data(given, suspension, [*(o.goal for o in objectives), *bounds])
+            goals = [*(o.goal for o in objectives), *bounds]
+            check_data(given, suspension, goals)
             by_pattern = given.mapping("free", free, "places and numbers")
             reach = amounts(given, suspension, by_pattern, "range")
-            refuse_bushes(given, reach)
+            if not any(goal.over in HELD for goal in goals):
+                refuse_bushes(given, reach)
             if not reach:
                 given.refuse("free: one value or more is needed.")
     check_installed()

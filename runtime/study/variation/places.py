@@ -123,7 +123,8 @@ def refuse_bushes(given: Arguments, places: Iterable[Place]) -> None:
     if soft:
         given.refuse(
             f"{', '.join(soft[:3])}{' ...' if soft[3:] else ''}: nothing here depends on bushes, "
-            "joints are rigid. Leave them out; `kintrafo fit` takes them with curves under loads."
+            "joints are rigid. Leave them out; `kintrafo fit` takes them with curves under loads, "
+            "`optimise` and `pareto` with goals under loads."
         )
 
 

@@ -5,7 +5,7 @@ both wheels of an axle; or what holds the wheel under the loads of a compliance.
 """
 
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, cast, overload
 
 import numpy as np
@@ -21,6 +21,7 @@ from ...suspension.rigid import RigidAxle
 from ...suspension.rigid.model import RigidAxleModel
 from .. import axles, rigid
 from ..axles.catalogue import OVER_TRAVEL, SIDES
+from ..axles.compliance import described_of
 from ..axles.datasets import ROLL
 from ..axles.motions import Extent, rolls, travels
 from ..characteristics.catalogue import Quantity
@@ -37,7 +38,9 @@ from ..characteristics.datasets import refuse_of_steering as refuse_of_suspensio
 from ..loads.compliance import COMPLIANCES, compliance
 from ..loads.flexibility import HELD, Held
 from ..rigid.catalogue import MEASURES
+from ..rigid.compliance import COMPLIANCES as OF_BOTH
 from ..rigid.datasets import usual, values_over
+from ..sheet import has_bushes
 from ..sweep import usual_rack, usual_travel
 
 Array = NDArray[np.float64]
@@ -101,13 +104,20 @@ WAYS: dict[str, Way] = {
 OF_SUSPENSIONS = ("travel", "rack")
 """Those of a suspension."""
 
-UNDER_LOADS = {held: Way(TRAVEL, COMPLIANCES, "wheel travel") for held in HELD}
-"""Compliance over wheel travel, by what holds the wheel."""
+UNDER_LOADS = {held: Way(TRAVEL, COMPLIANCES | OF_BOTH, "wheel travel") for held in HELD}
+"""Compliance over wheel travel, of an axle over parallel travel, by what holds the wheels."""
+
+_COMPLIANCES_OVER: dict[str, Mapping[str, Quantity]] = {"travel": COMPLIANCES, "bump": OF_BOTH}
 
 
 def way(over: str) -> Way:
     """Return what some curves are over."""
     return (WAYS | UNDER_LOADS)[over]
+
+
+def compliances_over(over: str) -> Mapping[str, Quantity]:
+    """Return what is told under loads over something, by name; none where nothing is."""
+    return _COMPLIANCES_OVER.get(over, {})
 
 
 def ways_of(subject: Any) -> tuple[str, ...]:
@@ -144,9 +154,9 @@ def model_of(subject: Subject | Axle, *, wheel_loads: bool = False) -> Looked:
 def usual_positions(model: Looked, over: str) -> Array:
     """Return the usual positions, as far as it goes [m] or [rad]."""
     if isinstance(model, Model):
-        return (usual_travel if over == "travel" else usual_rack)(model)
+        return (usual_rack if over == "rack" else usual_travel)(model)
     if isinstance(model, RigidAxleModel):
-        return usual(model.axle, over, Extent())
+        return usual(model.axle, "bump" if over in HELD else over, Extent())
     if over == "roll":
         return rolls(model, Extent())
     return travels(model, Extent(), (over,) if over in SIDES else SIDES)
@@ -154,6 +164,8 @@ def usual_positions(model: Looked, over: str) -> Array:
 
 def dataset_of(model: Looked, over: str, positions: Array) -> xr.Dataset:
     """Return all that is told over something, to be drawn."""
+    if over in HELD:
+        return _compliance(model, positions, cast("Held", over))
     if isinstance(model, Model):
         return (travel if over == "travel" else steering)(model, positions)
     study: Any = rigid if isinstance(model, RigidAxleModel) else axles
@@ -165,26 +177,60 @@ def dataset_of(model: Looked, over: str, positions: Array) -> xr.Dataset:
     return both
 
 
+def _compliance(model: Looked, positions: Array, held: Held) -> xr.Dataset:
+    """Return how wheels give way on the bushes of the files."""
+    if isinstance(model, Model):
+        found = compliance(model, None, positions, held=held)
+    elif isinstance(model, RigidAxleModel):
+        found = rigid.compliance(model.axle, None, positions, held=held)
+    else:
+        found = axles.compliance(model, None, positions, held=held)
+    return found.drop_dims(["moved", "by"])
+
+
 def values_of(
     model: Looked, over: str, positions: Array, names: Collection[str] | None = None
 ) -> dict[str, Array]:
     """Return characteristics or compliance by name, all that there are or some."""
-    if isinstance(model, Model):
-        if over in HELD:
-            found = compliance(model, None, positions, held=cast("Held", over))
-            return {name: found[name].values for name in COMPLIANCES if name in found}
+    if isinstance(model, Model) and over not in HELD:
         values = over_travel if over == "travel" else over_rack
         return {q.name: v for q, v in values(model, positions, names=names).items()}
-    if isinstance(model, RigidAxleModel):
+    if isinstance(model, RigidAxleModel) and over not in HELD:
         return values_over(model, over, positions, names)
     return {str(name): data.values for name, data in dataset_of(model, over, positions).items()}
 
 
 def there(model: Looked, over: str) -> tuple[str, ...]:
     """Return the characteristics, or compliance, for which the file has the data."""
-    if over in HELD and not (isinstance(model, Model) and model.suspension.bushings):
+    on_bushes = model.axle if isinstance(model, RigidAxleModel) else model
+    if over in HELD and not has_bushes(on_bushes):
         return ()
     return tuple(values_of(model, over, np.zeros(1)))
+
+
+@overload
+def with_bushes(subject: Suspension, bushings: Mapping[str, Any] | None) -> Suspension: ...
+@overload
+def with_bushes(subject: Subject | Axle, bushings: Mapping[str, Any] | None) -> Subject | Axle: ...
+def with_bushes(subject: Subject | Axle, bushings: Mapping[str, Any] | None) -> Subject | Axle:
+    """Return something on other bushes than those of its file, or on these.
+
+    Parameters
+    ----------
+    subject : Suspension, Axle or RigidAxle
+    bushings : mapping, optional
+        As of `kintrafo.loads.compliance`; of an axle as of `kintrafo.axles.compliance`.
+    """
+    if bushings is None:
+        return subject
+    if not isinstance(subject, Axle):
+        return subject.with_changes({"bushings": dict(bushings)})
+    with Arguments("compliance") as given:
+        described = described_of(given, subject, bushings)
+    left, right = (
+        subject.sides[side].with_changes({"bushings": described[side]}) for side in SIDES
+    )
+    return replace(subject, left=left, right=right)
 
 
 def refuse_of_steering(subject: Subject | Axle, names: Iterable[str]) -> None:

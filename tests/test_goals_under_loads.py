@@ -1,0 +1,215 @@
+"""Targets and limits of compliance: what studies make of them, where they are told and drawn."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from kintrafo import (
+    Axle,
+    InputError,
+    Model,
+    RigidAxle,
+    Suspension,
+    axles,
+    loads,
+    report,
+    rigid_axles,
+    variation,
+)
+from kintrafo.cli import app
+from kintrafo.plots import curves
+from kintrafo.report import goals_chapter
+from kintrafo.study.variation.ways import with_bushes
+from kintrafo.suspension.toml_writer import write_toml
+from scipy.optimize import brentq
+from typer.testing import CliRunner
+
+REAR = "bushings.arm_rear.radial_N_per_mm"
+BUSHES: dict[str, Any] = {
+    "arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 900.0, "axis": [0.2, 0.1, 1.0]},
+    "strut_top": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": 700.0},
+}
+CAR = Suspension.load("reference_car").with_changes({"bushings": BUSHES})
+RODS = {"panhard_rod_chassis": {"axial_N_per_mm": 5000.0}}
+GOALS = """
+[limits.toe_by_lateral]
+at_mm = [-20, 20]
+most = 0.1
+
+[[targets.camber_by_braking]]
+held = "spring"
+value = 0.0
+within = 0.01
+"""
+
+
+def called(*words: str) -> Any:
+    return CliRunner().invoke(app, [*words])
+
+
+def under(car: Suspension, name: str, at: Any, held: Any = "height") -> Any:
+    """Return a compliance in the unit for people, deg/kN."""
+    return np.rad2deg(loads.compliance(Model(car), None, at, held=held)[name].values) * 1e3
+
+
+@pytest.fixture
+def goals(tmp_path: Path) -> Path:
+    path = tmp_path / "goals.toml"
+    path.write_text(GOALS, encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def soft_car(tmp_path: Path) -> str:
+    write_toml(CAR, tmp_path / "soft_car.toml")
+    return str(tmp_path / "soft_car.toml")
+
+
+def test_verdicts_are_those_of_the_compliance(goals: Path) -> None:
+    target, limit = variation.judge(CAR, variation.goals(variation.read(goals)))
+    toe = under(CAR, "toe_by_lateral", [-0.02, 0.02])
+    camber = under(CAR, "camber_by_braking", [0.0], "spring")
+    assert (limit.over, limit.met) == ("height", bool((toe <= 0.1).all()))
+    assert np.rad2deg(limit.beyond) * 1e3 == pytest.approx(toe.max() - 0.1)
+    assert target.over == "spring"
+    assert np.rad2deg(target.beyond) * 1e3 == pytest.approx(abs(camber[0]) - 0.01)
+
+
+def test_a_stiffness_is_found_for_a_compliance() -> None:
+    wanted = 0.11
+    target = {"toe_by_lateral": {"value": wanted, "within": 1e-3}}
+    found = variation.optimise(CAR, {REAR: 500.0}, target)
+
+    def missed(rate: float) -> float:
+        toe: float = under(CAR.with_changes({REAR: rate}), "toe_by_lateral", [0.0])[0]
+        return toe - wanted
+
+    assert found.success
+    # what moving costs shifts it by 1e-8 of the rate, and the solver stops where 1e-8 is to gain
+    assert 900.0 + found.moved[REAR] == pytest.approx(brentq(missed, 400.0, 1400.0), rel=1e-5)
+
+
+def test_cars_of_a_tolerance_are_within_limits_of_compliance() -> None:
+    place, most = "hardpoints.tie_rod_outer.x", float(under(CAR, "toe_by_lateral", [0.0])[0])
+    found = variation.tolerance(
+        CAR, {place: 5.0}, limits={"toe_by_lateral": {"most": most}}, count=6, names=["toe"],
+        positions=[0.0],
+    )  # fmt: skip
+    there = found["value_of"].values[:, 0] * 1e3
+    cars = [CAR.with_changes({place: float(x)}) for x in there]
+    expected = [under(car, "toe_by_lateral", [0.0])[0] <= most for car in cars]
+    assert found["within_limits"].values.tolist() == expected
+    assert 0 < sum(expected) < len(expected)
+
+
+def test_a_front_of_stiffnesses() -> None:
+    pytest.importorskip("pymoo")
+    asked: dict[str, Any] = {"population": 4, "generations": 2}
+    softest = {"toe_by_recession": {"at_mm": 0.0}}
+    stiffest = {"toe_by_lateral": {"value": 0.1, "within": 0.01}}
+    found = variation.pareto(CAR, {REAR: 300.0}, stiffest, maximise=softest, **asked)
+    member = found.suspension(1)
+    toe = under(member, "toe_by_recession", [0.0])[0]
+    column = next(name for name in found.dataset if "toe_by_recession" in str(name))
+    assert np.rad2deg(found.dataset[column].values[0]) * 1e3 == pytest.approx(toe)
+    with pytest.raises(InputError, match="with goals under loads"):
+        variation.pareto(CAR, {REAR: 300.0}, {"toe": {"value": 0.1, "within": 0.01}}, **asked)
+
+
+WRONG: list[tuple[dict[str, Any], str]] = [
+    ({"toe_by_lateral": {"held": "air", "most": 1.0}}, r"toe_by_lateral\] held 'air' is not known"),
+    ({"toe": {"held": "height", "most": 1.0}}, r"toe\] held is not known: there are at_mm, over"),
+    ({"toe_by_lateral": {"over": "rack", "most": 1.0}}, "'toe_by_lateral' is not known"),
+]
+
+
+@pytest.mark.parametrize(("limits", "words"), WRONG)
+def test_what_has_no_meaning_is_refused(limits: Any, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        variation.goals({"limits": limits})
+
+
+def test_without_bushes_nothing_is_judged(goals: Path) -> None:
+    wanted = variation.goals(variation.read(goals))
+    with pytest.raises(InputError, match=r"has not the data that this needs, .* and \[bushings\]"):
+        variation.judge(Suspension.load("reference_car"), wanted)
+
+
+@pytest.mark.parametrize("rigid", [False, True])
+def test_goals_of_both_wheels(rigid: bool) -> None:
+    name = "toe_by_lateral_opposed_left"
+    axle: Any = (RigidAxle if rigid else Axle).load("rigid_axle" if rigid else "reference_axle")
+    bushes = RODS if rigid else BUSHES
+    module: Any = rigid_axles if rigid else axles
+    found = module.compliance(axle, bushes, [0.0, 0.02])
+    toe = np.rad2deg(found[name].values) * 1e3
+    limits = {name: {"at_mm": [0.0, 20.0], "most": 0.01}}
+    wanted = variation.goals({"limits": limits}, ["bump", "roll"])
+    # the bushes that are given, and their images on the other side
+    soft = with_bushes(axle, bushes)
+    (verdict,) = variation.judge(soft, wanted)
+    assert np.rad2deg(verdict.beyond) * 1e3 == pytest.approx(toe.max() - 0.01, rel=1e-9)
+    (axes,) = curves.figure(
+        axles.by_side(found.drop_dims(["moved", "by"])), [name.removesuffix("_left")], goals=wanted
+    ).get_axes()
+    (line,) = (line for line in axes.get_lines() if line.get_label() == "limit, left")
+    np.testing.assert_allclose(line.get_xydata(), [[0.0, 0.01], [20.0, 0.01]], rtol=1e-12)
+    (row,) = goals_chapter(soft, wanted).tables[0].rows
+    assert row[2] == "held: height"
+    if not rigid:
+        assert row[4] == f"{toe.max() - 0.01:.5g}"
+
+
+def test_compliance_tells_and_draws_them(
+    goals: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Bushes of a file of their own count, as they do in its curves."""
+    text = "\n".join(
+        f"[bushings.{point}]\n" + "\n".join(f"{key} = {value}" for key, value in table.items())
+        for point, table in BUSHES.items()
+    )
+    (tmp_path / "bushes.toml").write_text(text, encoding="utf-8")
+    given: list[str] = []
+
+    def note(_: Any, path: Path, *__: Any, goals: Any, **___: Any) -> Path:
+        given.extend(goal.name for goal in goals)
+        return path
+
+    monkeypatch.setattr(curves, "write_overview", note)
+    asked = ["compliance", "reference_car", str(tmp_path / "bushes.toml"), "--goals", str(goals)]
+    shown = called(*asked, "--plot", str(tmp_path / "a.png"), "--json")
+    assert shown.exit_code == 0, shown.output
+    assert given == ["toe_by_lateral"]
+    assert 'camber_by_braking with held = "spring"' in " ".join(shown.stderr.split())
+    (told,) = json.loads(shown.stdout)["goals"]
+    toe = under(CAR, "toe_by_lateral", [-0.02, 0.02])
+    assert np.rad2deg(told["beyond"]) * 1e3 == pytest.approx(toe.max() - 0.1)
+    assert "limit: toe angle by a lateral force" in called(*asked).stdout
+    shown = called(*asked, "--rack", "10")
+    assert shown.exit_code == 2
+    assert "the rack in its middle" in " ".join(shown.output.replace("│", " ").split())
+
+
+def test_comparisons_and_reports_have_them(
+    goals: Path, soft_car: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = ["--held", "spring", "--goals", str(goals), "--json"]
+    shown = called("compare", soft_car, soft_car, *asked)
+    assert shown.exit_code == 0, shown.exception
+    assert [goal["name"] for goal in json.loads(shown.stdout)["goals"]] == ["camber_by_braking"] * 2
+    shown = called("characteristics", soft_car, "--goals", str(goals))
+    assert "no [limits.NAME] over travel or over rack" in str(shown.exception)
+
+    def written(*_: Any, chapters: Any, **__: Any) -> Path:
+        (chapter,) = (one for one in chapters if one.title == "Targets and limits")
+        met = (under(CAR, "toe_by_lateral", [-0.02, 0.02]) <= 0.1).all()
+        assert chapter.words[0] == f"{int(met)} of 2 are met, {2 - int(met)} missed."
+        words = "Compliance over wheel travel with targets and limits"
+        assert [picture.words for picture in chapter.pictures] == [words, words]
+        return tmp_path / "report.html"
+
+    monkeypatch.setattr(report, "write", written)
+    shown = called("report", soft_car, str(tmp_path / "report.html"), "--goals", str(goals))
+    assert shown.exit_code == 0, shown.exception
