@@ -98,7 +98,11 @@ def alone(car: Suspension, changes: dict[str, float], at: list[float], name: str
 
 
 def held_against_each(
-    car: Suspension, values: dict[str, np.ndarray], at: list[float], name: str
+    car: Suspension,
+    values: dict[str, np.ndarray],
+    at: list[float],
+    name: str,
+    rounding: float = 1e-14,
 ) -> list[bool]:
     """Hold many cars against each by itself; return who has no curve."""
     found = variation.cars(car, values, positions=at, names=[name])
@@ -109,7 +113,7 @@ def held_against_each(
             assert np.isnan(found[name].values[one]).all()
         else:
             assert not reason
-            np.testing.assert_allclose(found[name].values[one], wanted, rtol=0, atol=1e-14)
+            np.testing.assert_allclose(found[name].values[one], wanted, rtol=0, atol=rounding)
     return [bool(reason) for reason in found["reason"].values]
 
 
@@ -128,9 +132,44 @@ def test_a_position_beyond_the_reach_of_some_is_theirs_alone() -> None:
     values = {"hardpoints.strut_top.z": 820.0 + np.array([0.0, -4.0, 4.0, 1.0, -0.2, 0.2])}
     model = Model(car)
     end = travel_range(model).height[0] - design_height(model) + 1e-5
-    gone = held_against_each(car, values, [end, 0.0], "camber")
+    # beside a dead point a rounding of the height is more than one of the angle
+    gone = held_against_each(car, values, [end, 0.0], "camber", rounding=1e-12)
     assert any(gone)
     assert not all(gone)
+
+
+LENGTHS = {
+    "multi_link_car": {"damper.length_min_mm": 420.0, "damper.length_max_mm": 590.0},
+    "pull_rod_car": {"damper.length_min_mm": 260.0, "damper.length_max_mm": 345.0},
+}
+
+
+@pytest.mark.parametrize("name", LENGTHS)
+def test_cars_go_together_up_to_the_ends_of_their_dampers(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Within the last step of the arm, too, where only who does not get there goes by himself."""
+    car = Suspension.load(name).with_changes(LENGTHS[name])
+    model, off = Model(car), np.array([0.0, 0.3, -0.3, 0.1, -0.1, 0.05])
+    top, length = car.hardpoints.wheel_center[2], LENGTHS[name]["damper.length_min_mm"]
+    cars = {
+        "hardpoints.wheel_center.z": top + off[::-1],
+        "damper.length_min_mm": length + off,  # the end is another for each
+    }
+    # the dampers of some end before that
+    ends = np.array(travel_range(model).height) - design_height(model)
+    at = [float(ends[0]) + 1e-3, 0.0, float(ends[1]) - 1e-4]
+    by_themselves: list[object] = []
+
+    def counted(*given: object, **options: object) -> object:
+        by_themselves.append(given)
+        return model_of(*given, **options)  # type: ignore[call-overload]
+
+    monkeypatch.setattr(batch, "model_of", counted)
+    # an angle is found to its last digits, by other steps
+    gone = held_against_each(car, cars, at, "toe", rounding=1e-13)
+    assert 0 < sum(gone) < len(gone)
+    assert len(by_themselves) == sum(gone)
 
 
 def test_another_branch_is_not_taken_for_somebody() -> None:

@@ -104,6 +104,7 @@ class Fleet(Model):
         part = object.__new__(Fleet)
         vars(part).update(vars(self))
         part.constants, part.design_state = self.constants[some], self.design_state[some]
+        part._allowed = tuple(_allowed_of(one, some) for one in self._allowed)
         return part
 
     def strike(self, gone: NDArray[np.bool_]) -> None:
@@ -134,6 +135,11 @@ def _allowed(one: Allowed) -> Allowed:
         return one
     limits: Any = limit.values[:, None]
     return one._replace(limit=limits)
+
+
+def _allowed_of(one: Allowed, some: NDArray[np.int64]) -> Allowed:
+    limit: Any = one.limit
+    return one._replace(limit=limit[some]) if np.ndim(limit) else one
 
 
 def _with_columns(section: Any, columns: Mapping[str, Column]) -> Any:

@@ -1,17 +1,19 @@
 """Arm angles of many suspensions at once: as `arm_angles`, where nothing is in the way.
 
 The reach is tabulated for each from its design position, as `reach` does, as far as the heights ask
-for. Whose table does not get there by steps that are all smooth, or whose height is not met to
-rounding, is told; whoever asks goes through those one by one.
+for; whose steps do not get there goes on to the end of the reach. Who does not get there even so,
+or whose height is not met to rounding, is told; whoever asks goes through those one by one.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .fleet import Fleet
-from .reach import ARM_STEP, ARM_STEPS, branch, margins_at, way_of_rack
+from .reach import ARM_STEP, ARM_STEPS, branch, clear_of, margins_at, way_of_rack
 from .reach import at_rest as rest_of
-from .swing import Seen, margins_stay, resolved
+from .swing import Seen, march, margins_stay, resolved
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -20,6 +22,14 @@ Flags = NDArray[np.bool_]
 _ROUNDING, _ROUNDINGS = 1e-12, 8.0
 _NEWTON_STEPS = 8
 _EPSILON = float(np.finfo(np.float64).eps)
+
+
+class _Table(NamedTuple):
+    """Arm angles of each, heights of the wheel centre, which rise, and slopes; (count, places)."""
+
+    angle: Array
+    height: Array
+    slope: Array
 
 
 def fleet_angles(fleet: Fleet, travel: Array, rack: Array) -> tuple[Array, Flags]:
@@ -63,12 +73,15 @@ def _at_rack(fleet: Fleet, wanted: Array, rack: float, first: Array) -> tuple[Ar
     before = np.logical_and.accumulate(fine[:, :down][:, ::-1], axis=1).sum(axis=1)
     after = np.logical_and.accumulate(fine[:, down:], axis=1).sum(axis=1)
     inner = np.clip(np.arange(grid.shape[1]), down - before[:, None], down + after[:, None])
-    angle, height, slope = (
-        np.take_along_axis(values, inner, axis=1) for values in (grid, seen.height, seen.slope)
+    table = _Table(
+        *(np.take_along_axis(values, inner, axis=1) for values in (grid, seen.height, seen.slope))
     )
-    covered = (wanted >= height[:, :1]) & (wanted <= height[:, -1:])
-    reaches = seen.usable[:, down] & covered.all(axis=1) & (before + after > 0)
-    start, low, high = _between(angle, height, slope, wanted)
+    at_design = seen.usable[:, down]
+    below, above = wanted.min(axis=1) < table.height[:, 0], wanted.max(axis=1) > table.height[:, -1]
+    table = _to_the_ends(fleet, table, (below & at_design, above & at_design), rack)
+    covered = (wanted >= table.height[:, :1]) & (wanted <= table.height[:, -1:])
+    reaches = at_design & covered.all(axis=1) & (table.height[:, 0] < table.height[:, -1])
+    start, low, high = _between(table, wanted)
     angles = np.broadcast_to(design, wanted.shape).copy()
     some = np.flatnonzero(reaches)
     if some.size:
@@ -78,10 +91,11 @@ def _at_rack(fleet: Fleet, wanted: Array, rack: float, first: Array) -> tuple[Ar
 
 
 def _steps(wanted: Array, height: Array) -> tuple[int, int]:
-    """Return how many steps of the arm the first needs, down and up, and one more."""
-    below = int((height[ARM_STEPS::-1] > wanted.min()).sum())
-    above = int((height[ARM_STEPS:] < wanted.max()).sum())
-    return min(max(below, 1) + 1, ARM_STEPS), min(max(above, 1) + 1, ARM_STEPS)
+    """Return how many steps of the arm the first needs, or goes, down and up, and one more."""
+    goes = np.diff(height) > 0.0  # a table repeats its ends
+    below = min((height[ARM_STEPS::-1] > wanted.min()).sum(), goes[:ARM_STEPS].sum())
+    above = min((height[ARM_STEPS:] < wanted.max()).sum(), goes[ARM_STEPS:].sum())
+    return min(max(int(below), 1) + 1, ARM_STEPS), min(max(int(above), 1) + 1, ARM_STEPS)
 
 
 def _look(fleet: Fleet, angles: Array, rack: float) -> Seen:
@@ -116,10 +130,54 @@ def _signals(fleet: Fleet, angles: Array, rack: float) -> dict[str, Array]:
     return fleet.signals(*rest_of(fleet, angles, rack, arm_rate=1.0))
 
 
-def _between(
-    angle: Array, height: Array, slope: Array, wanted: Array
-) -> tuple[Array, Array, Array]:
+def _to_the_ends(fleet: Fleet, table: _Table, short: tuple[Flags, Flags], rack: float) -> _Table:
+    """Return a table with the ends of the reach, down and up, of those for whom it is too short.
+
+    Of the others these are the ends of the table again.
+    """
+    low, high = (
+        _end(fleet, _Table(*(values[:, end, None] for values in table)), rows, direction, rack)
+        for end, rows, direction in ((0, short[0], 1.0), (-1, short[1], -1.0))
+    )
+    return _Table(*(np.concatenate(parts, axis=1) for parts in zip(low, table, high, strict=True)))
+
+
+def _end(fleet: Fleet, last: _Table, short: Flags, direction: float, rack: float) -> _Table:
+    """Return the ends of the reach one way of some, as `reach` finds them, and of others the last.
+
+    Parameters
+    ----------
+    fleet : Fleet
+    last : _Table
+        One place for each: up to there the arm swings for sure.
+    short : ndarray of bool
+        Who goes on from there.
+    direction : float
+        Which way the arm swings.
+    rack : float
+        [m].
+    """
+    rows = np.flatnonzero(short)
+    if not rows.size:
+        return last
+    design = fleet.design_state[rows, 0, 0]
+    ends, limits = march(
+        lambda places, which: _look(fleet.of(rows[which]), places, rack),
+        last.angle[rows, 0],
+        design + direction * ARM_STEP * ARM_STEPS,
+        ARM_STEP,
+    )
+    ends = clear_of(ends, limits, design, direction)[:, None]
+    seen = _look(fleet.of(rows), ends, rack)
+    found = _Table(*(values.copy() for values in last))
+    for values, there in zip(found, (ends, seen.height, seen.slope), strict=True):
+        values[rows] = there
+    return found
+
+
+def _between(table: _Table, wanted: Array) -> tuple[Array, Array, Array]:
     """Return where a cubic between neighbours of a table has some heights, and the neighbours."""
+    angle, height, slope = table
     right = np.clip((height[:, None, :] < wanted[..., None]).sum(axis=-1), 1, height.shape[1] - 1)
     low, high = (np.take_along_axis(angle, i, axis=1) for i in (right - 1, right))
     at_low, at_high = (np.take_along_axis(height, i, axis=1) for i in (right - 1, right))

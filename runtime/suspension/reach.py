@@ -294,9 +294,28 @@ def _ends(model: Model, racks: Array, direction: float) -> tuple[Array, list[int
         goals,
         ARM_STEP,
     )
+    return clear_of(ends, limits, angles[0], direction), limits.tolist()
+
+
+def clear_of(
+    ends: Array, limits: NDArray[np.int64], design: Array | float, direction: float
+) -> Array:
+    """Return the last angles within reach, clear of what ends it there.
+
+    Parameters
+    ----------
+    ends : ndarray
+        From `march` [rad].
+    limits : ndarray of int
+        What ends it, from `march`.
+    design : ndarray or float
+        The angle at design [rad].
+    direction : float
+        Which way the arm has swung: 1 or -1.
+    """
     # not past the design position, where a wheel that turns back at once has its end
-    clear = direction * (ends - angles[0]) > _CLEARANCE
-    return np.where(clear & (limits != GOAL), ends - direction * _CLEARANCE, ends), limits.tolist()
+    clear = direction * (ends - design) > _CLEARANCE
+    return np.where(clear & (limits != GOAL), ends - direction * _CLEARANCE, ends)
 
 
 def refuse_beyond(model: System, state: Array, inputs: Array) -> None:
