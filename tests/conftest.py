@@ -11,7 +11,7 @@ import os
 import signal
 import sys
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import kept
 import pytest
@@ -206,8 +206,8 @@ def _draw_pages(monkeypatch: pytest.MonkeyPatch, wanted: Callable[[Pages], Pages
 
     from kintrafo.plots.curves import grouped
 
-    def some(dataset: xr.Dataset) -> Pages:
-        pages = grouped(dataset)
+    def some(dataset: xr.Dataset, *goals: Any) -> Pages:
+        pages = grouped(dataset, *goals)
         return wanted(pages) or dict([next(iter(pages.items()))])
 
     monkeypatch.setattr("kintrafo.plots.curves.grouped", some)

@@ -172,6 +172,15 @@ def test_what_is_marked_is_in_sight_however_far_from_the_curve(goals: Path) -> N
     assert low < -0.2 < 5.0 < high
 
 
+def test_what_does_not_vary_has_its_place_where_there_are_goals(goals: Path) -> None:
+    dataset = characteristics.travel(Model("reference_car"), np.linspace(-0.05, 0.05, 11))
+    dataset = dataset.assign(toe=dataset["toe"].copy(data=np.full(11, 0.01)))
+    wanted = variation.goals(variation.read(goals))
+    without = [name for names in curves.grouped(dataset).values() for name in names]
+    pages = [name for names in curves.grouped(dataset, wanted).values() for name in names]
+    assert {*pages} - {*without} == {"toe"}
+
+
 def drawn(axes: Any, label: str) -> list[list[list[float]]]:
     """Return the points of all marks that are called so."""
     bars = [one.lines[0] for one in axes.containers if one.get_label() == label]

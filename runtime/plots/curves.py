@@ -102,7 +102,8 @@ def write(
     suffix : str, optional
         Ends the name of each file, before its ending.
     goals : sequence of Goal, optional
-        Targets and limits, drawn into the curves that they are about.
+        Targets and limits, drawn into the curves that they are about; of an axle those over its
+        motion alone.
     progress : callable, optional
         Called with the part that is done, up to 1.
     force : bool, optional
@@ -129,7 +130,7 @@ def write(
         given.function("progress", progress)
         given.flag("force", force)
         given.paths("inputs", inputs)
-    pages = {f"overview_{_slug(group)}": names for group, names in grouped(dataset).items()}
+    pages = {f"overview_{_slug(group)}": names for group, names in grouped(dataset, goals).items()}
     single = {str(name): (name,) for name in _curves(dataset)}
     drawn = {**pages, **single}
     files = {n: [Path(folder) / f"{n}{suffix}.{ending}" for ending in formats] for n in drawn}
@@ -165,7 +166,8 @@ def write_overview(
         By default all that vary.
     title : str, optional
     goals : sequence of Goal, optional
-        Targets and limits, drawn into the curves that they are about.
+        Targets and limits, drawn into the curves that they are about; of an axle those over its
+        motion alone.
     force : bool, optional
         Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
@@ -188,7 +190,7 @@ def write_overview(
         given.paths("inputs", inputs)
         if not given.refused:
             names = given.names("names", names, map(str, _curves(dataset)))
-    pages = {"": tuple(names)} if names else grouped(dataset)
+    pages = {"": tuple(names)} if names else grouped(dataset, goals)
     with rc_context(STYLE):
         if Path(path).suffix.lower() != ".pdf":
             chosen = tuple(name for page in pages.values() for name in page)
@@ -225,14 +227,16 @@ def check_formats(paths: Sequence[str | Path] = (), formats: Sequence[str] = ())
         raise InputError(problems, "figures")
 
 
-def grouped(dataset: xr.Dataset) -> dict[str, tuple[Hashable, ...]]:
+def grouped(dataset: xr.Dataset, goals: Sequence[Goal] = ()) -> dict[str, tuple[Hashable, ...]]:
     """Return the variables that belong on one page, by the name of their group.
 
-    What does not vary is left out, unless nothing varies.
+    What does not vary is left out, unless nothing varies, or there are goals about it.
 
     Parameters
     ----------
     dataset : xarray.Dataset
+    goals : sequence of Goal, optional
+        Targets and limits that are to be drawn.
 
     Returns
     -------
@@ -243,11 +247,19 @@ def grouped(dataset: xr.Dataset) -> dict[str, tuple[Hashable, ...]]:
         given.dataset(dataset)
     groups: dict[str, tuple[Hashable, ...]] = {}
     names = _curves(dataset)
-    varying = tuple(name for name in names if not _is_constant(displayed(dataset[name])))
+    varying = tuple(
+        name
+        for name in names
+        if not _is_constant(displayed(dataset[name])) or _is_wanted(dataset[name], goals)
+    )
     for name in varying or names:
         group = group_of(name)
         groups[group] = (*groups.get(group, ()), name)
     return {group: groups[group] for group in ORDER if group in groups}
+
+
+def _is_wanted(data: xr.DataArray, goals: Sequence[Goal]) -> bool:
+    return any(about(goals, data, _along(data)).values())
 
 
 def _slug(text: str) -> str:
@@ -274,7 +286,8 @@ def figure(
     alone : bool, optional
         Whether this is the figure of one curve, with its definition where there is one.
     goals : sequence of Goal, optional
-        Targets and limits, drawn into the curves that they are about.
+        Targets and limits, drawn into the curves that they are about; of an axle those over its
+        motion alone.
 
     Returns
     -------
@@ -378,9 +391,14 @@ def _styles(data: xr.DataArray, count: int) -> list[tuple[Any, str]]:
     ]
 
 
+def _along(data: xr.DataArray) -> str:
+    """Return the dimension along the axis."""
+    return next(str(d) for d in data.dims if d != _FAMILY) if data.ndim > 1 else str(data.dims[0])
+
+
 def _lines(data: xr.DataArray) -> tuple[str, list[tuple[str, Array]]]:
     """Return the dimension along the axis, and label and displayed values of each line."""
-    along = next(str(d) for d in data.dims if d != _FAMILY) if data.ndim > 1 else str(data.dims[0])
+    along = _along(data)
     values = displayed(data)
     if data.ndim == 1:
         return along, [("", values)]
