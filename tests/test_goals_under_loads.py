@@ -24,6 +24,7 @@ from kintrafo.report import goals_chapter
 from kintrafo.study.variation.ways import with_bushes
 from kintrafo.suspension.toml_writer import write_toml
 from scipy.optimize import brentq
+from test_rigid_axle_compliance import FIVE
 from typer.testing import CliRunner
 
 REAR = "bushings.arm_rear.radial_N_per_mm"
@@ -137,12 +138,18 @@ def test_without_bushes_nothing_is_judged(goals: Path) -> None:
         variation.judge(Suspension.load("reference_car"), wanted)
 
 
-@pytest.mark.parametrize("rigid", [False, True])
-def test_goals_of_both_wheels(rigid: bool) -> None:
+@pytest.mark.parametrize(
+    ("axle", "bushes"),
+    [
+        (Axle.load("reference_axle"), BUSHES),
+        (RigidAxle.load("rigid_axle"), RODS),
+        (FIVE, dict(FIVE.bushings or {})),  # without rigid rods they have no curves
+    ],
+    ids=["independent", "rigid", "five rods"],
+)
+def test_goals_of_both_wheels(axle: Any, bushes: dict[str, Any]) -> None:
     name = "toe_by_lateral_opposed_left"
-    axle: Any = (RigidAxle if rigid else Axle).load("rigid_axle" if rigid else "reference_axle")
-    bushes = RODS if rigid else BUSHES
-    module: Any = rigid_axles if rigid else axles
+    module: Any = axles if isinstance(axle, Axle) else rigid_axles
     found = module.compliance(axle, bushes, [0.0, 0.02])
     toe = np.rad2deg(found[name].values) * 1e3
     limits = {name: {"at_mm": [0.0, 20.0], "most": 0.01}}
@@ -158,7 +165,7 @@ def test_goals_of_both_wheels(rigid: bool) -> None:
     np.testing.assert_allclose(line.get_xydata(), [[0.0, 0.01], [20.0, 0.01]], rtol=1e-12)
     (row,) = goals_chapter(soft, wanted).tables[0].rows
     assert row[2] == "held: height"
-    if not rigid:
+    if isinstance(axle, Axle):
         assert row[4] == f"{toe.max() - 0.01:.5g}"
 
 

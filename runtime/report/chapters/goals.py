@@ -14,7 +14,7 @@ from ...study.axles import by_side
 from ...study.axles.catalogue import SIDES
 from ...study.loads.flexibility import HELD
 from ...study.variation.goals import Goal, Verdict, judge
-from ...study.variation.ways import Looked, dataset_of, model_of, usual_positions, way
+from ...study.variation.ways import Looked, dataset_of, judged_model, usual_positions, way
 from ...suspension.axle import Axle
 from ...suspension.model import Model
 from ...suspension.rigid import RigidAxle
@@ -52,8 +52,9 @@ def goals_chapter(subject: Model | Axle | RigidAxle, goals: Sequence[Goal]) -> C
     verdicts = judge(subject.suspension if isinstance(subject, Model) else subject, goals)
     missed = sum(not verdict.met for verdict in verdicts)
     words = f"{len(verdicts) - missed} of {len(verdicts)} are met, {missed} missed."
-    looked = subject if isinstance(subject, Model) else model_of(subject)
-    pictures = [_drawn(looked, goals, over) for over in dict.fromkeys(g.over for g in goals)]
+    ways = list(dict.fromkeys(goal.over for goal in goals))
+    looked = subject if isinstance(subject, Model) else judged_model(subject, ways)
+    pictures = [_drawn(looked, goals, over) for over in ways]
     table = _table(goals, verdicts)
     return Chapter("Targets and limits", (words, _MEANING), (table,), tuple(pictures))
 

@@ -20,8 +20,10 @@ from .curves import Curves, Together
 from .ways import (
     OF_SUSPENSIONS,
     WAYS,
+    Looked,
     Subject,
     compliances_over,
+    judged_model,
     model_of,
     refuse_of_steering,
     there,
@@ -255,9 +257,10 @@ def judge(suspension: Subject | Axle, wanted: Sequence[Goal]) -> list[Verdict]:
         ):
             given.refuse("wanted: a list of targets and limits, from `goals`, is needed.")
         if not given.refused:
-            check_data(given, suspension, wanted)
+            model = judged_model(suspension, [goal.over for goal in wanted])
+            check_data(given, suspension, wanted, model)
     looks = Together([goal.curves for goal in wanted])
-    found = looks.of(model_of(suspension)) if wanted else []
+    found = looks.of(model) if wanted else []
     return [_verdict(goal, values[0]) for goal, values in zip(wanted, found, strict=True)]
 
 
@@ -273,15 +276,29 @@ def _verdict(goal: Goal, values: Array) -> Verdict:
     return Verdict(goal.name, goal.over, kind, met, float(beyond[worst]), float(goal.at[worst]))
 
 
-def check_data(given: Arguments, suspension: Subject | Axle, goals: Iterable[Goal]) -> None:
+def check_data(
+    given: Arguments,
+    suspension: Subject | Axle,
+    goals: Iterable[Goal],
+    looked_at: Looked | None = None,
+) -> None:
     """Refuse goals about what the suspension has not: no data in the file, or no number there.
+
+    Parameters
+    ----------
+    given : Arguments
+    suspension : Suspension, Axle or RigidAxle
+    goals : iterable of Goal
+    looked_at : Model, RigidAxleModel or Axle, optional
+        By default what `model_of` returns.
 
     Raises
     ------
     PositionError
         If the suspension does not reach a position.
     """
-    model, ways = model_of(suspension), ways_of(suspension)
+    model = model_of(suspension) if looked_at is None else looked_at
+    ways = ways_of(suspension)
     for goal in goals:
         name = f"{goal.name} over {ways[0] if goal.over in HELD else goal.over}"
         if goal.over not in (*ways, *HELD):

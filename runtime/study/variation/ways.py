@@ -151,6 +151,13 @@ def model_of(subject: Subject | Axle, *, wheel_loads: bool = False) -> Looked:
     return Model(subject, free_rack=free_rack, wheel_loads=wheel_loads)
 
 
+def judged_model(subject: Subject | Axle, overs: Iterable[str]) -> Looked:
+    """Return what is evaluated over some ways: five rods, too, where all of it is under loads."""
+    if isinstance(subject, RigidAxle) and all(over in HELD for over in overs):
+        return RigidAxleModel(subject, guided=subject.overheld)
+    return model_of(subject)
+
+
 def usual_positions(model: Looked, over: str) -> Array:
     """Return the usual positions, as far as it goes [m] or [rad]."""
     if isinstance(model, Model):
