@@ -201,8 +201,11 @@ def test_goals_of_an_axle_are_those_of_its_sides() -> None:
     }
     wanted = variation.goals(described, ["bump"])
     dataset = axles.by_side(axles.bump(Axle.load("reference_axle"), np.linspace(-0.05, 0.05, 11)))
-    panels = curves.figure(dataset, ["camber", "toe", "roll_center_height"], goals=wanted)
+    names = ["camber", "toe", "roll_center_height"]
+    panels = curves.figure(dataset, names, goals=wanted, columns=2)
     camber, toe, height = panels.get_axes()
+    beside = {round(axes.get_position().x0, 2) for axes in panels.get_axes()}
+    assert len(beside) == 2
     # what is the same for both is one mark, and of one side it has the colour of its curve
     assert drawn(camber, "target") == [pytest.approx(np.array([[-40.0, 0.5], [40.0, -0.5]]))]
     assert not drawn(camber, "target, left")

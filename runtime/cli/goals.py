@@ -32,8 +32,8 @@ Goals = Annotated[
     typer.Option(
         "--goals",
         metavar="FILE",
-        help="TOML with [targets] and [limits] of characteristics, as of kintrafo optimise: they "
-        "are drawn into curves, and a table says which are met.",
+        help="TOML with [targets] and [limits] of characteristics or compliance, as of kintrafo "
+        "optimise: they are drawn into the curves, and it is told which are met.",
     ),
 ]
 

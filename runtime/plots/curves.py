@@ -273,6 +273,7 @@ def figure(
     *,
     title: str = "",
     alone: bool = True,
+    columns: int = _COLUMNS,
     goals: Sequence[Goal] = (),
 ) -> Figure:
     """Draw curves of some variables, each in its own axes.
@@ -285,6 +286,8 @@ def figure(
     title : str, optional
     alone : bool, optional
         Whether this is the figure of one curve, with its definition where there is one.
+    columns : int, optional
+        How many curves stand beside each other at most.
     goals : sequence of Goal, optional
         Targets and limits, drawn into the curves that they are about; of an axle those over its
         motion alone.
@@ -297,11 +300,12 @@ def figure(
         given.dataset(dataset)
         given.text("title", title)
         given.flag("alone", alone)
+        columns = given.whole("columns", columns, least=1)
         if not given.refused:
             names = given.names("names", names, map(str, _curves(dataset)))
             if not names:
                 given.refuse("names is empty: at least one variable is needed.")
-    columns = min(_COLUMNS, len(names))
+    columns = min(columns, len(names))
     rows = -(-len(names) // columns)
     size = (7.2, 4.6) if alone else (max(3.7 * columns, 5.0), 1.0 + 2.5 * rows)
     result = Figure(figsize=size, layout="constrained")

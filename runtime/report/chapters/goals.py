@@ -24,6 +24,8 @@ _MEANING = (
     "A target is met where it is off by no more than what matters of it, at all of its positions. "
     "Beyond is by how much more the worst position is off."
 )
+# So few beside each other are read on the width of a phone, too.
+_COLUMNS = 2
 _NEEDED = "a kintrafo.Model, a kintrafo.Axle or a kintrafo.RigidAxle is needed"
 
 
@@ -69,7 +71,8 @@ def _drawn(looked: Looked, goals: Sequence[Goal], over: str) -> Picture:
     words = f"{kind} over {way(over).words} with targets and limits"
     title = f"{words}\n{HELD[over]}" if over in HELD else words
     with rc_context(STYLE):
-        return Picture.of(figure(dataset, [*names], title=title, alone=False, goals=own), words)
+        drawn = figure(dataset, [*names], title=title, alone=False, columns=_COLUMNS, goals=own)
+        return Picture.of(drawn, words)
 
 
 def _both(name: str) -> str:
