@@ -157,7 +157,7 @@ def lanes_extensions(wrappers: Iterable[Path]) -> Iterator[Lanes]:
     for wrapper in wrappers:
         name = wrapper.stem.removeprefix("_")
         manifest = json.loads((GENERATED / f"{name}.json").read_text(encoding="utf-8"))
-        functions = ["prepare", "design_state", "rhs", "signals", "margins"]
+        functions = ["prepare", "design_state", "rhs", "signals", "bounded", "margins"]
         functions += [f"rhs_{variant}" for variant in manifest["held_variants"]]
         iterates = any("iterates" in function for function in manifest["functions"].values())
         yield Lanes(

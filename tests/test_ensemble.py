@@ -235,7 +235,7 @@ def test_the_same_bits_in_eight_lanes(tmp_path: Path, monkeypatch: Any) -> None:
     sources = [str(lanes.HEADERS / "model.c"), str(lanes.HEADERS / "integrate.c")]
     wide = lanes.compiled(tmp_path, sources[0], sources[1], *flags, name="eight")
     names = ("prepare", "design_state", "rhs", "signals", "margins")
-    addresses = {n: lanes.address(wide, f"four_bar_{n}") for n in names}
+    addresses = {n: lanes.address(wide, f"four_bar_{n}") for n in names} | {"bounded": 0}
     monkeypatch.setattr(library, "widths", lambda: (8,))
     monkeypatch.setattr(library, "solver", lambda *_: wide.kt_integrate_8)
     monkeypatch.setattr(library, "functions", lambda *_: addresses)

@@ -3,6 +3,7 @@
 import ctypes
 import shutil
 from pathlib import Path
+from typing import Any
 
 import lanes
 import mpmath
@@ -117,6 +118,24 @@ class Both:
             np.testing.assert_array_equal(found[:, lane], out, strict=True)
         return found
 
+    def bounded(self, signals: dict[str, Any], *arguments: np.ndarray) -> None:
+        """Demand the same bits of signals with ranges, where no other is evaluated."""
+        ranged = [i for i, described in enumerate(signals.values()) if "ranges" in described]
+        if not ranged:
+            return
+        width: int = arguments[0].shape[1]
+        (everything, refused), (found, status) = (
+            lanes.call(
+                self.drivers[width],
+                getattr(self.lanes, f"{self.name}_{function}_{width}"),
+                *arguments,
+                size=size,
+            )
+            for function, size in (("signals", len(signals)), ("bounded", len(ranged)))
+        )
+        np.testing.assert_array_equal(found, everything[ranged], strict=True)
+        assert not (status & ~refused).any()  # it has some of the guards
+
 
 def some_parameters(model, rng: np.random.Generator, width: int) -> np.ndarray:
     """Return the defaults in the first lane, and sets near them; some are of no mechanism."""
@@ -154,3 +173,4 @@ def compare(pair: Both, model, rng: np.random.Generator, width: int) -> None:
             inputs = 0.02 * rng.standard_normal((max(1, len(model.INPUTS)), width))
             for function, size in functions.items():
                 pair.same(function, constants, state, inputs, size=size)
+            pair.bounded(model.SIGNALS, constants, state, inputs)

@@ -1009,7 +1009,8 @@ status_word double_wishbone_design_state(const double *restrict parameters, doub
 
 enum double_wishbone_function { DOUBLE_WISHBONE_RHS, DOUBLE_WISHBONE_RHS_RACK_HELD,
     DOUBLE_WISHBONE_RESIDUALS, DOUBLE_WISHBONE_SIGNALS, DOUBLE_WISHBONE_MARGINS,
-    DOUBLE_WISHBONE_DYNAMICS, DOUBLE_WISHBONE_POSES, DOUBLE_WISHBONE_JACOBIANS };
+    DOUBLE_WISHBONE_DYNAMICS, DOUBLE_WISHBONE_POSES, DOUBLE_WISHBONE_JACOBIANS,
+    DOUBLE_WISHBONE_BOUNDED };
 
 /* All functions of this file: the steps, each once, and the results of the one wanted. */
 INLINED status_word compute(const enum double_wishbone_function wanted,
@@ -2456,6 +2457,18 @@ INLINED status_word compute(const enum double_wishbone_function wanted,
         status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE);
         status |= finite_bit(out, 56, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
     }
+
+    if (wanted == DOUBLE_WISHBONE_BOUNDED) {
+        /* bounded */
+        out[0] = tyre_force; /* tyre_force */
+
+        status |= guard_bit(upper_arm_reach_squared, c->upper_arm_reach_squared_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED);
+        status |= guard_bit(upper_arm_closure, c->upper_arm_closure_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE);
+        status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED);
+        status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE);
+        status |= guard_bit(cos_camber_squared, 1e-10, DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED);
+        status |= finite_bit(out, 1, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
+    }
     return status;
 }
 
@@ -2507,6 +2520,16 @@ status_word double_wishbone_jacobians(const double *restrict constants, const do
                                       const double *restrict inputs, double *restrict out)
 {
     return compute(DOUBLE_WISHBONE_JACOBIANS, constants, state, inputs, NULL, out);
+}
+
+#endif
+
+#ifdef KINTRAFO_LANES
+
+status_word double_wishbone_bounded(const double *restrict constants, const double *restrict state,
+                                    const double *restrict inputs, double *restrict out)
+{
+    return compute(DOUBLE_WISHBONE_BOUNDED, constants, state, inputs, NULL, out);
 }
 
 #endif

@@ -1088,7 +1088,7 @@ enum double_wishbone_general_function { DOUBLE_WISHBONE_GENERAL_RHS,
     DOUBLE_WISHBONE_GENERAL_RHS_RACK_HELD, DOUBLE_WISHBONE_GENERAL_RESIDUALS,
     DOUBLE_WISHBONE_GENERAL_SIGNALS, DOUBLE_WISHBONE_GENERAL_MARGINS,
     DOUBLE_WISHBONE_GENERAL_DYNAMICS, DOUBLE_WISHBONE_GENERAL_POSES,
-    DOUBLE_WISHBONE_GENERAL_JACOBIANS };
+    DOUBLE_WISHBONE_GENERAL_JACOBIANS, DOUBLE_WISHBONE_GENERAL_BOUNDED };
 
 /* All functions of this file: the steps, each once, and the results of the one wanted. */
 INLINED status_word compute(const enum double_wishbone_general_function wanted,
@@ -2649,6 +2649,20 @@ INLINED status_word compute(const enum double_wishbone_general_function wanted,
         status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, DOUBLE_WISHBONE_GENERAL_STATUS_KNUCKLE_CLOSURE);
         status |= finite_bit(out, 56, DOUBLE_WISHBONE_GENERAL_STATUS_NOT_FINITE);
     }
+
+    if (wanted == DOUBLE_WISHBONE_GENERAL_BOUNDED) {
+        /* bounded */
+        out[0] = spring_velocity; /* spring_velocity */
+        out[1] = tyre_force; /* tyre_force */
+
+        status |= guard_bit(upper_arm_reach_squared, c->upper_arm_reach_squared_floor, DOUBLE_WISHBONE_GENERAL_STATUS_UPPER_ARM_REACH_SQUARED);
+        status |= guard_bit(upper_arm_closure, c->upper_arm_closure_floor, DOUBLE_WISHBONE_GENERAL_STATUS_UPPER_ARM_CLOSURE);
+        status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, DOUBLE_WISHBONE_GENERAL_STATUS_KNUCKLE_REACH_SQUARED);
+        status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, DOUBLE_WISHBONE_GENERAL_STATUS_KNUCKLE_CLOSURE);
+        status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, DOUBLE_WISHBONE_GENERAL_STATUS_SPRING_LENGTH_SQUARED);
+        status |= guard_bit(cos_camber_squared, 1e-10, DOUBLE_WISHBONE_GENERAL_STATUS_COS_CAMBER_SQUARED);
+        status |= finite_bit(out, 2, DOUBLE_WISHBONE_GENERAL_STATUS_NOT_FINITE);
+    }
     return status;
 }
 
@@ -2700,6 +2714,16 @@ status_word double_wishbone_general_jacobians(const double *restrict constants, 
                                               const double *restrict inputs, double *restrict out)
 {
     return compute(DOUBLE_WISHBONE_GENERAL_JACOBIANS, constants, state, inputs, NULL, out);
+}
+
+#endif
+
+#ifdef KINTRAFO_LANES
+
+status_word double_wishbone_general_bounded(const double *restrict constants, const double *restrict state,
+                                            const double *restrict inputs, double *restrict out)
+{
+    return compute(DOUBLE_WISHBONE_GENERAL_BOUNDED, constants, state, inputs, NULL, out);
 }
 
 #endif

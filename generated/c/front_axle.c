@@ -1304,7 +1304,7 @@ status_word front_axle_design_state(const double *restrict parameters, double *r
 
 enum front_axle_function { FRONT_AXLE_RHS, FRONT_AXLE_RHS_RACK_HELD, FRONT_AXLE_RESIDUALS,
     FRONT_AXLE_SIGNALS, FRONT_AXLE_MARGINS, FRONT_AXLE_DYNAMICS, FRONT_AXLE_POSES,
-    FRONT_AXLE_JACOBIANS };
+    FRONT_AXLE_JACOBIANS, FRONT_AXLE_BOUNDED };
 
 /* All functions of this file: the steps, each once, and the results of the one wanted. */
 INLINED status_word compute(const enum front_axle_function wanted,
@@ -5710,6 +5710,24 @@ INLINED status_word compute(const enum front_axle_function wanted,
         status |= guard_bit(shaft_level_squared_left_C, 1e-10, FRONT_AXLE_STATUS_SHAFT_LEVEL_SQUARED_LEFT_C);
         status |= finite_bit(out, 984, FRONT_AXLE_STATUS_NOT_FINITE);
     }
+
+    if (wanted == FRONT_AXLE_BOUNDED) {
+        /* bounded */
+        out[0] = length_right_BC; /* right_strut_length */
+        out[1] = right_front_tyre_force; /* right_front_tyre_force */
+        out[2] = length_left_BC; /* left_strut_length */
+        out[3] = left_front_tyre_force; /* left_front_tyre_force */
+
+        status |= guard_bit(length_squared_right_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC);
+        status |= guard_bit(right_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED);
+        status |= guard_bit(right_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE);
+        status |= guard_bit(length_squared_left_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC);
+        status |= guard_bit(left_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED);
+        status |= guard_bit(left_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE);
+        status |= guard_bit(right_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_RIGHT_FRONT_COS_CAMBER_SQUARED);
+        status |= guard_bit(left_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED);
+        status |= finite_bit(out, 4, FRONT_AXLE_STATUS_NOT_FINITE);
+    }
     return status;
 }
 
@@ -5761,6 +5779,16 @@ status_word front_axle_jacobians(const double *restrict constants, const double 
                                  const double *restrict inputs, double *restrict out)
 {
     return compute(FRONT_AXLE_JACOBIANS, constants, state, inputs, NULL, out);
+}
+
+#endif
+
+#ifdef KINTRAFO_LANES
+
+status_word front_axle_bounded(const double *restrict constants, const double *restrict state,
+                               const double *restrict inputs, double *restrict out)
+{
+    return compute(FRONT_AXLE_BOUNDED, constants, state, inputs, NULL, out);
 }
 
 #endif

@@ -885,7 +885,7 @@ status_word macpherson_design_state(const double *restrict parameters, double *r
 
 enum macpherson_function { MACPHERSON_RHS, MACPHERSON_RHS_RACK_HELD, MACPHERSON_RESIDUALS,
     MACPHERSON_SIGNALS, MACPHERSON_MARGINS, MACPHERSON_DYNAMICS, MACPHERSON_POSES,
-    MACPHERSON_JACOBIANS };
+    MACPHERSON_JACOBIANS, MACPHERSON_BOUNDED };
 
 /* All functions of this file: the steps, each once, and the results of the one wanted. */
 INLINED status_word compute(const enum macpherson_function wanted,
@@ -2469,6 +2469,18 @@ INLINED status_word compute(const enum macpherson_function wanted,
         status |= guard_bit(shaft_level_squared_C, 1e-10, MACPHERSON_STATUS_SHAFT_LEVEL_SQUARED_C);
         status |= finite_bit(out, 236, MACPHERSON_STATUS_NOT_FINITE);
     }
+
+    if (wanted == MACPHERSON_BOUNDED) {
+        /* bounded */
+        out[0] = length_BC; /* strut_length */
+        out[1] = tyre_force; /* tyre_force */
+
+        status |= guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_STATUS_LENGTH_SQUARED_BC);
+        status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED);
+        status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_STATUS_KNUCKLE_CLOSURE);
+        status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_STATUS_COS_CAMBER_SQUARED);
+        status |= finite_bit(out, 2, MACPHERSON_STATUS_NOT_FINITE);
+    }
     return status;
 }
 
@@ -2520,6 +2532,16 @@ status_word macpherson_jacobians(const double *restrict constants, const double 
                                  const double *restrict inputs, double *restrict out)
 {
     return compute(MACPHERSON_JACOBIANS, constants, state, inputs, NULL, out);
+}
+
+#endif
+
+#ifdef KINTRAFO_LANES
+
+status_word macpherson_bounded(const double *restrict constants, const double *restrict state,
+                               const double *restrict inputs, double *restrict out)
+{
+    return compute(MACPHERSON_BOUNDED, constants, state, inputs, NULL, out);
 }
 
 #endif

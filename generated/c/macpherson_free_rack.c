@@ -1019,7 +1019,7 @@ status_word macpherson_free_rack_design_state(const double *restrict parameters,
 
 enum macpherson_free_rack_function { MACPHERSON_FREE_RACK_RHS, MACPHERSON_FREE_RACK_RESIDUALS,
     MACPHERSON_FREE_RACK_SIGNALS, MACPHERSON_FREE_RACK_MARGINS, MACPHERSON_FREE_RACK_DYNAMICS,
-    MACPHERSON_FREE_RACK_POSES, MACPHERSON_FREE_RACK_JACOBIANS };
+    MACPHERSON_FREE_RACK_POSES, MACPHERSON_FREE_RACK_JACOBIANS, MACPHERSON_FREE_RACK_BOUNDED };
 
 /* All functions of this file: the steps, each once, and the results of the one wanted. */
 INLINED status_word compute(const enum macpherson_free_rack_function wanted,
@@ -3090,6 +3090,18 @@ INLINED status_word compute(const enum macpherson_free_rack_function wanted,
         status |= guard_bit(shaft_level_squared_E, 1e-10, MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_E);
         status |= finite_bit(out, 576, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
     }
+
+    if (wanted == MACPHERSON_FREE_RACK_BOUNDED) {
+        /* bounded */
+        out[0] = length_BC; /* strut_length */
+        out[1] = tyre_force; /* tyre_force */
+
+        status |= guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC);
+        status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED);
+        status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE);
+        status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED);
+        status |= finite_bit(out, 2, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
+    }
     return status;
 }
 
@@ -3135,6 +3147,16 @@ status_word macpherson_free_rack_jacobians(const double *restrict constants, con
                                            const double *restrict inputs, double *restrict out)
 {
     return compute(MACPHERSON_FREE_RACK_JACOBIANS, constants, state, inputs, NULL, out);
+}
+
+#endif
+
+#ifdef KINTRAFO_LANES
+
+status_word macpherson_free_rack_bounded(const double *restrict constants, const double *restrict state,
+                                         const double *restrict inputs, double *restrict out)
+{
+    return compute(MACPHERSON_FREE_RACK_BOUNDED, constants, state, inputs, NULL, out);
 }
 
 #endif

@@ -1067,7 +1067,8 @@ status_word macpherson_general_design_state(const double *restrict parameters, d
 
 enum macpherson_general_function { MACPHERSON_GENERAL_RHS, MACPHERSON_GENERAL_RHS_RACK_HELD,
     MACPHERSON_GENERAL_RESIDUALS, MACPHERSON_GENERAL_SIGNALS, MACPHERSON_GENERAL_MARGINS,
-    MACPHERSON_GENERAL_DYNAMICS, MACPHERSON_GENERAL_POSES, MACPHERSON_GENERAL_JACOBIANS };
+    MACPHERSON_GENERAL_DYNAMICS, MACPHERSON_GENERAL_POSES, MACPHERSON_GENERAL_JACOBIANS,
+    MACPHERSON_GENERAL_BOUNDED };
 
 /* All functions of this file: the steps, each once, and the results of the one wanted. */
 INLINED status_word compute(const enum macpherson_general_function wanted,
@@ -3070,6 +3071,21 @@ INLINED status_word compute(const enum macpherson_general_function wanted,
         status |= guard_bit(shaft_level_squared_C, 1e-10, MACPHERSON_GENERAL_STATUS_SHAFT_LEVEL_SQUARED_C);
         status |= finite_bit(out, 236, MACPHERSON_GENERAL_STATUS_NOT_FINITE);
     }
+
+    if (wanted == MACPHERSON_GENERAL_BOUNDED) {
+        /* bounded */
+        out[0] = length_BC; /* strut_length */
+        out[1] = strut_velocity; /* strut_velocity */
+        out[2] = tyre_force; /* tyre_force */
+
+        status |= guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_GENERAL_STATUS_LENGTH_SQUARED_BC);
+        status |= guard_bit(reach_BC, c->length_BC_floor, MACPHERSON_GENERAL_STATUS_LENGTH_BC);
+        status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_GENERAL_STATUS_KNUCKLE_REACH_SQUARED);
+        status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_GENERAL_STATUS_KNUCKLE_CLOSURE);
+        status |= guard_bit(knuckle_plane_squared, c->knuckle_reach_squared_floor, MACPHERSON_GENERAL_STATUS_KNUCKLE_PLANE_SQUARED);
+        status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_GENERAL_STATUS_COS_CAMBER_SQUARED);
+        status |= finite_bit(out, 3, MACPHERSON_GENERAL_STATUS_NOT_FINITE);
+    }
     return status;
 }
 
@@ -3121,6 +3137,16 @@ status_word macpherson_general_jacobians(const double *restrict constants, const
                                          const double *restrict inputs, double *restrict out)
 {
     return compute(MACPHERSON_GENERAL_JACOBIANS, constants, state, inputs, NULL, out);
+}
+
+#endif
+
+#ifdef KINTRAFO_LANES
+
+status_word macpherson_general_bounded(const double *restrict constants, const double *restrict state,
+                                       const double *restrict inputs, double *restrict out)
+{
+    return compute(MACPHERSON_GENERAL_BOUNDED, constants, state, inputs, NULL, out);
 }
 
 #endif

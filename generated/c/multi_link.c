@@ -2611,7 +2611,7 @@ status_word multi_link_design_state(const double *restrict parameters, double *r
 
 enum multi_link_function { MULTI_LINK_RHS, MULTI_LINK_RHS_RACK_HELD, MULTI_LINK_RESIDUALS,
     MULTI_LINK_SIGNALS, MULTI_LINK_MARGINS, MULTI_LINK_DYNAMICS, MULTI_LINK_POSES,
-    MULTI_LINK_JACOBIANS };
+    MULTI_LINK_JACOBIANS, MULTI_LINK_BOUNDED };
 
 /* All functions of this file: the steps, each once, and the results of the one wanted. */
 INLINED status_word compute(const enum multi_link_function wanted,
@@ -6092,6 +6092,17 @@ INLINED status_word compute(const enum multi_link_function wanted,
         status |= guard_bit(rear_lower_link_cross_squared, 1e-10, MULTI_LINK_STATUS_REAR_LOWER_LINK_CROSS_SQUARED);
         status |= finite_bit(out, 42, MULTI_LINK_STATUS_NOT_FINITE);
     }
+
+    if (wanted == MULTI_LINK_BOUNDED) {
+        /* bounded */
+        out[0] = damper_velocity; /* damper_velocity */
+        out[1] = tyre_force; /* tyre_force */
+
+        status |= guard_bit(knuckle_closure, 1e-24, MULTI_LINK_STATUS_KNUCKLE_CLOSURE);
+        status |= guard_bit(damper_length_squared, c->damper_length_squared_floor, MULTI_LINK_STATUS_DAMPER_LENGTH_SQUARED);
+        status |= guard_bit(cos_camber_squared, 1e-10, MULTI_LINK_STATUS_COS_CAMBER_SQUARED);
+        status |= finite_bit(out, 2, MULTI_LINK_STATUS_NOT_FINITE);
+    }
     return status;
 }
 
@@ -6143,6 +6154,16 @@ status_word multi_link_jacobians(const double *restrict constants, const double 
                                  const double *restrict inputs, double *restrict out)
 {
     return compute(MULTI_LINK_JACOBIANS, constants, state, inputs, NULL, out);
+}
+
+#endif
+
+#ifdef KINTRAFO_LANES
+
+status_word multi_link_bounded(const double *restrict constants, const double *restrict state,
+                               const double *restrict inputs, double *restrict out)
+{
+    return compute(MULTI_LINK_BOUNDED, constants, state, inputs, NULL, out);
 }
 
 #endif

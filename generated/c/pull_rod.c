@@ -1422,7 +1422,7 @@ status_word pull_rod_design_state(const double *restrict parameters, double *res
 }
 
 enum pull_rod_function { PULL_ROD_RHS, PULL_ROD_RHS_RACK_HELD, PULL_ROD_RESIDUALS, PULL_ROD_SIGNALS,
-    PULL_ROD_MARGINS, PULL_ROD_DYNAMICS, PULL_ROD_POSES, PULL_ROD_JACOBIANS };
+    PULL_ROD_MARGINS, PULL_ROD_DYNAMICS, PULL_ROD_POSES, PULL_ROD_JACOBIANS, PULL_ROD_BOUNDED };
 
 /* All functions of this file: the steps, each once, and the results of the one wanted. */
 INLINED status_word compute(const enum pull_rod_function wanted,
@@ -3478,6 +3478,22 @@ INLINED status_word compute(const enum pull_rod_function wanted,
         status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, PULL_ROD_STATUS_KNUCKLE_CLOSURE);
         status |= finite_bit(out, 70, PULL_ROD_STATUS_NOT_FINITE);
     }
+
+    if (wanted == PULL_ROD_BOUNDED) {
+        /* bounded */
+        out[0] = spring_velocity; /* spring_velocity */
+        out[1] = tyre_force; /* tyre_force */
+
+        status |= guard_bit(upper_arm_reach_squared, c->upper_arm_reach_squared_floor, PULL_ROD_STATUS_UPPER_ARM_REACH_SQUARED);
+        status |= guard_bit(upper_arm_closure, c->upper_arm_closure_floor, PULL_ROD_STATUS_UPPER_ARM_CLOSURE);
+        status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, PULL_ROD_STATUS_ROCKER_REACH_SQUARED);
+        status |= guard_bit(rocker_closure, c->rocker_closure_floor, PULL_ROD_STATUS_ROCKER_CLOSURE);
+        status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, PULL_ROD_STATUS_KNUCKLE_REACH_SQUARED);
+        status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, PULL_ROD_STATUS_KNUCKLE_CLOSURE);
+        status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, PULL_ROD_STATUS_SPRING_LENGTH_SQUARED);
+        status |= guard_bit(cos_camber_squared, 1e-10, PULL_ROD_STATUS_COS_CAMBER_SQUARED);
+        status |= finite_bit(out, 2, PULL_ROD_STATUS_NOT_FINITE);
+    }
     return status;
 }
 
@@ -3529,6 +3545,16 @@ status_word pull_rod_jacobians(const double *restrict constants, const double *r
                                const double *restrict inputs, double *restrict out)
 {
     return compute(PULL_ROD_JACOBIANS, constants, state, inputs, NULL, out);
+}
+
+#endif
+
+#ifdef KINTRAFO_LANES
+
+status_word pull_rod_bounded(const double *restrict constants, const double *restrict state,
+                             const double *restrict inputs, double *restrict out)
+{
+    return compute(PULL_ROD_BOUNDED, constants, state, inputs, NULL, out);
 }
 
 #endif

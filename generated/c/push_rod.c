@@ -1413,7 +1413,7 @@ status_word push_rod_design_state(const double *restrict parameters, double *res
 }
 
 enum push_rod_function { PUSH_ROD_RHS, PUSH_ROD_RHS_RACK_HELD, PUSH_ROD_RESIDUALS, PUSH_ROD_SIGNALS,
-    PUSH_ROD_MARGINS, PUSH_ROD_DYNAMICS, PUSH_ROD_POSES, PUSH_ROD_JACOBIANS };
+    PUSH_ROD_MARGINS, PUSH_ROD_DYNAMICS, PUSH_ROD_POSES, PUSH_ROD_JACOBIANS, PUSH_ROD_BOUNDED };
 
 /* All functions of this file: the steps, each once, and the results of the one wanted. */
 INLINED status_word compute(const enum push_rod_function wanted,
@@ -3410,6 +3410,22 @@ INLINED status_word compute(const enum push_rod_function wanted,
         status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, PUSH_ROD_STATUS_KNUCKLE_CLOSURE);
         status |= finite_bit(out, 70, PUSH_ROD_STATUS_NOT_FINITE);
     }
+
+    if (wanted == PUSH_ROD_BOUNDED) {
+        /* bounded */
+        out[0] = spring_velocity; /* spring_velocity */
+        out[1] = tyre_force; /* tyre_force */
+
+        status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, PUSH_ROD_STATUS_ROCKER_REACH_SQUARED);
+        status |= guard_bit(rocker_closure, c->rocker_closure_floor, PUSH_ROD_STATUS_ROCKER_CLOSURE);
+        status |= guard_bit(upper_arm_reach_squared, c->upper_arm_reach_squared_floor, PUSH_ROD_STATUS_UPPER_ARM_REACH_SQUARED);
+        status |= guard_bit(upper_arm_closure, c->upper_arm_closure_floor, PUSH_ROD_STATUS_UPPER_ARM_CLOSURE);
+        status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, PUSH_ROD_STATUS_KNUCKLE_REACH_SQUARED);
+        status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, PUSH_ROD_STATUS_KNUCKLE_CLOSURE);
+        status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, PUSH_ROD_STATUS_SPRING_LENGTH_SQUARED);
+        status |= guard_bit(cos_camber_squared, 1e-10, PUSH_ROD_STATUS_COS_CAMBER_SQUARED);
+        status |= finite_bit(out, 2, PUSH_ROD_STATUS_NOT_FINITE);
+    }
     return status;
 }
 
@@ -3461,6 +3477,16 @@ status_word push_rod_jacobians(const double *restrict constants, const double *r
                                const double *restrict inputs, double *restrict out)
 {
     return compute(PUSH_ROD_JACOBIANS, constants, state, inputs, NULL, out);
+}
+
+#endif
+
+#ifdef KINTRAFO_LANES
+
+status_word push_rod_bounded(const double *restrict constants, const double *restrict state,
+                             const double *restrict inputs, double *restrict out)
+{
+    return compute(PUSH_ROD_BOUNDED, constants, state, inputs, NULL, out);
 }
 
 #endif

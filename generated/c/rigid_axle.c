@@ -1424,7 +1424,8 @@ status_word rigid_axle_design_state(const double *restrict parameters, double *r
 }
 
 enum rigid_axle_function { RIGID_AXLE_RHS, RIGID_AXLE_RESIDUALS, RIGID_AXLE_SIGNALS,
-    RIGID_AXLE_MARGINS, RIGID_AXLE_DYNAMICS, RIGID_AXLE_POSES, RIGID_AXLE_JACOBIANS };
+    RIGID_AXLE_MARGINS, RIGID_AXLE_DYNAMICS, RIGID_AXLE_POSES, RIGID_AXLE_JACOBIANS,
+    RIGID_AXLE_BOUNDED };
 
 /* All functions of this file: the steps, each once, and the results of the one wanted. */
 INLINED status_word compute(const enum rigid_axle_function wanted,
@@ -4523,6 +4524,21 @@ INLINED status_word compute(const enum rigid_axle_function wanted,
         status |= guard_bit(sway_frame_closure, 1e-24, RIGID_AXLE_STATUS_SWAY_FRAME_CLOSURE);
         status |= finite_bit(out, 248, RIGID_AXLE_STATUS_NOT_FINITE);
     }
+
+    if (wanted == RIGID_AXLE_BOUNDED) {
+        /* bounded */
+        out[0] = right_damper_velocity; /* right_damper_velocity */
+        out[1] = right_axle_tyre_force; /* right_axle_tyre_force */
+        out[2] = left_damper_velocity; /* left_damper_velocity */
+        out[3] = left_axle_tyre_force; /* left_axle_tyre_force */
+
+        status |= guard_bit(sway_frame_closure, 1e-24, RIGID_AXLE_STATUS_SWAY_FRAME_CLOSURE);
+        status |= guard_bit(right_damper_length_squared, c->right_damper_length_squared_floor, RIGID_AXLE_STATUS_RIGHT_DAMPER_LENGTH_SQUARED);
+        status |= guard_bit(right_axle_cos_camber_squared, 1e-10, RIGID_AXLE_STATUS_RIGHT_AXLE_COS_CAMBER_SQUARED);
+        status |= guard_bit(left_damper_length_squared, c->left_damper_length_squared_floor, RIGID_AXLE_STATUS_LEFT_DAMPER_LENGTH_SQUARED);
+        status |= guard_bit(left_axle_cos_camber_squared, 1e-10, RIGID_AXLE_STATUS_LEFT_AXLE_COS_CAMBER_SQUARED);
+        status |= finite_bit(out, 4, RIGID_AXLE_STATUS_NOT_FINITE);
+    }
     return status;
 }
 
@@ -4568,6 +4584,16 @@ status_word rigid_axle_jacobians(const double *restrict constants, const double 
                                  const double *restrict inputs, double *restrict out)
 {
     return compute(RIGID_AXLE_JACOBIANS, constants, state, inputs, NULL, out);
+}
+
+#endif
+
+#ifdef KINTRAFO_LANES
+
+status_word rigid_axle_bounded(const double *restrict constants, const double *restrict state,
+                               const double *restrict inputs, double *restrict out)
+{
+    return compute(RIGID_AXLE_BOUNDED, constants, state, inputs, NULL, out);
 }
 
 #endif

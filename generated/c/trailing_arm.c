@@ -546,7 +546,8 @@ status_word trailing_arm_design_state(const double *restrict parameters, double 
 }
 
 enum trailing_arm_function { TRAILING_ARM_RHS, TRAILING_ARM_RESIDUALS, TRAILING_ARM_SIGNALS,
-    TRAILING_ARM_MARGINS, TRAILING_ARM_DYNAMICS, TRAILING_ARM_POSES, TRAILING_ARM_JACOBIANS };
+    TRAILING_ARM_MARGINS, TRAILING_ARM_DYNAMICS, TRAILING_ARM_POSES, TRAILING_ARM_JACOBIANS,
+    TRAILING_ARM_BOUNDED };
 
 /* All functions of this file: the steps, each once, and the results of the one wanted. */
 INLINED status_word compute(const enum trailing_arm_function wanted,
@@ -1038,6 +1039,16 @@ INLINED status_word compute(const enum trailing_arm_function wanted,
 
         status |= finite_bit(out, 52, TRAILING_ARM_STATUS_NOT_FINITE);
     }
+
+    if (wanted == TRAILING_ARM_BOUNDED) {
+        /* bounded */
+        out[0] = damper_velocity; /* damper_velocity */
+        out[1] = tyre_force; /* tyre_force */
+
+        status |= guard_bit(damper_length_squared, c->damper_length_squared_floor, TRAILING_ARM_STATUS_DAMPER_LENGTH_SQUARED);
+        status |= guard_bit(cos_camber_squared, 1e-10, TRAILING_ARM_STATUS_COS_CAMBER_SQUARED);
+        status |= finite_bit(out, 2, TRAILING_ARM_STATUS_NOT_FINITE);
+    }
     return status;
 }
 
@@ -1083,6 +1094,16 @@ status_word trailing_arm_jacobians(const double *restrict constants, const doubl
                                    const double *restrict inputs, double *restrict out)
 {
     return compute(TRAILING_ARM_JACOBIANS, constants, state, inputs, NULL, out);
+}
+
+#endif
+
+#ifdef KINTRAFO_LANES
+
+status_word trailing_arm_bounded(const double *restrict constants, const double *restrict state,
+                                 const double *restrict inputs, double *restrict out)
+{
+    return compute(TRAILING_ARM_BOUNDED, constants, state, inputs, NULL, out);
 }
 
 #endif

@@ -16,6 +16,7 @@ from ..memory import uncollected
 from ..planning.plan import Plan
 from ..program.constants import ConstantStage
 from ..program.function import Stage
+from ..program.narrow import narrowed
 from ..program.program import Program
 from ..program.together import share_together
 from ..program.vectors import ZERO, Vector
@@ -45,6 +46,9 @@ AXES = ("x", "y", "z")
 
 DERIVATIVES = "derivatives"
 """Part of the emitted code that holds derivatives by state and inputs, as long as all the rest."""
+
+BOUNDED = "bounded"
+"""Of the signals, those that have ranges."""
 
 
 @dataclass(frozen=True)
@@ -142,6 +146,17 @@ class Derivation:
     held_inputs: dict[str, tuple[str, ...]] = field(default_factory=dict)
     order: dict[str, int] = field(default_factory=dict)
     by_parameters: ParameterDerivatives = field(default_factory=ParameterDerivatives)
+
+    @property
+    def bounded(self) -> Function | None:
+        """The signals that have ranges, which every motion is watched for; None where none has.
+
+        They are far fewer operations than all signals.
+        """
+        names = [shown.name for shown in self.signals if shown.ranges]
+        if not names:
+            return None
+        return narrowed(self.functions["signals"], BOUNDED, "Signals that have ranges.", names)
 
 
 @uncollected()

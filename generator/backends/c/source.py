@@ -79,7 +79,7 @@ class Source(CText):
         null = "\n#include <stddef.h>" if any(map(reads_given, functions)) else ""
         printed_functions = [
             *([] if part else self._bodies_of_parameters()),
-            *self._functions(functions),
+            *self._functions(functions, () if part else self._only_in_lanes()),
         ]
         cut_up = any("NOT_INLINED" in text for text in printed_functions)
         blocks = [
@@ -99,6 +99,11 @@ class Source(CText):
         variants = (f"rhs_{variant}" for variant in self.derivation.held_inputs)
         tangents = (f"{name}_{TANGENT}" for name in ("rhs", "signals"))
         return frozenset({"rhs", *variants, "signals", "margins", *tangents})
+
+    def _only_in_lanes(self) -> Sequence[Function]:
+        """Return what is of use where many systems are evaluated: of one, all signals are shown."""
+        bounded = self.derivation.bounded
+        return [bounded] if bounded else []
 
     def _bodies_of_parameters(self) -> list[str]:
         more = map(self._body_of_parameters, self.derivation.by_parameters.of_parameters)
@@ -245,22 +250,24 @@ class Source(CText):
         ]
         return numbered[::-1]
 
-    def _functions(self, functions: Sequence[Function | Stage]) -> list[str]:
+    def _functions(
+        self, common: Sequence[Function | Stage], only_in_lanes: Sequence[Function]
+    ) -> list[str]:
         """Print functions: what they compute, each step once, and each of them as a call of it."""
+        functions = [*common, *only_in_lanes]
         own = {f"given_{e.name}" for e in self.derivation.relative}
         own.update(self.derivation.by_parameters.weights("inputs"))
         whole = together(functions, self.derivation.order, own)
         if self._in_pieces and length_of(whole) > LONG:
-            return self._functions_in_pieces(functions, whole)
+            return self._functions_in_pieces(functions, whole, only_in_lanes)
         given = any(map(reads_given, functions))
         wanted = ", ".join(map(self._wanted, functions))
         return [
             "\n".join(wrapped(f"enum {self.prefix}_function {{ {wanted} }};", 0)),
             self._compute(functions, whole, given=given),
-            *(self._call(f, given=given) for f in functions if f.name in self._in_lanes),
-            *_plain(
-                [self._call(f, given=given) for f in functions if f.name not in self._in_lanes]
-            ),
+            *(self._call(f, given=given) for f in common if f.name in self._in_lanes),
+            *_plain([self._call(f, given=given) for f in common if f.name not in self._in_lanes]),
+            *_wide([self._call(f, given=given) for f in only_in_lanes]),
         ]
 
     def _wanted(self, function: Function | Stage) -> str:
@@ -274,15 +281,22 @@ class Source(CText):
         return f"{self.signature(function, 'status_word')}\n{{\n    return {call};\n}}"
 
     def _functions_in_pieces(
-        self, functions: Sequence[Function | Stage], whole: Together
+        self,
+        functions: Sequence[Function | Stage],
+        whole: Together,
+        only_in_lanes: Sequence[Function],
     ) -> list[str]:
         """Print long functions, each by itself, as calls of its pieces."""
         simulated: list[str] = []
         others: list[str] = []
+        wide: list[str] = []
         for function, part in zip(functions, whole.parts, strict=True):
             texts = self._cut(function, part, whole)
-            (simulated if function.name in self._in_lanes else others).extend(texts)
-        return [*simulated, *_plain(others)]
+            if function in only_in_lanes:
+                wide += texts
+            else:
+                (simulated if function.name in self._in_lanes else others).extend(texts)
+        return [*simulated, *_plain(others), *_wide(wide)]
 
     def _cut(self, function: Function | Stage, part: Part, whole: Together) -> list[str]:
         """Print the pieces of a function, and what calls them."""
@@ -550,6 +564,11 @@ class _Pieces:
 def _plain(texts: Sequence[str]) -> list[str]:
     """Leave out, where numbers are vectors, what no simulation evaluates."""
     return ["#ifndef KINTRAFO_LANES", *texts, "#endif"] if texts else []
+
+
+def _wide(texts: Sequence[str]) -> list[str]:
+    """Have only where numbers are vectors what nothing else evaluates."""
+    return ["#ifdef KINTRAFO_LANES", *texts, "#endif"] if texts else []
 
 
 def _free(name: str, taken: Collection[str]) -> str:

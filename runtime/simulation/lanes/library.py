@@ -61,7 +61,7 @@ def functions(equations: ModuleType, width: int, variant: str) -> Mapping[str, i
         )
         raise InputError([problem], "ensemble")
     library, end = _of(equations, width)
-    names = {key: key for key in ("prepare", "design_state", "signals", "margins")}
+    names = {key: key for key in ("prepare", "design_state", "signals", "bounded", "margins")}
     names["rhs"] = f"rhs{variant}"
     return {key: _address(library, f"{name}_{what}{end}") for key, what in names.items()}
 

@@ -268,9 +268,11 @@ class Problem:
     outcome: Outcome = field(init=False)
     _kept: list[Any] = field(init=False, default_factory=list)
     _c: _Problem = field(init=False)
+    _shown: "_Shown" = field(init=False)
 
     def __post_init__(self) -> None:
         self.outcome = Outcome(self.systems, self.wanted, len(self.model.state_names))
+        self._shown = _Shown.of(self.model, self.wanted)
         self._c = _Problem(
             **self._of_model(),
             **self._of_systems(),
@@ -325,14 +327,18 @@ class Problem:
     def _of_model(self) -> dict[str, Any]:
         model, equations = self.model, self.model.equations
         variant = _common_variant(self.systems.drives)
+        functions = dict(library.functions(equations, self.width, variant))
+        bounded = functions.pop("bounded")
+        if self._shown.bounded:
+            functions["signals"] = bounded
         guards = meanings(equations)
         return {
-            **library.functions(equations, self.width, variant),
+            **functions,
             "parameter_count": len(equations.PARAMETERS),
             "constant_count": len(equations.CONSTANTS),
             "state_count": len(model.state_names),
             "input_count": len(model.input_names),
-            "signal_count": len(model.signal_names),
+            "signal_count": self._shown.signal_count,
             "guard_count": len(guards),
             "guards": self._ints(guards),
         }
@@ -396,13 +402,13 @@ class Problem:
         return {
             "time_count": wanted.times.size,
             "times": self._doubles(wanted.times),
-            "items": self._ints(wanted.items),
+            "items": self._ints(self._shown.places[wanted.items]),
             "sample_count": wanted.sample_count,
             "reduction_count": len(reductions),
             "reductions": self._array(_Reduction, reductions),
             "weights": self._doubles(wanted.weights),
             "bound_count": wanted.bound_items.size,
-            "bound_items": self._ints(wanted.bound_items),
+            "bound_items": self._ints(self._shown.places[wanted.bound_items]),
             "above": self._ints(wanted.above),
             "limits": self._doubles(wanted.limits),
             "limit_stride": 0 if len(wanted.limits) == 1 else wanted.bound_items.size,
@@ -419,6 +425,36 @@ class Problem:
             "finals": self._doubles(outcome.finals),
             "steps": outcome.steps.ctypes.data_as(ctypes.POINTER(ctypes.c_long)),
         }
+
+
+@dataclass(frozen=True)
+class _Shown:
+    """What is evaluated at outputs: all signals, or those with ranges if no other is asked for.
+
+    Attributes
+    ----------
+    bounded : bool
+        Whether those with ranges are all.
+    signal_count : int
+    places : ndarray
+        Of all signals, and behind the last of them the elements of the state, in what it shows.
+    """
+
+    bounded: bool
+    signal_count: int
+    places: Numbers
+
+    @classmethod
+    def of(cls, model: System, wanted: Wanted) -> "_Shown":
+        described, count = model.equations.SIGNALS, len(model.signal_names)
+        ranged = [i for i, name in enumerate(model.signal_names) if described[name].get("ranges")]
+        asked = {*wanted.items.tolist(), *wanted.bound_items.tolist()}
+        bounded = bool(ranged) and asked.isdisjoint({*range(count)}.difference(ranged))
+        shown = ranged if bounded else [*range(count)]
+        places = np.zeros(count + len(model.state_names), dtype=np.int32)
+        places[shown] = np.arange(len(shown))
+        places[count:] = len(shown) + np.arange(len(model.state_names))
+        return cls(bounded, len(shown), places)
 
 
 def _common_variant(drives: Sequence[TimeInputs]) -> str:
