@@ -597,9 +597,6 @@ def test_the_report_has_the_load_cases(kintrafo: Any, tmp_path: Path) -> None:  
     assert "panhard_rod, pull" in page
     assert ">Compliance<" in page
     assert ">Elastokinematics<" in page
-    code, _, err = kintrafo(*["report", "rigid_axle", "two.html", "--goals", "cases.toml"])
-    assert code != 0
-    assert "only for the file of one suspension" in err
 
 
 def test_a_ride_has_its_loads() -> None:
