@@ -1,4 +1,4 @@
-"""A function of some results of another."""
+"""A function of some results: with the steps, guards and iterations that these need."""
 
 from __future__ import annotations
 
@@ -9,24 +9,47 @@ from .functions import Guarded, Iterated
 from .sharing import drop_dead
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Mapping, Sequence
+
+    import sympy as sp
+
+    from .function import Block
+    from .steps import Guard, Step
 
 
-def narrowed(function: Function, name: str, doc: str, labels: Sequence[str]) -> Function:
-    """Return a function of results with some labels: only their steps, guards and iterations."""
-    of_label = dict(zip(function.labels, function.results, strict=True))
-    steps, results = drop_dead([*function.steps], [of_label[label] for label in labels])
-    expressions = [*(step.expression for step in steps), *results]
-    guarded = {g.args[0] for e in expressions for g in e.atoms(Guarded)}
-    called = {e.args[0].name for e in expressions if isinstance(e, Iterated)}
+def function_of(
+    name: str,
+    doc: str,
+    results: Mapping[str, sp.Expr],
+    steps: Iterable[Step],
+    guards: Iterable[Guard],
+    blocks: Iterable[Block],
+    *,
+    shape: Sequence[int] | None = None,
+    part: str = "",
+) -> Function:
+    """Return a function of results, which have labels; steps, guards and blocks may be too many."""
+    alive, expressions = drop_dead([*steps], [*results.values()])
+    read = [*(step.expression for step in alive), *expressions]
+    guarded = {g.args[0] for expression in read for g in expression.atoms(Guarded)}
+    called = {e.args[0].name for e in read if isinstance(e, Iterated)}
     return Function(
         name,
         doc,
-        tuple(steps),
+        tuple(alive),
+        tuple(expressions),
         tuple(results),
-        tuple(labels),
-        (len(results),),
-        tuple(guard for guard in function.guards if guard.quantity in guarded),
-        function.part,
-        tuple(block for block in function.blocks if block.name in called),
+        tuple(shape) if shape is not None else (len(expressions),),
+        tuple(guard for guard in guards if guard.quantity in guarded),
+        part,
+        tuple(block for block in blocks if block.name in called),
+    )
+
+
+def narrowed(function: Function, name: str, doc: str, labels: Sequence[str]) -> Function:
+    """Return a function of those results of another that have some labels."""
+    of_label = dict(zip(function.labels, function.results, strict=True))
+    results = {label: of_label[label] for label in labels}
+    return function_of(
+        name, doc, results, function.steps, function.guards, function.blocks, part=function.part
     )

@@ -17,9 +17,8 @@ import sympy as sp
 
 from .derivatives import chain_rule
 from .floors import SMALLEST
-from .function import Block, Function
 from .functions import Component, Frozen, Guarded, Iterated
-from .sharing import drop_dead
+from .narrow import function_of
 from .steps import Guard, Step, ancestors, first_free
 from .symbols import symbols_of
 from .together import share_together
@@ -29,6 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     from .constants import ConstantStage
+    from .function import Block, Function
 
 
 @dataclass
@@ -222,21 +222,14 @@ class Program:
             for s in self.steps.values()
             if s.symbol in needed
         ]
-        steps, expressions = drop_dead(steps, expressions)
-        acting = set().union(*(e.atoms(Guarded) for e in [s.expression for s in steps]), set())
-        acting |= set().union(*(e.atoms(Guarded) for e in expressions), set())
-        quantities = {g.args[0] for g in acting}
-        guards = tuple(g for q, g in self.guards.items() if q in quantities)
-        called = {s.expression.args[0].name for s in steps if isinstance(s.expression, Iterated)}
-        return Function(
+        return function_of(
             name,
             doc,
-            tuple(steps),
-            tuple(expressions),
-            tuple(results),
-            tuple(shape) if shape is not None else (len(expressions),),
-            guards,
-            blocks=tuple(block for n, block in self.constants.blocks.items() if n in called),
+            dict(zip(results, expressions, strict=True)),
+            steps,
+            self.guards.values(),
+            self.constants.blocks.values(),
+            shape=shape,
         )
 
     # -- constants ------------------------------------------------------------------------------

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ....equations import following
+from ...equations.outputs import BOUNDED
 from ...program.directions import TANGENT
 from ...program.floors import ROUNDING
 from ..schedule import schedule
@@ -75,11 +76,13 @@ class Source(CText):
     def text(self, part: str = "") -> str:
         """Return the text of a source file."""
         functions = [f for f in self.derivation.emitted.values() if f.part == part]
+        if not part and self.derivation.bounded:
+            functions.append(self.derivation.bounded)
         text_functions = "\n#include <string.h>" if blocks_of(functions) else ""
         null = "\n#include <stddef.h>" if any(map(reads_given, functions)) else ""
         printed_functions = [
             *([] if part else self._bodies_of_parameters()),
-            *self._functions(functions, () if part else self._only_in_lanes()),
+            *self._functions(functions),
         ]
         cut_up = any("NOT_INLINED" in text for text in printed_functions)
         blocks = [
@@ -100,15 +103,10 @@ class Source(CText):
         tangents = (f"{name}_{TANGENT}" for name in ("rhs", "signals"))
         return frozenset({"rhs", *variants, "signals", "margins", *tangents})
 
-    def _only_in_lanes(self) -> Sequence[Function]:
-        """Return what is of use where many systems are evaluated: of one, all signals are shown."""
-        bounded = self.derivation.bounded
-        return [bounded] if bounded else []
-
     def _bodies_of_parameters(self) -> list[str]:
         more = map(self._body_of_parameters, self.derivation.by_parameters.of_parameters)
         design = self._body_of_parameters(self.derivation.design, "state")
-        return [*self._rounding(), self._prepare_body(), design, *_plain([*more])]
+        return [*self._rounding(), self._prepare_body(), design, *_only("ifndef", [*more])]
 
     def _rounding(self) -> list[str]:
         if not self.derivation.assumptions:
@@ -250,25 +248,35 @@ class Source(CText):
         ]
         return numbered[::-1]
 
-    def _functions(
-        self, common: Sequence[Function | Stage], only_in_lanes: Sequence[Function]
-    ) -> list[str]:
+    def _functions(self, functions: Sequence[Function | Stage]) -> list[str]:
         """Print functions: what they compute, each step once, and each of them as a call of it."""
-        functions = [*common, *only_in_lanes]
         own = {f"given_{e.name}" for e in self.derivation.relative}
         own.update(self.derivation.by_parameters.weights("inputs"))
         whole = together(functions, self.derivation.order, own)
         if self._in_pieces and length_of(whole) > LONG:
-            return self._functions_in_pieces(functions, whole, only_in_lanes)
+            parts = zip(functions, whole.parts, strict=True)
+            return self._where_needed((f, self._cut(f, part, whole)) for f, part in parts)
         given = any(map(reads_given, functions))
         wanted = ", ".join(map(self._wanted, functions))
         return [
             "\n".join(wrapped(f"enum {self.prefix}_function {{ {wanted} }};", 0)),
             self._compute(functions, whole, given=given),
-            *(self._call(f, given=given) for f in common if f.name in self._in_lanes),
-            *_plain([self._call(f, given=given) for f in common if f.name not in self._in_lanes]),
-            *_wide([self._call(f, given=given) for f in only_in_lanes]),
+            *self._where_needed((f, [self._call(f, given=given)]) for f in functions),
         ]
+
+    def _where_needed(
+        self, printed_functions: Iterable[tuple[Function | Stage, Sequence[str]]]
+    ) -> list[str]:
+        """Guard functions: many systems need some that one alone does not, and the other way."""
+        always: list[str] = []
+        alone: list[str] = []
+        in_lanes: list[str] = []
+        for function, texts in printed_functions:
+            if function.name == BOUNDED:
+                in_lanes += texts
+            else:
+                (always if function.name in self._in_lanes else alone).extend(texts)
+        return [*always, *_only("ifndef", alone), *_only("ifdef", in_lanes)]
 
     def _wanted(self, function: Function | Stage) -> str:
         return f"{self.upper}_{function.name.upper()}"
@@ -279,24 +287,6 @@ class Source(CText):
             arguments.append("given" if reads_given(function) else "NULL")
         call = f"compute({', '.join(arguments)}, out)"
         return f"{self.signature(function, 'status_word')}\n{{\n    return {call};\n}}"
-
-    def _functions_in_pieces(
-        self,
-        functions: Sequence[Function | Stage],
-        whole: Together,
-        only_in_lanes: Sequence[Function],
-    ) -> list[str]:
-        """Print long functions, each by itself, as calls of its pieces."""
-        simulated: list[str] = []
-        others: list[str] = []
-        wide: list[str] = []
-        for function, part in zip(functions, whole.parts, strict=True):
-            texts = self._cut(function, part, whole)
-            if function in only_in_lanes:
-                wide += texts
-            else:
-                (simulated if function.name in self._in_lanes else others).extend(texts)
-        return [*simulated, *_plain(others), *_wide(wide)]
 
     def _cut(self, function: Function | Stage, part: Part, whole: Together) -> list[str]:
         """Print the pieces of a function, and what calls them."""
@@ -561,14 +551,9 @@ class _Pieces:
         return "\n".join([*lines, "    return status;", "}"])
 
 
-def _plain(texts: Sequence[str]) -> list[str]:
-    """Leave out, where numbers are vectors, what no simulation evaluates."""
-    return ["#ifndef KINTRAFO_LANES", *texts, "#endif"] if texts else []
-
-
-def _wide(texts: Sequence[str]) -> list[str]:
-    """Have only where numbers are vectors what nothing else evaluates."""
-    return ["#ifdef KINTRAFO_LANES", *texts, "#endif"] if texts else []
+def _only(condition: str, texts: Sequence[str]) -> list[str]:
+    """Let texts be compiled where numbers are vectors, or where they are not."""
+    return [f"#{condition} KINTRAFO_LANES", *texts, "#endif"] if texts else []
 
 
 def _free(name: str, taken: Collection[str]) -> str:
