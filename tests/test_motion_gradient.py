@@ -7,6 +7,7 @@ import kintrafo
 import numpy as np
 import pytest
 from kintrafo import InputError, Samples
+from kintrafo.generator import Motion
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 
@@ -148,6 +149,31 @@ def test_a_mechanism_without_signals() -> None:
     assert set(alone) < set(given)
     assert any(alone.values())
     assert alone == pytest.approx({n: given[n] for n in alone}, rel=1e-9, abs=1e-12, nan_ok=True)
+
+
+def test_a_mechanism_that_is_prescribed_as_a_whole() -> None:
+    """Nothing is integrated: against differences of the signals, of a length of some 0.1 m."""
+    given = replace(
+        SHIPPED["four_bar"],
+        mechanism=replace(FOUR_BAR, name="driven", forces=FOUR_BAR.forces[:1]),
+        independent=(),
+        prescribed={FOUR_BAR.joint("A"): Motion("crank", "rad", "angle of the crank")},
+    )
+    system = kintrafo.System(kintrafo.compile(given, parameter_derivatives=True))
+    driven = {"crank_position": lambda t: 0.1 * np.sin(20.0 * t)}
+
+    def found(**others: float) -> kintrafo.MotionGradient:
+        moved = kintrafo.System(system.equations, dict(system.parameters) | others)
+        of = {"spring_length": "rms"}
+        return kintrafo.motion_gradient(moved, SPAN, [], of, inputs=driven, t_eval=TIMES)
+
+    gradient = found()
+    for name in ("crank_pin_y", "rocker_bearing_x", "spring_ground_y"):
+        place, step = system.parameters[name], 1e-5
+        up, down = (found(**{name: place + sign * step}).value for sign in (1.0, -1.0))
+        # the third derivative is of the order of 1/length^2: 1e-10 * 100; rounding is less
+        assert gradient.by[name] == pytest.approx((up - down) / (2.0 * step), abs=1e-8)
+        assert abs(gradient.by[name]) > 1e-4
 
 
 def test_rounding_of_what_stays_has_no_slope_either(system: kintrafo.System) -> None:

@@ -3,6 +3,7 @@
 And the sweep through compiled equations against that through functions over NumPy arrays.
 """
 
+import ctypes
 from itertools import pairwise
 from typing import Any
 
@@ -14,7 +15,7 @@ from kintrafo import ModelError, Samples
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.simulation import _steps
-from kintrafo.simulation.retraced import Steps
+from kintrafo.simulation.retraced import STAGES, Steps
 from kintrafo.simulation.signals import time_inputs
 from kintrafo.simulation.sweep import Sweep
 from scipy.integrate import RK45
@@ -123,3 +124,25 @@ def test_what_is_refused_on_the_way_is_told() -> None:
     motion.y[0, 3] = np.nan
     with pytest.raises(ModelError, match=r"NaN or infinite: crank_angle.*3"):
         Steps(four_bar, motion, courses)
+
+
+@pytest.mark.usefixtures("interruptible")
+def test_an_interrupt_is_seen_on_the_way() -> None:
+    """The function that is called at every stage does nothing but send one."""
+    interrupt = ctypes.cast(ctypes.pythonapi.PyErr_SetInterrupt, ctypes.c_void_p).value
+    count, (one, none) = 10_000, (np.ones(1), np.zeros(0))
+    lengths, anew = np.ones(count), np.zeros(count, np.uint8)
+    anew[0] = 1
+    shape = (count, len(STAGES), 1)
+    inputs, states, rates = np.zeros((*shape[:2], 0)), np.zeros(shape), np.zeros(shape)
+    states[:, 0] = 1.0
+    with pytest.raises(KeyboardInterrupt):
+        _steps.go_through(interrupt, one, STAGES, lengths, anew, inputs, states, rates)
+    assert not states[-1, 1].any()
+    by_start = np.zeros(1)
+    with pytest.raises(KeyboardInterrupt):
+        _steps.go_back(
+            interrupt, one, STAGES, lengths, anew, inputs, states, np.ones((count, 1)),
+            np.zeros(shape), np.zeros(1), by_start, none,
+        )  # fmt: skip
+    assert 0.0 < by_start[0] < count

@@ -5,6 +5,13 @@ import numpy as np
 
 from libc.stdint cimport uintptr_t
 
+cdef extern from "Python.h":
+    int PyErr_CheckSignals() except -1
+
+# Steps after which an interrupt is looked for: some milliseconds.
+cdef enum:
+    LOOKS = 1024
+
 ctypedef int (*function_pointer)(
     const double *constants, const double *state, const double *inputs, double *out
 ) noexcept nogil
@@ -26,6 +33,9 @@ def go_through(
     cdef int status = 0
     with nogil:
         for step in range(states.shape[0]):
+            if step % LOOKS == 0:
+                with gil:
+                    PyErr_CheckSignals()
             if not anew[step]:
                 for i in range(n):
                     rates[step, 0, i] = rates[step - 1, last, i]
@@ -60,6 +70,9 @@ def go_back(
     cdef int status = 0
     with nogil:
         for step in range(count - 1, -1, -1):
+            if step % LOOKS == 0:
+                with gil:
+                    PyErr_CheckSignals()
             for i in range(n):
                 back[last, i] = 0.0
             for stage in range(last - (step + 1 < count and not anew[step + 1]), -1, -1):

@@ -196,9 +196,8 @@ def _longest(
     for part in courses.segments:
         rows = (times >= part.start) & (times <= part.end)
         inputs[rows] = courses.table(times[rows], part)
-    fastest = float(
-        np.abs(np.linalg.eigvals(system.evaluate("rhs_jacobian", states, inputs))).max()
-    )
+    jacobians = system.evaluate("rhs_jacobian", states, inputs)
+    fastest = float(np.abs(np.linalg.eigvals(jacobians)).max(initial=0.0))
     return (3600.0 * rtol) ** (1.0 / 6.0) / fastest if fastest > 0.0 else np.inf
 
 

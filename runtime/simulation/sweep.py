@@ -9,6 +9,7 @@ Compiled equations are called stage after stage: M_i comes with what the constan
 Functions over NumPy arrays are called for all stages at once, since each call takes long.
 """
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -86,7 +87,8 @@ class Sweep:
         self, function: str, states: Array, inputs: Array, weights: Array
     ) -> tuple[Array, Array, Array]:
         """Return derivatives of a weighted sum: by constants, by each state, and by inputs."""
-        count = states[..., 0].size  # inputs may have no elements, whose rows cannot be counted
+        # states and inputs may have no elements: their rows cannot be counted by their size
+        count = math.prod(states.shape[:-1])
         rows = [array.reshape(count, array.shape[-1]) for array in (states, inputs, weights)]
         constants, found = np.zeros(self._system.constants.size), np.zeros_like(rows[0])
         held = np.zeros(rows[1].shape[-1])
