@@ -15,7 +15,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache, partial
-from importlib import metadata
+from importlib import import_module, metadata
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated, Any
@@ -32,6 +32,7 @@ from matplotlib.figure import Figure
 from rich.console import Console
 from rich.markdown import Markdown
 
+from .lanes_arithmetic import least_seconds, operations
 from .report import (
     count,
     environment,
@@ -165,6 +166,25 @@ def _spread(values: Array, width: int) -> Array:
     aligned = memory[first : first + values.size * width].reshape(-1, width)
     aligned[:] = np.asarray(values)[:, None]
     return aligned
+
+
+def bound(found: Sequence[Call], times: int) -> str:
+    """Say what the arithmetic of a right-hand side takes in the widest lanes."""
+    widest, name = found[-1], car().equations.NAME
+    package = car().equations.__name__.rpartition(".")[0]
+    file = Path(str(import_module(f"{package}._{name}_lanes").__file__))
+    counted = operations(file, f"{name}_rhs_rack_held_{widest.lanes}")
+    if counted is None:
+        return "Nothing here shows what the compiler made: objdump would."
+    least = least_seconds(counted, widest.lanes, times) / widest.lanes * 1e9
+    return (
+        f"In {widest.lanes} lanes it is {counted.products} products of vectors, {counted.sums} "
+        f"sums and differences, {counted.quotients} quotients and {counted.roots} roots. As many "
+        f"of each, side by side and without waiting for one another, take {least:.1f} ns a car on "
+        f"this processor: so the arithmetic alone allows {found[0].nanoseconds / least:.1f} times "
+        f"the rate of one by one, and {100.0 * least / widest.nanoseconds:.0f} % of that is "
+        "reached."
+    )
 
 
 # -- a second of motion ---------------------------------------------------------------------------
@@ -402,6 +422,20 @@ def sentence(found: list[Rate]) -> str:
     )
 
 
+def share(costs: Sequence[Call], found: list[Rate]) -> str:
+    """Say how much of a car is its right-hand sides."""
+    best = min(found, key=_of_a_core)
+    tolerance = float(best.setting)
+    options = {"rtol": tolerance, "atol": tolerance, "t_eval": SAMPLES}
+    alone = simulate(car(), SPAN, start(), method="DormandPrince", **options)
+    spent = alone.nfev * costs[-1].nanoseconds / 1e3
+    return (
+        f"The car as it is goes through the second in {alone.steps} steps with {alone.nfev} "
+        f"right-hand sides. In {costs[-1].lanes} lanes these take {spent:.1f} µs, "
+        f"{100.0 * spent / _of_a_core(best):.0f} % of what one car does."
+    )
+
+
 def _of_a_core(rate: Rate) -> float:
     """Return how long a core works for one car [µs]."""
     return rate.processor_seconds / rate.cars * 1e6
@@ -454,7 +488,9 @@ def run(
         if not others:
             costs, found = list(calls(times)), list(rates(sizes, status.update))
             blocks |= {"machine": words, "calls": table_of_calls(costs)}
+            blocks |= {"bound": bound(costs, times)}
             blocks |= {"rates": table_of_rates(found), "sentence": sentence(found)}
+            blocks |= {"share": share(costs, found)}
             data |= {"calls": costs, "rates": [asdict(rate) for rate in found]}
         blocks["iterating"] = iterating(sizes[-1])
         compared = [] if quick else list(beside(sizes[-1], status.update))

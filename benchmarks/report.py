@@ -140,8 +140,7 @@ def count(number: float) -> str:
 
 def load() -> str:
     """Say how much the machine has to do."""
-    there = f"{os.getloadavg()[0]:.0f} programs at a time wanted the {usual_threads()} cores"
-    return f"Meanwhile {there}."
+    return f"Programs that wanted the {usual_threads()} cores at a time: {os.getloadavg()[0]:.0f}."
 
 
 # -- writing ------------------------------------------------------------------------------------
