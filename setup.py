@@ -166,8 +166,8 @@ def lanes_extensions(wrappers: Iterable[Path]) -> Iterator[Lanes]:
             renamed=[f"{name}_{function}" for function in functions],
             macros=[("MODEL", f'"{name}.c"')],
             depends=[
-                *((SOURCES / f"{name}{end}").as_posix() for end in (".c", ".h")),
-                *((LANES / f"{header}.h").as_posix() for header in ("elementary", "vectors")),
+                *((SOURCES / f).as_posix() for f in (f"{name}.c", f"{name}.h", "elementary.h")),
+                (LANES / "vectors.h").as_posix(),
                 *([(LANES / "follow.h").as_posix()] if iterates else []),
             ],
         )

@@ -1,23 +1,28 @@
-"""Which results are the same bits on another processor: ``python -m benchmarks.same_bits``.
+"""Which results are the same bits elsewhere: ``python -m benchmarks.same_bits``.
 
-The emitted arithmetic is compiled without contraction, so that sums, products, quotients and roots
-are the same bits wherever it runs. Sine, cosine and their inverses come from the C library, which
-chooses among its versions by what the processor has, and these round a value now and then
-differently. This program evaluates every shipped model at random states twice, the second time as a
-processor without AVX and fused operations would, and counts what differs.
+The emitted arithmetic is compiled without contraction, and its sines, cosines and inverses are made
+of it. So it should be the same bits whatever compiles it, and wherever it runs. This program
+compiles every shipped model in several ways (those that are installed: on Debian, ``apt-get install
+clang gcc-aarch64-linux-gnu qemu-user``), evaluates it at random states, and counts the results that
+are not those of the first way.
 """
 
-import json
 import os
+import shutil
 import subprocess
-import sys
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import Annotated
+from tempfile import TemporaryDirectory
+from types import ModuleType
+from typing import Annotated, Any
 
 import numpy as np
 import typer
-from kintrafo import System, generated
+from kintrafo import generated
+from kintrafo.systems.compile.compiler import FLAGS
 from rich.console import Console
 from rich.markdown import Markdown
 
@@ -26,59 +31,128 @@ from .report import count, fill_page, markdown_table
 
 STATES = 2000
 SPREAD = 0.01  # of the states about design, in their SI units
-FUNCTIONS = ("rhs", "rhs_jacobian", "mass_matrix", "signals", "positions")
+FUNCTIONS = ("rhs", "rhs_jacobian", "signals", "margins", "poses")
+SOURCES = Path(generated.__file__).parent / "c"
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
-def models() -> list[str]:
-    """Return the names of the shipped models."""
-    folder = Path(generated.__file__).parent
-    return sorted(path.stem for path in (folder / "c").glob("*.h"))
+@dataclass(frozen=True)
+class Way:
+    """How a program is compiled and run.
+
+    Attributes
+    ----------
+    name : str
+    compiler : tuple of str
+        With what differs of its options.
+    runner : tuple of str
+        What runs the program, if it does not run by itself.
+    older : bool
+        Whether it sees a processor of 2008.
+    """
+
+    name: str
+    compiler: tuple[str, ...]
+    runner: tuple[str, ...] = ()
+    older: bool = False
+
+    @property
+    def there(self) -> bool:
+        """Whether it is installed."""
+        return all(shutil.which(c[0]) for c in (self.compiler, self.runner) if c)
+
+    def evaluated(self, name: str, folder: Path) -> Array:
+        """Return the results of a model, a row for each state."""
+        program = folder / f"{name}-{WAYS.index(self)}"
+        sources = [str(folder / f"{name}_main.c"), *map(str, SOURCES.glob(f"{name}.c"))]
+        sources.append(str(SOURCES / f"{name}_derivatives.c"))
+        compiler, *options = self.compiler
+        command = [compiler, *FLAGS, *options, f"-I{SOURCES}", *sources, "-lm", "-o", str(program)]
+        subprocess.run(command, check=True)
+        more = older_processor.environment() if self.older else {}
+        done = subprocess.run(
+            [*self.runner, str(program)], env=os.environ | more, capture_output=True, check=True
+        )
+        # minus zero is zero
+        return np.frombuffer(done.stdout, dtype="<f8").reshape(STATES, -1) + 0.0
 
 
-def results(name: str) -> dict[str, list[str]]:
-    """Return the functions of a model at random states, one text of bits for each state."""
-    system = System(import_module(f"{generated.__name__}.{name}"))
-    shape = STATES, len(system.state_names)
-    states = system.design_state + SPREAD * np.random.default_rng(0).standard_normal(shape)
-    found = {
-        function: system.evaluate(function, states).reshape(STATES, -1)
-        for function in FUNCTIONS
-        if hasattr(system.equations, function)
-    }
-    # minus zero is zero
-    return {name: [(row + 0.0).tobytes().hex() for row in rows] for name, rows in found.items()}
+WAYS = (
+    Way("GCC", ("gcc",)),
+    Way("GCC, a processor without AVX", ("gcc",), older=True),
+    Way("GCC without optimisation", ("gcc", "-O0")),
+    Way("Clang", ("clang",)),
+    Way("GCC for aarch64", ("aarch64-linux-gnu-gcc", "-static"), ("qemu-aarch64",)),
+)
 
 
-def differing(name: str) -> tuple[int, int]:
-    """Return how many results of a model differ on the older processor, and of how many."""
-    here, there = _evaluated(name, {}), _evaluated(name, older_processor.environment())
-    same = [a == b for f in here for a, b in zip(here[f], there[f], strict=True)]
-    return same.count(False), len(same)
-
-
-def _evaluated(name: str, environment: dict[str, str]) -> dict[str, list[str]]:
-    command = [sys.executable, "-m", "benchmarks.same_bits", "--only", name]
-    done = subprocess.run(
-        command, env=os.environ | environment, capture_output=True, text=True, check=True
+def program(name: str, model: ModuleType) -> str:
+    """Return C that evaluates a model at many states, and writes all results."""
+    sizes = {f: len(getattr(model, f).labels) for f in FUNCTIONS if f in model.ADDRESSES}
+    size = {"p": len(model.PARAMETERS), "c": len(model.CONSTANTS), "s": len(model.STATE)}
+    values = ", ".join(repr(entry["default"]) for entry in model.PARAMETERS.values())
+    calls = "\n        ".join(
+        f"{name}_{function}(c, x, in, out);\n        fwrite(out, 8, {length}, stdout);"
+        for function, length in sizes.items()
     )
-    found: dict[str, list[str]] = json.loads(done.stdout)
-    return found
+    return f"""\
+#include <stdint.h>
+#include <stdio.h>
+#include "{name}.h"
+
+static double p[] = {{{values}}};
+static double c[{size["c"]}], s[{size["s"]}], x[{size["s"]}];
+static double in[{max(1, len(model.INPUTS))}], out[{max(sizes.values())}];
+
+int main(void)
+{{
+    uint32_t random = 1;
+    {name}_prepare(p, c);
+    {name}_design_state(p, s);
+    for (int k = 0; k < {STATES}; ++k) {{
+        for (int i = 0; i < {size["s"]}; ++i) {{
+            random = random * 1664525u + 1013904223u;
+            x[i] = s[i] + {SPREAD} * (random / 2147483648.0 - 1.0);
+        }}
+        {calls}
+    }}
+    return 0;
+}}
+"""
+
+
+def widths(model: ModuleType) -> list[int]:
+    """Return where the results of each function end in a row."""
+    sizes = [len(getattr(model, f).labels) for f in FUNCTIONS if f in model.ADDRESSES]
+    return np.cumsum(sizes).tolist()
+
+
+def differing(name: str, ways: list[Way], folder: Path) -> list[int]:
+    """Return how many results there are of a model, and how many have other bits in each way."""
+    model = import_module(f"{generated.__name__}.{name}")
+    (folder / f"{name}_main.c").write_text(program(name, model), encoding="utf-8")
+    with ThreadPoolExecutor() as pool:
+        first, *others = pool.map(lambda way: way.evaluated(name, folder), ways)
+    ends = widths(model)
+
+    def apart(found: Array) -> Iterator[int]:
+        other = first.view(np.int64) != found.view(np.int64)
+        for part in np.split(other, ends[:-1], axis=1):
+            yield int(part.any(axis=1).sum())
+
+    return [STATES * len(ends), *(sum(apart(found)) for found in others)]
 
 
 def main(
-    *,
-    page: Annotated[Path | None, typer.Option(help="Put the table into this page.")] = None,
-    only: Annotated[str | None, typer.Option(hidden=True)] = None,
+    *, page: Annotated[Path | None, typer.Option(help="Put the table into this page.")] = None
 ) -> None:
-    """Evaluate every model on this processor and as an older one would, and compare the bits."""
-    if only:
-        typer.echo(json.dumps(results(only)))
-        return
-    rows = []
-    for name in models():
-        different, total = differing(name)
-        rows.append([f"`{name}`", count(total), count(different)])
-    table = markdown_table(["model", "results", "of these other bits"], rows)
+    """Evaluate every model in all ways, and compare the bits."""
+    ways = [way for way in WAYS if way.there]
+    names = sorted(path.stem for path in SOURCES.parent.glob("*.json"))
+    with TemporaryDirectory() as folder:
+        rows = [[f"`{name}`", *map(count, differing(name, ways, Path(folder)))] for name in names]
+    table = markdown_table(["model", "results", *(way.name for way in ways[1:])], rows)
     Console().print(Markdown(table))
     if page:
         fill_page(page, {"bits": table})

@@ -15,7 +15,7 @@ from kintrafo import generated
 FOLDER = Path(generated.__file__).parent / "c"
 EMITTED = {
     path.stem: import_module(f"kintrafo.generated.{path.stem}")
-    for path in sorted(FOLDER.glob("*.h"))
+    for path in sorted(FOLDER.parent.glob("*.json"))
 }
 """All generated modules by name."""
 STRAIGHT = {

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 ROOT = Path(__file__).parent.parent
 HEADERS = ROOT / "runtime/simulation/lanes"
+EMITTED = ROOT / "generated/c"
 # as setup.py has them, but for speed
 FLAGS = ["-O1", "-fno-math-errno", "-ffp-contract=off", "-fPIC"]
 
@@ -30,7 +31,8 @@ def vectors(rows: Array) -> Array:
 def compiled(folder: Path, source: Path | str, *flags: str, name: str) -> ctypes.CDLL:
     """Compile C into a library, and load it."""
     library = folder / f"{name}.so"
-    command = ["gcc", *FLAGS, f"-I{HEADERS}", "-shared", str(source), *flags, "-o", str(library)]
+    folders = [f"-I{HEADERS}", f"-I{EMITTED}"]
+    command = ["gcc", *FLAGS, *folders, "-shared", str(source), *flags, "-o", str(library)]
     subprocess.run([*command, "-lm"], check=True)
     return ctypes.CDLL(str(library))
 

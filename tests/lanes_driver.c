@@ -1,4 +1,7 @@
 /* What tests call of the headers for lanes, and of models in lanes: through pointers to numbers. */
+#define KINTRAFO_LANES
+#include "vectors.h"
+
 #include "elementary.h"
 #include "powers.h"
 
@@ -16,10 +19,10 @@ void call_three(of_three function, const real *constants, const real *state, con
     *status = function(constants, state, inputs, out);
 }
 
-/* The functions of one lane, which emitted C may call instead of those of the C library. */
-double lane_sin(double x) { return sine(SPREAD(x))[0]; }
-double lane_cos(double x) { return cosine(SPREAD(x))[0]; }
-double lane_asin(double x) { return arc_sine(SPREAD(x))[0]; }
-double lane_atan2(double y, double x) { return arc_tangent(SPREAD(y), SPREAD(x))[0]; }
+/* The functions of one lane. */
+double lane_sin(double x) { return kt_sine(SPREAD(x))[0]; }
+double lane_cos(double x) { return kt_cosine(SPREAD(x))[0]; }
+double lane_asin(double x) { return kt_arc_sine(SPREAD(x))[0]; }
+double lane_atan2(double y, double x) { return kt_arc_tangent(SPREAD(y), SPREAD(x))[0]; }
 double lane_log2(double x) { return logarithm(SPREAD(x))[0]; }
 double lane_exp2(double x) { return exponential(SPREAD(x))[0]; }

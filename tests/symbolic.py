@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 UNIT = mpmath.mpf(2) ** -53
 """Relative error of one operation in double precision."""
 
-LIBRARY_UNIT = 2 * UNIT
-"""Relative error of a function of the C library other than the root: one unit in the last place."""
+SINE_UNIT, ARC_UNIT = 2 * UNIT, 4 * UNIT
+"""Relative errors of sine and cosine, and of arc tangent: 1 and 2 units in the last place."""
 
 
 @dataclass(frozen=True)
@@ -96,13 +96,13 @@ def _root(x: Any) -> Any:
 
 def _sine(x: Any) -> Any:
     if isinstance(x, Rounded):
-        return _rounded(mpmath.sin(x.value), x.error * abs(mpmath.cos(x.value)), LIBRARY_UNIT)
+        return _rounded(mpmath.sin(x.value), x.error * abs(mpmath.cos(x.value)), SINE_UNIT)
     return mpmath.sin(x)
 
 
 def _cosine(x: Any) -> Any:
     if isinstance(x, Rounded):
-        return _rounded(mpmath.cos(x.value), x.error * abs(mpmath.sin(x.value)), LIBRARY_UNIT)
+        return _rounded(mpmath.cos(x.value), x.error * abs(mpmath.sin(x.value)), SINE_UNIT)
     return mpmath.cos(x)
 
 
@@ -111,7 +111,7 @@ def _angle(y: Any, x: Any) -> Any:
         y, x = Rounded.of(y), Rounded.of(x)
         error = abs(x.value) * y.error + abs(y.value) * x.error
         square = x.value**2 + y.value**2
-        return _rounded(mpmath.atan2(y.value, x.value), error / square, LIBRARY_UNIT)
+        return _rounded(mpmath.atan2(y.value, x.value), error / square, ARC_UNIT)
     return mpmath.atan2(y, x)
 
 

@@ -7,6 +7,8 @@
 
 #include "andrews.h"
 
+#include "elementary.h"
+
 #include <math.h>
 #include <stddef.h>
 

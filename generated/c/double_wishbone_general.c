@@ -7,6 +7,8 @@
 
 #include "double_wishbone_general.h"
 
+#include "elementary.h"
+
 #include <math.h>
 #include <stddef.h>
 

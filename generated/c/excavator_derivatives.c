@@ -7,6 +7,8 @@
 
 #include "excavator.h"
 
+#include "elementary.h"
+
 #include <math.h>
 
 /*

@@ -7,6 +7,8 @@
 
 #include "excavator_lifting.h"
 
+#include "elementary.h"
+
 #include <math.h>
 
 /*

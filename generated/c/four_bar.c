@@ -7,6 +7,8 @@
 
 #include "four_bar.h"
 
+#include "elementary.h"
+
 #include <math.h>
 #include <stddef.h>
 

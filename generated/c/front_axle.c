@@ -7,6 +7,8 @@
 
 #include "front_axle.h"
 
+#include "elementary.h"
+
 #include <math.h>
 #include <stddef.h>
 

@@ -7,6 +7,8 @@
 
 #include "macpherson.h"
 
+#include "elementary.h"
+
 #include <math.h>
 
 /*

@@ -7,6 +7,8 @@
 
 #include "macpherson_free_rack.h"
 
+#include "elementary.h"
+
 #include <math.h>
 #include <stddef.h>
 

@@ -7,6 +7,8 @@
 
 #include "macpherson_general.h"
 
+#include "elementary.h"
+
 #include <math.h>
 
 /*

@@ -7,6 +7,8 @@
 
 #include "multi_link.h"
 
+#include "elementary.h"
+
 #include <math.h>
 #include <stddef.h>
 #include <string.h>

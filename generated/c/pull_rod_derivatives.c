@@ -7,6 +7,8 @@
 
 #include "pull_rod.h"
 
+#include "elementary.h"
+
 #include <math.h>
 
 /*

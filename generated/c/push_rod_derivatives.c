@@ -7,6 +7,8 @@
 
 #include "push_rod.h"
 
+#include "elementary.h"
+
 #include <math.h>
 
 /*

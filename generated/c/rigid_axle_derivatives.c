@@ -7,6 +7,8 @@
 
 #include "rigid_axle.h"
 
+#include "elementary.h"
+
 #include <math.h>
 #include <string.h>
 

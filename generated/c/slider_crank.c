@@ -7,6 +7,8 @@
 
 #include "slider_crank.h"
 
+#include "elementary.h"
+
 #include <math.h>
 #include <stddef.h>
 

@@ -7,6 +7,8 @@
 
 #include "trailing_arm.h"
 
+#include "elementary.h"
+
 #include <math.h>
 #include <stddef.h>
 

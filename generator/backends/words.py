@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 
 GENERATOR_VERSION = "0.1.0"
 
+ELEMENTARY = "elementary.h"
+"""The header of sine, cosine and their inverses, which all emitted C includes."""
+
 _hashes: WeakKeyDictionary[Derivation, str] = WeakKeyDictionary()
 
 FORMULA = Dialect(

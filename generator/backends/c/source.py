@@ -18,7 +18,7 @@ from ..schedule import schedule
 from ..sharing import scheduled, together
 from ..templates import template
 from ..text import text_of, written, written_values
-from ..words import FORMULA, blocks_of, reads_given
+from ..words import ELEMENTARY, FORMULA, blocks_of, reads_given
 from .common import ARGUMENTS, WIDTH, CText, unbroken
 from .iteration import call_of, once
 from .pieces import LONG, cut, is_long, length_of, steps_of
@@ -87,7 +87,8 @@ class Source(CText):
         cut_up = any("NOT_INLINED" in text for text in printed_functions)
         blocks = [
             self.banner(),
-            f'#include "{self.prefix}.h"\n\n#include <math.h>{null}{text_functions}',
+            f'#include "{self.prefix}.h"\n\n#include "{ELEMENTARY}"',
+            f"#include <math.h>{null}{text_functions}",
             template("c", "inlined.c").template.strip(),
             template("c", "scalars.c").template.strip(),
             *self._blocks(blocks_of(functions)),

@@ -11,7 +11,7 @@ from ....equations.directions import ADJOINTS, TANGENTS
 from ...declare.ranges import described as parameters_of
 from ..counting import OPERATIONS, operations_of
 from ..text import formula
-from ..words import FORMULA, GENERATOR_VERSION, iteration_note, mechanism_hash
+from ..words import ELEMENTARY, FORMULA, GENERATOR_VERSION, iteration_note, mechanism_hash
 from .drawing import drawing
 
 if TYPE_CHECKING:
@@ -43,7 +43,11 @@ def _facts(derivation: Derivation) -> dict[str, Any]:
         "written_by": f"kintrafo {GENERATOR_VERSION}; do not edit: `make generate` writes it anew",
         "mechanism": mechanism_hash(derivation),
         "note": iteration_note(derivation),
-        "sources": [f"{name}.h", *(f"{'_'.join(filter(None, (name, p)))}.c" for p in parts)],
+        "sources": [
+            ELEMENTARY,
+            f"{name}.h",
+            *(f"{'_'.join(filter(None, (name, p)))}.c" for p in parts),
+        ],
         "parameters": parameters_of(derivation.formulation.mechanism),
         "state": _described(derivation.state),
         "inputs": _inputs(derivation.inputs),

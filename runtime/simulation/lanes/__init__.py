@@ -1,6 +1,6 @@
 """Many systems of one model at once, in the lanes of vectors and on all cores.
 
-`vectors.h`, `elementary.h`, `model.c`    the emitted equations, read as ones about vectors
+`vectors.h`, `model.c`    the emitted equations, read as ones about vectors
 `follow.h`    loops that iterate, in all lanes at a time
 `integrate.c`, with the headers that it includes, below ``ensemble.h``    the solver
 `directions.c`, `directions`    directions in which one system moves, along the steps of its motion

@@ -2,12 +2,13 @@
  * One file of emitted equations, read as one about vectors: every number that it calls a double is one of
  * each lane. MODEL is its name, in quotes.
  */
+#define KINTRAFO_LANES
+
+#include "vectors.h"
+
 #include "elementary.h"
 
-#include <math.h>
 #include <stddef.h>
-
-#define KINTRAFO_LANES
 
 /* A status word for each lane. */
 typedef bits status_word;
@@ -39,18 +40,27 @@ INLINE bits first_not_finite(const real *values, int count)
     return found;
 }
 
+/* What equations name may be called like something of these headers, but not like these. */
+INLINE real kt_root(real x) { return root(x); }
+
+INLINE real kt_magnitude(real x) { return magnitude(x); }
+
+INLINE real kt_with_sign_of(real x, real sign) { return with_sign_of(x, sign); }
+
+INLINE real is_positive(real x) { return choose(x > 0.0, SPREAD(1.0), SPREAD(0.0)); }
+
 /* Numbers that depend on nothing are written as such, and come here as such. */
 #define number(x) SPREAD(x)
 #define at_least(x, least) at_least(SPREAD(x), SPREAD(least))
-#define is_positive(x) choose(SPREAD(x) > 0.0, SPREAD(1.0), SPREAD(0.0))
+#define is_positive(x) is_positive(SPREAD(x))
 #define guard_bit(quantity, least, bit) guard_bit(quantity, SPREAD(least), bit)
-#define copysign(x, sign) with_sign_of(SPREAD(x), SPREAD(sign))
-#define fabs(x) magnitude(SPREAD(x))
-#define sqrt(x) root(SPREAD(x))
-#define sin(x) sine(SPREAD(x))
-#define cos(x) cosine(SPREAD(x))
-#define asin(x) arc_sine(SPREAD(x))
-#define atan2(y, x) arc_tangent(SPREAD(y), SPREAD(x))
-#define double real
+#define copysign(x, sign) kt_with_sign_of(SPREAD(x), SPREAD(sign))
+#define fabs(x) kt_magnitude(SPREAD(x))
+#define sqrt(x) kt_root(SPREAD(x))
+#define sin(x) kt_sine(SPREAD(x))
+#define cos(x) kt_cosine(SPREAD(x))
+#define asin(x) kt_arc_sine(SPREAD(x))
+#define atan2(y, x) kt_arc_tangent(SPREAD(y), SPREAD(x))
+#define double kt_real
 
 #include MODEL

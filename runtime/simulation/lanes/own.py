@@ -13,7 +13,7 @@ from .options import OF_WIDTH, SCHEDULED
 
 _HERE = Path(__file__).parent
 # how emitted equations are read as ones about vectors
-_READ = ("model.c", "elementary.h", "follow.h", "vectors.h")
+_READ = ("model.c", "follow.h", "vectors.h")
 
 
 def is_own(equations: ModuleType) -> bool:

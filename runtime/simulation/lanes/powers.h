@@ -2,7 +2,10 @@
 #ifndef KINTRAFO_POWERS_H
 #define KINTRAFO_POWERS_H
 
-#include "elementary.h"
+#include "vectors.h"
+
+/* Added to a number, it leaves a whole one in the last digits; taken away again, it has rounded. */
+#define WHOLE 6755399441055744.0
 
 /* Of a normal positive number. Polynomials through Chebyshev's nodes, here between 1 and 2. */
 INLINE real logarithm(real x)
@@ -18,7 +21,7 @@ INLINE real logarithm(real x)
 /* For exponents of a size below 1000. */
 INLINE real exponential(real x)
 {
-    real moved = x + ROUNDER, part = x - (moved - ROUNDER);
+    real moved = x + WHOLE, part = x - (moved - WHOLE);
     real m = 0.99992456 + part * (0.69313673 + part * (0.24263948 + part * 0.05583828));
     return (real)((bits)m + ((bits)moved << 52));
 }

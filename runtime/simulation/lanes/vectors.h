@@ -14,14 +14,19 @@
 #define WIDTH 2
 #endif
 
-typedef double real __attribute__((vector_size(8 * WIDTH)));
+typedef double kt_real __attribute__((vector_size(8 * WIDTH)));
+typedef kt_real real; /* which equations may call something of theirs */
 typedef long long bits __attribute__((vector_size(8 * WIDTH)));
 typedef unsigned long long digits __attribute__((vector_size(8 * WIDTH)));
 
 #define INLINE static inline __attribute__((always_inline))
 
 /* The same number in all lanes; nothing is changed by it, nor is a vector. */
-#define SPREAD(x) ((x) - (real){0.0})
+#define SPREAD(x) ((x) - (kt_real){0.0})
+
+/* The bits of numbers, and numbers of bits. */
+#define BITS(x) ((bits)(x))
+#define REAL(x) ((real)(x))
 
 /* A vector, or the other one, lane by lane: a mask has all bits of a lane, or none. */
 INLINE bits choose_bits(bits mask, bits one, bits other) { return (one & mask) | (other & ~mask); }
