@@ -199,6 +199,39 @@ def test_compliance_tells_and_draws_them(
     assert "the rack in its middle" in " ".join(shown.output.replace("│", " ").split())
 
 
+@pytest.mark.parametrize(
+    ("file", "asked", "found"),
+    [
+        ("reference_car", ["toe_by_lateral", "camber_by_braking"], None),
+        # both wheels of a curve are drawn together
+        (
+            "reference_axle",
+            ["toe_by_lateral_opposed_right", "toe_by_braking_parallel"],
+            ["toe_by_lateral_opposed", "toe_by_braking_parallel"],
+        ),
+    ],
+)
+def test_compliance_draws_what_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, file: str, asked: list[str], found: Any
+) -> None:
+    bushes = tmp_path / "bushes.toml"
+    bushes.write_text("[bushings.arm_rear]\nradial_N_per_mm = 900\n", encoding="utf-8")
+    given: list[str] = []
+
+    def note(_: Any, path: Path, names: Any, *__: Any, **___: Any) -> Path:
+        given.extend(names)
+        return path
+
+    monkeypatch.setattr(curves, "write_overview", note)
+    words = ["compliance", file, str(bushes), "--plot", str(tmp_path / "a.png")]
+    shown = called(*words, *(word for name in asked for word in ("--of", name)))
+    assert shown.exit_code == 0, shown.exception
+    assert given == (found or asked)
+    shown = called(*words, "--of", "toe_by_laterl")
+    assert "--of 'toe_by_laterl' is not known. Did you mean toe_by_lateral" in str(shown.exception)
+    assert not list(tmp_path.glob("*.png"))
+
+
 def test_comparisons_and_reports_have_them(
     goals: Path, soft_car: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

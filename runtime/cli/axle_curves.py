@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from . import goals as wanted
 from .console import console, curve_table, print_json, print_table
-from .outputs import Outputs, name_files, named, title_of
+from .outputs import Outputs, name_files, named, of_both, title_of
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -42,9 +42,7 @@ def tell(
     from ..study.variation.ways import ways_of
 
     drawn = {motion: by_side(dataset) for motion, dataset in curves.items()}
-    # both wheels of a curve are drawn together
-    of = [name.removesuffix("_left").removesuffix("_right") for name in of or ()]
-    names = named(of, drawn)
+    names = named(of_both(of), drawn)
     aims = wanted.read(goals, [*curves], ways_of(axle))
     judged = wanted.judged({file: axle}, aims) if aims else []
     if outputs.drawn:

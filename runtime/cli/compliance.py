@@ -9,8 +9,8 @@ import typer
 from . import goals as wanted
 from .axles import refuse_options
 from .console import console, note, print_json, print_table, say
-from .options import Bump, File, Force, Json, Rebound, metres
-from .outputs import Out, Outputs, Plot, name_files, title_of
+from .options import Bump, File, Force, Json, Of, Rebound, metres
+from .outputs import Out, Outputs, Plot, name_files, named, of_both, title_of
 from .subject import described_by
 from .variation_options import At, with_position
 
@@ -26,6 +26,7 @@ EXAMPLES = (
     "kintrafo compliance my_car.toml bushes.toml",
     "kintrafo compliance my_car.toml bushes.toml --held spring --plot curves.png -o curves.csv",
     "kintrafo compliance my_car.toml --goals goals.toml --plot goals.png",
+    "kintrafo compliance my_car.toml --of toe_by_lateral --of camber_by_lateral --plot lateral.png",
     "kintrafo compliance reference_axle bushes.toml",
     "kintrafo compliance rigid_axle axle_bushes.toml",
 )
@@ -63,6 +64,7 @@ def command(
     rack: Annotated[float, typer.Option(metavar="MM", help="Rack held there.")] = 0.0,
     rebound: Rebound = None,
     bump: Bump = None,
+    of: Of = None,
     goals: wanted.Goals = None,
     out: Out = None,
     plot: Plot = None,
@@ -85,11 +87,14 @@ def command(
     inputs: list[str | Path] = [file, *(read for read in (bushes, goals) if read is not None)]
     outputs = Outputs.of(out, plot, force=force, inputs=inputs)
     where = _Where(at, rack / 1e3, metres(rebound), metres(bump), held)
-    of = described_by(file)
+    on_bushes = described_by(file)
     bushings = described(file, bushes)
-    found = _found(of, bushings, where)
+    found = _found(on_bushes, bushings, where)
     curves = found.drop_dims(["moved", "by"])
-    subject = wanted.subject_of(of)
+    alone = isinstance(on_bushes, Model)
+    drawn = curves if alone else by_side(curves)
+    names = named(of if alone else of_both(of), {held: drawn})[held]
+    subject = wanted.subject_of(on_bushes)
     aims = wanted.read(goals, [held], ways_of(subject))
     judged = wanted.judged({file: with_bushes(subject, bushings)}, aims) if aims else []
     if outputs.drawn:
@@ -99,9 +104,8 @@ def command(
         from ..plots import curves as plots
 
         title = f"{title_of(file)}: compliance, {found.attrs['held']}"
-        drawn = curves if isinstance(of, Model) else by_side(curves)
         written += [
-            plots.write_overview(drawn, path, (), title, goals=aims, force=force, inputs=inputs)
+            plots.write_overview(drawn, path, names, title, goals=aims, force=force, inputs=inputs)
             for path in outputs.pages
         ]
     if json:

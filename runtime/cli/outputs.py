@@ -216,6 +216,11 @@ def named(of: list[str] | None, drawn: "Mapping[str, Dataset]") -> dict[str, lis
     return {key: [n for n in wanted if n in dataset] for key, dataset in drawn.items()}
 
 
+def of_both(of: list[str] | None) -> list[str]:
+    """Return what curves of one wheel are called where both wheels are drawn together."""
+    return [name.removesuffix("_left").removesuffix("_right") for name in of or ()]
+
+
 def title_of(file: str) -> str:
     """Return what a figure calls a file: its name, without folder and ending."""
     return Path(file).stem if Path(file).suffix else file

@@ -86,7 +86,7 @@ OPTIONS = {
                  "--rack", "--rack-sine", "--height", "--spin", "--output-step", "--method",
                  "--rtol", "--atol", "--road-step-at", "--wheels"),
     "loads": ("-o", "--plot", "--cases", "--case", "--part"),
-    "compliance": ("-o", "--plot", "--held", "--at", "--rack", "--bump"),
+    "compliance": ("-o", "--plot", "--held", "--at", "--rack", "--bump", "--of"),
     "deflection": ("-o", "--plot", "--under", "--most", "--held", "--at", "--rack", "--bump",
                    "--wheels", "--motion"),
     "sheet": ("-o", "--held", "--json"),
@@ -112,7 +112,7 @@ WORDS = {
     "--motion": ("bump", "roll", "left", "steer", "x", ""),
     "--wheels": ("left", "both", "x"),
     "--place": ("wheel", "hardpoints.tie_rod_inner.z", "vehicle", "rack.axis", "*", "x", ""),
-    "--of": ("toe", "ackermann", "x", ""),
+    "--of": ("toe", "ackermann", "toe_by_lateral", "x", ""),
     "--keep": (
         "toe:max",
         "tyre_force:above:1",
