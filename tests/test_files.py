@@ -16,6 +16,7 @@ from kintrafo.core.files import refuse, replacing
 from kintrafo.core.legible import legible
 from kintrafo.study.measurement import measured
 from kintrafo.suspension.chrono import read
+from kintrafo.suspension.point_table import write_points
 from kintrafo.suspension.starter import write_starter
 from kintrafo.suspension.toml_writer import write_toml
 from kintrafo.systems.compile.build import compile_mechanism
@@ -134,6 +135,27 @@ def test_figures_are_refused_before_one_is_drawn(tmp_path):
     with pytest.raises(InputError, match=r"camber\.png.*\n.*there already"):
         plots.write(LINE, tmp_path)
     assert [path.name for path in tmp_path.iterdir()] == ["camber.png"]
+
+
+@pytest.mark.parametrize(
+    "rule",
+    [{"path": None}, {"path": 3}, {"force": "no"}, {"inputs": "car.toml"}, {"inputs": [3]}],
+    ids=str,
+)
+def test_every_writer_refuses_what_is_no_path(tmp_path, rule):
+    """A text in place of a list would be one file for each of its letters."""
+    car = Suspension.load("reference_car")
+    writers = [
+        (lambda path, **words: write_toml(car, path, **words), "a.toml"),
+        (lambda path, **words: write_points(car, path, **words), "a.csv"),
+        (lambda path, **words: report.write(Model(car), path, **words), "a.html"),
+        (lambda path, **words: plots.write_overview(LINE, path, **words), "a.svg"),
+        (lambda path, **words: export.write(LINE, path, **words), "a.csv"),
+    ]
+    for write, name in writers:
+        with pytest.raises(InputError):
+            write(**{"path": tmp_path / name, **rule})
+    assert not list(tmp_path.iterdir())
 
 
 def test_reports_have_a_name_of_their_own(tmp_path):

@@ -11,7 +11,7 @@ import shutil
 import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from . import written
 from .errors import InputError
@@ -107,10 +107,10 @@ def refuse(
         say that it is replaced; if it is read; if it is no ordinary file; if its name ends wrongly;
         if it is named twice.
     """
-    read = list(inputs)
+    wanted, read = _paths(paths, inputs, force)
     found = {}
     named: set[Path] = set()
-    for path in map(Path, paths):
+    for path in wanted:
         with told(path):
             whole = _resolved(path)
             problem = _wrong_ending(path, endings) or _in_the_way(whole, force, read)
@@ -122,6 +122,36 @@ def refuse(
         raise InputError([f"{given}: {problem}" for given, problem in found.items()], "output")
     for given, problem in found.items():
         raise InputError([problem], given)
+
+
+def _paths(paths: Paths, inputs: Paths, force: object) -> tuple[list[Path], list[str | Path]]:
+    """Return what is written and what is read; refuse what are no paths.
+
+    A text would be one path for each of its letters. `Arguments` would do it, and is slow to load:
+    commands that only tell how they are called read this file, too.
+    """
+    listed = {"path": _listed(paths), "inputs": _listed(inputs)}
+    problems = [
+        f"{name}: {type(wrong).__name__} is no path of a file, as 'out/curves.csv' is."
+        for name, some in listed.items()
+        for wrong in some
+        if not isinstance(wrong, str | PurePath)
+    ]
+    if isinstance(inputs, str | bytes):
+        problems.append("inputs: a list of paths is needed, not a text.")
+    if type(force).__name__ not in ("bool", "bool_"):  # NumPy's, too
+        problems.append(f"force: True or False is needed, not {type(force).__name__}.")
+    if problems:
+        raise InputError(problems, "output")
+    return [Path(path) for path in listed["path"]], listed["inputs"]
+
+
+def _listed(some: Paths) -> list[str | Path]:
+    """Return what is in a list, or what was given in its place."""
+    try:
+        return list(some)
+    except TypeError:
+        return [some]  # type: ignore[list-item]
 
 
 def _resolved(path: Path) -> Path:

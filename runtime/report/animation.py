@@ -72,6 +72,8 @@ def animate(
         given.kind("result", result, Simulation, "what kintrafo.simulate returns is needed")
         fps = given.number("fps", fps, "1/s", least=1.0, below=_QUICKEST + 1e-9)
         slower = given.number("slower", slower, "", above=0.0)
+        if title is not None:
+            given.text("title", title)
     refuse([path], force=force, inputs=inputs, endings=ENDINGS)
     if len(result.t) < 2:
         raise InputError(["the motion has one output only; nothing moves"], "animate")

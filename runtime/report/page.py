@@ -106,10 +106,12 @@ def write(
     PositionError
         If the suspension cannot move.
     """
-    tell = progress or (lambda _: None)
     refuse([path], force=force, inputs=inputs, endings=ENDINGS)
     with Arguments("report.write") as given:
         given.kind("model", model, System, System.NEEDED)
+        given.function("progress", progress)
+        if title is not None:
+            given.text("title", title)
         if motion is not None:
             given.kind("motion", motion, Simulation, "what kintrafo.simulate returns is needed")
             if isinstance(model, Model):
@@ -118,6 +120,7 @@ def write(
                 given.refuse(f"motion: it is not one of this mechanism, {model!r}.")
         if not isinstance(model, Model) and (chapters or without):
             given.refuse("chapters, without: only the report of a suspension has them")
+    tell = progress or (lambda _: None)
     text = _text(model, title, chapters, without, motion, tell)
     tell("writing the page")
     with replacing(path, force=force, inputs=inputs) as temporary:

@@ -166,7 +166,8 @@ def limits(described: Mapping[str, Any], ways: Sequence[str] = OF_SUSPENSIONS) -
         As of `goals`.
     """
     with Arguments("limits") as given:
-        return limits_of(given, given.mapping("limits", described, "names and limits"), ways)
+        tables = given.mapping("limits", described, "names and limits")
+        return limits_of(given, tables, _ways(given, ways))
 
 
 def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_SUSPENSIONS) -> list[Goal]:
@@ -186,10 +187,19 @@ def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_SUSPENSIONS) ->
     """
     with Arguments("goals") as given:
         sections = given.mapping("described", described, "sections and tables")
+        known = _ways(given, ways)
         return [
-            *targets_of(given, _section(given, sections, "targets"), ways),
-            *limits_of(given, _section(given, sections, "limits"), ways),
+            *targets_of(given, _section(given, sections, "targets"), known),
+            *limits_of(given, _section(given, sections, "limits"), known),
         ]
+
+
+def _ways(given: Arguments, ways: Any) -> Sequence[str]:
+    """Return what goals may be over; the usual where what is given is no such names."""
+    names = given.names("ways", ways, WAYS)
+    if not names and not given.refused:
+        given.refuse(f"ways is empty: one is needed, of {', '.join(WAYS)}.")
+    return names or OF_SUSPENSIONS
 
 
 def _section(given: Arguments, sections: Mapping[str, Any], name: str) -> Mapping[str, Any]:

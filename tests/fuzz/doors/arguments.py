@@ -57,6 +57,10 @@ _BAR = {
 }  # fmt: skip
 _RIGID = kintrafo.RigidAxle.load("rigid_axle")
 _RIDE, _ = rigid_axles.run(kintrafo.RigidAxleModel(_RIGID), scenario.Scenario(duration=0.01))
+# On these two goals of compliance are told, with what holds the wheels as one of their keys.
+_BUSHES = {"arm_rear": {"radial_N_per_mm": 1e3}}
+_SOFT = _CAR.suspension.with_changes({"bushings": _BUSHES})
+_SOFT_AXLE = kintrafo.Axle.from_dict({"axle": "front", "side": _SOFT})
 _EXTENT = axles.Extent(rebound=0.01, bump=0.01, roll=0.01, rack=0.01, step=0.01)
 _ONE_CURVE = _DATASET[["camber"]]
 _MEASURED = characteristics.travel(_CAR, [-0.02, 0.0, 0.02])[["toe", "camber"]]
@@ -269,6 +273,33 @@ CALLS = {
             _CAR.suspension, {_ROD: 1.0}, limits={"toe": given}, count=2, positions=[0.0]
         ),
         {"least": -1.0, "most": 1.0, "at_mm": [0.0, 1.0], "over": "travel"},
+    ),
+    "target under loads": (
+        lambda **given: variation.judge(
+            _SOFT, variation.goals({"targets": {"toe_by_lateral": given}})
+        ),
+        {"value": 0.0, "within": 1.0, "at_mm": [0.0, 1.0], "over": "travel", "held": "height"},
+    ),
+    "limit of an axle under loads": (
+        lambda **given: variation.judge(
+            _SOFT_AXLE,
+            variation.goals({"limits": {"toe_by_lateral_opposed_left": given}}, ["bump", "roll"]),
+        ),
+        {"least": -1.0, "most": 1.0, "at_mm": [0.0, 1.0], "over": "bump", "held": "spring"},
+    ),
+    "minimise under loads": (
+        lambda **given: variation.pareto(
+            _SOFT, {"bushings.arm_rear.radial_N_per_mm": 100.0}, population=4, generations=1,
+            minimise={"toe_by_lateral": [given, {"at_mm": 40.0}]},
+        ),
+        {"at_mm": [0.0, 1.0], "over": "travel", "held": "tyre"},
+    ),
+    "goals of a file": (
+        variation.goals,
+        {"described": {"limits": {"toe": {"most": 1.0}}}, "ways": ["travel", "rack"]},
+    ),
+    "variation.limits": (
+        variation.limits, {"described": {"toe_left": {"most": 1.0}}, "ways": ["bump", "roll"]}
     ),
     "SignalEvent": (
         lambda **given: kintrafo.simulate(

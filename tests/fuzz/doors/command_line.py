@@ -81,23 +81,24 @@ OPTIONS = {
     "topology": ("--free-rack", "--json"),
     "kinematics": ("-o", "--plot", "--over", "--bump", "--rebound", "--travel", "--rack", "--step"),
     "characteristics": ("-o", "--bump", "--rebound", "--travel", "--rack", "--rack-extent",
-                        "--motion", "--roll", "--of"),
+                        "--motion", "--roll", "--of", "--goals"),
     "simulate": ("-o", "--road-step", "--road-sine", "--road-frequency", "--measured", "--speed",
                  "--rack", "--rack-sine", "--height", "--spin", "--output-step", "--method",
                  "--rtol", "--atol", "--road-step-at", "--wheels"),
     "loads": ("-o", "--plot", "--cases", "--case", "--part"),
-    "compliance": ("-o", "--plot", "--held", "--at", "--rack", "--bump", "--of"),
+    "compliance": ("-o", "--plot", "--held", "--at", "--rack", "--bump", "--of",
+                   "--goals"),
     "deflection": ("-o", "--plot", "--under", "--most", "--held", "--at", "--rack", "--bump",
                    "--wheels", "--motion"),
     "sheet": ("-o", "--held", "--json"),
-    "compare": ("-o", "--over", "--of"),
+    "compare": ("-o", "--over", "--of", "--held", "--goals"),
     "sensitivity": ("-o", "--plot", "--place", "--of", "--over", "--at"),
     "tolerance": ("-o", "--plot", "--of", "--over", "--at", "--seed"),
     "optimise": ("-o", "--plot"),
     "pareto": ("-o", "--plot", "--car", "--member", "--seed"),
     "fit": ("-o", "--plot", "--of"),
     "sweep": ("-o", "--plot", "--keep", "--height", "--road-step", "--measured"),
-    "report": ("--title",),
+    "report": ("--title", "--goals"),
     "paper": ("--data",),
     "generate": ("--to", "--model", "--numpy"),
 }  # fmt: skip
@@ -130,7 +131,10 @@ WORDS = {
     "--method": ("BDF", "Adams", "Verner", "Radau", "RK45", "x", ""),
     "--model": ("four_bar", "x"),
 }
-PATHS = ("-o", "--plot", "--car", "--cases", "--to", "--data", "--tire", "--measured", "--title")
+PATHS = (
+    "-o", "--plot", "--car", "--cases", "--to", "--data", "--tire", "--measured", "--title",
+    "--goals",
+)  # fmt: skip
 CLEAR = (RefusedError,)
 STUDY = b"""
 [bushings.arm_rear]
@@ -147,6 +151,19 @@ at_mm = 10.0
 [limits.bump_steer]
 least = -1.0
 """
+HELD = (
+    b"",
+    b"""
+[limits.toe_by_lateral]
+held = "spring"
+most = 1.0
+""",
+    b"""
+[[targets.camber_by_braking]]
+held = "x"
+value = 0.0
+""",
+)
 MECHANISM = "from kintrafo.generator.mechanisms.four_bar import FOUR_BAR\n"
 
 
@@ -217,7 +234,7 @@ def _content(random: Generator, ending: str) -> bytes:
     if ending == ".sub":
         return (DATA.parent / "adams/front_suspension.sub").read_bytes()
     if ending == ".toml" and random.random() < 0.3:
-        return STUDY
+        return STUDY + HELD[random.integers(len(HELD))]
     if ending == ".csv" and random.random() < 0.5:
         return b"time_s,road_height_mm\n0,0\n0.1,5\n"
     return TEXTS[random.integers(len(TEXTS))]
