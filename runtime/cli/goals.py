@@ -153,8 +153,8 @@ def judged(
 
 def table(found: Sequence[Mapping[str, Any]], title: str) -> Table:
     """Return the table of what `judged` returns."""
-    from ..core.quantities import bracketed, display_of
-    from ..study.loads.flexibility import HELD
+    from ..core.quantities import display_of
+    from ..study.variation.goals import words_of
     from ..study.variation.ways import way
 
     files = list(dict.fromkeys(row["file"] for row in found))
@@ -165,13 +165,7 @@ def table(found: Sequence[Mapping[str, Any]], title: str) -> Table:
     for same in zip(*rows, strict=True):
         first = same[0]
         over = way(first["over"])
-        quantity = over.known[first["name"]]
-        shown = display_of(quantity.attributes())
-        words = bracketed(quantity.long_name, quantity.attributes())
-        if first["over"] in HELD:
-            words = f"{words} (held: {first['over']})"
-        elif first["over"] not in ("travel", "bump"):
-            words = f"{words} over {over.words}"
+        shown = display_of(over.known[first["name"]].attributes())
         cells = [
             "met"
             if row["met"]
@@ -179,5 +173,6 @@ def table(found: Sequence[Mapping[str, Any]], title: str) -> Table:
             f"{over.factor * row['at']:g} {over.unit}"
             for row in same
         ]
-        result.add_row(escape(f"{first['kind']}: {words}"), *cells)
+        words = words_of(first["kind"], first["name"], first["over"])
+        result.add_row(escape(words), *cells)
     return result

@@ -6,14 +6,14 @@ import numpy as np
 from matplotlib import rc_context
 
 from ...core.arguments import Arguments
-from ...core.quantities import bracketed, display_of
+from ...core.quantities import display_of
 from ...core.tabulated import Tabulated, significant
 from ...plots.curves import figure
 from ...plots.figures import STYLE
 from ...study.axles import by_side
 from ...study.axles.catalogue import SIDES
 from ...study.loads.flexibility import HELD
-from ...study.variation.goals import Goal, Verdict, judge
+from ...study.variation.goals import Goal, Verdict, judge, words_of
 from ...study.variation.ways import Looked, dataset_of, judged_model, usual_positions, way
 from ...suspension.axle import Axle
 from ...suspension.model import Model
@@ -81,19 +81,17 @@ def _both(name: str) -> str:
 
 
 def _table(goals: Sequence[Goal], verdicts: Sequence[Verdict]) -> Tabulated:
+    """Return what comes of each goal, in as few columns as the width of a phone has room for."""
     rows = []
     for goal, verdict in zip(goals, verdicts, strict=True):
-        attributes, over = goal.quantity.attributes(), way(goal.over)
-        beyond = significant(display_of(attributes).factor * verdict.beyond)
+        over, factor = way(goal.over), display_of(goal.quantity.attributes()).factor
         rows.append(
             (
-                bracketed(goal.quantity.long_name, attributes),
-                verdict.kind,
-                f"held: {goal.over}" if goal.over in HELD else goal.over,
+                words_of(verdict.kind, goal.name, goal.over),
                 "met" if verdict.met else "missed",
-                "" if verdict.met else beyond,
+                "" if verdict.met else significant(factor * verdict.beyond),
                 f"{over.factor * verdict.at:g} {over.unit}",
             )
         )
-    columns = ("characteristic", "goal", "over", "", "beyond", "worst at")
-    return Tabulated("Which are met", columns, tuple(rows), frozenset({0, 1, 2, 3}))
+    columns = ("goal", "", "beyond", "worst at")
+    return Tabulated("Which are met", columns, tuple(rows), frozenset({0, 1}))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
-from ...core.quantities import display_of
+from ...core.quantities import bracketed, display_of
 from ...suspension.axle import Axle
 from ...suspension.input.toml_file import read_sections
 from ...suspension.kinds import Suspension
@@ -204,6 +204,23 @@ def _ways(given: Arguments, ways: Any) -> Sequence[str]:
 
 def _section(given: Arguments, sections: Mapping[str, Any], name: str) -> Mapping[str, Any]:
     return given.mapping(name, sections.get(name, {}), "tables")
+
+
+def words_of(kind: str, name: str, over: str) -> str:
+    """Return a goal in words: ``limit: scrub radius [mm] over the rack``.
+
+    Parameters
+    ----------
+    kind : str
+        'target' or 'limit'.
+    name, over : str
+        As of `Goal`.
+    """
+    quantity = way(over).known[name]
+    words = f"{kind}: {bracketed(quantity.long_name, quantity.attributes())}"
+    if over in HELD:
+        return f"{words} (held: {over})"
+    return words if over in ("travel", "bump") else f"{words} over {way(over).words}"
 
 
 @dataclass(frozen=True)
