@@ -13,7 +13,10 @@ from .options import File, Force, Which, load, refuse_which, system_of
 from .subject import described_by
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ..report import Chapter
+    from ..study.variation.goals import Goal
     from ..suspension.axle import Axle
     from ..suspension.model import Model
     from ..suspension.rigid import RigidAxle
@@ -90,7 +93,7 @@ def command(
         with problems.status("report"):
             of = described_by(file)
             further = _of_loads(file, cases, wanted=loads)
-            further += _of_wheels(of, bushes, goals)
+            further += _of_wheels(of, bushes, _aims(of, goals))
             written = rigid.report(file, target, title, further, force=force, inputs=inputs)
         say(f"  {written}")
         return
@@ -100,13 +103,15 @@ def command(
         from ..report import write
 
         chapters = [*_of_axle(axle), *_of_loads(file, cases, wanted=loads)]
-        chapters += _of_wheels(axle or model, bushes, goals)
+        aims = _aims(axle or model, goals)
+        chapters += _of_wheels(axle or model, bushes, aims)
         written = write(
             model,
             target,
             title=title,
             chapters=chapters,
             without=without,
+            goals=aims,
             progress=status.update,
             force=force,
             inputs=inputs,
@@ -155,32 +160,39 @@ def _of_loads(file: str, cases: Path | None, *, wanted: bool) -> "list[Chapter]"
     return [loads_chapter(carried(described.get("cases", usual), static_load=load_at_rest))]
 
 
+def _aims(of: "Model | Axle | RigidAxle", path: Path | None) -> "list[Goal]":
+    """Return the targets and limits of a file."""
+    from ..study.loads.flexibility import HELD
+    from ..study.variation.ways import ways_of
+    from ..suspension.kinds import Suspension
+
+    subject = wanted.subject_of(of)
+    known = ways_of(subject)
+    unsteered = isinstance(subject, Suspension) and not subject.steered()
+    return wanted.read(path, [*(known[:1] if unsteered else known), *HELD], known)
+
+
 def _of_wheels(
-    of: "Model | Axle | RigidAxle", bushes: Path | None, goals: Path | None
+    of: "Model | Axle | RigidAxle", bushes: Path | None, goals: "Sequence[Goal]"
 ) -> "list[Chapter]":
     """Return what is told of compliance, of targets and limits, and at design."""
     return [*_of_bushes(of, bushes), *_of_goals(of, bushes, goals), *_of_sheet(of, bushes)]
 
 
 def _of_goals(
-    of: "Model | Axle | RigidAxle", bushes: Path | None, goals: Path | None
+    of: "Model | Axle | RigidAxle", bushes: Path | None, goals: "Sequence[Goal]"
 ) -> "list[Chapter]":
     from ..report import goals_chapter
     from ..study.loads import read_bushes
-    from ..study.loads.flexibility import HELD
-    from ..study.variation.ways import model_of, ways_of, with_bushes
+    from ..study.variation.ways import model_of, with_bushes
     from ..suspension.kinds import Suspension
 
-    if goals is None:
+    if not goals:
         return []
-    subject = wanted.subject_of(of)
-    known = ways_of(subject)
-    unsteered = isinstance(subject, Suspension) and not subject.steered()
-    aims = wanted.read(goals, [*(known[:1] if unsteered else known), *HELD], known)
     if bushes is None:
-        return [goals_chapter(of, aims)]
-    soft = with_bushes(subject, read_bushes(bushes))
-    return [goals_chapter(model_of(soft) if isinstance(soft, Suspension) else soft, aims)]
+        return [goals_chapter(of, goals)]
+    soft = with_bushes(wanted.subject_of(of), read_bushes(bushes))
+    return [goals_chapter(model_of(soft) if isinstance(soft, Suspension) else soft, goals)]
 
 
 def _of_bushes(of: "Model | Axle | RigidAxle", bushes: Path | None) -> "list[Chapter]":

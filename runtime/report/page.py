@@ -18,6 +18,7 @@ from ..simulation.result import Simulation
 from ..study.characteristics.groups import ORDER
 from ..study.loads.along import is_motion_of
 from ..study.paper import SPIN_RATE
+from ..study.variation.goals import Goal, Limit, Target
 from ..suspension.input.section import Section
 from ..suspension.model import Model
 from ..systems.system import System
@@ -25,6 +26,7 @@ from .accuracy import Accuracy, measure
 from .chapters.chapter import Chapter
 from .curves import Curve, curves, gaps_on, only_over_rack
 from .grid import Grid
+from .marks import Marks, marks
 from .mechanism.page import report_page
 from .motion import DROP, Motion, NoMotion, simulated_second
 from .payload import Look, page_data
@@ -50,6 +52,7 @@ class _Samples:
     gaps: list[Array]
     accuracy: Accuracy
     looks: dict[str, Look]
+    marks: Marks
     motion: Motion | NoMotion
 
 
@@ -60,6 +63,7 @@ def write(
     title: str | None = None,
     chapters: Sequence[Chapter] = (),
     without: Container[str] = (),
+    goals: Sequence[Goal] = (),
     motion: Simulation | None = None,
     progress: Callable[[str], None] | None = None,
     force: bool = False,
@@ -84,6 +88,10 @@ def write(
         `compliance_chapter` and `elastokinematics_chapter`.
     without : container of str, optional
         Characteristics that are left out: of a rear axle those that only a front axle has.
+    goals : sequence of Target and Limit, optional
+        From `kintrafo.variation.goals`: they are marked in the charts that they are about, and the
+        page names those of which no chart has anything, see `kintrafo.report.goals_chapter`. Of a
+        side of an axle they may be those of the axle.
     motion : Simulation, optional
         Of a mechanism that is no suspension, the motion to be played; by default a second from the
         design position at rest, without inputs.
@@ -118,28 +126,24 @@ def write(
                 given.refuse("motion: the report of a suspension has a simulated second of its own")
             elif not given.refused and not is_motion_of(model, motion):
                 given.refuse(f"motion: it is not one of this mechanism, {model!r}.")
-        if not isinstance(model, Model) and (chapters or without):
-            given.refuse("chapters, without: only the report of a suspension has them")
+        if not isinstance(goals, list | tuple) or not all(
+            isinstance(goal, Target | Limit) for goal in goals
+        ):
+            given.refuse("goals: a list of targets and limits, from `variation.goals`, is needed.")
+        elif not isinstance(model, Model) and (chapters or without or goals):
+            given.refuse("chapters, without, goals: only the report of a suspension has them")
     tell = progress or (lambda _: None)
-    text = _text(model, title, chapters, without, motion, tell)
+    if isinstance(model, Model):
+        text = render(
+            model, title=title, chapters=chapters, without=without, goals=goals, tell=tell
+        )
+    else:
+        tell("positions of the mechanism")
+        text = report_page(model, title, motion)
     tell("writing the page")
     with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
     return Path(path)
-
-
-def _text(
-    model: System,
-    title: str | None,
-    chapters: Sequence[Chapter],
-    without: Container[str],
-    motion: Simulation | None,
-    tell: Callable[[str], None],
-) -> str:
-    if not isinstance(model, Model):
-        tell("positions of the mechanism")
-        return report_page(model, title, motion)
-    return render(model, title=title, chapters=chapters, without=without, tell=tell)
 
 
 def render(
@@ -148,10 +152,11 @@ def render(
     title: str | None = None,
     chapters: Sequence[Chapter] = (),
     without: Container[str] = (),
+    goals: Sequence[Goal] = (),
     tell: Callable[[str], None] = lambda _: None,
 ) -> str:
     """Return the report as text; see `write`."""
-    samples = _sample(model, tell, without)
+    samples = _sample(model, tell, without, goals)
     side, steered = model.suspension.vehicle.side, model.suspension.steered()
     template = _environment().get_template("page.html.jinja")
     return template.render(
@@ -161,7 +166,7 @@ def render(
         version=version("kintrafo"),
         samples=samples,
         over_travel=_over_travel(samples.curves),
-        over_rack=_over_rack(samples.curves),
+        over_rack=_over_rack(samples.curves, samples.marks),
         rows=summary(samples.curves, samples.grid, samples.looks, model.suspension),
         inputs=input_tables(model.suspension),
         parts=model.suspension.drawing().legend,
@@ -222,7 +227,12 @@ def write_chapters(
     return Path(path)
 
 
-def _sample(model: Model, tell: Callable[[str], None], without: Container[str] = ()) -> _Samples:
+def _sample(
+    model: Model,
+    tell: Callable[[str], None],
+    without: Container[str] = (),
+    goals: Sequence[Goal] = (),
+) -> _Samples:
     tell("reach of the mechanism")
     grid = reachable_grid(model)
     travel, rack = grid.travel.values, grid.rack.values
@@ -230,7 +240,8 @@ def _sample(model: Model, tell: Callable[[str], None], without: Container[str] =
     sampled = poses(model, travel, rack)
     drawn = [c for c in curves(model, travel, rack, tell=tell) if c.name not in without]
     gaps = gaps_on(model, grid)
-    ranges = {curve.key: shown_range(curve.values) for curve in drawn}
+    marked = marks(drawn, grid, goals, model.suspension.vehicle.side)
+    ranges = {c.key: marked.widened(c.key, shown_range(c.values)) for c in drawn}
     accuracy = measure(model, grid, sampled, drawn, gaps, ranges, tell=tell)
     tell("one second of motion")
     return _Samples(
@@ -240,6 +251,7 @@ def _sample(model: Model, tell: Callable[[str], None], without: Container[str] =
         gaps=gaps,
         accuracy=accuracy,
         looks={c.key: _look(c, grid, ranges[c.key], accuracy) for c in drawn},
+        marks=marked,
         motion=simulated_second(model, grid),
     )
 
@@ -267,9 +279,13 @@ def _over_travel(drawn: list[Curve]) -> dict[str, list[Curve]]:
     return {name: group for name, group in found.items() if group}
 
 
-def _over_rack(drawn: list[Curve]) -> tuple[list[Curve], list[Curve]]:
-    """Return the curves over rack displacement: those of steering and of the wheel, the others."""
+def _over_rack(drawn: list[Curve], marked: Marks) -> tuple[list[Curve], list[Curve]]:
+    """Return the curves over rack displacement that are in sight, and the others.
+
+    Those are of steering, of the wheel, and with targets or limits.
+    """
     first = only_over_rack(drawn) | {c.name for c in drawn if c.group == ORDER[0]}
+    first |= {c.name for c in drawn if c.over == "rack" and marked.about(c.key)}
     along = [curve for curve in drawn if curve.over == "rack"]
     return [c for c in along if c.name in first], [c for c in along if c.name not in first]
 
@@ -282,6 +298,7 @@ def _data(model: Model, samples: _Samples) -> str:
         samples.curves,
         samples.gaps,
         samples.looks,
+        samples.marks,
         samples.motion,
     )
 

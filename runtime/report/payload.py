@@ -10,6 +10,7 @@ from ..suspension.kinds import Suspension
 from .curves import Curve
 from .encode import packed
 from .grid import Axis, Grid
+from .marks import Marks
 from .motion import Motion, NoMotion, TimeCurve
 from .plotted import decimals, full_range
 from .poses import Poses
@@ -46,6 +47,7 @@ def page_data(
     drawn: list[Curve],
     gaps: list[Array],
     looks: dict[str, Look],
+    marks: Marks,
     motion: Motion | NoMotion,
 ) -> str:
     """Return the data of the page as JSON that may stand inside of an HTML element.
@@ -62,6 +64,8 @@ def page_data(
         What is open of the stops, on the grid.
     looks : dict
         How each is shown, by its key.
+    marks : Marks
+        Targets and limits.
     motion : Motion or NoMotion
 
     Returns
@@ -81,6 +85,7 @@ def page_data(
                 "jumps": curve.jumps,
                 "samples": stored[curve.key],
                 "reciprocal": curve.reciprocal,
+                "goals": [mark.described(curve) for mark in marks.of.get(curve.key, ())],
                 **_described(curve, looks[curve.key]),
             }
             for curve in drawn

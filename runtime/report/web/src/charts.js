@@ -4,6 +4,7 @@
 import uPlot from "uplot";
 
 import { inUnit, number, quantity, reading } from "./format.js";
+import { marked, marks, shape } from "./marks.js";
 import { drawing } from "./print.js";
 import { colour, onSchemeChange } from "./theme.js";
 
@@ -100,6 +101,8 @@ class Chart {
     this.host = figure.querySelector(".plot");
     this.marker = element("div", "marker");
     this.tip = element("div", "tip");
+    this.goals = curve.goals ?? []; // what moves over time has none
+    this.marks = shape("svg", { class: "marks" });
     this.position = null;
     this.shown = null;
     new IntersectionObserver(([entry]) => this.#look(entry.isIntersecting), {
@@ -126,9 +129,9 @@ class Chart {
     this.rebuild();
     this.#draw(PRINTED);
     this.host.querySelector(".printed")?.remove();
-    const { line, reference } = this;
+    const { line, reference, goals } = this;
     const at = this.marker.hidden ? null : this.#markerPlace();
-    this.host.append(drawing(this.#plot, { lines: { reference, line }, marker: at }));
+    this.host.append(drawing(this.#plot, { lines: { reference, line }, goals, marker: at }));
   }
 
   #look(visible) {
@@ -211,13 +214,16 @@ class Chart {
           points: { show: false },
           y: false,
         },
-        hooks: { setCursor: [() => this.#hover()], draw: [() => this.#place()] },
+        hooks: {
+          setCursor: [() => this.#hover()],
+          draw: [() => this.#mark(), () => this.#place()],
+        },
       },
       [this.along.values, nothing, nothing],
       this.host,
     );
     const over = this.#plot.over;
-    over.append(this.marker, this.tip);
+    over.append(this.marks, this.marker, this.tip);
     over.addEventListener("pointerdown", (event) => {
       over.setPointerCapture(event.pointerId);
       this.#drag(event);
@@ -232,14 +238,20 @@ class Chart {
     this.move(this.along.key, this.#plot.posToVal(left, "x") / this.along.factor);
   }
 
-  /** Around the curve, and around the reference too if that does not press the curve flat. */
+  /** Around the curve and what is marked, and around the reference too if that does not press the
+   *  curve flat. */
   #verticalRange() {
     const { least } = this.curve;
     let [low, high] = extent(this.line, least);
     const [lowest, highest] = extent([...this.line, ...this.reference], least);
     if (highest - lowest <= MOST_FLATTENED * (high - low)) [low, high] = [lowest, highest];
+    [low, high] = [Math.min(low, ...marked(this.goals)), Math.max(high, ...marked(this.goals))];
     const margin = MARGIN * (high - low);
     return [low - margin, high + margin];
+  }
+
+  #mark() {
+    this.marks.replaceChildren(marks(this.#plot, this.goals));
   }
 
   #place() {

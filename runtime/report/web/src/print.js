@@ -2,6 +2,7 @@
 // is shown, in light colours. What is on the screen comes back afterwards.
 
 import { quantity } from "./format.js";
+import { marks, shape } from "./marks.js";
 
 const PICTURE = { width: 1500, height: 1000 }; // sharp on paper, half a page high [px]
 
@@ -34,25 +35,26 @@ function showPicture(view, { travel, rack, time, byHand }) {
 }
 
 /** A chart as a drawing that keeps its lines sharp on paper, in the size of what was plotted. */
-export function drawing(plot, { lines, marker }) {
+export function drawing(plot, { lines, goals, marker }) {
   const { width, height } = plot;
   const [left, right] = plot.scales.x.range(plot).map((value) => plot.valToPos(value, "x"));
   const { offsetLeft, offsetTop, clientHeight: bottom } = plot.over;
-  const svg = element("svg", { viewBox: `0 0 ${width} ${height}`, class: "printed" });
-  const area = element("g", { transform: `translate(${offsetLeft} ${offsetTop})` });
+  const svg = shape("svg", { viewBox: `0 0 ${width} ${height}`, class: "printed" });
+  const area = shape("g", { transform: `translate(${offsetLeft} ${offsetTop})` });
   for (const [at, text] of ticks(plot, 1)) {
-    area.append(element("path", { class: "grid", d: `M${left} ${at}H${right}` }));
+    area.append(shape("path", { class: "grid", d: `M${left} ${at}H${right}` }));
     area.append(label(left - 6, at + 3.5, "end", text));
   }
   for (const [at, text] of ticks(plot, 0)) {
-    area.append(element("path", { class: "grid", d: `M${at} 0V${bottom}` }));
+    area.append(shape("path", { class: "grid", d: `M${at} 0V${bottom}` }));
     area.append(label(at, bottom + 14, "middle", text));
   }
   area.append(label((left + right) / 2, bottom + 30, "middle", plot.axes[0].label));
   for (const [name, values] of Object.entries(lines)) {
-    area.append(element("path", { class: name, d: path(plot, values) }));
+    area.append(shape("path", { class: name, d: path(plot, values) }));
   }
-  if (marker) area.append(element("circle", { class: "at", cx: marker[0], cy: marker[1], r: 3.5 }));
+  area.append(marks(plot, goals));
+  if (marker) area.append(shape("circle", { class: "at", cx: marker[0], cy: marker[1], r: 3.5 }));
   svg.append(area);
   return svg;
 }
@@ -79,13 +81,7 @@ function path(plot, values) {
 }
 
 function label(x, y, anchor, text) {
-  const made = element("text", { x, y, "text-anchor": anchor });
+  const made = shape("text", { x, y, "text-anchor": anchor });
   made.textContent = text;
-  return made;
-}
-
-function element(name, attributes) {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
   return made;
 }

@@ -1,0 +1,145 @@
+"""Targets and limits in the charts of a report that move: what the page is handed, and told."""
+
+import json
+import re
+from typing import Any
+
+import kintrafo.report
+import numpy as np
+import pytest
+from kintrafo import Axle, InputError, Model, System, axles, characteristics, variation
+from kintrafo.generated import four_bar
+from kintrafo.report.grid import Axis, Grid
+from kintrafo.report.page import render
+
+CAR = Model("reference_car")
+OF_AXLES = ("bump", "roll", "left", "right")
+BESIDE = {"at_mm": [-40, 40], "value": [0.8, -0.6], "within": 0.3}
+DESCRIBED = {
+    "targets": {"toe": {"at_mm": [-40, 0, 40], "value": [0.1, 0.0, -0.3], "within": 0.2}},
+    "limits": {
+        "camber": {"at_mm": [-20, 120], "least": -1.5, "most": 1.5},
+        "scrub_radius": [
+            {"over": "rack", "at_mm": [0, 40], "most": 25.0},
+            {"over": "rack", "at_mm": 95, "least": 5.0},
+        ],
+        "turning_circle": {"over": "rack", "at_mm": 20, "most": 900.0},
+        "caster": {"at_mm": -130, "least": 1.0},
+        "toe_by_lateral": {"at_mm": 0, "most": 0.1, "held": "spring"},
+    },
+}
+
+
+@pytest.fixture
+def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sample at few positions, to either side 100 mm of travel and 60 mm of rack."""
+    grid = Grid(Axis(-0.1, 0.05, 5), Axis(-0.06, 0.03, 5))
+    monkeypatch.setattr("kintrafo.report.page.reachable_grid", lambda _: grid)
+
+
+def handed(page: str) -> dict[str, Any]:
+    """Return the curves that the page's script reads, by their keys."""
+    found = re.search(r'id="payload">(.*?)</script>', page, re.DOTALL)
+    assert found is not None
+    return {curve["key"]: curve for curve in json.loads(found[1])["curves"]}
+
+
+def figure_of(page: str, key: str) -> str:
+    found = re.search(rf'<figure data-curve="{key}">.*?</figure>', page, re.DOTALL)
+    assert found is not None
+    return found[0]
+
+
+@pytest.mark.usefixtures("coarse")
+def test_the_page_is_handed_the_numbers_of_the_file() -> None:
+    goals = variation.goals(DESCRIBED)
+    page = render(CAR, goals=goals)
+    assert page == render(CAR, goals=goals)
+    curves = handed(page)
+    # to and from SI units nothing is lost but rounding, which is not written
+    assert curves["toe"]["goals"] == [
+        {"kind": "target", "at": [-40, 0, 40], "value": [0.1, 0.0, -0.3], "within": 0.2}
+    ]
+    assert curves["camber"]["goals"] == [
+        {"kind": "least", "at": [-20], "value": [-1.5], "within": 0.0},
+        {"kind": "most", "at": [-20], "value": [1.5], "within": 0.0},
+    ]
+    assert curves["scrub_radius_over_rack"]["goals"] == [
+        {"kind": "most", "at": [0, 40], "value": [25.0, 25.0], "within": 0.0}
+    ]
+    assert not curves["scrub_radius"]["goals"]
+    # as far as a limit goes, a curve with a pole is drawn
+    low, high = curves["turning_circle_over_rack"]["range"]
+    assert low < 900.0 <= high
+    marked = {key for key, curve in curves.items() if curve["goals"]}
+    assert marked == {"toe", "camber", "scrub_radius_over_rack", "turning_circle_over_rack"}
+    assert not any(curve["goals"] for curve in handed(render(CAR)).values())
+
+
+@pytest.mark.usefixtures("coarse")
+def test_nothing_is_left_out_in_silence() -> None:
+    page = render(CAR, goals=variation.goals(DESCRIBED))
+    assert "Beyond this chart: limit at 120 mm." in figure_of(page, "camber")
+    assert "Beyond this chart: limit at 95 mm." in figure_of(page, "scrub_radius_over_rack")
+    assert "Beyond this chart: limit at \u2212130 mm." in figure_of(page, "caster")
+    (words,) = re.findall(r"Not in the charts that move: (.*?)</p>", page)
+    # "[deg/kN]" has no letter that HTML writes otherwise
+    assert words.startswith("limit: toe angle by a lateral force")
+    assert words.endswith("[deg/kN] (held: spring).")
+    # where a chart has some it is in sight, with a legend of what it has
+    (folded,) = re.findall(r'<details class="more">.*', page, re.DOTALL)
+    assert 'data-curve="scrub_radius_over_rack"' not in folded
+    for key, legend in (("toe", ["target"]), ("camber", ["limit"]), ("caster", [])):
+        told = re.findall(r"</svg> (\w+)</span>", figure_of(page, key))
+        assert told == legend
+    assert "toe angle in deg over wheel travel, with targets" in page
+
+
+@pytest.mark.usefixtures("coarse")
+def test_one_side_of_an_axle_has_what_is_wanted_of_its_wheel() -> None:
+    axle = Axle.load("reference_axle")
+    described = {
+        "targets": {"camber_left": BESIDE, "camber_right": {**BESIDE, "within": 0.4}},
+        "limits": {
+            "toe_right": {"over": "roll", "at_deg": 2, "most": 1.0},
+            "roll_stiffness": {"at_mm": 0, "least": 1.0},
+        },
+    }
+    goals = variation.goals(described, OF_AXLES)
+    for side, within, other in (("left", 0.3, "right"), ("right", 0.4, "left")):
+        page = render(axle.models[side], goals=goals)
+        curves = handed(page)
+        assert curves["camber"]["goals"] == [
+            {"kind": "target", "at": [-40, 40], "value": [0.8, -0.6], "within": within}
+        ]
+        assert [key for key, curve in curves.items() if curve["goals"]] == ["camber"]
+        for words in (
+            f"target: camber, {other} [deg];",
+            "limit: toe angle, right [deg] over roll",
+            "limit: roll stiffness [N m/deg]",
+        ):
+            assert words in page
+
+
+def test_a_wheel_of_an_axle_moves_as_by_itself() -> None:
+    """What is wanted of a wheel in parallel travel is about the curve that its page has."""
+    axle = Axle.load("reference_axle")
+    travels = np.linspace(-0.06, 0.06, 5)
+    together = axles.bump(axle, travels)
+    for side in axle.sides:
+        alone = characteristics.travel(axle.models[side], travels)
+        shared = [str(name) for name in alone if f"{name}_{side}" in together]
+        assert len(shared) > 20
+        for name in shared:
+            np.testing.assert_allclose(
+                alone[name], together[f"{name}_{side}"], rtol=1e-9, atol=1e-12, err_msg=name
+            )
+
+
+def test_goals_of_a_report_have_a_door(tmp_path: Any) -> None:
+    path = tmp_path / "a.html"
+    for wrong in (None, 3, [3], "toe", {"toe": 1}):
+        with pytest.raises(InputError, match="goals: a list of targets and limits"):
+            kintrafo.report.write(CAR, path, goals=wrong)
+    with pytest.raises(InputError, match="only the report of a suspension has them"):
+        kintrafo.report.write(System(four_bar), path, goals=variation.goals(DESCRIBED))
