@@ -436,6 +436,18 @@ def test_a_printed_report_has_a_picture_and_all_charts(watch):
     assert watched.complaints == []
 
 
+@pytest.mark.parametrize("width", [700, 1100])
+def test_on_paper_of_any_width_charts_cover_no_words(watch, width):
+    page = watch().page
+    page.set_viewport_size({"width": width, "height": 1000})
+    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    page.emulate_media(media="print")
+    drawn = page.locator("figure[data-curve] .printed").first.bounding_box()
+    room = page.locator("figure[data-curve] .plot").first.bounding_box()
+    assert drawn["width"] > 0.4 * width
+    assert drawn["y"] + drawn["height"] <= room["y"] + room["height"]
+
+
 def test_design_position_is_before_anything_has_moved(watched):
     watched.page.evaluate("kintrafo.set({ time: 0.4 })")
     watched.page.locator("#design").click()
