@@ -464,7 +464,8 @@ def test_tables_have_each_wheel_and_both() -> None:
     assert right.rows[1][2] == f"{toe:.4f}"
     stiffness = found["roll_stiffness"].values[0, 1] * np.pi / 180.0
     assert both.rows[1][1] == f"{stiffness:.4f}"
-    assert len(chapter.pictures) == 1
+    words = "Curves over roll angle with rigid joints and on the bushes"
+    assert [picture.words for picture in chapter.pictures] == [f"{words}, {i} of 2" for i in (1, 2)]
     with pytest.raises(InputError, match="one or more are needed"):
         elastokinematics_chapter()
 

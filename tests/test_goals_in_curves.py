@@ -21,7 +21,8 @@ from kintrafo import (
 )
 from kintrafo.cli import app
 from kintrafo.plots import curves
-from kintrafo.report import goals_chapter
+from kintrafo.report import axle_chapter, goals_chapter, rigid_axle_chapters
+from kintrafo.study.variation.goals import Limit
 from typer.testing import CliRunner
 
 GOALS = """
@@ -178,6 +179,18 @@ def test_what_is_marked_is_in_sight_however_far_from_the_curve(goals: Path) -> N
     assert low < -0.2 < 5.0 < high
 
 
+def test_arrows_at_the_end_of_an_axis_are_in_sight() -> None:
+    """Where a curve is constant its axis ends a tenth of a unit from it, as this limit does."""
+    dataset = characteristics.travel(Model("reference_car"), np.linspace(-0.05, 0.05, 11))
+    flat = dataset.assign(toe=dataset["toe"].copy(data=np.zeros(11)))
+    wanted = variation.goals({"limits": {"toe": {"least": -0.1, "most": 0.1}}})
+    (axes,) = curves.figure(flat, ["toe"], goals=wanted).get_axes()
+    low, high = axes.get_ylim()
+    # an arrow is 6 points high, of some 150 that the axis has
+    assert low < -0.1 - 0.04 * (high - low)
+    assert high > 0.1 + 0.04 * (high - low)
+
+
 def test_what_does_not_vary_has_its_place_where_there_are_goals(goals: Path) -> None:
     dataset = characteristics.travel(Model("reference_car"), np.linspace(-0.05, 0.05, 11))
     dataset = dataset.assign(toe=dataset["toe"].copy(data=np.full(11, 0.01)))
@@ -230,6 +243,70 @@ def test_goals_of_an_axle_are_those_of_its_sides() -> None:
     )
     assert all(axes.get_legend() is None for axes in panels.get_axes())
     np.testing.assert_allclose(drawn(height, "limit"), [[[x, 20.0] for x in at]])
+
+
+@pytest.fixture
+def figures(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Return the panels that chapters draw, by what is above each picture and the curve's name."""
+    found: dict[tuple[str, str], Any] = {}
+    draw = curves.figure
+
+    def noted(dataset: Any, names: Any, *, title: str, **words: Any) -> Any:
+        made = draw(dataset, names, title=title, **words)
+        found.update(
+            {(title, name): axes for name, axes in zip(names, made.get_axes(), strict=True)}
+        )
+        return made
+
+    monkeypatch.setattr("kintrafo.report.chapters.curves.figure", noted)
+    return found
+
+
+OF_AXLES = ("bump", "roll", "left", "right")
+
+
+@pytest.mark.parametrize("file", ["reference_axle", "rigid_axle"])
+def test_chapters_of_axles_have_what_is_wanted(file: str, figures: Any) -> None:
+    """Curves that they have not else are added, and positions beyond the usual ones."""
+    at = {"at_mm": [-85.0, 40.0]}
+    described = {
+        "targets": {
+            "roll_moment": {"over": "roll", "at_deg": 1.5, "value": 900.0, "within": 50.0},
+            "camber_right": {"over": "right", **at, "value": [2.0, -1.0], "within": 0.5},
+        },
+        "limits": {
+            "roll_center_height": {**at, "least": 20.0},
+            "camber_left": {"at_mm": 0.0, "most": 3.0},
+        },
+    }
+    wanted = variation.goals(described, OF_AXLES)
+    axle: Any = (Axle if file == "reference_axle" else RigidAxle).load(file)
+    make: Any = axle_chapter if file == "reference_axle" else rigid_axle_chapters
+    module: Any = axles if file == "reference_axle" else rigid_axles
+    make(axle, wanted)
+    expected = {
+        ("roll", "roll_moment", "target"): [[1.5, 900.0]],
+        ("right", "camber", "target, right"): [[-85.0, 2.0], [40.0, -1.0]],
+        ("bump", "roll_center_height", "limit"): [[-85.0, 20.0], [40.0, 20.0]],
+        ("bump", "camber", "limit, left"): [[0.0, 3.0]],
+    }
+    for (motion, name, label), points in expected.items():
+        words = module.MOTIONS[motion]
+        title = words[:1].upper() + words[1:]
+        (axes,) = (a for (t, n), a in figures.items() if t.startswith(title) and n == name)
+        np.testing.assert_allclose(drawn(axes, label), [points], atol=1e-9)
+        # the curve goes as far as what is marked on it
+        ends = axes.get_lines()[0].get_xdata()
+        assert min(ends) <= points[0][0]
+        assert points[-1][0] <= max(ends)
+    marked = [key for key, axes in figures.items() if axes.get_legend_handles_labels()[1]]
+    assert len(marked) == len(expected)
+    with pytest.raises(InputError, match="there is no curve of ackermann_left"):
+        make(axle, [Limit("ackermann_left", "bump", np.zeros(1), 0.0, 1.0)])
+    figures.clear()
+    make(axle)
+    assert not any(axes.get_legend_handles_labels()[1] for axes in figures.values())
+    assert not any(title.startswith("The right wheel moves") for title, _ in figures)
 
 
 def test_goals_over_one_axis_are_not_mixed_up() -> None:
@@ -346,9 +423,16 @@ def test_where_goals_mean_nothing_they_are_refused(
 
 def test_goals_have_a_door() -> None:
     car = Suspension.load("reference_car")
-    for wrong in (3, [3], None):
-        with pytest.raises(InputError):
-            variation.judge(car, wrong)  # type: ignore[arg-type]
+    makers: list[Any] = [
+        lambda wrong: axle_chapter(Axle.load("reference_axle"), wrong),
+        lambda wrong: rigid_axle_chapters(RigidAxle.load("rigid_axle"), wrong),
+        lambda wrong: goals_chapter(Model(car), wrong),
+        lambda wrong: variation.judge(car, wrong),
+    ]
+    for wrong in (3, [3], "toe", None, {"toe": 1}):
+        for make in makers:
+            with pytest.raises(InputError, match="a list of targets and limits"):
+                make(wrong)
     with pytest.raises(InputError, match="no_such"):
         variation.goals({"targets": {"no_such": {"value": 0.0, "within": 1.0}}})
     with pytest.raises(InputError):

@@ -20,7 +20,8 @@ from kintrafo import (
 )
 from kintrafo.cli import app
 from kintrafo.plots import curves
-from kintrafo.report import goals_chapter
+from kintrafo.report import compliance_chapter, goals_chapter
+from kintrafo.study.variation.goals import Limit
 from kintrafo.study.variation.ways import with_bushes
 from kintrafo.suspension.toml_writer import write_toml
 from scipy.optimize import brentq
@@ -167,6 +168,50 @@ def test_goals_of_both_wheels(axle: Any, bushes: dict[str, Any]) -> None:
     assert row[0].endswith("[deg/kN] (held: height)")
     if isinstance(axle, Axle):
         assert row[2] == f"{toe.max() - 0.01:.5g}"
+
+
+@pytest.mark.parametrize(
+    ("of", "module", "name", "label"),
+    [
+        (Model(CAR), loads, "toe_by_lateral", "limit"),
+        (with_bushes(Axle.load("reference_axle"), BUSHES), axles, "toe_by_lateral_opposed_left",
+         "limit, left"),
+        (with_bushes(RigidAxle.load("rigid_axle"), RODS), rigid_axles,
+         "toe_by_lateral_parallel_right", "limit, right"),
+    ],
+    ids=["suspension", "axle", "rigid axle"],
+)  # fmt: skip
+def test_the_chapter_of_compliance_draws_those_of_its_wheels(
+    of: Any, module: Any, name: str, label: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Those with wheels that are held otherwise are in the chapter of goals alone."""
+    panels: dict[str, Any] = {}
+    draw = curves.figure
+
+    def noted(dataset: Any, names: Any, **words: Any) -> Any:
+        made = draw(dataset, names, **words)
+        panels.update(zip(names, made.get_axes(), strict=True))
+        return made
+
+    monkeypatch.setattr("kintrafo.report.chapters.curves.figure", noted)
+    described = [{"at_mm": [-20, 20], "most": 0.3}, {"held": "locked", "most": 0.4}]
+    ways = ["travel", "rack"] if isinstance(of, Model) else ["bump", "roll"]
+    wanted = variation.goals({"limits": {name: described}}, ways)
+    compliance_chapter(module.compliance(of, None, [-0.02, 0.0, 0.02]), wanted)
+    marked = {
+        curve: {line.get_label(): line.get_xydata().tolist() for line in axes.get_lines()
+                if line.get_label().startswith("limit")}
+        for curve, axes in panels.items()
+    }  # fmt: skip
+    curve = name.removesuffix("_left").removesuffix("_right")
+    assert {key: marks for key, marks in marked.items() if marks} == {
+        curve: {label: [[-20.0, pytest.approx(0.3)], [20.0, pytest.approx(0.3)]]}
+    }
+    with pytest.raises(InputError, match="there is no curve of camber_by_wind"):
+        compliance_chapter(
+            module.compliance(of, None, [0.0]),
+            [Limit("camber_by_wind", "height", np.zeros(1), 0.0, 1.0)],
+        )
 
 
 def test_compliance_tells_and_draws_them(

@@ -16,10 +16,14 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from ..report import Chapter
+    from ..study.loads.flexibility import Held
     from ..study.variation.goals import Goal
     from ..suspension.axle import Axle
     from ..suspension.model import Model
     from ..suspension.rigid import RigidAxle
+
+# What holds the wheels where the chapter of compliance has curves.
+_HELD: "Held" = "height"
 
 EXAMPLES = (
     "kintrafo report reference_car",
@@ -92,9 +96,10 @@ def command(
     if rigid.is_rigid_axle(file):
         with problems.status("report"):
             of = described_by(file)
+            aims = _aims(of, goals)
             further = _of_loads(file, cases, wanted=loads)
-            further += _of_wheels(of, bushes, _aims(of, goals))
-            written = rigid.report(file, target, title, further, force=force, inputs=inputs)
+            further += _of_wheels(of, bushes, aims)
+            written = rigid.report(file, target, title, further, aims, force=force, inputs=inputs)
         say(f"  {written}")
         return
     model, title, axle = _subject(file, title)
@@ -102,8 +107,8 @@ def command(
     with problems.status("report") as status:
         from ..report import write
 
-        chapters = [*_of_axle(axle), *_of_loads(file, cases, wanted=loads)]
         aims = _aims(axle or model, goals)
+        chapters = [*_of_axle(axle, aims), *_of_loads(file, cases, wanted=loads)]
         chapters += _of_wheels(axle or model, bushes, aims)
         written = write(
             model,
@@ -142,10 +147,10 @@ def _of_one_side(axle: "Axle | None") -> frozenset[str]:
     return without if axle.end == "front" else frozenset(AXLE) | {"anti_dive", "anti_lift_braked"}
 
 
-def _of_axle(axle: "Axle | None") -> "list[Chapter]":
+def _of_axle(axle: "Axle | None", goals: "Sequence[Goal]") -> "list[Chapter]":
     from ..report import axle_chapter
 
-    return [] if axle is None else [axle_chapter(axle)]
+    return [] if axle is None else [axle_chapter(axle, goals)]
 
 
 def _of_loads(file: str, cases: Path | None, *, wanted: bool) -> "list[Chapter]":
@@ -176,7 +181,7 @@ def _of_wheels(
     of: "Model | Axle | RigidAxle", bushes: Path | None, goals: "Sequence[Goal]"
 ) -> "list[Chapter]":
     """Return what is told of compliance, of targets and limits, and at design."""
-    return [*_of_bushes(of, bushes), *_of_goals(of, bushes, goals), *_of_sheet(of, bushes)]
+    return [*_of_bushes(of, bushes, goals), *_of_goals(of, bushes, goals), *_of_sheet(of, bushes)]
 
 
 def _of_goals(
@@ -195,26 +200,31 @@ def _of_goals(
     return [goals_chapter(model_of(soft) if isinstance(soft, Suspension) else soft, goals)]
 
 
-def _of_bushes(of: "Model | Axle | RigidAxle", bushes: Path | None) -> "list[Chapter]":
+def _of_bushes(
+    of: "Model | Axle | RigidAxle", bushes: Path | None, goals: "Sequence[Goal]"
+) -> "list[Chapter]":
     from ..report import compliance_chapter, elastokinematics_chapter
+    from ..report.chapters.curves import positions_of
     from ..study import axles, rigid
     from ..study import loads as study
     from ..study.sheet import has_bushes
+    from ..study.variation.ways import judged_model
     from ..suspension.model import Model
     from ..suspension.rigid import RigidAxle
 
     if bushes is None and not has_bushes(of):
         return []
     described = None if bushes is None else study.read_bushes(bushes)
+    at = positions_of(of if isinstance(of, Model) else judged_model(of, [_HELD]), _HELD, goals)
     if isinstance(of, Model):
         return [
-            compliance_chapter(study.compliance(of, described)),
+            compliance_chapter(study.compliance(of, described, at, held=_HELD), goals),
             elastokinematics_chapter(study.elastokinematics(of, described)),
         ]
     over: Any = rigid if isinstance(of, RigidAxle) else axles
     soft = (over.elastokinematics(of, described, motion) for motion in ("bump", "roll"))
     return [
-        compliance_chapter(over.compliance(of, described)),
+        compliance_chapter(over.compliance(of, described, at, held=_HELD), goals),
         elastokinematics_chapter(*soft),
     ]
 

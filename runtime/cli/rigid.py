@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from ..report import Chapter
     from ..study.axles.motions import Extent
     from ..study.rigid.checkup import RigidAxleCheckup
+    from ..study.variation.goals import Goal
     from ..suspension.rigid import RigidAxle
 
 # Beside the tables at design: what changes over roll, and over one wheel's travel.
@@ -152,11 +153,12 @@ def report(
     target: Path,
     title: str | None,
     further: "Sequence[Chapter]",
+    goals: "Sequence[Goal]",
     *,
     force: bool,
     inputs: list[str | Path],
 ) -> Path:
-    """Write the report of a rigid axle: drawings, tables, curves, and further chapters.
+    """Write the report of a rigid axle: drawings, tables, curves with goals, further chapters.
 
     There is nothing to be moved.
     """
@@ -166,7 +168,7 @@ def report(
     axle = RigidAxle.load(file)
     heading = axle.heading()
     heading = title or f"{heading[:1].upper()}{heading[1:]}"
-    chapters = [*rigid_axle_chapters(axle), *further]
+    chapters = [*rigid_axle_chapters(axle, goals), *further]
     return write_chapters(
         target, title=heading, chapters=chapters, data=axle, force=force, inputs=inputs
     )

@@ -443,11 +443,13 @@ def _limit(axes: Axes, values: Array, *, may_have_pole: bool) -> None:
 
 
 def _include(axes: Axes, marked: Array) -> None:
-    """Let an axis span what is marked, however far from the curve that is."""
+    """Let an axis span what is marked, however far from the curve that is, with its arrows."""
+    if not marked.size:
+        return
     low, high = axes.get_ylim()
-    least, most = np.min(marked, initial=low), np.max(marked, initial=high)
-    room = _ROOM * (most - least)
-    axes.set_ylim(least - room if least < low else low, most + room if most > high else high)
+    least, most = marked.min(), marked.max()
+    room = _ROOM * (max(most, high) - min(least, low))
+    axes.set_ylim(min(low, least - room), max(high, most + room))
 
 
 def _widen(axes: Axes, values: Array, least: float) -> None:

@@ -1,6 +1,6 @@
 """The HTML report: one file that opens anywhere, without a network."""
 
-from collections.abc import Callable, Container, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from importlib import resources
 from importlib.metadata import version
@@ -11,14 +11,14 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from numpy.typing import NDArray
 
-from ..core.arguments import Arguments
+from ..core.arguments import Arguments, shown
 from ..core.files import Paths, refuse, replacing
 from ..core.legible import legible
 from ..simulation.result import Simulation
 from ..study.characteristics.groups import ORDER
 from ..study.loads.along import is_motion_of
 from ..study.paper import SPIN_RATE
-from ..study.variation.goals import Goal, Limit, Target
+from ..study.variation.goals import Goal, check_goals
 from ..suspension.input.section import Section
 from ..suspension.model import Model
 from ..systems.system import System
@@ -62,7 +62,7 @@ def write(
     *,
     title: str | None = None,
     chapters: Sequence[Chapter] = (),
-    without: Container[str] = (),
+    without: Collection[str] = (),
     goals: Sequence[Goal] = (),
     motion: Simulation | None = None,
     progress: Callable[[str], None] | None = None,
@@ -86,7 +86,7 @@ def write(
     chapters : sequence of Chapter, optional
         What stands there besides: see `kintrafo.report.axle_chapter`, `loads_chapter`,
         `compliance_chapter` and `elastokinematics_chapter`.
-    without : container of str, optional
+    without : collection of str, optional
         Characteristics that are left out: of a rear axle those that only a front axle has.
     goals : sequence of Target and Limit, optional
         From `kintrafo.variation.goals`: they are marked in the charts that they are about, and the
@@ -126,11 +126,14 @@ def write(
                 given.refuse("motion: the report of a suspension has a simulated second of its own")
             elif not given.refused and not is_motion_of(model, motion):
                 given.refuse(f"motion: it is not one of this mechanism, {model!r}.")
-        if not isinstance(goals, list | tuple) or not all(
-            isinstance(goal, Target | Limit) for goal in goals
+        check_goals(given, "goals", goals)
+        if not isinstance(chapters, list | tuple) or not all(
+            isinstance(chapter, Chapter) for chapter in chapters
         ):
-            given.refuse("goals: a list of targets and limits, from `variation.goals`, is needed.")
-        elif not isinstance(model, Model) and (chapters or without or goals):
+            given.refuse("chapters: a list of chapters is needed, such as goals_chapter returns.")
+        if not isinstance(without, list | tuple | set | frozenset):
+            given.refuse(f"without = {shown(without)}: a list of names is needed.")
+        if not (given.refused or isinstance(model, Model)) and (chapters or without or goals):
             given.refuse("chapters, without, goals: only the report of a suspension has them")
     tell = progress or (lambda _: None)
     if isinstance(model, Model):
@@ -151,7 +154,7 @@ def render(
     *,
     title: str | None = None,
     chapters: Sequence[Chapter] = (),
-    without: Container[str] = (),
+    without: Collection[str] = (),
     goals: Sequence[Goal] = (),
     tell: Callable[[str], None] = lambda _: None,
 ) -> str:
@@ -230,7 +233,7 @@ def write_chapters(
 def _sample(
     model: Model,
     tell: Callable[[str], None],
-    without: Container[str] = (),
+    without: Collection[str] = (),
     goals: Sequence[Goal] = (),
 ) -> _Samples:
     tell("reach of the mechanism")

@@ -1,18 +1,20 @@
 """The chapter about an axle."""
 
+from collections.abc import Iterator, Sequence
+
 import numpy as np
 import xarray as xr
-from matplotlib import rc_context
 
 from ...core.arguments import Arguments
 from ...core.tabulated import Tabulated
-from ...plots.curves import figure
-from ...plots.figures import STYLE
 from ...study import axles
 from ...study.axles.sheet import at_design
 from ...study.characteristics.datasets import KNOWN
+from ...study.variation.goals import Goal, check_goals
+from ...study.variation.ways import dataset_of
 from ...suspension.axle import Axle
 from .chapter import Chapter, Picture
+from .curves import pictures, positions_of, with_wanted
 
 # The curves of each motion; those that an axle does not have are left out.
 _DRAWN = {
@@ -41,12 +43,14 @@ _DRAWN = {
 }
 
 
-def axle_chapter(axle: Axle) -> Chapter:
+def axle_chapter(axle: Axle, goals: Sequence[Goal] = ()) -> Chapter:
     """Return what a rig finds of both wheels.
 
     Parameters
     ----------
     axle : Axle
+    goals : sequence of Target and Limit, optional
+        From `kintrafo.variation.goals`: those over its motions are drawn into the curves.
 
     Returns
     -------
@@ -54,8 +58,10 @@ def axle_chapter(axle: Axle) -> Chapter:
     """
     with Arguments("axle_chapter") as given:
         given.kind("axle", axle, Axle, Axle.NEEDED)
-    drawn = [motion for motion in _DRAWN if motion != "steer" or axle.steered()]
-    curves = {motion: axles.over(axle, motion) for motion in drawn}
+        check_goals(given, "goals", goals)
+    wanted = {goal.over for goal in goals}
+    drawn = [m for m in _DRAWN if m != "steer" or axle.steered()] + ["right"] * ("right" in wanted)
+    curves = {motion: _over(axle, motion, goals) for motion in drawn}
     on_rack = ", on one rack" if axle.steered() else ""
     words = [f"Both wheels of the {axle.heading()}{on_rack}."]
     words.append(
@@ -75,7 +81,7 @@ def axle_chapter(axle: Axle) -> Chapter:
         title="The axle",
         words=(" ".join(words),),
         tables=(*at_design(whole, "Over parallel travel: "), _data_of(axle)),
-        pictures=tuple(_pictures(curves)),
+        pictures=tuple(_pictures(curves, goals)),
     )
 
 
@@ -97,15 +103,19 @@ def _data_of(axle: Axle) -> Tabulated:
     return Tabulated(title, ("key", "value"), tuple(rows), frozenset({0, 1}))
 
 
-def _pictures(curves: dict[str, xr.Dataset]) -> list[Picture]:
-    pictures = []
+def _over(axle: Axle, motion: str, goals: Sequence[Goal]) -> xr.Dataset:
+    """Return all that is told over a motion, at the positions of goals, too."""
+    if motion == "steer":
+        return axles.over(axle, motion)
+    return dataset_of(axle, motion, positions_of(axle, motion, goals))
+
+
+def _pictures(curves: dict[str, xr.Dataset], goals: Sequence[Goal]) -> Iterator[Picture]:
     for motion, dataset in curves.items():
         drawn = axles.by_side(dataset)
+        own = [goal for goal in goals if goal.over == motion]
         # what the motion goes over, as the rack where no ratio is known, is no curve of it
-        there = [n for n in _DRAWN[motion] if n in drawn.data_vars]
-        names = [n for n in there if bool(np.isfinite(drawn[n]).any())]
+        names = with_wanted(drawn, _DRAWN.get(motion, ()), own)
         words = axles.MOTIONS[motion]
-        with rc_context(STYLE):
-            page = figure(drawn, names, title=words[:1].upper() + words[1:], alone=False)
-            pictures.append(Picture.of(page, f"Curves: {words}"))
-    return pictures
+        title = words[:1].upper() + words[1:]
+        yield from pictures(drawn, names, title, f"Curves: {words}", goals=own)

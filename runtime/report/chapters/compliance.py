@@ -1,17 +1,20 @@
 """The chapter about compliance."""
 
+from collections.abc import Sequence
+
 import xarray as xr
-from matplotlib import rc_context
 
 from ...core.arguments import Arguments
-from ...plots.curves import figure, grouped
-from ...plots.figures import STYLE
+from ...plots.curves import grouped
 from ...study.axles import by_side
+from ...study.loads.flexibility import HELD
 from ...study.loads.sheets import compliances, compliances_of_axle
-from .chapter import Chapter, Picture
+from ...study.variation.goals import Goal, check_goals
+from .chapter import Chapter
+from .curves import pictures, with_wanted
 
 
-def compliance_chapter(found: xr.Dataset) -> Chapter:
+def compliance_chapter(found: xr.Dataset, goals: Sequence[Goal] = ()) -> Chapter:
     """Return how the wheel gives way on its bushes, or both wheels of an axle.
 
     Parameters
@@ -19,6 +22,9 @@ def compliance_chapter(found: xr.Dataset) -> Chapter:
     found : xarray.Dataset
         From `kintrafo.loads.compliance`, `kintrafo.axles.compliance` or
         `kintrafo.rigid_axles.compliance`.
+    goals : sequence of Target and Limit, optional
+        From `kintrafo.variation.goals`: those with what holds the wheels here are drawn into the
+        curves.
 
     Returns
     -------
@@ -26,11 +32,13 @@ def compliance_chapter(found: xr.Dataset) -> Chapter:
     """
     with Arguments("compliance_chapter") as given:
         given.dataset(found, over="wheel_travel")
+        check_goals(given, "goals", goals)
     curves = by_side(found.drop_dims([name for name in ("moved", "by") if name in found.dims]))
-    names = [name for group in grouped(curves).values() for name in group]
-    with rc_context(STYLE):
-        drawn = figure(curves, names, title="Compliance over wheel travel", alone=False)
-        picture = Picture.of(drawn, "Compliances over wheel travel")
+    own = [goal for goal in goals if HELD.get(goal.over) == found.attrs["held"]]
+    usual = [str(name) for group in grouped(curves, own).values() for name in group]
+    names = with_wanted(curves, usual, own)
+    title = "Compliance over wheel travel"
+    drawn = pictures(curves, names, title, "Compliances over wheel travel", goals=own)
     words = f"By the unit-load theorem, linear, bushes relaxed: {found.attrs['held']}."
     sheets = compliances(found, "At design"), *compliances_of_axle(found, "At design, the axle")
-    return Chapter("Compliance", (words,), sheets, (picture,))
+    return Chapter("Compliance", (words,), sheets, drawn)

@@ -1,14 +1,12 @@
 """The chapter about what bushes do to the curves over wheel travel, and over roll."""
 
 import xarray as xr
-from matplotlib import rc_context
 
 from ...core.arguments import Arguments
-from ...plots.curves import figure
-from ...plots.figures import STYLE
 from ...study.characteristics.datasets import DATA_SET
 from ...study.loads.sheets import deflections, deflections_of_axle
 from .chapter import Chapter, Picture
+from .curves import pictures
 
 
 def elastokinematics_chapter(*found: xr.Dataset) -> Chapter:
@@ -29,21 +27,20 @@ def elastokinematics_chapter(*found: xr.Dataset) -> Chapter:
             given.refuse("dataset: one or more are needed.")
         for dataset in found:
             given.dataset(dataset, over=DATA_SET)
-    sheets, pictures = [], []
+    sheets = []
+    drawn: list[Picture] = []
     for dataset in found:
         over = _over(dataset)
-        with rc_context(STYLE):
-            title = f"Kinematic and elastokinematic, over {over}"
-            drawn = figure(dataset, list(map(str, dataset)), title=title, alone=False)
-            words = f"Curves over {over} with rigid joints and on the bushes"
-            pictures.append(Picture.of(drawn, words))
+        title = f"Kinematic and elastokinematic, over {over}"
+        words = f"Curves over {over} with rigid joints and on the bushes"
+        drawn += pictures(dataset, list(map(str, dataset)), title, words)
         if "toe_left" in dataset:
             sheets += deflections_of_axle(dataset, f"Over {over}")
         else:
             sheets.append(deflections(dataset, f"Over {over}"))
     hardpoints = found[0].attrs["hardpoints"]
     words = f"By equilibrium of all parts, however far bushes give way: {hardpoints}."
-    return Chapter("Elastokinematics", (words,), tuple(sheets), tuple(pictures))
+    return Chapter("Elastokinematics", (words,), tuple(sheets), tuple(drawn))
 
 
 def _over(dataset: xr.Dataset) -> str:

@@ -2,30 +2,23 @@
 
 from collections.abc import Sequence
 
-import numpy as np
-from matplotlib import rc_context
-
 from ...core.arguments import Arguments
 from ...core.quantities import display_of
 from ...core.tabulated import Tabulated, significant
-from ...plots.curves import figure
-from ...plots.figures import STYLE
 from ...study.axles import by_side
-from ...study.axles.catalogue import SIDES
 from ...study.loads.flexibility import HELD
 from ...study.variation.goals import Goal, Verdict, judge, words_of
-from ...study.variation.ways import Looked, dataset_of, judged_model, usual_positions, way
+from ...study.variation.ways import Looked, dataset_of, judged_model, way
 from ...suspension.axle import Axle
 from ...suspension.model import Model
 from ...suspension.rigid import RigidAxle
 from .chapter import Chapter, Picture
+from .curves import pictures, positions_of, with_wanted
 
 _MEANING = (
     "A target is met where it is off by no more than what matters of it, at all of its positions. "
     "Beyond is by how much more the worst position is off."
 )
-# So few beside each other are read on the width of a phone, too.
-_COLUMNS = 2
 _NEEDED = "a kintrafo.Model, a kintrafo.Axle or a kintrafo.RigidAxle is needed"
 
 
@@ -56,28 +49,19 @@ def goals_chapter(subject: Model | Axle | RigidAxle, goals: Sequence[Goal]) -> C
     words = f"{len(verdicts) - missed} of {len(verdicts)} are met, {missed} missed."
     ways = list(dict.fromkeys(goal.over for goal in goals))
     looked = subject if isinstance(subject, Model) else judged_model(subject, ways)
-    pictures = [_drawn(looked, goals, over) for over in ways]
+    drawn = [picture for over in ways for picture in _drawn(looked, goals, over)]
     table = _table(goals, verdicts)
-    return Chapter("Targets and limits", (words, _MEANING), (table,), tuple(pictures))
+    return Chapter("Targets and limits", (words, _MEANING), (table,), tuple(drawn))
 
 
-def _drawn(looked: Looked, goals: Sequence[Goal], over: str) -> Picture:
+def _drawn(looked: Looked, goals: Sequence[Goal], over: str) -> tuple[Picture, ...]:
     """Return the curves that goals over something are about, with these."""
     own = [goal for goal in goals if goal.over == over]
-    positions = [usual_positions(looked, over), *(goal.at for goal in own)]
-    dataset = by_side(dataset_of(looked, over, np.unique(np.concatenate(positions))))
-    names = dict.fromkeys(g.name if g.name in dataset else _both(g.name) for g in own)
+    dataset = by_side(dataset_of(looked, over, positions_of(looked, over, own)))
     kind = "Compliance" if over in HELD else "Curves"
     words = f"{kind} over {way(over).words} with targets and limits"
     title = f"{words}\n{HELD[over]}" if over in HELD else words
-    with rc_context(STYLE):
-        drawn = figure(dataset, [*names], title=title, alone=False, columns=_COLUMNS, goals=own)
-        return Picture.of(drawn, words)
-
-
-def _both(name: str) -> str:
-    """Return what a characteristic of one wheel is called where those of both are together."""
-    return next(name.removesuffix(f"_{side}") for side in SIDES if name.endswith(f"_{side}"))
+    return pictures(dataset, with_wanted(dataset, (), own), title, words, goals=own)
 
 
 def _table(goals: Sequence[Goal], verdicts: Sequence[Verdict]) -> Tabulated:

@@ -1,20 +1,24 @@
 """The chapter about a rigid axle."""
 
-import numpy as np
+from collections.abc import Sequence
+
 import xarray as xr
 from matplotlib import rc_context
 
 from ...core.arguments import Arguments
 from ...core.tabulated import Tabulated
-from ...plots.curves import figure
 from ...plots.figures import STYLE
 from ...plots.rigid_axle import views
 from ...study import rigid
 from ...study.axles import by_side
 from ...study.axles.sheet import at_design
 from ...study.rigid.checkup import RigidAxleCheckup, checkup
+from ...study.variation.goals import Goal, check_goals
+from ...study.variation.ways import dataset_of
 from ...suspension.rigid import RigidAxle
+from ...suspension.rigid.model import RigidAxleModel
 from .chapter import Chapter, Picture
+from .curves import pictures, positions_of, with_wanted
 
 # The curves of each motion; those that an axle does not have are left out.
 _DRAWN = {
@@ -44,12 +48,14 @@ _DRAWN = {
 }
 
 
-def rigid_axle_chapters(axle: RigidAxle) -> tuple[Chapter, ...]:
+def rigid_axle_chapters(axle: RigidAxle, goals: Sequence[Goal] = ()) -> tuple[Chapter, ...]:
     """Return what a first look and a rig find of a rigid axle.
 
     Parameters
     ----------
     axle : RigidAxle
+    goals : sequence of Target and Limit, optional
+        From `kintrafo.variation.goals`: those over its motions are drawn into the curves.
 
     Returns
     -------
@@ -57,7 +63,12 @@ def rigid_axle_chapters(axle: RigidAxle) -> tuple[Chapter, ...]:
     """
     with Arguments("rigid_axle_chapters") as given:
         given.kind("axle", axle, RigidAxle, RigidAxle.NEEDED)
-    curves = {motion: rigid.over(axle, motion) for motion in _DRAWN}
+        check_goals(given, "goals", goals)
+    model, wanted = RigidAxleModel(axle), {goal.over for goal in goals}
+    curves = {
+        motion: dataset_of(model, motion, positions_of(model, motion, goals))
+        for motion in [*_DRAWN, *["right"] * ("right" in wanted)]
+    }
     found = checkup(axle)
     words = f"A {found.heading} on four rods, {', '.join(axle.rods)}.".replace("_", " ")
     told = tuple(f"{kind}: {text}" for kind, text in _told(found))
@@ -70,7 +81,7 @@ def rigid_axle_chapters(axle: RigidAxle) -> tuple[Chapter, ...]:
             "On a rig",
             ("Springs, stops and anti-roll bar; tyres are rigid where they are not named.",),
             tuple(at_design(curves["bump"], "Over parallel travel: ")),
-            tuple(_picture(motion, dataset) for motion, dataset in curves.items()),
+            tuple(p for motion, found in curves.items() for p in _pictures(motion, found, goals)),
         ),
     )
 
@@ -79,11 +90,10 @@ def _told(found: RigidAxleCheckup) -> list[tuple[str, str]]:
     return [("Problem", text) for text in found.problems] + [("Note", text) for text in found.notes]
 
 
-def _picture(motion: str, dataset: xr.Dataset) -> Picture:
+def _pictures(motion: str, dataset: xr.Dataset, goals: Sequence[Goal]) -> tuple[Picture, ...]:
     drawn = by_side(dataset)
-    there = [name for name in _DRAWN[motion] if name in drawn.data_vars]
-    names = [name for name in there if bool(np.isfinite(drawn[name]).any())]
+    own = [goal for goal in goals if goal.over == motion]
     words = rigid.MOTIONS[motion]
-    with rc_context(STYLE):
-        page = figure(drawn, names, title=words[:1].upper() + words[1:], alone=False)
-        return Picture.of(page, f"Curves: {words}")
+    title = words[:1].upper() + words[1:]
+    names = with_wanted(drawn, _DRAWN.get(motion, ()), own)
+    return pictures(drawn, names, title, f"Curves: {words}", goals=own)

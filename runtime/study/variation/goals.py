@@ -279,10 +279,7 @@ def judge(suspension: Subject | Axle, wanted: Sequence[Goal]) -> list[Verdict]:
     """
     with Arguments("judge") as given:
         given.kind("suspension", suspension, (Suspension, Axle, RigidAxle), _NEEDED)
-        if not isinstance(wanted, list | tuple) or not all(
-            isinstance(one, Target | Limit) for one in wanted
-        ):
-            given.refuse("wanted: a list of targets and limits, from `goals`, is needed.")
+        check_goals(given, "wanted", wanted)
         if not given.refused:
             model = judged_model(suspension, [goal.over for goal in wanted])
             check_data(given, suspension, wanted, model)
@@ -301,6 +298,14 @@ def _verdict(goal: Goal, values: Array) -> Verdict:
         met = bool(goal.kept(values).all())
     worst = int(beyond.argmax())
     return Verdict(goal.name, goal.over, kind, met, float(beyond[worst]), float(goal.at[worst]))
+
+
+def check_goals(given: Arguments, name: str, wanted: Any) -> None:
+    """Refuse what is no list of goals."""
+    if not isinstance(wanted, list | tuple) or not all(
+        isinstance(one, Target | Limit) for one in wanted
+    ):
+        given.refuse(f"{name}: a list of targets and limits, from `variation.goals`, is needed.")
 
 
 def check_data(

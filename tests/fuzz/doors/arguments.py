@@ -428,7 +428,11 @@ CALLS = {
     "report.write": (
         kintrafo.report.write,
         {"model": _SYSTEM, "path": "a.html", "title": None, "motion": None, "force": False,
-         "inputs": ()},
+         "inputs": (), "goals": (), "chapters": (), "without": ()},
+    ),
+    "compliance_chapter": (
+        kintrafo.report.compliance_chapter,
+        {"found": loads.compliance(kintrafo.Model(_SOFT), None, [0.0]), "goals": ()},
     ),
     "export.check_format": (export.check_format, {"path": "a.csv"}),
     "plots.check_formats": (plots.check_formats, {"paths": ["a.png"], "formats": ["svg"]}),
