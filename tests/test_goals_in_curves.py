@@ -139,13 +139,17 @@ def test_reports_of_axles_tell_how_many_goals_are_missed(
 ) -> None:
     (tmp_path / "goals.toml").write_text(
         "[limits.camber_left]\nat_mm = [0, 40]\nmost = 9\n"
-        "[limits.camber_right]\nat_mm = [0, 40]\nleast = 9\n",
+        "[limits.camber_right]\nat_mm = [0, 40]\nleast = 9\n"
+        "[targets.toe_left]\nvalue = 0.0\nwithin = 1.0\n",
         encoding="utf-8",
     )
 
-    def titles(*_: Any, chapters: Any, **__: Any) -> Path:
+    def titles(*_: Any, chapters: Any, goals: Any = None, **__: Any) -> Path:
         (chapter,) = (one for one in chapters if one.title == "Targets and limits")
-        assert chapter.words[0] == "1 of 2 are met, 1 missed."
+        assert chapter.words[0] == "2 of 3 are met, 1 missed."
+        # the page of the axle shows its right side, of whose toe nothing else is wanted
+        names = ["toe_right", "camber_left", "camber_right"]
+        assert [goal.name for goal in goals or ()] == (names if file == "reference_axle" else [])
         return tmp_path / "report.html"
 
     for name in ("write", "write_chapters"):

@@ -10,6 +10,7 @@ import pytest
 from kintrafo import Axle, InputError, Model, System, axles, characteristics, variation
 from kintrafo.generated import four_bar
 from kintrafo.report.grid import Axis, Grid
+from kintrafo.report.marks import of_shown_side
 from kintrafo.report.page import render
 
 CAR = Model("reference_car")
@@ -119,6 +120,36 @@ def test_one_side_of_an_axle_has_what_is_wanted_of_its_wheel() -> None:
             "limit: roll stiffness [N m/deg]",
         ):
             assert words in page
+
+
+WITHIN = {"value": 0.5, "within": 0.1}
+OTHER = {"value": 0.5, "within": 0.2}
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "shown"),
+    [
+        ({"toe": WITHIN}, {}, {"toe_right": 0.1}),
+        ({"toe": WITHIN}, {"toe": WITHIN}, {"toe_right": 0.1}),
+        ({"toe": WITHIN}, {"toe": OTHER}, {"toe_left": 0.1, "toe_right": 0.2}),
+        # of which the wheels have the same with the other sign
+        ({"steer": WITHIN}, {}, {"steer_left": 0.1}),
+        ({"roll_camber": WITHIN}, {}, {"roll_camber_left": 0.1}),
+    ],
+)
+def test_wheels_with_one_curve_have_one_page(left: Any, right: Any, shown: Any) -> None:
+    targets = {f"{name}_{side}": table for side, of in (("left", left), ("right", right))
+               for name, table in of.items()}  # fmt: skip
+    goals = variation.goals({"targets": targets}, OF_AXLES)
+    axle = Axle.load("reference_axle")
+    found: list[Any] = of_shown_side(axle, goals, "right")
+    assert [goal.name for goal in found] == [*shown]
+    factors = [goal.quantity.attributes()["display_factor"] for goal in found]
+    assert [f * g.within for f, g in zip(factors, found, strict=True)] == pytest.approx(
+        [*shown.values()]
+    )
+    unlike = Axle.from_dict({"axle": "front", "left": axle.left, "right": axle.right})
+    assert of_shown_side(unlike, goals, "right") == goals
 
 
 def test_a_wheel_of_an_axle_moves_as_by_itself() -> None:

@@ -116,7 +116,7 @@ def command(
             title=title,
             chapters=chapters,
             without=without,
-            goals=aims,
+            goals=_of_page(axle, aims),
             progress=status.update,
             force=force,
             inputs=inputs,
@@ -145,6 +145,13 @@ def _of_one_side(axle: "Axle | None") -> frozenset[str]:
     # what both wheels decide: the page knows but one side, and takes the other for its image
     without = frozenset() if axle.symmetric else frozenset(AXLE)
     return without if axle.end == "front" else frozenset(AXLE) | {"anti_dive", "anti_lift_braked"}
+
+
+def _of_page(axle: "Axle | None", goals: "Sequence[Goal]") -> "Sequence[Goal]":
+    """Return the goals of an axle as those of the side that its page shows."""
+    from ..report.marks import of_shown_side
+
+    return goals if axle is None else of_shown_side(axle, goals, axle.bar_side)
 
 
 def _of_axle(axle: "Axle | None", goals: "Sequence[Goal]") -> "list[Chapter]":

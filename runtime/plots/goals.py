@@ -63,10 +63,11 @@ def about(goals: Iterable[Goal], data: xr.DataArray, along: str) -> dict[str, li
 
 def _has_like(goals: Iterable[Goal], goal: Goal) -> bool:
     """Tell whether one of some goals is another in nothing but its name."""
-    return any(_but_name(other) == _but_name(goal) for other in goals)
+    return any(but_name(other) == but_name(goal) for other in goals)
 
 
-def _but_name(goal: Goal) -> tuple[type, dict[str, list[float] | str]]:
+def but_name(goal: Goal) -> tuple[type, dict[str, list[float] | str]]:
+    """Return all of a goal but its name, to be compared."""
     values = {key: np.asarray(value).tolist() for key, value in vars(goal).items() if key != "name"}
     return type(goal), values
 

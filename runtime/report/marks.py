@@ -1,14 +1,19 @@
 """Targets and limits in the charts that move: what is marked in each, and what is in none."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..plots.goals import but_name
+from ..study import axles
+from ..study.axles.catalogue import SIDES
+from ..study.characteristics.datasets import KNOWN
 from ..study.variation.goals import Goal, Limit, Target, words_of
 from ..study.variation.ways import way
+from ..suspension.axle import Axle
 from .curves import Curve
 from .grid import Axis, Grid
 
@@ -115,6 +120,54 @@ def marks(drawn: Sequence[Curve], grid: Grid, goals: Sequence[Goal], side: str) 
             words = f"{_kind(goal)} at {at} {way(goal.over).unit}".replace("-", "\u2212")
             found.beyond.setdefault(key, []).append(words)
     return found
+
+
+def of_shown_side(axle: Axle, goals: Sequence[Goal], side: str) -> list[Goal]:
+    """Return goals of an axle, those of the other wheel as of the one that its page shows.
+
+    That is where both wheels have one curve in parallel travel, and nothing else is wanted of the
+    one that is shown. What is wanted alike of both is there once.
+
+    Parameters
+    ----------
+    axle : Axle
+    goals : sequence of Target and Limit
+    side : {'left', 'right'}
+        Which is shown.
+    """
+    other = next(name for name in SIDES if name != side)
+    alike = _alike(axle) if axle.symmetric and goals else set()
+
+    def wanted(stem: str, of: str) -> list[Any]:
+        named = f"{stem}_{of}"
+        return [but_name(g) for g in goals if (g.name, g.over) == (named, "bump")]
+
+    found = []
+    for goal in goals:
+        stem = goal.name.removesuffix(f"_{other}")
+        if goal.over == "bump" and stem in alike and stem != goal.name:
+            own = wanted(stem, side)
+            if own == wanted(stem, other):
+                continue
+            found.append(goal if own else replace(goal, name=f"{stem}_{side}"))
+        else:
+            found.append(goal)
+    return found
+
+
+def _alike(axle: Axle) -> set[str]:
+    """Return which characteristics both wheels have alike in parallel travel."""
+    curves = axles.over(axle, "bump")
+    left, right = SIDES
+    return {
+        name
+        for name in KNOWN["travel"]
+        if f"{name}_{left}" in curves
+        and np.allclose(
+            curves[f"{name}_{left}"], curves[f"{name}_{right}"], rtol=1e-9, atol=1e-12,
+            equal_nan=True,
+        )
+    }  # fmt: skip
 
 
 def _place(goal: Goal, side: str) -> tuple[str, str]:
