@@ -24,7 +24,7 @@ def compliance_chapter(found: xr.Dataset, goals: Sequence[Goal] = ()) -> Chapter
         `kintrafo.rigid_axles.compliance`.
     goals : sequence of Target and Limit, optional
         From `kintrafo.variation.goals`: those with what holds the wheels here are drawn into the
-        curves.
+        curves. They are about the rack in its middle.
 
     Returns
     -------
