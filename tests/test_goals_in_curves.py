@@ -300,9 +300,11 @@ def test_chapters_of_axles_have_what_is_wanted(file: str, figures: Any) -> None:
         (axes,) = (a for (t, n), a in figures.items() if t.startswith(title) and n == name)
         np.testing.assert_allclose(drawn(axes, label), [points], atol=1e-9)
         # the curve goes as far as what is marked on it
-        ends = axes.get_lines()[0].get_xdata()
-        assert min(ends) <= points[0][0]
-        assert points[-1][0] <= max(ends)
+        along = np.array(axes.get_lines()[0].get_xdata())
+        assert along.min() <= points[0][0]
+        assert points[-1][0] <= along.max()
+        # and has as many points there as elsewhere
+        assert np.diff(along).max() == pytest.approx(np.median(np.diff(along)), rel=1e-6)
     marked = [key for key, axes in figures.items() if axes.get_legend_handles_labels()[1]]
     assert len(marked) == len(expected)
     with pytest.raises(InputError, match="there is no curve of ackermann_left"):

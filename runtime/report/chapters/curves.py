@@ -91,6 +91,13 @@ def _curve(dataset: xr.Dataset, name: str) -> str:
 
 
 def positions_of(looked: Looked, over: str, goals: Iterable[Goal]) -> NDArray[np.float64]:
-    """Return the usual positions over something, and those of the goals about it [m] or [rad]."""
-    own = [goal.at for goal in goals if goal.over == over]
-    return np.unique(np.concatenate([usual_positions(looked, over), *own]))
+    """Return the usual positions over something, as far as goals about it, and theirs [m] or [rad].
+
+    Beyond the usual ones they are as near to each other: curves are no straight lines there.
+    """
+    usual = usual_positions(looked, over)
+    own = np.concatenate([usual[:1], *(goal.at for goal in goals if goal.over == over)])
+    step = np.diff(usual).max()
+    below = np.arange(usual[0], own.min(), -step)
+    above = np.arange(usual[-1], own.max(), step)
+    return np.unique(np.concatenate([usual, own, below, above]))
