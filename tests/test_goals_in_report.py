@@ -122,6 +122,14 @@ def test_one_side_of_an_axle_has_what_is_wanted_of_its_wheel() -> None:
             assert words in page
 
 
+def test_what_is_not_steered_has_no_words_of_a_rack() -> None:
+    wanted = variation.goals({"targets": {"camber": {"value": 0.0, "within": 1.0}}}, ("travel",))
+    page = render(Model("trailing_arm_car"), goals=wanted)
+    assert "</svg> target</span>" in figure_of(page, "camber")
+    assert "rack in its middle" not in page.partition('id="payload"')[0]
+    assert not re.search(r"<p class=\"muted\">\s*</p>", page)
+
+
 WITHIN = {"value": 0.5, "within": 0.1}
 OTHER = {"value": 0.5, "within": 0.2}
 
