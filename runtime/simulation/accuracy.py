@@ -1,5 +1,6 @@
 """How accurately and for how long to integrate, as the caller says it; checked."""
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -52,7 +53,8 @@ def accuracy_of(
 ) -> Accuracy:
     """Check how accurately a state of some size is to be integrated."""
     absolute = given.array("atol", atol)
-    if not (absolute.shape in ((), (size,)) and (absolute > 0.0).all()):
+    positive = (absolute > 0.0).all() if absolute.ndim else float(absolute) > 0.0
+    if not (absolute.shape in ((), (size,)) and positive):
         given.refuse(
             f"atol = {shown(atol)}: one positive number, or one for each of the {size} elements of "
             "the state."
@@ -72,18 +74,19 @@ def accuracy_of(
 def span_of(given: Arguments, t_span: Any) -> tuple[float, float]:
     """Check first and last time [s]; the last may be the earlier one."""
     span = given.array("t_span", t_span, "s", finite=False)
-    if not (span.shape == (2,) and np.isfinite(span).all() and span[0] != span[1]):
+    first, last = span.tolist() if span.shape == (2,) else (0.0, 0.0)
+    if not (math.isfinite(first) and math.isfinite(last) and first != last):
         given.refuse(f"t_span = {shown(t_span)}: two different finite times are needed.")
         return 0.0, 1.0
-    farthest, length = float(np.abs(span).max()), abs(float(span[1]) - float(span[0]))
-    apart = float(np.spacing(farthest))
-    if apart > _TOLD_APART and farthest > _FAR * length:
+    farthest = max(abs(first), abs(last))
+    apart = math.ulp(farthest)
+    if apart > _TOLD_APART and farthest > _FAR * abs(last - first):
         given.refuse(
             f"t_span = {shown(t_span)}: so far from zero only times {apart:.1g} s apart "
             "differ, and every step would err by as much. Count all times from the first one, "
             "which is zero."
         )
-    return float(span[0]), float(span[1])
+    return first, last
 
 
 def outputs_of(given: Arguments, t_eval: Any, span: tuple[float, float]) -> Array:
@@ -91,8 +94,9 @@ def outputs_of(given: Arguments, t_eval: Any, span: tuple[float, float]) -> Arra
     times = given.array("t_eval", t_eval, "s", dimensions=[1])
     if given.refused:
         return times
-    sign = np.sign(span[1] - span[0])
-    inside = sign * times[0] >= sign * span[0] and sign * times[-1] <= sign * span[1]
+    sign = math.copysign(1.0, span[1] - span[0])
+    first, last = float(times[0]), float(times[-1])
+    inside = sign * first >= sign * span[0] and sign * last <= sign * span[1]
     if not (inside and (sign * (times[1:] - times[:-1]) > 0.0).all()):
         given.refuse(
             f"t_eval: times from {span[0]:g} s to {span[1]:g} s are needed, in that order, each of "

@@ -2,8 +2,11 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, cast
 
+import numpy as np
+from numpy.typing import NDArray
 from typing_extensions import TypeAliasType
 
 from ..core.arguments import Arguments, shown
@@ -59,15 +62,16 @@ class Events:
     functions: tuple["_CheckedFunction", ...]
     order: tuple[int, ...]
 
-    @property
-    def directions(self) -> list[int]:
+    @cached_property
+    def directions(self) -> NDArray[np.int32]:
         """The sense of each event: -1, 0 or +1."""
-        return [(e.direction > 0) - (e.direction < 0) for e in self._all]
+        signs = [(e.direction > 0) - (e.direction < 0) for e in self._all]
+        return np.array(signs, dtype=np.int32)
 
-    @property
-    def terminal(self) -> list[int]:
+    @cached_property
+    def terminal(self) -> NDArray[np.int32]:
         """At which crossing each event ends the simulation; 0 for never."""
-        return [int(e.terminal) for e in self._all]
+        return np.array([int(e.terminal) for e in self._all], dtype=np.int32)
 
     @property
     def _all(self) -> "tuple[SignalEvent | _CheckedFunction, ...]":
@@ -86,6 +90,9 @@ class Events:
         ]
         count = len(self.signal)
         return Events(tuple(left[:count]), tuple(left[count:]), self.order)  # type: ignore[arg-type]
+
+
+NO_EVENTS = Events((), (), ())
 
 
 def named_event(model: System, name: str) -> SignalEvent:
@@ -132,7 +139,9 @@ def events_of(model: System, given: Event | Sequence[Event] | None) -> Events:
     -------
     Events
     """
-    single = given is None or callable(given) or isinstance(given, str | SignalEvent)
+    if given is None:
+        return NO_EVENTS
+    single = callable(given) or isinstance(given, str | SignalEvent)
     several = isinstance(given, Sequence) and not isinstance(given, bytes)
     listed: list[Any] = list(cast("Sequence[Any]", given)) if several and not single else [given]
     listed = [event for event in listed if event is not None]

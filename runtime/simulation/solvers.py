@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib import import_module
 from itertools import pairwise
-from math import factorial
+from math import factorial, isinf
 from typing import Any
 
 import numpy as np
@@ -201,7 +201,7 @@ def solve_native(
         rtol=options.rtol,
         atol=options.atol,
         first_step=options.first_step or 0.0,
-        max_step=0.0 if np.isinf(options.max_step) else options.max_step,
+        max_step=0.0 if isinf(options.max_step) else options.max_step,
         max_steps=options.max_steps,
         every_step=every_step,
         stop_at_outputs=options.stop_at_outputs,
@@ -209,8 +209,8 @@ def solve_native(
         signal_count=len(signals),
         events=[(signals.index(e.signal), e.level) for e in events.signal],
         roots=events.functions,
-        directions=np.array(events.directions, dtype=np.int32),
-        terminal=np.array(events.terminal, dtype=np.int32),
+        directions=events.directions,
+        terminal=events.terminal,
         guards=meanings(model.equations),
         usual_margins=model.usual_margins,
         stopped=options.stopped,
@@ -394,7 +394,8 @@ def _scipy_events(function: _RightHandSide, events: Events) -> list["_Waiting"]:
         *(function.event(event.signal, event.level) for event in events.signal),
         *events.functions,
     ]
-    return [_Waiting(*each) for each in zip(given, events.directions, events.terminal, strict=True)]
+    senses = events.directions.tolist(), events.terminal.tolist()
+    return [_Waiting(*each) for each in zip(given, *senses, strict=True)]
 
 
 @dataclass

@@ -144,8 +144,9 @@ cdef int _interrupted(void *data) noexcept with gil:
 cdef _copy(const kt_table *table):
     """Return a table as an array."""
     array = np.empty((table.rows, table.width))
-    cdef double[:, ::1] view = array
+    cdef double[:, ::1] view
     if table.rows:
+        view = array
         memcpy(&view[0, 0], table.data, table.rows * table.width * sizeof(double))
     return array
 

@@ -86,6 +86,11 @@ static int rates_at(worker *w, double time, const double *state, double *out)
     return kt_rates(w, time, state, out);
 }
 
+/* One instruction, where fmax may be a call. */
+static double greater(double x, double y) { return x < y ? y : x; }
+
+static double lesser(double x, double y) { return y < x ? y : x; }
+
 /* Return the mean square of some numbers, each measured by what is tolerated; binary logarithm. */
 static double size_of(const worker *w, const double *numbers, const double *other)
 {
@@ -93,7 +98,7 @@ static double size_of(const worker *w, const double *numbers, const double *othe
     int n = w->problem->state_count;
     double sum = 0.0;
     for (int i = 0; i < n; ++i) {
-        double largest = fmax(fabs(m->state[i]), fabs(other[i]));
+        double largest = greater(fabs(m->state[i]), fabs(other[i]));
         double measured = numbers[i] / (w->options->atol[i] + w->options->rtol * largest);
         sum += measured * measured;
     }
@@ -195,7 +200,7 @@ static int take_step(worker *w)
         }
         square = error_of(w, m->sign * length);
         double factor = SAFE * exp2(0.5 * (OF_ERROR_BEFORE * m->error - OF_ERROR * square));
-        factor = fmin(fmax(factor, MOST_SHORTER), MOST_LONGER);
+        factor = lesser(greater(factor, MOST_SHORTER), MOST_LONGER);
         int good = square <= 0.0;
         m->next = length * (again || !good ? fmin(factor, 1.0) : factor);
         if (good) {

@@ -7,18 +7,19 @@
  * the powers of the part, the lowest first.
  */
 static inline void kt_interpolate(const double *terms, int term_count, int count, double part,
-                                  double step, int derivative, double *out)
+                                  double step, int derivative, double *restrict out)
 {
     for (int i = 0; i < count; ++i) {
-        double value = 0.0;
-        for (int k = term_count - 1; k >= derivative; --k) {
-            double factor = 1.0;
-            for (int j = 0; j < derivative; ++j) {
-                factor *= (k - j) / step;
-            }
-            value = value * part + factor * terms[k * count + i];
+        out[i] = 0.0;
+    }
+    for (int k = term_count - 1; k >= derivative; --k) {
+        double factor = 1.0;
+        for (int j = 0; j < derivative; ++j) {
+            factor *= (k - j) / step;
         }
-        out[i] = value;
+        for (int i = 0; i < count; ++i) {
+            out[i] = out[i] * part + factor * terms[k * count + i];
+        }
     }
 }
 
