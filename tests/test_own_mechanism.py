@@ -21,7 +21,7 @@ from changes import with_default
 from compiled_elsewhere import simulated_end, what_is_needed
 from kintrafo import generator
 from kintrafo.cli import app
-from kintrafo.generator import Formulation, JointForce, Mechanism, Motion
+from kintrafo.generator import Formulation, Mechanism
 from kintrafo.generator.mechanisms.andrews import MODELS as ANDREWS
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BAR_MODELS
@@ -31,7 +31,6 @@ from kintrafo.systems.compile import build as own_build
 from kintrafo.systems.compile import declaration
 from kintrafo.systems.compile.cache import cache_folder
 from kintrafo.systems.compile.compiler import find_compiler
-from own_mechanisms import spatial_four_bar
 from typer.testing import CliRunner
 
 ROOT = Path(__file__).parent.parent
@@ -397,24 +396,6 @@ def test_a_chain_without_loops_inputs_and_signals(tmp_path):
     result = kintrafo.simulate(system, (0.0, 1.0), system.state(first=1.0))
     assert result.success
     assert result.signals == {}
-
-
-@needs_compiler
-def test_a_model_that_is_prescribed_as_a_whole():
-    """It has no state, and a motion all the same: signals over time."""
-    model = spatial_four_bar("all_given")
-    forces = tuple(f for f in model.mechanism.forces if not isinstance(f, JointForce))
-    mechanism = replace(model.mechanism, forces=forces)
-    motion = {mechanism.joint("drive"): Motion("drive", "rad", "angle of the crank")}
-    given = replace(model, mechanism=mechanism, independent=(), prescribed=motion)
-    system = kintrafo.System(kintrafo.compile(given))
-    driven = {"drive_position": lambda t: 0.1 * t}
-    times = np.linspace(0.0, 2.0, 5)
-    result = kintrafo.simulate(system, (0.0, 2.0), system.state(), t_eval=times, inputs=driven)
-    free = kintrafo.System(kintrafo.compile(model))
-    for time, length in zip(times, result.signals["spring_length"], strict=True):
-        expected = free.signals(free.state(drive_angle=0.1 * time))
-        assert length == pytest.approx(expected["spring_length"], rel=1e-14)
 
 
 class TestMistakes:

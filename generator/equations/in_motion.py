@@ -121,11 +121,15 @@ def _in_ground_axes(part: Kinematics, body: str, point: Point) -> PointMotion:
 
 
 def independent_groups(plan: Plan) -> tuple[set[str], list[set[str]]]:
-    """Return the ground with what prescribed joints tie to it, and the groups of other bodies."""
+    """Return the ground with what prescribed joints tie to it, and the groups of other bodies.
+
+    Where all bodies are tied to it there is one group, of no others.
+    """
     mechanism, graph = plan.formulation.mechanism, plan.topology.graph
     tied = nx.Graph([joint.bodies for joint in plan.formulation.prescribed])
     tied.add_node(mechanism.ground)
     common = nx.node_connected_component(tied, mechanism.ground)
     groups = nx.connected_components(graph.subgraph(set(graph) - common))
     numbers = {body.name: i for i, body in enumerate(mechanism.bodies)}
-    return common, sorted(groups, key=lambda group: min(numbers[body] for body in group))
+    in_order = sorted(groups, key=lambda group: min(numbers[body] for body in group))
+    return common, in_order or [set()]

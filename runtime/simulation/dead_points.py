@@ -27,9 +27,11 @@ def meanings(equations: ModuleType) -> NDArray[np.int32]:
     acting = equations.ACTING_GUARDS
     places = set(acting["positions"]) | set(acting["orientations"])
     found = np.zeros(len(equations.GUARDS), dtype=np.int32)
-    for guard in {*acting["rhs"], *acting.get("signals", ())}:
+    rates, signals = set(acting["rhs"]), set(acting.get("signals", ()))
+    for guard in rates | signals:
         found[guard] |= ACTS
-    for guard in places & set(acting["rhs"]):
+    # of a mechanism whose motion is given as a whole, signals are all that there is
+    for guard in places & (rates if equations.STATE else signals):
         found[guard] |= PLACES
     return found
 

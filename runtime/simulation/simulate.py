@@ -286,15 +286,22 @@ def _choose_backend(model: System, backend: Backend, options: Options) -> Callab
     if backend != "scipy" and method in native_methods(fixed_step=True) and compiled:
         return solve_native
     if backend == "sundials" or options.stop_at_outputs or method not in SCIPY_METHODS:
-        raise InputError([_missing(method, compiled=compiled)], "simulate")
+        raise InputError(
+            [_missing(method, states=bool(model.state_names), compiled=compiled)], "simulate"
+        )
     if backend == "auto" and method in NATIVE_METHODS and compiled:
         _tell_once()
     return solve_scipy
 
 
-def _missing(method: str, *, compiled: bool) -> str:
+def _missing(method: str, *, states: bool, compiled: bool) -> str:
     if method not in NATIVE_METHODS:
         return f"method {method!r} is one of SciPy; SUNDIALS has {', '.join(native_methods())}."
+    if not states:
+        return (
+            f"method {method!r} needs a state to integrate, and all that moves here is prescribed. "
+            "Use 'BDF' or another method of SciPy, without stop_at_outputs."
+        )
     if not compiled:
         return (
             f"method {method!r} of SUNDIALS needs compiled equations, and these are functions over "
@@ -509,7 +516,9 @@ class _Run:
                 states[self._events.order[index]].append(state)
         return {
             "t_events": [np.array(t) for t in times],
-            "y_events": [np.array(s).reshape(-1, self._model.design_state.size) for s in states],
+            "y_events": [
+                np.array(s).reshape(len(s), self._model.design_state.size) for s in states
+            ],
         }
 
     def _counts(self) -> dict[str, Any]:

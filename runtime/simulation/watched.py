@@ -162,6 +162,8 @@ class _Steps(OdeSolver):
         super().__init__(self._given, time, state, self._end, **options)
         for name, count in counts.items():
             setattr(self, name, getattr(self, name) + count)
+        if not self.n:  # SciPy has no first step for what has no state, and goes to the end
+            self._trusted = min(self._trusted, step)
 
     def _smallest(self) -> float:
         of_time = SMALLEST_OF_TIME * self._whole

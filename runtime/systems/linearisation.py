@@ -83,8 +83,8 @@ class Linearisation:
         """
         changing = self.A.any(axis=0)
         # the size of what has to cancel: a state off by 1e-6 rad or m, or so
-        scale = max(1.0, float(np.abs(self.A[changing]).max()))
-        return bool(np.abs(self.rate[changing]).max() <= _STEADY * scale)
+        scale = float(np.abs(self.A[changing]).max(initial=1.0))
+        return bool(np.abs(self.rate[changing]).max(initial=0.0) <= _STEADY * scale)
 
     @property
     def eigenvalues(self) -> Complex:
@@ -223,14 +223,16 @@ def linearise(
                 "inputs", model.inputs() if inputs is None else inputs, dimensions=[1],
                 last=len(model.input_names), empty=True,
             )  # fmt: skip
-            point = checked.array("state", state, dimensions=[1], last=len(model.state_names))
+            point = checked.array(
+                "state", state, dimensions=[1], last=len(model.state_names), empty=True
+            )
             outputs = model.signal_names if outputs is None else outputs
             names = checked.names("outputs", outputs, model.signal_names)
     rows = [model.signal_names.index(name) for name in names]
     described = model.equations
 
     def evaluated(function: str, *shape: int) -> Array:
-        """Return a result, empty where the mechanism has no inputs or no signals."""
+        """Return a result, empty where the mechanism has no states, inputs or signals."""
         return model.evaluate(function, point, given) if all(shape) else np.empty(shape)
 
     signals, states, entries = map(len, (model.signal_names, model.state_names, model.input_names))
@@ -238,8 +240,8 @@ def linearise(
         state=point,
         inputs=given,
         outputs=evaluated("signals", signals)[rows],
-        rate=model.evaluate("rhs", point, given),
-        A=model.evaluate("rhs_jacobian", point, given),
+        rate=evaluated("rhs", states),
+        A=evaluated("rhs_jacobian", states, states),
         B=evaluated("rhs_input_jacobian", states, entries),
         C=evaluated("signals_jacobian", signals, states)[rows],
         D=evaluated("signals_input_jacobian", signals, entries)[rows],

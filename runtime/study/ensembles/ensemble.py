@@ -207,7 +207,10 @@ def _start(given: Arguments, model: System, y0: Any) -> Array:
     """Return the initial states, one row for all or one for each; NaN for the design position."""
     size = len(model.state_names)
     if not size:
-        given.refuse(f"{model.equations.NAME} moves as its inputs say: there is nothing to find.")
+        given.refuse(
+            f"{model.equations.NAME} moves as its inputs say, and has no state to be integrated. "
+            "Use kintrafo.simulate for each, or the signals of a System at many inputs."
+        )
     if y0 is None:
         return np.full((1, size), np.nan)
     states = given.array("y0", y0, dimensions=[1, 2], last=size, empty=not size)
