@@ -16,7 +16,7 @@ from kintrafo import (
     simulate,
     state_at_height,
 )
-from kintrafo.systems.modes import eigenvalues_of, mode_of_states
+from kintrafo.systems.modes import eigenvalues_of, mode_of_states, modes_of
 from oracle.multipliers import solve_free, solve_prescribed
 from oracle.newton import Mechanism, solve_pose
 from oracle.reference import EIGENVALUES_AT_REST, SPIN_RATE, reference_parameters
@@ -303,6 +303,36 @@ def test_an_eigenvalue_that_is_zero_has_words():
     hop, *spin = linearise(HELD, equilibrium(HELD)).modes
     assert hop.text == "12.35 Hz, damping ratio 0.233"
     assert {mode.text for mode in spin} == {"neither swings nor returns: an eigenvalue is zero"}
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "damping", "text"),
+    [
+        (3.0, 0.4, "0.28 Hz, damping ratio 0.115"),
+        (3.0, -0.4, "0.28 Hz, damping ratio -0.115"),
+        (3.0, 4.0, "0.28 Hz, damping ratio 1.155: overdamped, time constants 333 ms and 1 s"),
+        (
+            3.0,
+            -4.0,
+            "does not swing: grows by the factor e in 1 s, grows by the factor e in 333 ms",
+        ),
+        (
+            -3.0,
+            2.0,
+            "does not swing: decays by the factor e in 333 ms, grows by the factor e in 1 s",
+        ),
+    ],
+)
+def test_what_falls_over_is_no_oscillator(stiffness, damping, text):
+    """x'' + damping x' + stiffness x = 0: an inverted pendulum has no frequency."""
+    matrix = np.array([[0.0, 1.0], [-stiffness, -damping]])
+    mode = mode_of_states(matrix, ("x", "x_rate"), ("x", "x_rate"))
+    assert mode.text == text
+    assert np.isnan(mode.natural_frequency) == (stiffness < 0.0)
+    assert np.isnan(mode.damping_ratio) == (stiffness < 0.0)
+    for alone in modes_of(matrix, ("x", "x_rate")):
+        grows = alone.eigenvalues[0].real > 0.0
+        assert alone.oscillates or ("grows" in alone.text) == grows
 
 
 def test_examples_of_the_page_run(capsys):

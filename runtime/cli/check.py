@@ -1,5 +1,6 @@
 """``kintrafo check``: what is wrong with a hardpoint file, or what the suspension is like."""
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -133,6 +134,8 @@ def _rest(found: "Checkup") -> dict[str, str]:
         "wheel-hop mode": f"{_frequency(rest.frequency, USUAL_HOP)}, "
         f"damping ratio {rest.damping_ratio:.3f}",
     }
+    if not math.isfinite(rest.frequency):
+        rows["wheel-hop mode"] = "none"
     if rest.damping_ratio_with_friction is not None:
         rows["wheel-hop mode"] += " without friction"
         rows["below the friction velocity"] = (

@@ -55,7 +55,7 @@ class Equilibrium:
     signals : dict
         All signals of the model there, SI units.
     frequency : float
-        Undamped natural frequency of the wheel-hop mode [Hz].
+        Undamped natural frequency of the wheel-hop mode [Hz]; NaN where nothing would swing.
     damping_ratio : float
         Of that mode, without friction; above one where it does not oscillate.
     damping_ratio_with_friction : float or None
@@ -269,7 +269,9 @@ def _notes(
         notes.append(f"at rest, the {extended.name} is longer than {extended.key}.")
     if rest.signals["tyre_force"] <= 0.0:
         notes.append("the tyre carries nothing at rest: check [tyre] free_height_mm.")
-    if rest.damping_ratio <= 0.0:
+    if not np.isfinite(rest.frequency):
+        notes.append("the wheel does not swing about this rest: pushed off it, it does not return.")
+    elif rest.damping_ratio <= 0.0:
         notes.append("the wheel-hop mode is not damped.")
     if rest.damping_ratio >= 1.0:
         notes.append("the wheel-hop mode is overdamped.")

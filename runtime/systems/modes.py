@@ -38,17 +38,31 @@ class Mode:
 
     @property
     def natural_frequency(self) -> float:
-        """Undamped natural frequency [Hz]; that of the geometric mean of real eigenvalues."""
+        """Undamped natural frequency [Hz]; that of the geometric mean of real eigenvalues.
+
+        NaN where one of two grows and the other one decays: nothing would swing there.
+        """
+        if self._falls:
+            return math.nan
         size = math.prod(map(abs, self.eigenvalues))
         mean: float = size ** (1.0 / len(self.eigenvalues))
         return mean / (2.0 * math.pi)
 
     @property
     def damping_ratio(self) -> float:
-        """Damping ratio; above one for an overdamped pair, NaN for an eigenvalue that is zero."""
+        """Damping ratio; above one for an overdamped pair, negative where the motion grows.
+
+        NaN for an eigenvalue that is zero, and where there is no natural frequency.
+        """
         total = sum(self.eigenvalues).real
         size = len(self.eigenvalues) * 2.0 * math.pi * self.natural_frequency
         return 0.0 - total / size if size > 0.0 else float("nan")  # no negative zero
+
+    @property
+    def _falls(self) -> bool:
+        """Whether one of two real eigenvalues grows and the other one decays."""
+        rates = [value.real for value in self.eigenvalues]
+        return not self.oscillates and min(rates) < 0.0 < max(rates)
 
     @property
     def eigenvalues_text(self) -> str:
@@ -66,8 +80,18 @@ class Mode:
         text = f"{self.natural_frequency:.2f} Hz, damping ratio {self.damping_ratio:.3f}"
         if self.oscillates:
             return text
-        times = " and ".join(f"{-1e3 / value.real:.3g} ms" for value in self.eigenvalues)
-        return f"{text}: overdamped, time constants {times}"
+        times = [_time(1.0 / abs(value.real)) for value in self.eigenvalues]
+        if max(value.real for value in self.eigenvalues) < 0.0:
+            return f"{text}: overdamped, time constants {' and '.join(times)}"
+        words = [
+            f"{'grows' if value.real > 0.0 else 'decays'} by the factor e in {time}"
+            for value, time in zip(self.eigenvalues, times, strict=True)
+        ]
+        return f"does not swing: {', '.join(words)}"
+
+
+def _time(value: float) -> str:
+    return f"{1e3 * value:.3g} ms" if value < 0.9995 else f"{value:.3g} s"
 
 
 def eigenvalues_of(matrix: Array) -> Complex:

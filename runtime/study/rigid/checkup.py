@@ -192,7 +192,5 @@ def _rest(model: RigidAxleModel) -> tuple[dict[str, float], dict[str, str]]:
         mode = linear.mode_of(name)
         values[f"{name}_frequency"] = mode.natural_frequency
         values[f"{name}_damping_ratio"] = mode.damping_ratio
-        rows[f"{words} on the tyres"] = (
-            f"{mode.natural_frequency:.2f} Hz, damping ratio {mode.damping_ratio:.3f}"
-        )
+        rows[f"{words} on the tyres"] = mode.text
     return values, rows
