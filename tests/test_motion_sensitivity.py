@@ -204,6 +204,7 @@ def test_against_a_motion_of_complex_numbers(
     [
         ({"by": ["no_such"]}, "no_such"),
         ({"by": {}}, "by is empty"),
+        ({"by": []}, "by is empty"),
         ({"by": ["road_height"], "inputs": ROAD}, "varies with time"),
         ({"by": ["gravity"], "t_span": (1.0, 0.0)}, "the later one"),
         ({"by": ["gravity"], "signals": ["nothing"]}, "nothing"),

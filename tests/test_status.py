@@ -13,8 +13,9 @@ from c_text import functions, sources_of
 from cases import MODELS, Instant, car_parameters, of_model
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from kintrafo import System
 from kintrafo.equations.errors import ClosureError, ModelError, ParameterError
-from kintrafo.generated import macpherson, macpherson_free_rack, macpherson_general
+from kintrafo.generated import macpherson, macpherson_free_rack, macpherson_general, trailing_arm
 from oracle.constraints import KNUCKLE, Array
 from oracle.newton import Mechanism, rotation_matrix
 from oracle.reference import (
@@ -774,3 +775,11 @@ def test_both_sides_of_a_dead_point(model, side: float) -> None:
     margins = dict(zip((guard for guard, _ in model.GUARDS), values, strict=True))
     # roundings of areas of 0.1 m²
     assert 0.0 < margins["knuckle_closure"] < 1e-15
+
+
+def test_what_nothing_has_mass_to_move_is_not_called_geometry() -> None:
+    """An arm on a hinge, whose mass matrix is a constant."""
+    parameters = System(trailing_arm).parameters
+    parameters |= {name: 0.0 for name in parameters if name.endswith("_mass") or "_inertia" in name}
+    with pytest.raises(ParameterError, match="nothing that 'arm_angle' moves has mass or inertia"):
+        trailing_arm.prepare(parameters)

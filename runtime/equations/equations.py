@@ -21,6 +21,8 @@ Code = Mapping[str, int | Callable[..., Any]]
 
 # Whose guards an integration has to know: what it evaluates, what it puts out, what places bodies.
 _OF_A_SIMULATION = ("rhs", "signals", "positions", "orientations")
+# Constants that are one over the mass or inertia that a coordinate moves, before its name.
+_OF_MASS = "inverse_pivot_"
 
 
 def _result(
@@ -323,8 +325,15 @@ class Equations:
     def _unusable(self, failed: int, constants: Array) -> str:
         """Say what `prepare` has found wrong with the constants."""
         if failed <= len(self.constant_names):
+            name = self.constant_names[failed - 1]
+            if name.startswith(_OF_MASS):
+                return (
+                    f"nothing that {name.removeprefix(_OF_MASS)!r} moves has mass or inertia, so "
+                    "that any force would accelerate it without end; give a mass above 0 kg or an "
+                    "inertia above 0 kg m^2 there"
+                )
             return (
-                f"the constant {self.constant_names[failed - 1]!r} is not finite: the geometry at "
+                f"the constant {name!r} is not finite: the geometry at "
                 "the design position is degenerate (coincident points, or a point on a line that "
                 "it must lie beside)"
             )

@@ -151,16 +151,17 @@ def motion_sensitivity(
 def _along(given: Arguments, system: System, by: Any) -> dict[str, Mapping[str, float]]:
     """Return the directions by name."""
     known = (*system.parameters, *system.state_names, *system.input_names)
-    if not isinstance(by, Mapping):
-        return {name: {name: 1.0} for name in given.names("by", by, known)}
     found: dict[str, Mapping[str, float]] = {}
+    if not isinstance(by, Mapping):
+        found = {name: {name: 1.0} for name in given.names("by", by, known)}
+        by = {}
     for label, direction in given.mapping("by", by, "names and directions").items():
         named = given.mapping(f"by {label!r}", direction, "names and numbers")
         found[str(label)] = {
             given.among("name", name, known): given.number(f"by {label!r} {name}", value)
             for name, value in named.items()
         }
-    if not found:
+    if not (found or given.refused):
         given.refuse("by is empty: one name or direction is needed.")
     return found
 
