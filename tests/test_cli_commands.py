@@ -13,10 +13,12 @@ import pytest
 import xarray as xr
 from kintrafo import Model, Suspension, characteristics, cli
 from kintrafo.core.tabulated import number, significant
+from kintrafo.suspension.starter import NOT_A_RIGID_AXLE
 from matplotlib.image import imread
 
 ROOT = Path(__file__).parent.parent
 CAR = "reference_car"
+CAR_FILE = ROOT / "runtime/suspension/data/reference_car.toml"
 
 
 @pytest.fixture
@@ -169,6 +171,32 @@ def test_the_documentation_names_every_command():
     (table,) = re.findall(r"\| command \|.*?\n\n", PAGE, flags=re.DOTALL)
     named = re.findall(r"^\| `([\w-]+)", table, flags=re.MULTILINE)
     assert sorted(named) == sorted(str(c.name) for c in cli.app.registered_commands)
+
+
+def test_what_a_rigid_axle_has_is_what_takes_its_file(kintrafo):
+    """Its page and the refusal name the same commands; the others that take a file refuse it."""
+    page = (ROOT / "docs/rigid-axle.md").read_text(encoding="utf-8")
+    (listed,) = re.findall(r"The commands are (.*?), whose page", page, flags=re.DOTALL)
+    named = set(re.findall(r"`([\w-]+)`", listed))
+    (told,) = re.findall(r"Its commands are (.*?); others", NOT_A_RIGID_AXLE)
+    assert set(re.split(r", | and ", told)) == named
+    more = {
+        "kinematics": [],
+        "topology": [],
+        "derivation": ["--out", "x.tex"],
+        "animate": ["x.gif"],
+        "export-points": ["x.csv"],
+        "sweep": ["damper.rate_N_s_per_m=2000,3000", "--duration", "0.05"],
+    }
+    without_a_file = {"schema", "paper", "generate", "import-points"}
+    without_a_file |= {"import-chrono", "import-adams"}
+    every = {str(c.name) for c in cli.app.registered_commands}
+    assert every - named - without_a_file == {*more} - {"sweep"}
+    kintrafo("new", "rear.toml", "--rigid-axle")
+    for command, arguments in more.items():
+        code, _, err = kintrafo(command, "rear.toml", *arguments)
+        assert code == (0 if command in named else 2), err
+        assert ("the file of a rigid axle" in " ".join(err.split())) == (command not in named)
 
 
 # -- check and new ------------------------------------------------------------------------------
@@ -355,6 +383,8 @@ def test_topology_needs_no_sympy(kintrafo, monkeypatch):
         (["simulate", CAR, "--road-step", "nan"], 2, "finite"),
         (["topology", "no_such_car"], 2, "no_such_car"),
         (["compare", CAR, "no_such_car"], 2, "no_such_car"),
+        (["animate", CAR, "x.gif", "--start", "beta1=1", "--start", "beta1=2"], 2, "given twice"),
+        (["generate", CAR_FILE], 2, "kintrafo check"),
     ],
 )
 def test_mistakes_end_with_a_message(kintrafo, arguments, code, words, tmp_path):

@@ -56,11 +56,13 @@ def _values(given: list[str]) -> dict[str, float]:
     """Return the values of --start by name."""
     from ..core.errors import InputError
 
-    found = {}
+    found: dict[str, float] = {}
     for text in given:
-        name, _, value = text.partition("=")
+        name, _, value = (part.strip() for part in text.partition("="))
+        if name in found:
+            raise InputError([f"{name} is given twice: keep one of them."], "--start")
         try:
-            found[name.strip()] = float(value)
+            found[name] = float(value)
         except ValueError:
             problem = f"{text!r}: NAME=VALUE is needed, such as crank_angle_rate=6."
             raise InputError([problem], "--start") from None

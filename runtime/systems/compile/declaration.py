@@ -98,6 +98,13 @@ def given_by(
             checked.kind("name", name, str, "the name of a model or a mechanism is needed")
     given: Any = declared
     if isinstance(declared, str | Path):
+        if Path(declared).suffix.lower() == ".toml":
+            problem = (
+                "this is no Python file with a declaration. Suspensions have their equations: a "
+                "hardpoint file (TOML) is for kintrafo check, simulate and so on, and in Python for "
+                "kintrafo.Model."
+            )
+            raise InputError([problem], str(declared))
         with translated_errors():
             given = _chosen(_run(Path(declared)), str(declared), name)
     if isinstance(given, Formulation | Mechanism):
