@@ -101,7 +101,7 @@ def given_by(
         if Path(declared).suffix.lower() == ".toml":
             problem = (
                 "this is no Python file with a declaration. Suspensions have their equations: a "
-                "hardpoint file (TOML) is for kintrafo check, simulate and so on, and in Python for "
+                "hardpoint file (TOML) is for kintrafo check, simulate and so on, in Python for "
                 "kintrafo.Model."
             )
             raise InputError([problem], str(declared))
