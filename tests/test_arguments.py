@@ -1,8 +1,15 @@
 """Arguments that cannot be used are told by name, with what would be right."""
 
+import re
+from contextlib import suppress
+from inspect import signature
+from operator import attrgetter
+from pathlib import Path
+
 import kintrafo
 import numpy as np
 import pytest
+from kintrafo import KintrafoError
 from kintrafo.core.arguments import Arguments, shown
 from kintrafo.generated import four_bar
 from kintrafo.study.scenario import Scenario
@@ -117,3 +124,29 @@ def test_names_that_are_none_are_refused():
 
 def test_what_is_long_is_cut():
     assert len(shown(list(range(1000)))) < 70
+
+
+DOCUMENTED = sorted(
+    {
+        name
+        for page in (Path(__file__).parents[1] / "docs/api").glob("*.md")
+        for name in re.findall(r"autofunction:: kintrafo\.(\S+)", page.read_text(encoding="utf-8"))
+    }
+)
+JUNK = (3, -1, None, "nothing", "", b"x", True, np.nan, [], [np.nan], (1, 2, 3), {}, object())
+
+
+@pytest.mark.parametrize("name", DOCUMENTED)
+def test_what_no_argument_can_be_is_refused_in_words(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Every function of the interface is given what it cannot use, for all that it needs."""
+    monkeypatch.chdir(tmp_path)
+    function = attrgetter(name)(kintrafo)
+    every = signature(function).parameters.values()
+    needed = [p for p in every if p.default is p.empty and p.kind is not p.VAR_KEYWORD]
+    for junk in JUNK if needed else ():
+        given = [junk for p in needed if p.kind is not p.KEYWORD_ONLY]
+        named = {p.name: junk for p in needed if p.kind is p.KEYWORD_ONLY}
+        with suppress(KintrafoError):  # all other errors are raw
+            function(*given, **named)

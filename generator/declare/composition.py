@@ -23,18 +23,17 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..program.vectors import Vector
 from .bodies import Body, Ground
-from .declared import DeclarationError
+from .declared import DeclarationError, checked
 from .forces.force import Force
 from .geometry import Direction, Line, Point
 from .inputs import Input, Motion
 from .joints import Joint, RelativeCoordinate, Revolute
 from .mechanism import Mechanism
+from .outputs import Output
 from .parameters import Image, Owner, Parameter, next_order
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable
-
-    from .outputs import Output
+    from collections.abc import Collection
 
 Thing = TypeVar("Thing")
 
@@ -228,10 +227,11 @@ def _turned_defaults(owner: Owner, signs: tuple[int, ...]) -> dict[str, Any]:
     return {"along": turned} if isinstance(owner, Direction) else {}
 
 
+@checked
 def combined(
     name: str,
     title: str,
-    parts: Iterable[Copy],
+    parts: tuple[Copy, ...],
     *,
     forces: tuple[Force, ...] = (),
     coordinates: tuple[RelativeCoordinate, ...] = (),

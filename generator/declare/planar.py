@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from ..program.vectors import UNIT_Y
-from .declared import DeclarationError
+from .bodies import Body
+from .declared import DeclarationError, checked
 from .geometry import UP, Direction, Line, Point
 from .joints import Revolute
-
-if TYPE_CHECKING:
-    from .bodies import Body
 
 _ACROSS = Direction("across", fixed=UNIT_Y)
 
@@ -50,6 +48,7 @@ def flat(
     return Point(name, place, meaning, flat=normal)
 
 
+@checked
 def hinge(name: str, first: Body, second: Body, at: Point) -> Revolute:
     """Return a hinge across the plane of a point; its angle is zero at the design position.
 

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from .arguments import Arguments
 from .errors import InputError
 from .files import reason
 
@@ -99,6 +100,8 @@ def read_blocks(path: str | Path) -> list[Block]:
     InputError
         If it cannot be read, is no text or has no blocks.
     """
+    with Arguments("teim_orbit") as given:
+        given.path("path", path)
     blocks: list[Block] = []
     name, start = "", 0
     lines: list[tuple[int, str]] = []

@@ -188,6 +188,8 @@ def without_friction(model: Model) -> Model:
     -------
     Model
     """
+    with Arguments("without_friction") as given:
+        given.kind("model", model, Model, Model.NEEDED)
     smooth = model.suspension.without_friction()
     return model if smooth is model.suspension else model.of_another(smooth)
 
@@ -280,6 +282,8 @@ def _notes(
 
 def as_dict(found: Checkup) -> dict[str, Any]:
     """Return a checkup as plain numbers, texts and nested dictionaries, SI units."""
+    with Arguments("as_dict") as given:
+        given.kind("found", found, Checkup, "what checkup returns is needed")
     rest = found.equilibrium
     return {
         "suspension": found.title,

@@ -197,6 +197,8 @@ def differences(dataset: xr.Dataset) -> list[Difference]:
     >>> found.at_design, found.largest, found.where
     (0.5, 2.0, 0.1)
     """
+    with Arguments("differences") as given:
+        given.dataset(dataset, over=DATA_SET)
     curves = {str(n): data for n, data in dataset.items() if DATA_SET in data.dims}
     return [
         _difference(name, data, label)

@@ -112,6 +112,9 @@ def tabulated(found: xr.Dataset, title: str) -> list[Tabulated]:
     title : str
         Begins the titles.
     """
+    with Arguments("tabulated") as given:
+        given.dataset(found, over=QUANTITY)
+        given.text("title", title)
     parts = dict.fromkeys(map(str, found["part"].values))
     on_axle = any(str(name).endswith(_SIDES) for name in found[QUANTITY].values)
     values = ("left", "right", "axle") if on_axle else ("value",)

@@ -14,6 +14,7 @@ from typing import Any
 
 import tomlkit
 
+from ..core.arguments import Arguments
 from ..core.csv_lines import cells_of, delimiter_of, lines_of
 from ..core.errors import InputError
 from ..core.files import Paths, reason, refuse, replacing
@@ -92,6 +93,8 @@ def read_points(path: str | Path) -> PointTable:
     MissingPackageError
         If the package for Excel is not installed.
     """
+    with Arguments("read_points") as given:
+        given.path("path", path)
     file = Path(path)
     if file.suffix.lower() not in ENDINGS:
         problem = f"a table of hardpoints ends in {' or '.join(ENDINGS)}."
@@ -142,6 +145,9 @@ def merged(table: PointTable, file: str | Path, *, mirrored: bool = False) -> Me
     InputError
         If no suspension can be like this, or no row is a hardpoint.
     """
+    with Arguments("merged") as given:
+        given.kind("table", table, PointTable, "what read_points returns is needed")
+        given.flag("mirrored", mirrored)
     old = Suspension.load(file)
     known = [*type(old.hardpoints).names(), *old.hardpoints.STAND_INS]
     read: dict[str, str] = {}
@@ -213,6 +219,8 @@ def write_merged(
     found: Merged, path: str | Path, *, force: bool = False, inputs: Paths = ()
 ) -> Path:
     """Write an input file into which a table was read; see `merged`."""
+    with Arguments("write_merged") as given:
+        given.kind("found", found, Merged, "what merged returns is needed")
     refuse([path], force=force, inputs=inputs, endings=[".toml"])
     with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_text(found.text, encoding="utf-8", newline="\n")
@@ -243,6 +251,8 @@ def write_points(
     InputError
         If the file must not or cannot be written.
     """
+    with Arguments("write_points") as given:
+        given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
     refuse([path], force=force, inputs=inputs, endings=[".csv"])
     points = suspension.hardpoints
     with (
@@ -334,6 +344,8 @@ def _rows_of_excel(file: Path) -> list[Row]:
 
 def as_words(found: Merged) -> Mapping[str, str]:
     """Return what was read, kept and left out, in words."""
+    with Arguments("as_words") as given:
+        given.kind("found", found, Merged, "what merged returns is needed")
     read = (n if n == called else f"{n} (from {called})" for n, called in found.read.items())
     said = {
         "read": ", ".join(read),

@@ -7,10 +7,12 @@ is not needed.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
+from pkgutil import iter_modules
 from types import ModuleType
 from typing import Any
 
 from .. import generated
+from ..core.arguments import Arguments
 
 
 @dataclass(frozen=True)
@@ -81,6 +83,11 @@ def topology(model: str | ModuleType = "macpherson") -> Topology:
     """
     equations = model
     if not isinstance(equations, ModuleType):
+        with Arguments("topology") as given:
+            named = {module.name for module in iter_modules(generated.__path__)}
+            given.kind("model", model, str, "a name, or what kintrafo.compile returns, is needed")
+            if not given.refused:
+                given.among("model", model, sorted(n for n in named if not n.startswith("_")))
         equations = import_module(f".{model}", generated.__name__)
     manifest = equations.equations.manifest
     numbers = manifest["numbers"]

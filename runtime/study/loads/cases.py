@@ -145,6 +145,9 @@ def standard_cases(side: float) -> dict[str, dict[str, Any]]:
     side : float
         +1 of a left wheel, -1 of a right one: sideways forces push inward.
     """
+    with Arguments("standard_cases") as given:
+        if abs(given.number("side", side)) != 1.0 and not given.refused:
+            given.refuse(f"side = {side:g}: 1 of a left wheel or -1 of a right one is needed.")
     inward = -side
     return {
         "static": {"contact_g": [0.0, 0.0, 1.0]},

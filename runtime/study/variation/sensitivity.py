@@ -285,7 +285,7 @@ class Effect(NamedTuple):
 
 
 def effects(dataset: xr.Dataset, name: str, at: float = 0.0) -> Iterator[Effect]:
-    """Yield what each value does to a characteristic at a position, the largest first.
+    """Return what each value does to a characteristic at a position, the largest first.
 
     A millimetre and a degree cannot be compared: values of one unit come together.
 
@@ -298,10 +298,24 @@ def effects(dataset: xr.Dataset, name: str, at: float = 0.0) -> Iterator[Effect]
     at : float, optional
         Position [m]; the nearest that there is.
 
-    Yields
+    Returns
+    -------
+    iterator of Effect
+
+    Raises
     ------
-    Effect
+    InputError
+        If an argument cannot be used.
     """
+    with Arguments("effects") as given:
+        given.dataset(dataset, over=PLACE)
+        if not given.refused:
+            given.among("name", name, [str(n) for n, d in dataset.items() if PLACE in d.dims])
+        given.number("at", at)
+    return _effects(dataset, name, at)
+
+
+def _effects(dataset: xr.Dataset, name: str, at: float) -> Iterator[Effect]:
     data = dataset[name]
     along = next(str(d) for d in data.dims if d != PLACE)
     column = data.sel({along: at}, method="nearest").values

@@ -7,6 +7,7 @@ from typing import Any
 
 import tomlkit
 
+from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.legible import legible
 from ..kinds import KINDS, Suspension
@@ -92,7 +93,11 @@ def imported(
     InputError
         If a hardpoint is missing, or no suspension can be like this; with all problems.
     """
-    given = names or {}
+    with Arguments("imported") as arguments:
+        arguments.kind("subsystem", subsystem, Subsystem, "what read returns is needed")
+        if side is not None:
+            arguments.among("side", side, ("left", "right"))
+        given = arguments.mapping("names", names or {}, "hardpoints and what they are called there")
     rest = rest_of(subsystem, kind, base, given)
     wanted: Side = side or ("left" if rest.packaged else rest.suspension.vehicle.side)
     read = matched(subsystem.points, rest.kind, given, subsystem.source)

@@ -1,7 +1,9 @@
 """What Adams/Car's templates call the hardpoints of each kind of suspension."""
 
 from collections.abc import Collection, Iterable, Mapping
+from typing import Any
 
+from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.legible import legible, short
 from ...core.suggestions import nearest, suggestion
@@ -104,9 +106,14 @@ def read_names(texts: Iterable[str]) -> dict[str, str]:
     InputError
         If a text has another form, or a hardpoint is named twice.
     """
+    with Arguments("read_names") as given:
+        several = isinstance(texts, Iterable) and not isinstance(texts, str | bytes)
+        listed: list[Any] = list(texts) if several else [texts]
+        for text in listed:
+            given.kind("texts", text, str, "texts are needed, such as ball_joint=my_lca_outer")
     found: dict[str, str] = {}
     problems = []
-    for text in texts:
+    for text in listed:
         ours, equals, theirs = (part.strip() for part in text.partition("="))
         if not (ours and equals and theirs):
             problems.append(f"{text!r} has no two names. Write lower_ball_joint=my_lca_outer.")

@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
+from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.files import reason
 from ...core.legible import short
@@ -31,6 +32,8 @@ def checked(model: type[Kind], data: dict[str, Any], path: str | Path) -> Kind:
 
 def content(path: str | Path) -> dict[str, Any]:
     """Read JSON that may have comments, as Chrono allows."""
+    with Arguments("chrono") as given:
+        given.path("path", path)
     try:
         text = Path(path).read_text(encoding="utf-8-sig")
         data = json.loads(_COMMENT.sub(_without_comment, text))
