@@ -663,6 +663,15 @@ def test_rows_of_states_do_not_forget_their_inputs(car: Model) -> None:
     )
 
 
+def test_what_is_kept_is_told_in_words(car: Model) -> None:
+    """Names of signals are broken nowhere but between words, as on the axes of a figure."""
+    kinds = ["max", "min", "mean", "rms", ("above", 1.0), ("percentile", 5.0), ("psd", 8)]
+    found = ensemble(car, None, (0.0, 0.1), reductions={"wheel_acceleration": kinds})
+    kept = [data for name, data in found.items() if str(name).startswith("wheel_acceleration")]
+    assert len(kept) == len(kinds)
+    assert all("wheel acceleration" in data.attrs["long_name"] for data in kept)
+
+
 def test_levels_that_look_alike_have_names_of_their_own(car: Model) -> None:
     levels = [("above", 0.30000001), ("above", 0.3)]
     found = ensemble(car, None, (0.0, 0.01), reductions={"wheel_center_z": levels})

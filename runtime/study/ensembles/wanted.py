@@ -53,12 +53,12 @@ class Reduced:
             "max": "greatest value of {}",
             "min": "smallest value of {}",
             "mean": "mean of {} over time",
-            "rms": "root of the mean square of {}, about its mean",
+            "rms": "rms of {} about its mean",
             "above": "time for which {} is above {:g}",
             "percentile": "value of {} that {:g} % of the outputs are below",
             "psd": "power spectral density of {}, one-sided",
         }
-        return texts[self.kind].format(self.signal, self.level)
+        return texts[self.kind].format(self.signal.replace("_", " "), self.level)
 
     def unit(self, unit: str) -> str:
         """Return its unit, by that of the signal."""
