@@ -241,6 +241,10 @@ MISTAKES = {
         lambda: Point("a", (0, 0, 0), "a", "x", "y"),
         ["Point 'a'", "'y' is one argument too many", "name, place, meaning, flat"],
     ),
+    "fields that are named, in a row": (
+        lambda: Stop("bump", 0.1),
+        ["side is 'bump' without its name", "length is 0.1 without its name", "rate is missing"],
+    ),
     "unit and meaning left out": (
         lambda: Parameter("mass", 1.0),
         ["Parameter 'mass'", "unit is missing", "meaning is missing"],

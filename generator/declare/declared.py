@@ -180,11 +180,18 @@ def _problem(place: str, value: Any, found: list[Any], fields: list[str]) -> str
     if kind == "multiple_argument_values":
         return f"{place} is given twice"
     if kind.startswith("missing"):
-        return f"{place} is {_shown(value)}, too few" if value else f"{place} is missing"
+        return f"{place} {_missing(kind, value)}"
     if kind == "declared":
         return f"{place} {value!r} {detail['msg']}"
     wanted = list(dict.fromkeys(map(_wanted, found)))
     return f"{place} is {_shown(value)}; {_either(wanted)} is needed{_advice(value, wanted)}"
+
+
+def _missing(kind: str, value: Any) -> str:
+    """Say what is missing: a name before what is there, something in it, or all of it."""
+    if kind == "missing_keyword_only_argument" and value is not None:
+        return f"is {_shown(value)} without its name: write its name and = before it"
+    return f"is {_shown(value)}, too few" if value else "is missing"
 
 
 _PARAMETERS = (
