@@ -362,3 +362,31 @@ def test_no_cell_is_a_formula(tmp_path, text):
 def test_a_formula_of_a_declaration_in_the_heading(tmp_path):
     data = LINE.rename(camber="=x")
     assert export.write(data, tmp_path / "a.csv").read_text().splitlines()[0].endswith(",'=x")
+
+
+@pytest.mark.parametrize("strange", [3, None, "read.csv", b"x", [3], [None]])
+def test_what_is_no_list_of_files_that_are_read_is_refused(tmp_path, strange):
+    """The letters of a name would be files that nobody reads, and the file would be written."""
+    path = tmp_path / "read.csv"
+    with pytest.raises(InputError, match="inputs: paths of files are needed"):
+        refuse([path], inputs=strange)
+    with (
+        pytest.raises(InputError, match="inputs: paths of files are needed"),
+        replacing(path, inputs=strange) as temporary,
+    ):
+        temporary.write_text("")
+    assert not list(tmp_path.iterdir())
+
+
+def test_files_that_are_read_may_come_one_by_one(tmp_path):
+    """They are looked at before something is written and after that."""
+    path = tmp_path / "read.csv"
+
+    def write() -> None:
+        with replacing(path, force=True, inputs=(each for each in [path])) as temporary:
+            temporary.write_text("new", encoding="utf-8")
+            path.write_text("appeared", encoding="utf-8")
+
+    with pytest.raises(InputError, match="read"):
+        write()
+    assert path.read_text(encoding="utf-8") == "appeared"

@@ -11,7 +11,7 @@ import shutil
 import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path, PurePath
+from pathlib import Path
 
 from . import written
 from .errors import InputError
@@ -65,7 +65,8 @@ def replacing(path: str | Path, *, force: bool = False, inputs: Paths = ()) -> I
     ...     [file.name for file in Path(folder).iterdir()]
     ['curves.csv']
     """
-    refuse([path], force=force, inputs=inputs)
+    _, read = _paths([path], inputs, force)  # looked at twice, and may be handed over only once
+    refuse([path], force=force, inputs=read)
     with told(path):
         target = _resolved(Path(path))
         target.parent.mkdir(parents=True, exist_ok=True)
@@ -75,7 +76,7 @@ def replacing(path: str | Path, *, force: bool = False, inputs: Paths = ()) -> I
             temporary = folder / target.name
             yield temporary
             # what has appeared in the meantime is not replaced either
-            refuse([path], force=force, inputs=inputs)
+            refuse([path], force=force, inputs=read)
             if target.exists():
                 shutil.copymode(target, temporary)
             written.note(target, temporary)
@@ -135,7 +136,7 @@ def _paths(paths: Paths, inputs: Paths, force: object) -> tuple[list[Path], list
         f"{name}: {type(wrong).__name__} is no path of a file, as 'out/curves.csv' is."
         for name, some in listed.items()
         for wrong in some
-        if not isinstance(wrong, str | PurePath)
+        if not isinstance(wrong, str | os.PathLike)
     ]
     if isinstance(inputs, str | bytes):
         problems.append("inputs: a list of paths is needed, not a text.")

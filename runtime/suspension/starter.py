@@ -90,8 +90,9 @@ def write_starter(
         If there is a file already, or the name cannot be used.
     """
     known = data_sets() | data_sets(_AXLES) | data_sets(RIGID_AXLES)
-    if template not in known:
-        problem = f"no data set {template!r} comes with kintrafo. {suggestion(template, known)}"
+    if not isinstance(template, str) or template not in known:
+        hint = suggestion(str(template), known)
+        problem = f"no data set {template!r} comes with kintrafo. {hint}"
         raise InputError([problem], "template")
     refuse([path], force=force, endings=[_ENDING])
     text = _with_limits(known[template].read_text(encoding="utf-8"))
