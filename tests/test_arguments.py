@@ -95,6 +95,12 @@ def test_all_that_is_wrong_is_told_at_once():
     assert caught.value.source == "equilibrium"
 
 
+def test_what_is_wrong_of_many_is_told_once():
+    with pytest.raises(kintrafo.InputError) as caught:
+        kintrafo.variation.tolerance(CAR.suspension, {"hardpoints": -1.0})
+    assert [p.split(":")[0] for p in caught.value.problems] == ["tolerance of hardpoints = -1 mm"]
+
+
 def test_any_number_of_steps():
     assert kintrafo.simulate(CAR, SPAN, REST, max_steps=np.inf).success
 

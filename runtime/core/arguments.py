@@ -67,7 +67,8 @@ class Arguments:
 
     def refuse(self, problem: str) -> None:
         """Note what is wrong."""
-        self._problems.append(problem)
+        if problem not in self._problems:  # of a section each of its numbers has the same one
+            self._problems.append(problem)
 
     @property
     def refused(self) -> bool:
