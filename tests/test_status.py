@@ -783,3 +783,9 @@ def test_what_nothing_has_mass_to_move_is_not_called_geometry() -> None:
     parameters |= {name: 0.0 for name in parameters if name.endswith("_mass") or "_inertia" in name}
     with pytest.raises(ParameterError, match="nothing that 'arm_angle' moves has mass or inertia"):
         trailing_arm.prepare(parameters)
+
+
+@pytest.mark.parametrize(("margin", "words"), [(-1e-9, "must be positive"), (1e-9, "must stay")])
+def test_a_motion_may_end_where_a_margin_is_positive_still(margin: float, words: str) -> None:
+    """At the last state before a dead point, where "must be positive" would contradict itself."""
+    assert words in str(ClosureError("rhs", ["it cannot close"], {"closure": margin}, {}, (), {}))

@@ -59,7 +59,8 @@ class ClosureError(ModelError):
         )
         shown = ", ".join(f"{name} = {value:.6g}" for name, value in self.coordinates.items())
         wrong = "; ".join(
-            f"{reason} ({name} = {_with_unit(value, units.get(name, '1'))}, must be positive)"
+            f"{reason} ({name} = {_with_unit(value, units.get(name, '1'))}, "
+            f"must {'stay' if value > 0.0 else 'be'} positive)"  # it does at the end of a motion
             for reason, (name, value) in zip(self.reasons, self.margins.items(), strict=True)
         )
         super().__init__(f"{function}: {wrong}, at {shown}{place_of(index)}")
