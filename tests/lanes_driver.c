@@ -3,7 +3,7 @@
 #include "vectors.h"
 
 #include "elementary.h"
-#include "powers.h"
+#include "../native/powers.h"
 
 typedef bits (*of_two)(const real *parameters, real *out);
 typedef bits (*of_three)(const real *constants, const real *state, const real *inputs, real *out);

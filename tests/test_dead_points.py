@@ -166,6 +166,15 @@ def test_the_error_is_that_of_the_loop():
         system.evaluate("rhs", [error.state[0] + 1e-3, 0.0])
 
 
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("rack", [0.2, 2.0])  # m
+def test_what_is_open_from_the_beginning_ends_there(method, rack):
+    model = Model("reference_car")
+    error = ended(model, model.design_state, 1.0, method=method, inputs={"rack_position": rack})
+    assert error.time == 0.0
+    assert "the loop" in error.reason
+
+
 def test_steps_that_gain_nothing_before_a_dead_point_end():
     """Where the error of a step is that of rounding, it does not shrink with the step."""
     model = Model("double_wishbone_car")

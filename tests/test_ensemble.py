@@ -28,6 +28,7 @@ from kintrafo import (
 from kintrafo.core.physical import impossible, inertia_of_no_body, out_of_range
 from kintrafo.simulation.lanes import library, run
 from kintrafo.simulation.lanes.problem import Problem
+from kintrafo.simulation.solvers import native_available
 from kintrafo.study import export
 from kintrafo.study.recording import statistics
 from many_cars import BUMP, RACK, SPAN, STEP, TIMES, of_all_kinds, same, some_cars
@@ -35,6 +36,8 @@ from many_cars import BUMP, RACK, SPAN, STEP, TIMES, of_all_kinds, same, some_ca
 ensembles = import_module("kintrafo.study.ensembles.ensemble")
 
 pytestmark = pytest.mark.skipif(not library.widths(), reason="built without lanes")
+
+needs_native = pytest.mark.skipif(not native_available(), reason="built without SUNDIALS")
 
 WIDTHS = library.widths()
 
@@ -134,17 +137,33 @@ def test_order_of_convergence(car: Model, start: Any) -> None:
     assert (between > 11.0).all()
 
 
-def test_two_hundred_cars_one_by_one(car: Model, start: Any) -> None:
+@needs_native
+@pytest.mark.parametrize("road", [BUMP, STEP], ids=["smooth", "with a jump"])
+def test_two_hundred_cars_have_the_bits_of_simulate(car: Model, start: Any, road: Any) -> None:
     cars = some_cars(200)
-    options = {"t_eval": TIMES, "inputs": {"road_height": BUMP}}
-    found = ensemble(car, cars, SPAN, start, signals=["wheel_center_z"], **options)
+    options = {"t_eval": TIMES, "inputs": {"road_height": road}}
+    found = ensemble(car, cars, SPAN, start, signals=["camber"], **options)
     assert found["valid"].all()
     for place in range(200):
         one = alone(car, cars, place, start, method="DormandPrince", **options)
-        # the errors of two integrations at a tolerance of 1e-6, in metres
-        np.testing.assert_allclose(
-            found["wheel_center_z"].values[place], one.signals["wheel_center_z"], atol=1e-6
-        )
+        assert found["steps"].values[place] == one.steps
+        np.testing.assert_array_equal(found["final_state"].values[place], one.y[:, -1])
+        np.testing.assert_array_equal(found["camber"].values[place], one.signals["camber"])
+
+
+@needs_native
+@pytest.mark.parametrize("name", ["double_wishbone_car", "multi_link_car", "trailing_arm_car"])
+def test_other_kinds_have_the_bits_of_simulate(name: str) -> None:
+    """Also where loops iterate."""
+    model = Model(name)
+    height = float(model.signal("wheel_center_z", model.design_state))
+    begin = np.array(state_at_height(model, height - 0.01))
+    cars = {"damper_rate": model.parameters["damper_rate"] * np.linspace(0.9, 1.1, 6)}
+    options = {"t_eval": TIMES, "inputs": {"road_height": BUMP}}
+    found = ensemble(model, cars, SPAN, begin, signals=["camber"], **options)
+    for place in range(6):
+        one = alone(model, cars, place, begin, method="DormandPrince", **options)
+        np.testing.assert_array_equal(found["camber"].values[place], one.signals["camber"])
 
 
 def test_rest_stays_rest(car: Model) -> None:

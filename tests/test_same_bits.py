@@ -1,8 +1,8 @@
 """The emitted C gives the same bits on every machine: processor, system, C library and compiler.
 
-Digests of what all shipped models give at some states. They change with the equations that are
-emitted, and with nothing else: where `make generate` has changed these, what a failure prints as
-found is what belongs here.
+Digests of what all shipped models give at some states, and of a motion. They change with the
+equations that are emitted, or the method, and with nothing else: where these were changed, what a
+failure prints as found is what belongs here.
 """
 
 from hashlib import sha256
@@ -11,9 +11,11 @@ import kintrafo
 import numpy as np
 import pytest
 from c_text import EMITTED
+from kintrafo.simulation.solvers import native_available
 
 STATES, SPREAD = 50, 0.01  # about design, in SI units
 FUNCTIONS = "rhs", "rhs_jacobian", "mass_matrix", "signals", "positions"
+MOTION = "99130c26192ebab8"
 EXPECTED = {
     "andrews": "0fa687d31c1bb65a",
     "double_wishbone": "9cff587d1dcee901",
@@ -46,3 +48,15 @@ def test_digest(name: str) -> None:
             # minus zero is zero; the first byte of a number is its last, whatever the machine
             digest.update((system.evaluate(function, states) + 0.0).astype("<f8").tobytes())
     assert digest.hexdigest()[:16] == EXPECTED.get(name)
+
+
+@pytest.mark.skipif(not native_available(), reason="built without SUNDIALS")
+def test_digest_of_a_motion() -> None:
+    """By the method of our own: half a second over a ramp."""
+    car = kintrafo.Model("reference_car")
+    ramp = kintrafo.Samples([0.0, 0.1, 0.2, 0.5], [0.0, 0.0, 0.02, 0.02], "linear")
+    found = kintrafo.simulate(
+        car, (0.0, 0.5), car.design_state, method="DormandPrince",
+        inputs={"road_height": ramp}, t_eval=[0.0, 0.125, 0.25, 0.375, 0.5],
+    )  # fmt: skip
+    assert sha256((found.y + 0.0).astype("<f8").tobytes()).hexdigest()[:16] == MOTION

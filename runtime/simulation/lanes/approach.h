@@ -79,7 +79,8 @@ static void limit(crew *w, bits lanes, real lapse, real step)
     for (int i = 0; i < w->p->guard_count; ++i) {
         if (w->p->guards[i] & KT_PLACES) {
             real now = w->now[i], gone = now - w->ahead[i];
-            real allowed = KT_PART * now * lapse / choose(gone > 0.0, gone, SPREAD(1.0));
+            real left = greater(now, SPREAD(0.0));
+            real allowed = KT_PART * left * lapse / choose(gone > 0.0, gone, SPREAD(1.0));
             bits nothing = now <= KT_NOTHING * w->greatest[i];
             bits sooner = (nothing & ~over) | (~(nothing ^ over) & (allowed < longest));
             sooner &= gone > 0.0;

@@ -4,8 +4,9 @@
  */
 #include "approach.h"
 #include "outputs.h"
-#include "powers.h"
 #include "solver.h"
+
+#include "../native/powers.h"
 
 /* -- systems that wait ------------------------------------------------------------------------ */
 
@@ -60,6 +61,8 @@ static void open_segment(crew *w, int lane)
     w->milestone[lane] = 0;
     w->fresh[lane] = -1;
     w->trusted[lane] = INFINITY;
+    w->step[lane] = w->p->first_step;
+    w->error[lane] = 0.0;
     for (int i = 0; i < STAGES * w->p->state_count; ++i) {
         w->rates[i][lane] = 0.0;
     }
@@ -116,8 +119,7 @@ static void begin_system(crew *w, int lane)
         w->greatest[i][lane] = q->margins[i][from];
     }
     w->time[lane] = p->start;
-    w->step[lane] = p->first_step;
-    w->longest[lane] = w->error[lane] = 0.0;
+    w->longest[lane] = 0.0;
     w->again[lane] = w->tried[lane] = w->taken[lane] = w->stuck[lane] = 0;
     w->stiff[lane] = w->calm[lane] = 0;
     w->segment[lane] = 0;
@@ -230,13 +232,6 @@ static void see_stiff(crew *w, bits good, real step)
     w->stiff &= ~(asked & (w->calm >= OFTEN_CALM));
 }
 
-/* Return a logarithm that is one also of zero, of infinity, and of what is no number. */
-static real bounded_logarithm(real x)
-{
-    x = choose(x < 1.0e60, x, SPREAD(1.0e60));
-    return logarithm(choose(x > 1.0e-60, x, SPREAD(1.0e-60)));
-}
-
 /* Return the first step, by the size of the state and of its rates at the start. */
 static real first_step(const crew *w)
 {
@@ -261,7 +256,7 @@ static real next_step(crew *w, real step, real error, bits good)
     real next = step * factor;
     /* a step that was shorter for its goal says nothing against the length that was planned */
     next = choose(good & ~w->again & (step < w->step), greater(next, w->step), next);
-    w->error = choose(good, greater(now, SPREAD(LOG2_LEAST_SQUARE)), w->error);
+    w->error = choose(good & ~w->fresh, greater(now, SPREAD(LOG2_LEAST_SQUARE)), w->error);
     return choose(w->running & ~w->fresh, next, w->step);
 }
 
@@ -368,14 +363,15 @@ static void sweep(crew *w)
     bits looks = ask_margins(w, good, reached, step, next, &lapse);
     refused |= good & (w->guard != NO_GUARD);
     good &= ~refused;
-    bits spoiled = put_out(w, good, step, reached);
+    bits spoiled = put_out(w, good, reached);
     refused |= spoiled;
     good &= ~spoiled;
     commit(w, good, step, reached);
     if (any(good & looks)) {
         limit(w, good & looks, lapse, step);
     }
-    w->again = ~good;
+    w->again = ~good & ~refused; /* what is refused begins anew */
+    w->error = choose(refused, SPREAD(0.0), w->error);
     w->step = choose(refused, KT_SHORTER * step, next);
     w->tried -= w->running & ~fresh;
     if (any(fresh & good)) {

@@ -29,21 +29,22 @@ static void begin_outputs(crew *w, int lane)
     }
 }
 
-/* Find what the states within a step are interpolated by. */
+/* Find the powers of the part of a step by which the states within are interpolated. */
 static void find_terms(crew *w, real step)
 {
     int n = w->p->state_count;
     for (int i = 0; i < n; ++i) {
-        real begin = w->state[i], moved = w->end_state[i] - begin;
-        real bent = step * w->rates[i] - moved, sum = DENSE[0] * w->rates[i];
+        real moved = w->end_state[i] - w->state[i], sum = DENSE[0] * w->rates[i];
         for (int s = 2; s < STAGES; ++s) {
             sum += DENSE[s] * w->rates[s * n + i];
         }
-        w->terms[i] = begin;
-        w->terms[n + i] = moved;
-        w->terms[2 * n + i] = bent;
-        w->terms[3 * n + i] = moved - step * w->rates[(STAGES - 1) * n + i] - bent;
-        w->terms[4 * n + i] = step * sum;
+        real bent = step * w->rates[i] - moved, last = step * sum;
+        real back = moved - step * w->rates[(STAGES - 1) * n + i] - bent;
+        w->terms[i] = w->state[i];
+        w->terms[n + i] = moved + bent;
+        w->terms[2 * n + i] = back + last - bent;
+        w->terms[3 * n + i] = -(back + 2.0 * last);
+        w->terms[4 * n + i] = last;
     }
 }
 
@@ -52,10 +53,10 @@ static bits show(crew *w, real part, real time)
 {
     const kt_problem *p = w->p;
     int n = p->state_count;
-    real *state = w->shown + p->signal_count, rest = 1.0 - part;
+    real *state = w->shown + p->signal_count;
     for (int i = 0; i < n; ++i) {
         const real *c = w->terms + i;
-        real inside = c[0] + part * (c[n] + rest * (c[2 * n] + part * (c[3 * n] + rest * c[4 * n])));
+        real inside = (((c[4 * n] * part + c[3 * n]) * part + c[2 * n]) * part + c[n]) * part + c[0];
         state[i] = choose(part == 1.0, w->end_state[i], inside);
     }
     if (!w->signals) {
@@ -166,8 +167,9 @@ static void take_back(crew *w, bits lanes, const long *output)
  * Put out what is due within a step. Returns the lanes in which the model refuses an output: they have
  * none of the step's.
  */
-static bits put_out(crew *w, bits lanes, real step, real reached)
+static bits put_out(crew *w, bits lanes, real reached)
 {
+    real step = reached - w->time;
     bits pending = lanes & (w->due <= reached), refused = {0};
     if (!any(pending)) {
         return refused;

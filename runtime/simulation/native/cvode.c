@@ -139,5 +139,5 @@ static void count(worker *w, kt_statistics *total)
 
 const kt_solver kt_cvode = {
     open_cvode, close_cvode, step, set_stop, interpolate, begin_anew,
-    next_step, count, CV_TOO_MUCH_ACC,
+    next_step, count, CV_TOO_MUCH_ACC, 0,
 };

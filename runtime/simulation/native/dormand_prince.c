@@ -3,7 +3,9 @@
  * finds events without an evaluation more.
  */
 #include "dormand_prince.h"
+#include "number.h"
 #include "polynomial.h"
+#include "powers.h"
 #include "worker.h"
 
 #include <math.h>
@@ -86,13 +88,8 @@ static int rates_at(worker *w, double time, const double *state, double *out)
     return kt_rates(w, time, state, out);
 }
 
-/* One instruction, where fmax may be a call. */
-static double greater(double x, double y) { return x < y ? y : x; }
-
-static double lesser(double x, double y) { return y < x ? y : x; }
-
-/* Return the mean square of some numbers, each measured by what is tolerated; binary logarithm. */
-static double size_of(const worker *w, const double *numbers, const double *other)
+/* Return the mean square of some numbers, each measured by what is tolerated. */
+static double mean_square(const worker *w, const double *numbers, const double *other)
 {
     const method *m = w->own;
     int n = w->problem->state_count;
@@ -102,27 +99,29 @@ static double size_of(const worker *w, const double *numbers, const double *othe
         double measured = numbers[i] / (w->options->atol[i] + w->options->rtol * largest);
         sum += measured * measured;
     }
-    return log2(fmax(sum / n, 1e-60));
+    return sum / n;
 }
 
 /* Return the length of the first step, by the size of the state and of its rates. */
 static double first_step(const worker *w)
 {
     const method *m = w->own;
-    double size = size_of(w, m->state, m->state), rate = size_of(w, m->rates, m->state);
-    double length = exp2(0.2 * (LOG2_FIRST - 0.5 * rate));
-    return fmin(length, size > -33.0 ? exp2(0.5 * (size - rate)) : 1e-4);
+    double size = mean_square(w, m->state, m->state);
+    double rate = bounded_logarithm(mean_square(w, m->rates, m->state));
+    double step = exponential(0.2 * (LOG2_FIRST - 0.5 * rate));
+    double of_state = exponential(0.5 * (bounded_logarithm(size) - rate));
+    return lesser(step, size > 1.0e-10 ? of_state : 1.0e-4);
 }
 
-/* Return how long the next step is, as planned and as it is for its stop. */
-static double planned(const worker *w, double *length)
+/* Return how long the next step is: as planned, if nothing is in its way. */
+static double planned(const worker *w)
 {
     const method *m = w->own;
-    double most = w->options->max_step > 0.0 ? fmin(m->next, w->options->max_step) : m->next;
+    double most = lesser(m->next, w->trusted);
+    most = w->options->max_step > 0.0 ? lesser(most, w->options->max_step) : most;
     double left = m->sign * (m->stop - m->time);
     /* two equal steps, rather than one and what remains */
-    *length = left <= most ? left : left < 2.0 * most ? 0.5 * left : most;
-    return most;
+    return left <= most ? left : left < 2.0 * most ? 0.5 * left : most;
 }
 
 /* Find the rates of all stages and the state at the end of a step; positive where one is refused. */
@@ -157,7 +156,7 @@ static double error_of(const worker *w, double step)
         }
         m->stage[i] = step * sum;
     }
-    return size_of(w, m->stage, m->end_state);
+    return mean_square(w, m->stage, m->end_state);
 }
 
 /* Let the end of the last step be the begin of the next one, and see that its rates are known. */
@@ -187,25 +186,27 @@ static int go_on(worker *w)
 static int take_step(worker *w)
 {
     method *m = w->own;
-    double least = ROUNDING * fmax(fabs(m->time), fabs(w->end - w->start)), length, square;
+    double least = ROUNDING * fmax(fabs(m->time), fabs(w->end - w->start)), length, error;
     int code = go_on(w), again = 0;
     if (code) {
         return code;
     }
     for (;;) {
-        double plan = planned(w, &length);
+        double plan = m->next;
+        length = planned(w);
         if (attempt(w, m->sign * length)) {
             m->next = length;
             return KT_REFUSED;
         }
-        square = error_of(w, m->sign * length);
-        double factor = SAFE * exp2(0.5 * (OF_ERROR_BEFORE * m->error - OF_ERROR * square));
+        double square = error_of(w, m->sign * length);
+        error = bounded_logarithm(square);
+        double factor = SAFE * exponential(0.5 * (OF_ERROR_BEFORE * m->error - OF_ERROR * error));
         factor = lesser(greater(factor, MOST_SHORTER), MOST_LONGER);
-        int good = square <= 0.0;
-        m->next = length * (again || !good ? fmin(factor, 1.0) : factor);
+        int good = square <= 1.0;
+        m->next = length * (again || !good ? lesser(factor, 1.0) : factor);
         if (good) {
-            /* a step that was shorter for its stop says nothing against the length that was planned */
-            m->next = !again && length < plan ? fmax(m->next, plan) : m->next;
+            /* a step that was shorter for its goal says nothing against the length that was planned */
+            m->next = !again && length < plan ? greater(m->next, plan) : m->next;
             break;
         }
         again = 1;
@@ -215,7 +216,7 @@ static int take_step(worker *w)
         }
     }
     ++m->counted.steps;
-    m->error = fmax(square, LOG2_LEAST_SQUARE);
+    m->error = greater(error, LOG2_LEAST_SQUARE);
     m->reached = length == m->sign * (m->stop - m->time) ? m->stop : m->time + m->sign * length;
     return 0;
 }
@@ -303,5 +304,5 @@ static void count(worker *w, kt_statistics *total)
 
 const kt_solver kt_dormand_prince = {
     open_method, close_method, step, set_stop, interpolate, begin_anew,
-    next_step, count, NEVER,
+    next_step, count, NEVER, 1,
 };

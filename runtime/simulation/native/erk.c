@@ -145,5 +145,5 @@ static void count(worker *w, kt_statistics *total)
 
 const kt_solver kt_erk = {
     open_erk, close_erk, step, set_stop, interpolate, begin_anew,
-    next_step, count, ARK_TOO_MUCH_ACC,
+    next_step, count, ARK_TOO_MUCH_ACC, 0,
 };

@@ -287,7 +287,6 @@ typedef struct {
     long count, next; /* `next` is the first time that is still to come */
     int every_step;
     double sign;    /* of the time's direction */
-    double trusted; /* no longer step may be taken */
     long milestone; /* the first that is still to come */
 } course;
 
@@ -341,14 +340,14 @@ static int doubt(worker *w, course *c, double reached, double step, int *looked)
  * Limit the next step by the margins ahead; tell whether this is a dead point. It is one also
  * where rounding, not the margin, has made the solver's own steps so short that they lead nowhere.
  */
-static int limit(worker *w, course *c, double lapse)
+static int limit(worker *w, double lapse)
 {
     int nearest = KT_NONE, over = 0;
-    c->trusted = kt_longest_step(&w->margins, lapse, &nearest, &over);
-    int stuck = lapse < KT_LAPSE * smallest_step(w) && c->trusted < KT_NEAR * w->longest_step;
+    w->trusted = kt_longest_step(&w->margins, lapse, &nearest, &over);
+    int stuck = lapse < KT_LAPSE * smallest_step(w) && w->trusted < KT_NEAR * w->longest_step;
     w->stuck = stuck ? w->stuck + 1 : 0;
-    over = over || w->stuck >= KT_MOST_STUCK || c->trusted < KT_SMALLEST_PART * fabs(w->result->time);
-    return over ? end_at(w, nearest, KT_LEFT * c->trusted) : KT_DONE;
+    over = over || w->stuck >= KT_MOST_STUCK || w->trusted < KT_SMALLEST_PART * fabs(w->result->time);
+    return over ? end_at(w, nearest, KT_LEFT * w->trusted) : KT_DONE;
 }
 
 /* Make the end of a step the state that is reached, or take it back. */
@@ -373,8 +372,8 @@ static int accept(worker *w, course *c, double reached)
     w->longest_step = fmax(w->longest_step, step);
     kt_reach(&w->margins);
     kt_pass_root(w);
-    c->trusted = INFINITY;
-    int outcome = looked ? limit(w, c, KT_LAPSE * step) : KT_DONE;
+    w->trusted = INFINITY;
+    int outcome = looked ? limit(w, KT_LAPSE * step) : KT_DONE;
     return outcome;
 }
 
@@ -393,8 +392,8 @@ static double sooner(const worker *w, course *c, double goal)
 /* Return up to where the solver may step: it must not be told a time that it has passed. */
 static double stop_of(worker *w, const course *c, double goal)
 {
-    double time = w->result->time, stop = time + c->sign * c->trusted;
-    int limits = c->sign * (goal - stop) > 0.0 && c->sign * (stop - w->reached) > 0.0;
+    double time = w->result->time, stop = time + c->sign * w->trusted;
+    int limits = !w->solver->heeds_trust && c->sign * (goal - stop) > 0.0 && c->sign * (stop - w->reached) > 0.0;
     return limits ? stop : goal;
 }
 
@@ -459,7 +458,7 @@ static int advance(worker *w, course *c, int *root)
 static int run(worker *w, const double *times, long count, int every_step)
 {
     kt_result *r = w->result;
-    course c = {times, count, 1, every_step, w->end > w->start ? 1.0 : -1.0, INFINITY, 0};
+    course c = {times, count, 1, every_step, w->end > w->start ? 1.0 : -1.0, 0};
     double lapse = KT_SMALLEST_OF_STEP * fabs(w->end - w->start);
     if (append_state(&r->output, times[0], r->state, w->problem->state_count)) {
         return KT_MEMORY;
@@ -467,7 +466,7 @@ static int run(worker *w, const double *times, long count, int every_step)
     evaluate_margins(w, r->time, r->state, w->margins.now);
     look_ahead(w, r->time, r->state, lapse);
     kt_reach(&w->margins);
-    int outcome = limit(w, &c, lapse), root = 0;
+    int outcome = limit(w, lapse), root = 0;
     for (long tried = 0; outcome == KT_DONE && c.sign * (w->end - r->time) > 0.0; ++tried) {
         if (tried >= w->options->max_steps) {
             return KT_TOO_MANY_STEPS;
@@ -490,7 +489,7 @@ int kt_integrate(const kt_problem *problem, const kt_options *options, const dou
                  const double *times, long count, int every_step, kt_result *result)
 {
     worker w = {.problem = problem, .options = options, .result = result,
-                .start = times[0], .end = times[count - 1], .asked = clock()};
+                .start = times[0], .end = times[count - 1], .trusted = INFINITY, .asked = clock()};
     memset(result, 0, sizeof *result);
     result->refused_guard = KT_NONE;
     int outcome = set_up(&w, state, times[0]);

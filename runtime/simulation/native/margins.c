@@ -75,7 +75,7 @@ double kt_longest_step(const kt_margins *m, double lapse, int *nearest, int *ove
         if (!(m->meaning[i] & KT_PLACES) || !(lost > 0.0)) {
             continue;
         }
-        double step = KT_PART * now * lapse / lost;
+        double step = KT_PART * fmax(now, 0.0) * lapse / lost;
         int nothing = now <= KT_NOTHING * m->greatest[i];
         if (nothing > *over || (nothing == *over && step < longest)) {
             longest = step;

@@ -423,5 +423,5 @@ static void count(worker *w, kt_statistics *total)
 
 const kt_solver kt_rk4 = {
     open_method, close_method, step, set_stop, interpolate, begin_anew,
-    next_step, count, NEVER,
+    next_step, count, NEVER, 0,
 };

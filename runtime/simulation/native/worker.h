@@ -32,6 +32,7 @@ typedef struct {
     double (*next_step)(worker *w); /* length of what it tries next, or has tried last without success */
     void (*count)(worker *w, kt_statistics *total); /* add what was counted since it began, or began anew */
     int too_accurate; /* the code that says that tolerances are below what the arithmetic can do */
+    int heeds_trust; /* whether it takes no step longer than `trusted`; others are stopped there */
 } kt_solver;
 
 extern const kt_solver kt_cvode, kt_erk, kt_dormand_prince, kt_rk4;
@@ -53,6 +54,7 @@ struct worker {
     double *moved;       /* a state a short time later */
     double start, end;   /* of the whole time */
     double longest_step; /* so far */
+    double trusted;      /* no longer step may be taken, since a margin falls */
     int stuck;           /* very short steps in a row */
     clock_t asked;       /* when the caller was asked last whether to go on */
 };

@@ -1,8 +1,9 @@
-/* Logarithm and power of two as well as the choice of a step needs them: to a ten-thousandth. */
+/*
+ * Logarithm and power of two as well as the choice of a step needs them: to a ten-thousandth, and the same
+ * bits everywhere. Of numbers or of vectors: what includes this file has defined which.
+ */
 #ifndef KINTRAFO_POWERS_H
 #define KINTRAFO_POWERS_H
-
-#include "vectors.h"
 
 /* Added to a number, it leaves a whole one in the last digits; taken away again, it has rounded. */
 #define WHOLE 6755399441055744.0
@@ -11,9 +12,9 @@
 INLINE real logarithm(real x)
 {
     const real two_52 = SPREAD(4503599627370496.0);
-    bits exponent = (bits)((digits)x >> 52);
-    real whole = (real)(exponent | (bits)two_52) - two_52 - 1023.0;
-    real m = (real)(((bits)x & 0x000fffffffffffffLL) | 0x3ff0000000000000LL);
+    bits exponent = (bits)((digits)BITS(x) >> 52);
+    real whole = REAL(exponent | BITS(two_52)) - two_52 - 1023.0;
+    real m = REAL((BITS(x) & 0x000fffffffffffffLL) | 0x3ff0000000000000LL);
     return whole + (-2.49835315 + m * (4.02921139 + m * (-2.07833517 + m * (0.62603218
         - m * 0.07844068))));
 }
@@ -23,7 +24,14 @@ INLINE real exponential(real x)
 {
     real moved = x + WHOLE, part = x - (moved - WHOLE);
     real m = 0.99992456 + part * (0.69313673 + part * (0.24263948 + part * 0.05583828));
-    return (real)((bits)m + ((bits)moved << 52));
+    return REAL((bits)((digits)BITS(m) + ((digits)BITS(moved) << 52)));
+}
+
+/* A logarithm that is one also of zero, of infinity, and of what is no number. */
+INLINE real bounded_logarithm(real x)
+{
+    x = choose(x < 1.0e60, x, SPREAD(1.0e60));
+    return logarithm(choose(x > 1.0e-60, x, SPREAD(1.0e-60)));
 }
 
 #endif
