@@ -16,7 +16,7 @@ from kintrafo.simulation.solvers import native_available, native_version
 ROOT = Path(__file__).parent.parent
 # without optimisation, which takes most of the time and hides what it removes; of what a debugger
 # is told, lines are enough
-FLAGS = ["-std=gnu99", "-O0", "-g1", "-fno-math-errno", "-fsanitize=address,undefined"]
+FLAGS = ["-std=gnu11", "-O0", "-g1", "-fno-math-errno", "-fsanitize=address,undefined"]
 FLAGS += ["-fno-sanitize-recover=all", "-Wall", "-Wextra", "-Werror"]
 SUNDIALS = ["cvode", "arkode", "nvecserial", "sunmatrixdense", "sunlinsoldense"]
 

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 const char *kt_version(void) { return SUNDIALS_VERSION; }
 
@@ -293,13 +294,15 @@ typedef struct {
 /* Put out all times up to the one reached; return a guard that does not let one be evaluated. */
 static int put_out(worker *w, course *c, double reached)
 {
-    int n = w->problem->state_count;
+    int n = w->problem->state_count, steady = kt_steady(&w->margins);
     for (; c->next < c->count && c->sign * (c->times[c->next] - reached) <= 0.0; ++c->next) {
         double time = c->times[c->next];
         const double *row = w->y;
         if (time != reached) {
             w->solver->interpolate(w, time, 0, w->scratch); /* cannot fail within the step */
             row = w->scratch;
+        }
+        if (time != reached && !steady) {
             evaluate_margins(w, time, row, w->margins.between);
             int guard = kt_crossed(&w->margins, w->margins.between);
             if (guard != KT_NONE) {
@@ -401,13 +404,21 @@ static double stop_of(worker *w, const course *c, double goal)
 #define STEPS_BETWEEN 16
 #define SECONDS_BETWEEN 0.05
 
+/* By the clock on the wall, which is read faster than what a process has used; it may be put back. */
+static double seconds(void)
+{
+    struct timespec now;
+    timespec_get(&now, TIME_UTC);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
 static int interrupted(worker *w, long tried)
 {
     if (!w->problem->interrupted || tried % STEPS_BETWEEN) {
         return 0;
     }
-    clock_t now = clock();
-    if ((double)(now - w->asked) < SECONDS_BETWEEN * CLOCKS_PER_SEC) {
+    double now = seconds();
+    if (fabs(now - w->asked) < SECONDS_BETWEEN) {
         return 0;
     }
     w->asked = now;
@@ -489,7 +500,7 @@ int kt_integrate(const kt_problem *problem, const kt_options *options, const dou
                  const double *times, long count, int every_step, kt_result *result)
 {
     worker w = {.problem = problem, .options = options, .result = result,
-                .start = times[0], .end = times[count - 1], .trusted = INFINITY, .asked = clock()};
+                .start = times[0], .end = times[count - 1], .trusted = INFINITY, .asked = seconds()};
     memset(result, 0, sizeof *result);
     result->refused_guard = KT_NONE;
     int outcome = set_up(&w, state, times[0]);

@@ -34,6 +34,17 @@ int kt_crossed(const kt_margins *m, const double *values)
     return -1;
 }
 
+int kt_steady(const kt_margins *m)
+{
+    for (int i = 0; i < m->count; ++i) {
+        double change = fabs(m->now[i] - m->before[i]);
+        if ((m->meaning[i] & KT_ACTS) && !(change <= KT_LITTLE * m->now[i])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 int kt_changes(const kt_margins *m, double next)
 {
     double little = KT_LITTLE / fmax(next, 1.0);

@@ -33,6 +33,9 @@ void kt_close_margins(kt_margins *m);
 /* Return a guard whose margin, one of `values`, is not positive where it must be; -1: none. */
 int kt_crossed(const kt_margins *m, const double *values);
 
+/* Return whether the margins have changed so little from `before` to `now` that they are positive between, too. */
+int kt_steady(const kt_margins *m);
+
 /*
  * Return whether a margin has changed so much from `before` to `now` that its rate is needed, a step of
  * `next` times the length of the last one being planned. Most steps pass here, at a small price.

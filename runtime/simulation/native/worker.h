@@ -9,8 +9,6 @@
 #include "margins.h"
 #include "roots.h"
 
-#include <time.h>
-
 /* What solvers return where they give up: what SUNDIALS returns in the same cases, if it knows them. */
 enum { KT_TOO_SMALL = -3, KT_REFUSED = -8, KT_NO_ROOTS = -12, KT_FLAT = -22, KT_UNSTABLE_STEP = -1000 };
 
@@ -56,7 +54,7 @@ struct worker {
     double longest_step; /* so far */
     double trusted;      /* no longer step may be taken, since a margin falls */
     int stuck;           /* very short steps in a row */
-    clock_t asked;       /* when the caller was asked last whether to go on */
+    double asked;        /* when the caller was asked last whether to go on [s] */
 };
 
 /* Evaluate the inputs at a time. */
