@@ -77,6 +77,8 @@ def _simulators(
 ) -> Iterator[simulations.Simulator]:
     for method in METHODS:
         yield simulations.kintrafo(method)
+    if native_available():
+        yield simulations.native("DormandPrince")
     begin = instant(start())
     for entry in entries:
         if entry.evaluation.flags == "native" and entry.library.source.is_derivative:

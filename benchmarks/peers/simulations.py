@@ -5,9 +5,11 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 from kintrafo import Model, simulate
+from kintrafo.simulation import solvers
 
 from .case import SAMPLES, Array, instant, start
 from .compiled import FLAGS, Library
@@ -55,6 +57,21 @@ def kintrafo(method: str) -> Simulator:
         tuple(TOLERANCES.tolist()),
         lambda tolerance: lambda: solve(tolerance),
     )
+
+
+def native(method: str) -> Simulator:
+    """Return what ``simulate`` calls, a compiled function, as the other tools are called."""
+    model, span = Model("reference_car"), (float(SAMPLES[0]), float(SAMPLES[-1]))
+    solver = solvers.sundials
+
+    def prepare(tolerance: float) -> Run:
+        options = {"rtol": tolerance, "atol": tolerance, "t_eval": SAMPLES, "method": method}
+        with patch.object(solver, "integrate", wraps=solver.integrate) as called:
+            simulate(model, span, start(), **options)
+        given, named = called.call_args
+        return lambda: np.asarray(solver.integrate(*given, **named)["output"][:, 1])
+
+    return Simulator(f"kintrafo's solver alone, {method}", tuple(TOLERANCES.tolist()), prepare)
 
 
 def runge_kutta(name: str, library: Library, begin: Array) -> Simulator:
