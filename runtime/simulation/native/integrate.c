@@ -395,8 +395,11 @@ static double sooner(const worker *w, course *c, double goal)
 /* Return up to where the solver may step: it must not be told a time that it has passed. */
 static double stop_of(worker *w, const course *c, double goal)
 {
+    if (w->solver->heeds_trust) {
+        return goal;
+    }
     double time = w->result->time, stop = time + c->sign * w->trusted;
-    int limits = !w->solver->heeds_trust && c->sign * (goal - stop) > 0.0 && c->sign * (stop - w->reached) > 0.0;
+    int limits = c->sign * (goal - stop) > 0.0 && c->sign * (stop - w->reached) > 0.0;
     return limits ? stop : goal;
 }
 
@@ -499,8 +502,10 @@ static int run(worker *w, const double *times, long count, int every_step)
 int kt_integrate(const kt_problem *problem, const kt_options *options, const double *state,
                  const double *times, long count, int every_step, kt_result *result)
 {
-    worker w = {.problem = problem, .options = options, .result = result,
-                .start = times[0], .end = times[count - 1], .trusted = INFINITY, .asked = seconds()};
+    worker w = {
+        .problem = problem, .options = options, .result = result, .start = times[0],
+        .end = times[count - 1], .trusted = INFINITY, .asked = seconds(),
+    };
     memset(result, 0, sizeof *result);
     result->refused_guard = KT_NONE;
     int outcome = set_up(&w, state, times[0]);
