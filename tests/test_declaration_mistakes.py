@@ -6,12 +6,14 @@ Every row is what somebody may write, with words that the message must have. Not
 from __future__ import annotations
 
 import re
+import subprocess
 from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 
 import kintrafo
+import lanes
 import numpy as np
 import pytest
 import sympy as sp
@@ -57,12 +59,14 @@ from kintrafo.generator import (
     Weight,
     backends,
 )
+from kintrafo.generator.backends.words import ELEMENTARY
 from kintrafo.generator.mechanisms import double_wishbone as wishbone
 from kintrafo.generator.mechanisms import four_bar as bar
 from kintrafo.generator.mechanisms.double_wishbone import DOUBLE_WISHBONE
 from kintrafo.generator.mechanisms.double_wishbone import MODELS as WISHBONES
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BARS
+from kintrafo.simulation.lanes import own as own_lanes
 from own_models import needs_gcc, own
 
 (FOUR, WISHBONE) = (FOUR_BARS[0], WISHBONES[0])
@@ -642,6 +646,11 @@ def test_words_of_c_and_python_can_be_parameters():
         assert signals["dampers_damper_force"] == pytest.approx(-total, rel=1e-14)
 
 
+def reserved(name):
+    with pytest.raises(DeclarationError, match=f"parameter '{name}' has a name that"):
+        instead(RATE, name=name)
+
+
 def test_macros_of_the_emitted_code_are_reserved():
     folder = Path(backends.__file__).parent
     printers, templates = (
@@ -650,7 +659,32 @@ def test_macros_of_the_emitted_code_are_reserved():
     )
     defined = {*re.findall(r"#define ([A-Z][A-Z_]+)\b", printers + templates)}
     defined |= {*re.findall(r"(?m)^([A-Z][A-Z_]+) = ", templates)}
-    assert {"ROUNDING", "CONVERGED"} <= defined
+    assert {"ROUNDING", "CONVERGED", "ROUNDER"} <= defined
     for name in sorted(defined):
-        with pytest.raises(DeclarationError, match=f"parameter '{name}' has a name that"):
-            instead(RATE, name=name)
+        reserved(name)
+
+
+@needs_gcc
+@pytest.mark.parametrize("in_lanes", [False, True])
+def test_macros_around_the_emitted_code_are_reserved(in_lanes):
+    """Also those of the C library, of lanes, and what those call that stand for functions."""
+    emitted = [str(lanes.EMITTED / "multi_link.c")]
+    macros = ['-DMODEL="multi_link.c"', "-DWIDTH=2"]
+    read = [*macros, str(lanes.HEADERS / "model.c")] if in_lanes else emitted
+    folders = [f"-I{folder}" for folder in (lanes.EMITTED, lanes.HEADERS)]
+    command = ["gcc", "-std=c99", *folders, "-dM", "-E", *read]
+    text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    alone = {*re.findall(r"(?m)^#define ([A-Za-z]\w*) ", text)}
+    called = {*re.findall(r"(?m)^#define [a-z]\w*(?:\(.*?\))? .*?\b(kt_\w+)", text)}
+    assert {"ROUNDER", "NAN"} <= alone
+    assert {"kt_arc_sine"} <= called
+    for name in sorted(alone | called):
+        reserved(name)
+
+
+def test_files_of_the_generated_code_are_no_names_of_models():
+    """Its files lie beside others, also where capital letters are not told from small ones."""
+    headers = {Path(name).stem for name in (ELEMENTARY, *own_lanes.READ)}
+    for name in (*sorted(headers), "Model"):
+        with pytest.raises(DeclarationError, match=f"needs is called {name.lower()}; rename"):
+            replace(FOUR_BARS[0], name=name)

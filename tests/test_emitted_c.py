@@ -129,6 +129,17 @@ def test_compiles_silently(name: str) -> None:
     run(["gcc", "-std=c99", *STRICT, "-fsyntax-only", *map(str, sources(name))])
 
 
+@pytest.mark.parametrize("option", ["-ffast-math", "-Ofast", "-funsafe-math-optimizations"])
+def test_sums_in_another_order_are_refused(option: str) -> None:
+    """A sine would be that of zero: to round, a large number is added, and taken away again."""
+    command = ["gcc", "-std=c99", option, "-fsyntax-only", *FOUR_BAR]
+    if shutil.which("gcc") is None:
+        pytest.skip("gcc is not installed")
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode != 0
+    assert "kintrafo: sums in another order make sines wrong" in done.stderr
+
+
 def test_headers_are_cpp(tmp_path: Path) -> None:
     """Both headers together, twice, in C++."""
     source = tmp_path / "all.cpp"

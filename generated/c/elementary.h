@@ -6,19 +6,27 @@
  * Sun's fdlibm ("Developed at SunPro, a Sun Microsystems, Inc. business. Permission to use, copy, modify, and
  * distribute this software is freely granted, provided that this notice is preserved."), without its branches,
  * and in parts that are summed side by side. Contraction into fused operations has to be off: -ffp-contract=off.
+ * No option may change the order of sums, as -ffast-math does.
  */
 #ifndef KINTRAFO_ELEMENTARY_H
 #define KINTRAFO_ELEMENTARY_H
 
 #include <math.h>
 
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST)
+#error "kintrafo: sums in another order make sines wrong. Leave out -ffast-math, -Ofast, /fp:fast and the like."
+#endif
+
+#if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ == 2
+#error "kintrafo: sums of more digits than a double has make sines wrong. Use -msse2 -mfpmath=sse."
+#endif
+
 #ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
-#include <stdint.h>
 #include <string.h>
 
 typedef double real;
-typedef int64_t bits;
-typedef uint64_t digits;
+typedef long long bits;
+typedef unsigned long long digits;
 
 #ifdef __GNUC__
 #define INLINE static inline __attribute__((always_inline, unused))
@@ -116,7 +124,7 @@ INLINE real of_quarters(turned t, bits quarters)
     return REAL(BITS(small) ^ (bits)((digits)(quarters & 2) << 62));
 }
 
-/* At most 1 unit of the last place from the truth. */
+/* At most 1 unit of the last place from the truth; that of minus zero is zero. */
 INLINE real kt_sine(real angle)
 {
     turned t = reduced(angle);
@@ -145,7 +153,7 @@ INLINE real arc_of_small(real x)
     return x * (odd - even);
 }
 
-/* At most 2 units of the last place from the truth; zero of twice zero. */
+/* At most 2 units of the last place from the truth where the sum of both is finite; of two zeros as C has it. */
 INLINE real kt_arc_tangent(real y, real x)
 {
     real width = magnitude(x), height = magnitude(y);

@@ -12,7 +12,7 @@ from .inputs import Input, Motion, input_problems
 from .joints import Cylindrical, Free, Joint, Prismatic, Revolute, Spherical, Universal, Weld
 from .known import repeated, strangers
 from .mechanism import Mechanism
-from .names import input_name_problems, unwritable
+from .names import file_name_problems, input_name_problems, unwritable
 
 # what the right-hand side has beside its variants: rhs_jacobian, rhs_input_jacobian
 _FUNCTIONS = ("jacobian", "input_jacobian")
@@ -95,7 +95,8 @@ class Formulation:
 
 def _check(formulation: Formulation) -> None:
     """Raise `DeclarationError` if a model contradicts its mechanism or itself."""
-    problems = unwritable("title of the model", formulation.title)
+    problems = file_name_problems(formulation.name)
+    problems += unwritable("title of the model", formulation.title)
     problems += [
         p for name, text in formulation.cites.items() for p in unwritable(f"cites: {name}", text)
     ]

@@ -32,8 +32,8 @@ sqrt sin cos asin atan2 copysign isfinite fabs abs at_least is_positive number
 guard_bit finite_bit either first_not_finite failed status_word
 parameters constants state inputs given out status wanted compute i np design_state prepare found
 results follow follow_turns square fmax GUARD_FLOOR ROUNDING ITERATIONS CONVERGED STALLED LONGEST
-TURNED INLINED NOT_INLINED NO_EFFECT NULL CLOSE SHORTEST CLOSED FULL_TURN UNKNOWNS ELEMENTS DRIVEN
-ADDRESSES kept
+TURNED INLINE INLINED NOT_INLINED NO_EFFECT NULL GREATEST_ANGLE ROUNDER SPREAD BITS REAL CLOSE SHORTEST CLOSED FULL_TURN UNKNOWNS ELEMENTS DRIVEN
+ADDRESSES kept MODEL WIDTH
 """
 _WORDS = frozenset(
     [
@@ -54,8 +54,10 @@ _WORDS = frozenset(
         "static_assert",
     ]
 )
-# arguments of the residuals, and functions that iterate
-_BEGINNINGS = ("given_", "loops_through_", "pose_of_")
+# arguments of the residuals, functions that iterate, and what headers of the emitted C have
+_BEGINNINGS = ("given_", "loops_through_", "pose_of_", "kt_", "KINTRAFO_")
+# files without a model's name that lie beside its own when they are compiled
+_FILES = ("elementary", "follow", "model", "vectors")
 _ENDS_OF_COMMENTS = ("*/", '"""', "\\", "\n", "\r")
 _COUNTED = ("count",)  # an enumeration ends with the number of its elements
 
@@ -106,6 +108,13 @@ def input_name_problems(mechanism: Assembly, inputs: Iterable[Input]) -> list[st
             kind = taken[entry.name]
             problems.append(f"{entry.name!r} is the name of a {kind} and of an input; rename one")
     return problems
+
+
+def file_name_problems(name: str) -> list[str]:
+    """Find out whether the files of a model would be called like others beside them."""
+    if name.lower() in _FILES:
+        return [f"a file that the generated code needs is called {name.lower()}; rename the model"]
+    return []
 
 
 def _reserved(kind: str, name: str) -> list[str]:

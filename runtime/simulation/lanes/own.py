@@ -13,7 +13,7 @@ from .options import OF_WIDTH, SCHEDULED
 
 _HERE = Path(__file__).parent
 # how emitted equations are read as ones about vectors
-_READ = ("model.c", "follow.h", "vectors.h")
+READ = ("model.c", "follow.h", "vectors.h")
 
 
 def is_own(equations: ModuleType) -> bool:
@@ -49,7 +49,7 @@ def library_of(equations: ModuleType, width: int, part: str = "") -> Path:
     library = f"lib{name}.so"
     if damage(target):
         with appearing(target) as temporary:
-            for text in (*_included(folder), *map(_HERE.joinpath, _READ)):
+            for text in (*_included(folder), *map(_HERE.joinpath, READ)):
                 (temporary / text.name).write_bytes(text.read_bytes())
             compiler.build([temporary / "model.c"], temporary / library)
             seal(temporary, target.name)
@@ -78,5 +78,5 @@ def _included(folder: Path) -> Iterator[Path]:
 
 def _digest() -> str:
     """Return a hash of what reads equations as ones about vectors."""
-    texts = b"\0".join((_HERE / name).read_bytes() for name in _READ)
+    texts = b"\0".join((_HERE / name).read_bytes() for name in READ)
     return hashlib.sha256(texts).hexdigest()
