@@ -32,8 +32,8 @@ sqrt sin cos asin atan2 copysign isfinite fabs abs at_least is_positive number
 guard_bit finite_bit either first_not_finite failed status_word
 parameters constants state inputs given out status wanted compute i np design_state prepare found
 results follow follow_turns square fmax GUARD_FLOOR ROUNDING ITERATIONS CONVERGED STALLED LONGEST
-TURNED INLINE INLINED NOT_INLINED NO_EFFECT NULL GREATEST_ANGLE ROUNDER SPREAD BITS REAL CLOSE SHORTEST CLOSED FULL_TURN UNKNOWNS ELEMENTS DRIVEN
-ADDRESSES kept MODEL WIDTH
+TURNED INLINED NOT_INLINED NO_EFFECT NULL CLOSE SHORTEST CLOSED FULL_TURN UNKNOWNS ELEMENTS DRIVEN
+ADDRESSES kept INLINE GREATEST_ANGLE ROUNDER SPREAD BITS REAL MODEL WIDTH
 """
 _WORDS = frozenset(
     [
