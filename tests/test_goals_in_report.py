@@ -7,7 +7,16 @@ from typing import Any
 import kintrafo.report
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, Model, System, axles, characteristics, variation
+from kintrafo import (
+    Axle,
+    InputError,
+    Model,
+    PositionError,
+    System,
+    axles,
+    characteristics,
+    variation,
+)
 from kintrafo.generated import four_bar
 from kintrafo.report.grid import Axis, Grid
 from kintrafo.report.marks import of_shown_side
@@ -173,6 +182,14 @@ def test_a_wheel_of_an_axle_moves_as_by_itself() -> None:
             np.testing.assert_allclose(
                 alone[name], together[f"{name}_{side}"], rtol=1e-9, atol=1e-12, err_msg=name
             )
+
+
+def test_goals_that_nothing_reaches_are_refused_in_words() -> None:
+    """And at once: curves go on as far as goals, in steps of some millimetres."""
+    axle = Axle.load("reference_axle")
+    far = {"camber_left": {"at_mm": [0, 1e15], "value": 0.0, "within": 0.3}}
+    with pytest.raises(PositionError, match="is out of reach"):
+        kintrafo.report.axle_chapter(axle, variation.goals({"targets": far}, OF_AXLES))
 
 
 def test_goals_of_a_report_have_a_door(tmp_path: Any) -> None:

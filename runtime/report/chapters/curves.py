@@ -1,6 +1,7 @@
 """The curves of a chapter as pictures, with what is wanted of them."""
 
 from collections.abc import Iterable, Sequence
+from math import ceil
 
 import numpy as np
 import xarray as xr
@@ -17,6 +18,8 @@ from .chapter import Picture
 
 # So few beside each other are read on the width of a phone, too; and so many fill a sheet.
 _COLUMNS, _MOST = 2, 8
+# So many positions beyond the usual ones, to either side, are more than any wheel reaches.
+_MOST_BEYOND = 1000
 
 
 def pictures(
@@ -97,7 +100,8 @@ def positions_of(looked: Looked, over: str, goals: Iterable[Goal]) -> NDArray[np
     """
     usual = usual_positions(looked, over)
     own = np.concatenate([usual[:1], *(goal.at for goal in goals if goal.over == over)])
-    step = np.diff(usual).max()
-    below = np.arange(usual[0], own.min(), -step)
-    above = np.arange(usual[-1], own.max(), step)
-    return np.unique(np.concatenate([usual, own, below, above]))
+    step = float(np.diff(usual).max())
+    ends = (usual[0], min(usual[0], own.min())), (usual[-1], max(usual[-1], own.max()))
+    # of what is so far that nothing reaches it, it is enough that it is refused
+    beyond = (np.linspace(*way, 1 + min(ceil(np.ptp(way) / step), _MOST_BEYOND)) for way in ends)
+    return np.unique(np.concatenate([usual, own, *beyond]))
