@@ -378,6 +378,11 @@ def test_what_is_no_list_of_files_that_are_read_is_refused(tmp_path, strange):
     assert not list(tmp_path.iterdir())
 
 
+def test_a_text_is_no_list_of_files_to_be_written():
+    with pytest.raises(InputError, match="path: a list of paths is needed, not a text"):
+        refuse("curves.csv")
+
+
 def test_files_that_are_read_may_come_one_by_one(tmp_path):
     """They are looked at before something is written and after that."""
     path = tmp_path / "read.csv"

@@ -138,8 +138,11 @@ def _paths(paths: Paths, inputs: Paths, force: object) -> tuple[list[Path], list
         for wrong in some
         if not isinstance(wrong, str | os.PathLike)
     ]
-    if isinstance(inputs, str | bytes):
-        problems.append("inputs: a list of paths is needed, not a text.")
+    problems += [
+        f"{name}: a list of paths is needed, not a text."
+        for name, some in (("path", paths), ("inputs", inputs))
+        if isinstance(some, str | bytes)
+    ]
     if type(force).__name__ not in ("bool", "bool_"):  # NumPy's, too
         problems.append(f"force: True or False is needed, not {type(force).__name__}.")
     if problems:

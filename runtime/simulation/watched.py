@@ -88,7 +88,6 @@ class _Steps(OdeSolver):
         self._goals = [*self.watch.milestones.tolist(), t_bound]
         super().__init__(fun, t0, y0, t_bound, **options)
         self._whole, self._longest, self._stuck = abs(t_bound - t0), 0.0, 0
-        self._trusted = np.inf
         self._taken, self._noted = 0, t0
         self._look(SMALLEST_OF_STEP * self._whole)
 
