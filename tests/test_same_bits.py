@@ -11,7 +11,10 @@ import kintrafo
 import numpy as np
 import pytest
 from c_text import EMITTED
+from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BARS
 from kintrafo.simulation.solvers import native_available
+from kintrafo.systems.compile.shipped import words_of
+from own_models import needs_gcc, own
 
 STATES, SPREAD = 50, 0.01  # about design, in SI units
 FUNCTIONS = "rhs", "rhs_jacobian", "mass_matrix", "signals", "positions"
@@ -60,3 +63,12 @@ def test_digest_of_a_motion() -> None:
         inputs={"road_height": ramp}, t_eval=[0.0, 0.125, 0.25, 0.375, 0.5],
     )  # fmt: skip
     assert sha256((found.y + 0.0).astype("<f8").tobytes()).hexdigest()[:16] == MOTION
+
+
+@needs_gcc
+def test_equations_are_known_by_their_sines_too() -> None:
+    """Kept results of others would be taken for those of these, bits and all."""
+    for equations in (EMITTED["four_bar"], own(FOUR_BARS[0])):
+        known = words_of(equations)
+        assert b"four_bar_rhs(" in known
+        assert b"kt_sine(" in known

@@ -66,8 +66,9 @@ def shipped(equations: ModuleType) -> Shipped:
 
 def words_of(equations: ModuleType) -> bytes:
     """Return what was emitted of equations: the same bytes wherever they are compiled."""
-    name, folder = str(equations.NAME), Path(str(equations.__file__)).parent
-    own = not equations.__name__.startswith(_OF_PROJECT)
-    code = [*folder.glob("*.[ch]")] if own else [*(folder / "c").glob(f"{name}.[ch]")]
-    texts = [folder / f"{name}.json", *sorted(code)]
+    folder = Path(str(equations.__file__)).parent
+    manifest = folder / f"{equations.NAME}.json"
+    code = folder / "c" if equations.__name__.startswith(_OF_PROJECT) else folder
+    sources = json.loads(manifest.read_bytes())["sources"]
+    texts = [manifest, *(code / source for source in sources)]
     return b"\0".join(text.name.encode() + b"\0" + text.read_bytes() for text in texts)
