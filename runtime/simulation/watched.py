@@ -82,6 +82,7 @@ class _Steps(OdeSolver):
     """Steps that are limited and taken back; what takes them is the class behind it."""
 
     watch: _Watch
+    _trusted: float  # how long the next step may be
 
     def __init__(self, fun: Any, t0: float, y0: Array, t_bound: float, **options: Any) -> None:
         self._given, self._end, self._options = fun, t_bound, options
