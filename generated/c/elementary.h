@@ -6,15 +6,16 @@
  * Sun's fdlibm ("Developed at SunPro, a Sun Microsystems, Inc. business. Permission to use, copy, modify, and
  * distribute this software is freely granted, provided that this notice is preserved."), without its branches,
  * and in parts that are summed side by side. Contraction into fused operations has to be off: -ffp-contract=off.
- * No option may change the order of sums, as -ffast-math does.
+ * No option may change the order of sums, or leave out NaN, as -ffast-math does.
  */
 #ifndef KINTRAFO_ELEMENTARY_H
 #define KINTRAFO_ELEMENTARY_H
 
 #include <math.h>
 
-#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST)
-#error "kintrafo: sums in another order make sines wrong. Leave out -ffast-math, -Ofast, /fp:fast and the like."
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "kintrafo: -ffast-math, -Ofast, /fp:fast and the like make sines wrong and hide NaN. Leave them out."
 #endif
 
 #if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ == 2
