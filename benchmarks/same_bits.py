@@ -65,8 +65,8 @@ class Way:
     def evaluated(self, name: str, folder: Path) -> Array:
         """Return the results of a model, a row for each state."""
         program = folder / f"{name}-{WAYS.index(self)}"
-        sources = [str(folder / f"{name}_main.c"), *map(str, SOURCES.glob(f"{name}.c"))]
-        sources.append(str(SOURCES / f"{name}_derivatives.c"))
+        parts = SOURCES / f"{name}.c", SOURCES / f"{name}_derivatives.c"
+        sources = [str(folder / f"{name}_main.c"), *map(str, parts)]
         compiler, *options = self.compiler
         command = [compiler, *FLAGS, *options, f"-I{SOURCES}", *sources, "-lm", "-o", str(program)]
         subprocess.run(command, check=True)
