@@ -215,11 +215,11 @@ OF_AN_ANGLE = 30  # products, at most
 LIBRARY_FLAGS = ["-std=c99", "-fno-math-errno", "-ffp-contract=off", "-fPIC", "-shared"]
 
 
-@pytest.mark.parametrize("level", ["-O0", "-O1", "-O3"])
-def test_optimisation_changes_no_bit(level: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("compiler", ["gcc -O0", "gcc -O1", "gcc -O3", "clang -O2"])
+def test_compiler_and_optimisation_change_no_bit(compiler: str, tmp_path: Path) -> None:
     """Of what `compute` holds a function keeps what it needs, or all, and returns the same."""
     library = tmp_path / "four_bar.so"
-    run(["gcc", *LIBRARY_FLAGS, level, *FOUR_BAR, "-o", str(library), "-lm"])
+    run([*compiler.split(), *LIBRARY_FLAGS, *FOUR_BAR, "-o", str(library), "-lm"])
     compiled, loaded = EMITTED["four_bar"], ctypes.CDLL(str(library))
     state, inputs, given = (np.array(values) for values in ([0.3, 2.0], [0.5], [0.3, 0.1, -0.2]))
     for function, address in compiled.ADDRESSES.items():
