@@ -83,7 +83,7 @@ WAYS = (
     Way("GCC, a processor without AVX", ("gcc",), older=True),
     Way("GCC without optimisation", ("gcc", "-O0")),
     Way("Clang", ("clang",)),
-    Way("GCC for aarch64", ("aarch64-linux-gnu-gcc", "-static"), ("qemu-aarch64",)),
+    Way("GCC for aarch64, in QEMU", ("aarch64-linux-gnu-gcc", "-static"), ("qemu-aarch64",)),
 )
 
 
