@@ -34,6 +34,8 @@ parameters constants state inputs given out status wanted compute i np design_st
 results follow follow_turns square fmax GUARD_FLOOR ROUNDING ITERATIONS CONVERGED STALLED LONGEST
 TURNED INLINED NOT_INLINED NO_EFFECT NULL CLOSE SHORTEST CLOSED FULL_TURN UNKNOWNS ELEMENTS DRIVEN
 ADDRESSES kept INLINE GREATEST_ANGLE ROUNDER SPREAD BITS REAL MODEL WIDTH
+kt_any_sine kt_any_cosine kt_sine kt_cosine kt_arc_sine kt_arc_tangent kt_root kt_magnitude
+kt_with_sign_of kt_real
 """
 _WORDS = frozenset(
     [
@@ -54,8 +56,8 @@ _WORDS = frozenset(
         "static_assert",
     ]
 )
-# arguments of the residuals, functions that iterate, and what headers of the emitted C have
-_BEGINNINGS = ("given_", "loops_through_", "pose_of_", "kt_", "KINTRAFO_")
+# arguments of the residuals, functions that iterate, and macros of headers
+_BEGINNINGS = ("given_", "loops_through_", "pose_of_", "KINTRAFO_")
 # files without a model's name that lie beside its own when they are compiled
 _FILES = ("elementary", "follow", "model", "vectors")
 _ENDS_OF_COMMENTS = ("*/", '"""', "\\", "\n", "\r")
