@@ -686,7 +686,7 @@ def test_macros_around_the_emitted_code_are_reserved(in_lanes):
 
 def test_files_of_the_generated_code_are_no_names_of_models():
     """Its files lie beside others, also where capital letters are not told from small ones."""
-    headers = {Path(name).stem for name in (ELEMENTARY, *own_lanes.READ)}
-    for name in (*sorted(headers), "Model"):
+    headers = {Path(name).stem for name in (ELEMENTARY, *own_lanes.HEADERS)}
+    for name in (*sorted(headers), "Vectors"):
         with pytest.raises(DeclarationError, match=f"needs is called {name.lower()}; rename"):
             replace(FOUR_BARS[0], name=name)

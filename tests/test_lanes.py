@@ -180,10 +180,10 @@ def test_far_angles_are_those_of_the_c_library() -> None:
 
 
 def test_equations_may_name_what_the_headers_do() -> None:
-    """The angles of a mechanism are called like functions and types that lanes are made of."""
+    """A mechanism and its angles are called like files, functions and types of lanes."""
     names = dict(zip(("crank_angle", "coupler_angle", "rocker_angle"), TAKEN, strict=True))
     coordinates = (replace(c, name=names[c.name]) for c in FOUR_BAR.coordinates)
-    other = replace(FOUR_BAR, name="taken_names", coordinates=tuple(coordinates))
+    other = replace(FOUR_BAR, name="model", coordinates=tuple(coordinates))
     found = []
     for mechanism, angle in ((FOUR_BAR, "crank_angle"), (other, names["crank_angle"])):
         system = kintrafo.System(kintrafo.compile(mechanism))

@@ -59,7 +59,7 @@ _WORDS = frozenset(
 # arguments of the residuals, functions that iterate, and macros of headers
 _BEGINNINGS = ("given_", "loops_through_", "pose_of_", "KINTRAFO_")
 # files without a model's name that lie beside its own when they are compiled
-_FILES = ("elementary", "follow", "model", "vectors")
+_FILES = ("elementary", "follow", "vectors")
 _ENDS_OF_COMMENTS = ("*/", '"""', "\\", "\n", "\r")
 _COUNTED = ("count",)  # an enumeration ends with the number of its elements
 

@@ -12,8 +12,8 @@ from ...systems.compile.compiler import Compiler, find_compiler
 from .options import OF_WIDTH, SCHEDULED
 
 _HERE = Path(__file__).parent
-# how emitted equations are read as ones about vectors
-READ = ("model.c", "follow.h", "vectors.h")
+# what reads emitted equations as ones about vectors, and the headers beside it
+_READER, HEADERS = "model.c", ("follow.h", "vectors.h")
 
 
 def is_own(equations: ModuleType) -> bool:
@@ -49,9 +49,11 @@ def library_of(equations: ModuleType, width: int, part: str = "") -> Path:
     library = f"lib{name}.so"
     if damage(target):
         with appearing(target) as temporary:
-            for text in (*_included(folder), *map(_HERE.joinpath, READ)):
+            for text in (*_included(folder), *map(_HERE.joinpath, HEADERS)):
                 (temporary / text.name).write_bytes(text.read_bytes())
-            compiler.build([temporary / "model.c"], temporary / library)
+            reader = temporary / f"_{_READER}"  # a model may be called model, but not _model
+            reader.write_bytes((_HERE / _READER).read_bytes())
+            compiler.build([reader], temporary / library)
             seal(temporary, target.name)
     return target / library
 
@@ -78,5 +80,5 @@ def _included(folder: Path) -> Iterator[Path]:
 
 def _digest() -> str:
     """Return a hash of what reads equations as ones about vectors."""
-    texts = b"\0".join((_HERE / name).read_bytes() for name in READ)
+    texts = b"\0".join((_HERE / name).read_bytes() for name in (_READER, *HEADERS))
     return hashlib.sha256(texts).hexdigest()
