@@ -11,6 +11,7 @@ import sys
 import warnings
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import kintrafo
@@ -21,7 +22,7 @@ from changes import with_default
 from compiled_elsewhere import simulated_end, what_is_needed
 from kintrafo import generator
 from kintrafo.cli import app
-from kintrafo.generator import Formulation, Mechanism
+from kintrafo.generator import Formulation, JointForce, Mechanism
 from kintrafo.generator.mechanisms.andrews import MODELS as ANDREWS
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BAR_MODELS
@@ -358,6 +359,7 @@ def write(folder, text):
 IMPORTS = """
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR as first
 from dataclasses import replace
+from itertools import pairwise
 """
 
 
@@ -396,6 +398,27 @@ def test_a_chain_without_loops_inputs_and_signals(tmp_path):
     result = kintrafo.simulate(system, (0.0, 1.0), system.state(first=1.0))
     assert result.success
     assert result.signals == {}
+
+
+@needs_compiler
+def test_what_has_no_mass_may_lie_between():
+    """Two slides along one line: the outer one moves a mass, against the inner one none."""
+    along = generator.Direction("along", (1.0, 0.0, 0.0))
+    bodies = [generator.Body(n, 1.0, (0.0, 0.0, 0.0), (0.1, 0.1, 0.1)) for n in ("inner", "outer")]
+    pairs = pairwise([generator.Ground("ground"), *bodies])
+    slides = [generator.Prismatic(f"slide_{i}", *pair, along) for i, pair in enumerate(pairs)]
+    pushes = (JointForce(s, generator.Input(f"f{i}", "N", "push")) for i, s in enumerate(slides))
+    mechanism = Mechanism(
+        name="telescope",
+        title="Two slides along one line",
+        joints=tuple(slides),
+        coordinates=tuple(slide.slide(f"x{i}", "way") for i, slide in enumerate(slides)),
+        forces=tuple(pushes),
+    )
+    equations = kintrafo.compile(mechanism)
+    kintrafo.System(equations)
+    with pytest.raises(kintrafo.ParameterError, match="'x1' can change, alone or with other"):
+        kintrafo.System(equations, {"inner_mass": 0.0})
 
 
 class TestMistakes:

@@ -328,9 +328,10 @@ class Equations:
             name = self.constant_names[failed - 1]
             if name.startswith(_OF_MASS):
                 return (
-                    f"nothing that {name.removeprefix(_OF_MASS)!r} moves has mass or inertia, so "
-                    "that any force would accelerate it without end; give a mass above 0 kg or an "
-                    "inertia above 0 kg m^2 there"
+                    f"{name.removeprefix(_OF_MASS)!r} can change, alone or with other coordinates, "
+                    "without any mass or inertia being moved, so that forces would accelerate it "
+                    "without end; give what moves then a mass above 0 kg or an inertia above "
+                    "0 kg m^2"
                 )
             return (
                 f"the constant {name!r} is not finite: the geometry at "
