@@ -691,6 +691,21 @@ def test_what_is_kept_is_told_in_words(car: Model) -> None:
     assert all("wheel acceleration" in data.attrs["long_name"] for data in kept)
 
 
+def test_levels_are_told_with_their_unit(car: Model) -> None:
+    """In that for people, as the time beside them is, and with all digits that were given."""
+    levels = {
+        "tyre_force": (5000.0, "5000 N"),
+        "camber": (np.deg2rad(-0.5), "-0.5 deg"),
+        "wheel_center_z": (0.30000001, "300.00001 mm"),
+        "damper_force": (0.0, "0 N"),
+    }
+    wanted = {name: ("above", level) for name, (level, _) in levels.items()}
+    found = ensemble(car, None, (0.0, 0.01), reductions=wanted)
+    told = [str(data.attrs["long_name"]) for name, data in found.items() if "_above_" in str(name)]
+    for name, (_, words) in levels.items():
+        assert f"time for which {name.replace('_', ' ')} is above {words}" in told
+
+
 def test_levels_that_look_alike_have_names_of_their_own(car: Model) -> None:
     levels = [("above", 0.30000001), ("above", 0.3)]
     found = ensemble(car, None, (0.0, 0.01), reductions={"wheel_center_z": levels})

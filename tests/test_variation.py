@@ -587,6 +587,11 @@ def test_commands_refuse_and_end_as_others_do(kintrafo: Any, tmp_path: Path) -> 
         code, _, err = kintrafo("sweep", "reference_car", wrong)
         assert code == 2
         assert "PLACE=FROM:TO:COUNT" in " ".join(err.split())
+    kept = ["--keep", "camber:above:-0.5", "--duration", "0.01"]
+    for more in ([], ["--json"]):
+        code, out, _ = kintrafo("sweep", "reference_car", f"{ROD}=270,280", *kept, *more)
+        words = " ".join(out.replace("┃", " ").split())
+        assert (code, "camber is above -0.5 deg" in words) == (0, True)
     code, out, _ = kintrafo("sweep", "reference_car", "strut.spring_rate_N_per_m=-1,25000")
     assert code == 1
     assert "1 of 2 reached the end" in out

@@ -197,8 +197,7 @@ def _table(dataset: "Dataset", names: list[str], file: str) -> Table:
         table.caption = "those with the smallest and the greatest numbers"
     for name in rows.columns:
         data = dataset[name]
-        words = str(name).replace("_", " ") if name in dataset.data_vars else long_name(data)
-        table.add_column(escape(bracketed(words, data.attrs)), justify="right")
+        table.add_column(escape(bracketed(long_name(data), data.attrs)), justify="right")
     factors = [display_of(dataset[name].attrs).factor for name in rows.columns]
     for row in rows.itertuples(index=False):
         pairs = zip(row, factors, strict=True)

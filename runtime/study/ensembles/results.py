@@ -48,9 +48,10 @@ def dataset_of(model: System, variants: Variants, collected: Collected) -> xr.Da
         values = collected.samples[:, place]
         data[name] = wide(values, entry["meaning"], entry["unit"], TIME)
     for reduced, values in [*asked.on_the_way(outcome), *collected.of_series.items()]:
-        unit = reduced.unit(described[reduced.signal]["unit"])
+        of_signal = described[reduced.signal]["unit"]
         more = (FREQUENCY,) if reduced.kind == "psd" else ()
-        data[reduced.name] = wide(values, reduced.words, unit, *more)
+        words, unit = reduced.words(of_signal), reduced.unit(of_signal)
+        data[reduced.name] = wide(values, words, unit, *more)
         if more:
             known = frequencies(asked.times, int(reduced.level))
             data[FREQUENCY] = variable(FREQUENCY, known, "frequency", "Hz")

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.arguments import Arguments, shown
+from ...core.quantities import display_of
 from ...simulation.lanes.problem import Kind, Outcome, Reduction, Wanted
 from ...simulation.validity import Bound
 from ...systems.system import System
@@ -46,19 +47,23 @@ class Reduced:
         exact = short if float(short) == self.level else repr(self.level)
         return f"{self.signal}_{self.kind}_{exact}"
 
-    @property
-    def words(self) -> str:
-        """What it is, for a person."""
+    def words(self, unit: str) -> str:
+        """Return what it is, for a person, by the unit of the signal."""
         texts = {
             "max": "greatest value of {}",
             "min": "smallest value of {}",
             "mean": "mean of {} over time",
             "rms": "rms of {} about its mean",
-            "above": "time for which {} is above {:g}",
+            "above": f"time for which {{}} is above {self._level(unit)}",
             "percentile": "value of {} that {:g} % of the outputs are below",
             "psd": "power spectral density of {}, one-sided",
         }
         return texts[self.kind].format(self.signal.replace("_", " "), self.level)
+
+    def _level(self, unit: str) -> str:
+        """Return the level in the unit for people, with all digits that somebody may have given."""
+        shown = display_of({"units": unit})
+        return f"{self.level * shown.factor:.12g} {shown.units}".removesuffix(" 1").strip()
 
     def unit(self, unit: str) -> str:
         """Return its unit, by that of the signal."""
