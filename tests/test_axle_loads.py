@@ -6,7 +6,18 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from kintrafo import Axle, AxleModel, InputError, Suspension, System, axles, loads, roads, simulate
+from kintrafo import (
+    Axle,
+    AxleModel,
+    InputError,
+    PositionError,
+    Suspension,
+    System,
+    axles,
+    loads,
+    roads,
+    simulate,
+)
 from kintrafo.study.axles import ride
 from kintrafo.study.axles.pair import Pair
 from kintrafo.suspension.points import carried
@@ -232,6 +243,8 @@ WRONG: list[tuple[Any, str]] = [
     ({"a": {"contact_N": [0, 0, 1], "left": {"contact_N": [0, 0, 1]}}}, "is that of both wheels"),
     ({"a": {"left": {"contact_K": [0, 0, 1]}}}, r"\[cases.a\] left contact_K is not known"),
     ({"a": {"travel_mm": 1.0, "left": {"contact_N": [0, 0, 1]}}}, "cannot be given besides"),
+]
+BEYOND: list[tuple[Any, str]] = [
     ({"a": {"left": {"travel_mm": 900.0}}}, "a: left: wheel height 1200 mm is out of reach"),
     ({"a": {"rack_mm": 900.0}}, "a: "),
     ({"a": {"travel_mm": 0.0, "right": {"center_N": [0, 0, 9e3]}}}, "right: the road would have"),
@@ -243,6 +256,13 @@ WRONG: list[tuple[Any, str]] = [
 def test_what_cannot_be_used(cases: Any, words: str) -> None:
     with pytest.raises(InputError, match=words):
         axles.static_loads(AXLE, cases)
+
+
+@pytest.mark.parametrize(("cases", "words"), BEYOND)
+def test_cases_of_which_none_is_carried(cases: Any, words: str) -> None:
+    with pytest.raises(PositionError, match=words) as refused:
+        axles.static_loads(AXLE, cases)
+    assert "none of the cases can be carried" in str(refused.value)
 
 
 def test_the_command_tells_both_sides(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811

@@ -11,7 +11,17 @@ import numpy as np
 import pytest
 import xarray as xr
 from cases import Instant
-from kintrafo import InputError, Model, Suspension, arm_angles, equilibrium, loads, roads, simulate
+from kintrafo import (
+    InputError,
+    Model,
+    PositionError,
+    Suspension,
+    arm_angles,
+    equilibrium,
+    loads,
+    roads,
+    simulate,
+)
 from kintrafo.study.loads.along import in_motion
 from kintrafo.suspension.positions import design_height
 from kintrafo.suspension.reach import at_rest
@@ -279,7 +289,7 @@ def test_stops_carry_what_springs_do_not() -> None:
     assert 0.04 < float(stopped["travel"][0]) < 0.1
     damper = stopped.sel(case="bump_3g", load="knuckle at strut_lower by damper")["force"].values
     assert np.linalg.norm(damper) > 4e3
-    with pytest.raises(InputError, match="N too much for spring and stops"):
+    with pytest.raises(PositionError, match="N too much for spring and stops"):
         loads.static(Model(CAR), {"a": {"contact_N": [0.0, 0.0, 1e6]}})
     some = loads.static(Model(CAR), STILL | {"a": {"contact_N": [0.0, 0.0, 1e6]}})
     assert some.attrs["message"] == "1 of 2 cases are carried"
@@ -303,7 +313,7 @@ def test_what_is_carried_without_bound_is_not_carried(monkeypatch: pytest.Monkey
     whole, told = loads.static(model, cases), []
     for worst in np.geomspace(1e1, 1e6, 60):
         monkeypatch.setattr("kintrafo.study.loads.balance._WORST_CONDITION", worst)
-        with suppress(InputError):  # none is carried
+        with suppress(PositionError):  # none is carried
             found = loads.static(model, cases)
             carried = np.isfinite(found["force"]).all(dim=("load", "axis")).values
             told.append(int(carried.sum()))
@@ -397,6 +407,8 @@ WRONG = [
     ({"a": {"contact_N": [0.0, 0.0, -1.0]}}, "road only pushes"),
     ({"a": {"contact_N": [0.0, 0.0, 1e12]}}, "each below 1e"),
     ({"a": {"contact_N": [0.0, 0.0, 1.0], "travel_mm": 3.0}}, "cannot be given besides"),
+]
+BEYOND = [
     ({"a": {"travel_mm": 900.0}}, "a: wheel height 1200 mm is out of reach"),
     ({"a": {"rack_mm": 900.0}}, "a: "),
 ]
@@ -406,6 +418,38 @@ WRONG = [
 def test_what_cannot_be_used(cases: Any, words: str) -> None:
     with pytest.raises(InputError, match=words):
         loads.static(Model(CAR), cases)
+
+
+@pytest.mark.parametrize(("cases", "words"), BEYOND)
+def test_cases_of_which_none_is_carried(cases: Any, words: str) -> None:
+    with pytest.raises(PositionError, match=rf"none of the cases can be carried\s+- {words}"):
+        loads.static(Model(CAR), cases)
+
+
+@pytest.mark.parametrize(
+    ("words", "code"),
+    [
+        ("", 0),  # a usual case that nobody asked for is not carried: it is told
+        ("--case brake", 0),
+        ("--case brake --case kerb", 1),
+        ("--cases own.toml", 1),
+        ("--cases own.toml --case good", 1),  # all of a file of one's own are asked for
+        ("--cases bad.toml", 1),
+    ],
+)
+def test_the_exit_code_is_about_the_cases_that_were_asked_for(
+    kintrafo: Any,  # noqa: F811
+    tmp_path: Path,
+    words: str,
+    code: int,
+) -> None:
+    bad = "[cases.bad]\ncontact_N = [0, 0, 1e6]\n"
+    (tmp_path / "bad.toml").write_text(bad, encoding="utf-8")
+    own = f"{bad}[cases.good]\ncontact_g = [0, 0, 1]\n"
+    (tmp_path / "own.toml").write_text(own, encoding="utf-8")
+    ended, out, err = kintrafo("loads", "reference_car", *words.split())
+    assert ended == code
+    assert re.search(r"\b(kerb|bad): ", out + err)
 
 
 @pytest.mark.usefixtures("first_page_of_curves")

@@ -22,11 +22,10 @@ if TYPE_CHECKING:
     from ..suspension.rigid import RigidAxle
 
 EXAMPLES = (
-    "kintrafo compliance my_car.toml",
     "kintrafo compliance my_car.toml bushes.toml",
     "kintrafo compliance my_car.toml bushes.toml --held spring --plot curves.png -o curves.csv",
-    "kintrafo compliance my_car.toml --goals goals.toml --plot goals.png",
-    "kintrafo compliance my_car.toml --of toe_by_lateral --of camber_by_lateral --plot lateral.png",
+    "kintrafo compliance my_car.toml bushes.toml --goals goals.toml --plot goals.png",
+    "kintrafo compliance my_car.toml bushes.toml --of toe_by_lateral --plot lateral.png",
     "kintrafo compliance reference_axle bushes.toml",
     "kintrafo compliance rigid_axle axle_bushes.toml",
 )

@@ -57,6 +57,8 @@ def static_loads(
     ------
     InputError
         If an argument cannot be used.
+    PositionError
+        If none of the cases can be carried.
 
     Notes
     -----

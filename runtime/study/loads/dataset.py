@@ -9,9 +9,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
-from ...core.errors import InputError
 from ...core.quantities import variable
 from ...core.vectors import cross
+from ...suspension.reach import PositionError
 from ...suspension.structure import GROUND
 from .poses import Poses
 from .reactions import Load
@@ -158,11 +158,12 @@ def refuse_if_none(names: Sequence[str], carried: Sequence[int], reasons: Sequen
 
     Raises
     ------
-    InputError
+    PositionError
+        Rather than an `InputError`: what was given has a meaning, and the suspension cannot do it.
     """
     if not carried:
         told = [f"{name}: {reason}" for name, reason in zip(names, reasons, strict=True)]
-        raise InputError(["none of the cases can be carried", *told[:3]], "loads")
+        raise PositionError("\n  - ".join(["none of the cases can be carried", *told[:3]]))
 
 
 def _sum(fields: dict[str, Array], rows: list[int], about: Array) -> tuple[Array, Array]:

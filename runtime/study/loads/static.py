@@ -62,6 +62,8 @@ def static(
     ------
     InputError
         If an argument cannot be used.
+    PositionError
+        If none of the cases can be carried.
 
     Notes
     -----
