@@ -1,5 +1,21 @@
-"""``python -m kintrafo``."""
+"""``python -m kintrafo``, and the command ``kintrafo``.
 
-from .cli import run
+What the command line imports takes a part of a second, in which Ctrl-C ends it as quietly as later.
+"""
 
-run()
+INTERRUPTED = 130
+"""What a shell is told by a program that ended for Ctrl-C."""
+
+
+def run() -> None:
+    """Run the command line."""
+    try:
+        from .cli import run as run_command_line  # noqa: PLC0415 (inside, to be guarded)
+
+        run_command_line()
+    except KeyboardInterrupt:
+        raise SystemExit(INTERRUPTED) from None
+
+
+if __name__ == "__main__":
+    run()

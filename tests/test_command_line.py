@@ -1,8 +1,10 @@
 """``kintrafo paper`` and ``python -m kintrafo.generator``: what they write and say."""
 
+import os
 import re
 import subprocess
 import sys
+import tomllib
 import typing
 import xml.etree.ElementTree as ET
 from pathlib import Path
@@ -10,13 +12,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 from kintrafo import Model, cli
+from kintrafo.__main__ import run
 from kintrafo.generator.__main__ import app as generator_app
 from kintrafo.study import paper
 from matplotlib.image import imread
 from typer.testing import CliRunner
 
 MODEL = Model("reference_car")
-REFERENCE = Path(__file__).parent.parent / "runtime/suspension/data/reference_car.toml"
+ROOT = Path(__file__).parent.parent
+REFERENCE = ROOT / "runtime/suspension/data/reference_car.toml"
 
 
 def test_paper_writes_figures_and_a_summary(tmp_path):
@@ -47,6 +51,38 @@ def test_users_mistake_has_no_traceback(monkeypatch, capsys, tmp_path):
     error = capsys.readouterr().err
     assert "no_such_car" in error
     assert "Traceback" not in error
+
+
+def entry_points():
+    """Return the ways into the command line: the script that is installed, and ``-m``."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    module, function = project["scripts"]["kintrafo"].split(":")
+    return ["-c", f"from {module} import {function}; {function}()"], ["-m", "kintrafo"]
+
+
+@pytest.mark.parametrize("way", entry_points())
+def test_an_interrupt_while_python_imports_ends_quietly(tmp_path, way):
+    """As if Ctrl-C came while the first package that is not Python's own was imported."""
+    (tmp_path / "typer.py").write_text("raise KeyboardInterrupt", encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, *way, "--help"],
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        capture_output=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (130, b"", b"")
+
+
+def test_an_interrupt_of_a_command_ends_quietly(monkeypatch, capfd):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("kintrafo.study.checkup.checkup", interrupted)
+    monkeypatch.setattr("sys.argv", ["kintrafo", "check", "reference_car"])
+    with pytest.raises(SystemExit) as end:
+        run()
+    assert end.value.code == 130
+    assert tuple(capfd.readouterr()) == ("", "")
 
 
 def test_error_keeps_the_brackets_of_section_names(monkeypatch, capsys, tmp_path):
