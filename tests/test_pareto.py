@@ -136,6 +136,23 @@ def test_what_weights_find_lies_at_the_front(
     assert np.abs(costs - best).max(axis=1).min() < 0.1
 
 
+def test_what_matters_may_be_left_out_and_plays_no_part() -> None:
+    found = [
+        variation.pareto(
+            CAR,
+            {ROD: 10.0},
+            {"toe": {"at_mm": [-50.0, 50.0], "value": 0.0, **within}},
+            maximise={"toe": {"at_mm": 0.0}},
+            population=4,
+            generations=2,
+        ).dataset
+        for within in ({}, {"within": 0.02}, {"within": 500.0})
+    ]
+    assert all(other.identical(found[0]) for other in found)
+    with pytest.raises(InputError, match="within is missing, in deg"):
+        variation.goals({"targets": {"toe": {"value": 0.0}}})
+
+
 def test_the_compromise_is_nearest_to_the_best_of_both(
     front: variation.Front, costs: np.ndarray
 ) -> None:
@@ -340,7 +357,8 @@ WRONG = [
     ({"targets": {}}, "they make 1 objectives, and 2 to 6 are needed"),
     ({"maximise": {"toe": [{"at_mm": at} for at in range(6)]}}, "they make 7 objectives"),
     ({"targets": [1.0]}, "targets = .* a dict of names of characteristics"),
-    ({"targets": {"toe": {"value": 0.0}}}, "within is missing, in deg"),
+    ({"targets": {"toe": {"within": 0.1}}}, "value is missing, in deg"),
+    ({"targets": {"toe": {"value": 0.0, "within": 0.0}}}, "within = 0 deg"),
     ({"minimise": {"camberr": {}}}, "Did you mean camber"),
     ({"minimise": {"camber": 1.0}}, r"\[minimise.camber\] must be a section, with at_mm\."),
     ({"minimise": {"camber": {"value": 1.0}}}, "value is not known: there are at_mm, over"),

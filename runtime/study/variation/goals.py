@@ -94,7 +94,8 @@ class Target(Goal):
     value : ndarray, shape (n,)
         SI units.
     within : float
-        A deviation that matters, SI units: deviations are compared in parts of it.
+        A deviation that matters, SI units: deviations are compared in parts of it. NaN where it
+        was left out since it plays no part, as of `pareto`.
     """
 
     value: Array
@@ -353,17 +354,24 @@ def check_data(
             )
 
 
-def targets_of(given: Arguments, described: Mapping[str, Any], ways: Sequence[str]) -> list[Target]:
+def targets_of(
+    given: Arguments,
+    described: Mapping[str, Any],
+    ways: Sequence[str],
+    *,
+    weighed: bool = True,
+) -> list[Target]:
     """Read targets, by the names of characteristics; in millimetres and units for people.
 
-    A characteristic has a table, or several in a list: over travel and over the rack.
+    A characteristic has a table, or several in a list: over travel and over the rack. Where targets
+    are not weighed against each other, ``within`` may be left out; where it stands it is checked.
     """
-    return [
-        Target(
-            name, table.over, table.at, table.numbers("value"), table.number("within", least=_LEAST)
-        )
-        for name, table in _tables(given, described, ("targets", ways), {"value", "within"})
-    ]
+    found = []
+    for name, table in _tables(given, described, ("targets", ways), {"value", "within"}):
+        left_out = not weighed and "within" not in table.entries
+        within = np.nan if left_out else table.number("within", least=_LEAST)
+        found.append(Target(name, table.over, table.at, table.numbers("value"), within))
+    return found
 
 
 def extremes_of(

@@ -76,7 +76,7 @@ def objectives_of(
 ) -> list[Objective]:
     """Read objectives: deviations from targets, greatest and least values."""
     goals: dict[Kind, Sequence[Goal]] = {
-        "deviation": targets_of(given, targets, ways),
+        "deviation": targets_of(given, targets, ways, weighed=False),
         "greatest": extremes_of(given, minimise, "minimise", ways),
         "least": extremes_of(given, maximise, "maximise", ways),
     }

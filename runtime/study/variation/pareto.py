@@ -136,7 +136,8 @@ def pareto(
     free : mapping of str to float
         How far values may move to either side, as of `optimise`.
     targets : mapping, optional
-        As of `optimise`. Each is an objective: the root mean square of the deviations.
+        As of `optimise`. Each is an objective: the root mean square of the deviations. ``within``
+        plays no part, and may be left out.
     minimise, maximise : mapping, optional
         By characteristic: ``at_mm`` and ``over``, or a list of several such. The greatest value at
         these positions is to be small, or the least value great.
@@ -178,7 +179,7 @@ def pareto(
     >>> found = pareto(
     ...     car,
     ...     free={"hardpoints.tie_rod_inner.z": 20.0},
-    ...     targets={"bump_steer": {"value": 0.0, "within": 0.001}},
+    ...     targets={"bump_steer": {"value": 0.0}},
     ...     maximise={"toe": {"at_mm": [30.0]}},
     ...     population=8,
     ...     generations=2,
