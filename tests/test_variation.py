@@ -12,6 +12,7 @@ import pytest
 from kintrafo import (
     InputError,
     Model,
+    RigidAxle,
     Suspension,
     arm_angles,
     characteristics,
@@ -25,6 +26,7 @@ from kintrafo.core.quantities import display_of
 from kintrafo.study.characteristics.from_model import gaps
 from kintrafo.study.variation.curves import Curves, changed, model_of
 from kintrafo.study.variation.places import places_of
+from kintrafo.suspension.starter import packaged
 from kintrafo.suspension.toml_writer import write_toml
 from numpy.polynomial import Chebyshev
 from scipy.optimize import brentq
@@ -598,6 +600,37 @@ def test_commands_refuse_and_end_as_others_do(kintrafo: Any, tmp_path: Path) -> 
     code, _, err = kintrafo("sensitivity", "reference_car", "--of", "camberr")
     assert code == 2
     assert "Did you mean camber" in err
+
+
+@pytest.mark.parametrize("name", [*packaged(), "rigid_axle"])
+def test_every_value_of_a_starter_file_may_be_meant(name: str) -> None:
+    """What cannot move, or moves nothing, does not stop the study of all the others."""
+    of = RigidAxle.load(name) if name == "rigid_axle" else Suspension.load(name)
+    if "arm_rear" in of.to_dict()["hardpoints"]:
+        of = of.with_changes({"bushings": {"arm_rear": {"axial_N_per_mm": 400.0}}})
+    looked_at = "roll_steer" if name == "rigid_axle" else "bump_steer"
+    found = variation.sensitivity(of, ["*"], positions=[0.0], names=[looked_at])
+    seen = [*found["place"].values, *filter(None, found.attrs["left_out"].split(", "))]
+    assert sorted(seen) == sorted(places_of(of))
+    assert found.sizes["place"] > 40
+    # by any other reason than these nothing is left out
+    for place in filter(None, found.attrs["left_out"].split(", ")):
+        assert place.startswith(("bodies.", "bushings.")), place
+    assert found.to_array().notnull().all()
+
+
+def test_values_that_cannot_move_are_told() -> None:
+    inertia = "bodies.tie_rod.inertia_xx_kg_m2"
+    with pytest.raises(InputError, match="a body without mass has no inertia"):
+        variation.sensitivity(CAR, [inertia, "wheel"], positions=[0.0])
+    with pytest.raises(InputError, match="a body without mass has no inertia"):
+        variation.sensitivity(CAR, ["bodies.tie_rod.inertia_*"], positions=[0.0])  # and no others
+    found = variation.sensitivity(CAR, ["bodies.tie_rod", ROD], names=["toe"], positions=[0.0])
+    assert found["place"].values.tolist() == [ROD, "bodies.tie_rod.mass_kg"]
+    assert found.attrs["left_out"].split(", ")[0] == inertia
+    assert "and 3 more, since a file cannot have values beside them" in found.attrs["message"]
+    alone = variation.sensitivity(CAR, [ROD], names=["toe"], positions=[0.0])
+    np.testing.assert_array_equal(found["toe"][:1], alone["toe"])
 
 
 def test_bushes_are_refused_where_joints_are_rigid() -> None:

@@ -8,7 +8,7 @@ from rich.markup import escape
 from rich.table import Column, Table
 
 from ..core.tabulated import significant
-from .console import console, print_json, progress_bar
+from .console import console, note, print_json, progress_bar
 from .options import File, Force, Json, Of
 from .outputs import Out, Outputs, name_files, title_of
 from .subject import studied
@@ -50,7 +50,8 @@ def command(
 ) -> None:
     """By how much values of the file move the characteristics, a millimetre or a degree of each.
 
-    The table is about one position; data files have all.
+    The table is about one position; data files have all. What a section or * stands for and cannot
+    move, as an inertia of a part without mass, is left out and named.
     """
     from ..study import export, variation
 
@@ -77,6 +78,8 @@ def command(
                 dataset, path, names, at=position(way, at), title=title, force=force, inputs=[file]
             )
         )
+    if dataset.attrs["message"]:
+        note(str(dataset.attrs["message"]))
     if json:
         print_json(export.as_dict(dataset[names]))
         return

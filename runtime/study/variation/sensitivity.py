@@ -26,6 +26,9 @@ PLACE = "place"
 # 2e-12 of it per millimetre.
 _STEPS = {"m": 5e-4, "rad": 1e-3}
 _RELATIVE_STEP = 1e-3
+# What stands for the size of a value that is zero: other elements of such an inertia are some
+# hundredths, and no body has one without them that is as great.
+_SIZE_OF_ZERO = {"kg m^2": 1e-3}
 # Differences of fourth order, and of second order beside them, by steps from where the value is:
 # with neighbours on both sides, and with those of one side where the other cannot be, as below a
 # mass of zero.
@@ -78,13 +81,15 @@ def sensitivity(
     xarray.Dataset
         Each characteristic over ``place`` and the positions: its derivative by the value, SI units,
         each car's own position above its own design position. NaN where a curve has a kink, as
-        where a stop begins to act.
+        where a stop begins to act. What a section or ``*`` stands for and cannot move, as an
+        inertia of a part without mass, is left out: ``left_out`` among the attributes names it, and
+        ``message`` says why.
 
     Raises
     ------
     InputError
         If a place or a characteristic is not known, or the suspension cannot do what was asked
-        with neighbouring values of either side.
+        with neighbouring values of either side of one that is named in full.
 
     Notes
     -----
@@ -105,9 +110,50 @@ def sensitivity(
         given.function("progress", progress)
         if not given.refused:
             curves = curves_of(given, suspension, over, positions, names)
-            chosen = [*matching(given, suspension, places).values()]
-            refuse_bushes(given, chosen)
-    return _dataset(curves, chosen, derivatives(suspension, chosen, curves, progress))
+            wanted = [*matching(given, suspension, places).values()]
+            refuse_bushes(given, [place for place in wanted if _is_asked_for(place, places)])
+    chosen = [place for place in wanted if not place.name.startswith("bushings.")]
+    left_out = dict.fromkeys([p.name for p in wanted if p not in chosen], _RIGID)
+    refused: list[InputError] = []
+
+    def alone(suspension: Subject, place: Place, curves: Curves) -> Array:
+        try:
+            return derivative(suspension, place, curves)
+        except InputError as error:
+            if _is_asked_for(place, places):
+                raise
+            left_out[place.name] = _ALONE
+            refused.append(error)
+            return np.full((len(curves.names), curves.positions.size), np.nan)
+
+    found = derivatives(suspension, chosen, curves, progress, alone)
+    kept = [which for which, place in enumerate(chosen) if place.name not in left_out]
+    if not kept:
+        raise refused[0]
+    dataset = _dataset(curves, [chosen[which] for which in kept], found[kept])
+    return dataset.assign_attrs(left_out=", ".join(left_out), message=_message(left_out))
+
+
+_ALONE = "a file cannot have values beside them (name one in full to be told why)"
+_RIGID = "nothing here depends on bushes, joints are rigid"
+# So many values that are left out are named in a message; the dataset names all.
+_NAMED = 3
+
+
+def _is_asked_for(place: Place, patterns: Sequence[str]) -> bool:
+    """Tell whether somebody wants this value, and has not just left it to a pattern or section."""
+    bush = place.name.startswith("bushings.")
+    return any(p == place.name or (bush and p.startswith("bushings")) for p in patterns)
+
+
+def _message(left_out: Mapping[str, str]) -> str:
+    """Say what is left out, and why."""
+    parts = []
+    for reason in dict.fromkeys(left_out.values()):
+        names = [name for name, why in left_out.items() if why == reason]
+        more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
+        parts.append(f"{', '.join(names[:_NAMED])}{more}, since {reason}")
+    return f"left out: {'; '.join(parts)}" if parts else ""
 
 
 def derivatives(
@@ -208,7 +254,7 @@ def step_of(place: Place) -> float:
     """Return the step of a difference, SI units."""
     if place.si_unit in _STEPS:
         return _STEPS[place.si_unit]
-    return _RELATIVE_STEP * (abs(place.value) or 1.0) * place.to_si
+    return _RELATIVE_STEP * (abs(place.value) or _SIZE_OF_ZERO.get(place.unit, 1.0)) * place.to_si
 
 
 def _moved(suspension: Subject, place: Place, by: float, curves: Curves) -> Array:
