@@ -357,6 +357,29 @@ def test_phone_needs_no_sideways_scrolling(watched):
         assert 0 <= page.locator("#travel").bounding_box()["y"] < PHONE["height"]
 
 
+def test_rows_keep_their_names_on_a_phone(watched):
+    """The summary fits; what is wider is scrolled past the first column, which stays in sight."""
+    page = watched.page
+    for details in page.locator("details").all():
+        details.evaluate("d => d.open = true")
+    page.set_viewport_size(PHONE)
+    frames = page.locator(".wide")
+    room = "frame => frame.scrollWidth - frame.clientWidth"
+    until(lambda: frames.first.evaluate(room) == 0)
+    page.set_viewport_size({**PHONE, "width": 240})
+    until(lambda: frames.first.evaluate(room) > 0)
+    first_cells = """frame => {
+      frame.scrollLeft = 9999;
+      const left = frame.getBoundingClientRect().left;
+      const cells = [...frame.querySelectorAll("tr > th:first-child:not(.part)")];
+      return cells.map((cell) => Math.abs(cell.getBoundingClientRect().left - left));
+    }"""
+    for frame in frames.all():
+        off = frame.evaluate(first_cells)
+        assert off
+        assert max(off) < 0.5
+
+
 def luminance(colour):
     """Relative luminance of an sRGB colour, by the formula of WCAG 2."""
     values = np.array([float(v) for v in re.findall(r"[\d.]+", colour)[:3]]) / 255.0
