@@ -15,6 +15,9 @@ from .subject import described_by
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    import numpy as np
+    from numpy.typing import NDArray
+
     from ..report import Chapter
     from ..study.loads.flexibility import Held
     from ..study.variation.goals import Goal
@@ -226,14 +229,34 @@ def _of_bushes(
     if isinstance(of, Model):
         return [
             compliance_chapter(study.compliance(of, described, at, held=_HELD), goals),
-            elastokinematics_chapter(study.elastokinematics(of, described)),
+            elastokinematics_chapter(
+                study.elastokinematics(of, described, _as_far_as(of, "travel", goals)), goals=goals
+            ),
         ]
     over: Any = rigid if isinstance(of, RigidAxle) else axles
-    soft = (over.elastokinematics(of, described, motion) for motion in ("bump", "roll"))
+    soft = (
+        over.elastokinematics(of, described, motion, _as_far_as(of, motion, goals))
+        for motion in ("bump", "roll")
+    )
     return [
         compliance_chapter(over.compliance(of, described, at, held=_HELD), goals),
-        elastokinematics_chapter(*soft),
+        elastokinematics_chapter(*soft, goals=goals),
     ]
+
+
+def _as_far_as(
+    of: "Model | Axle | RigidAxle", over: str, goals: "Sequence[Goal]"
+) -> "NDArray[np.float64] | None":
+    """Return positions that reach what goals are about; None where the usual ones do."""
+    from ..report.chapters.curves import positions_of
+    from ..study.variation.ways import judged_model, usual_positions
+    from ..suspension.model import Model
+
+    if all(goal.over != over for goal in goals):
+        return None
+    looked = of if isinstance(of, Model) else judged_model(of, [over])
+    usual, wanted = usual_positions(looked, over), positions_of(looked, over, goals)
+    return wanted if wanted[0] < usual[0] or wanted[-1] > usual[-1] else None
 
 
 def _of_sheet(of: "Model | Axle | RigidAxle", bushes: Path | None) -> "list[Chapter]":

@@ -75,7 +75,7 @@ def elastokinematics(
         `kintrafo.loads.elastokinematics` tells of a wheel, with ``_left`` and ``_right`` at the
         end, the wheel rate with the other wheel held; ``steer`` of both for 'steer';
         ``roll_stiffness`` [N m/rad], the derivative of the moment of the wheel loads by roll,
-        levers held; and ``bar_torque`` [N m].
+        levers held; and ``bar_torque`` [N m]. ``over`` among the attributes is the motion.
 
     Raises
     ------
@@ -135,7 +135,7 @@ def elastokinematics(
             {q.name: xr.Variable((), value, q.attributes()) for q, value in held.items()}
         )
     title = f"elastokinematics: {MOTIONS[motion]}"
-    return whole.assign_attrs(title=title, hardpoints=HARDPOINTS[hardpoints])
+    return whole.assign_attrs(title=title, over=motion, hardpoints=HARDPOINTS[hardpoints])
 
 
 def _usual(axle: Axle, motion: str, extent: Extent) -> tuple[Quantity, Array]:
@@ -235,7 +235,7 @@ def _forces(
         own = np.stack([rate[:, which] for rate in rates])
         words = f"wheel rate at the contact, {side}"
         data[f"wheel_rate_{side}"] = variable(dims, own, words, "N/m")
-    words = "roll stiffness, positive when it resists roll"
+    words = "roll stiffness at the contacts, positive when it resists roll"
     roll = variable(dims, np.stack(stiffness), words, "N m/rad")
     shown = {"display_units": "N m/deg", "display_factor": np.pi / 180.0}
     data["roll_stiffness"] = xr.Variable(dims, roll.values, roll.attrs | shown)

@@ -102,7 +102,7 @@ def elastokinematics(
         found.append(on_both(data, over, some))
     whole = xr.concat(found, over.name, join="override", combine_attrs="override")
     title = f"elastokinematics: {MOTIONS[motion]}"
-    return whole.assign_attrs(title=title, hardpoints=HARDPOINTS[hardpoints])
+    return whole.assign_attrs(title=title, over=motion, hardpoints=HARDPOINTS[hardpoints])
 
 
 def _variable(quantity: Quantity, dims: tuple[str, str], values: Any) -> xr.Variable:

@@ -12,7 +12,7 @@ from ....core.named_types import ArrayLike
 from ....core.quantities import variable
 from ....suspension.model import Model
 from ...characteristics import wheel
-from ...characteristics.datasets import DATA_SET, KNOWN, TRAVEL
+from ...characteristics.datasets import DATA_SET, KNOWN, RACK, TRAVEL
 from ...sweep import usual_travel
 from .connections import Soft
 from .equilibrium import LOADS, Equilibrium, State
@@ -60,7 +60,8 @@ def elastokinematics(
     xarray.Dataset
         Over ``data_set`` ('kinematic', 'elastokinematic') and ``wheel_travel``: toe and camber
         [rad], half-track and wheelbase change [m], ``wheel_load``, the vertical force of the road
-        [N], and ``wheel_rate``, its derivative by the height of the contact [N/m].
+        [N], and ``wheel_rate``, its derivative by the height of the contact [N/m]. ``over``
+        among the attributes is what `kintrafo.variation.goals` calls these curves' way: 'travel'.
 
     Raises
     ------
@@ -97,7 +98,12 @@ def elastokinematics(
         suspension = suspension_on(model, some, rack_position, soft)
         found.append(_over_travel(suspension, at_height(suspension, some), some))
     whole = xr.concat(found, TRAVEL.name, join="override", combine_attrs="override")
-    return whole.assign_attrs(title="elastokinematics", hardpoints=HARDPOINTS[hardpoints])
+    if model.suspension.steered():
+        held = xr.Variable((), rack_position, RACK.attributes())
+        whole = whole.assign_coords({RACK.name: held})
+    return whole.assign_attrs(
+        title="elastokinematics", over="travel", hardpoints=HARDPOINTS[hardpoints]
+    )
 
 
 def _over_travel(suspension: Equilibrium, base: State, travels: Array) -> xr.Dataset:
