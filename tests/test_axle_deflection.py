@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, Model, Suspension, axles, loads
+from kintrafo import Axle, InputError, Model, PositionError, Suspension, axles, loads
 from kintrafo.core.arguments import Arguments
 from kintrafo.report import elastokinematics_chapter
 from kintrafo.study.axles.on_bushes import axle_on, softs_of
@@ -438,7 +438,7 @@ def test_motions_that_cannot_be_are_refused() -> None:
     heavy = Axle.from_dict(
         {"axle": "rear", "side": TRAILING.with_changes({"spring.force_at_design_N": 4000.0})}
     )
-    with pytest.raises(InputError, match=r"at a roll angle of 1\.5 deg"):
+    with pytest.raises(PositionError, match=r"at a roll angle of 1\.5 deg"):
         axles.elastokinematics(heavy, weak, "roll", np.deg2rad([1.5]), hardpoints="relaxed")
 
 
@@ -446,7 +446,9 @@ def test_loads_that_nothing_holds_are_refused(monkeypatch: pytest.MonkeyPatch) -
     module = import_module("kintrafo.study.loads.elastic.deflection")
     monkeypatch.setattr(module, "_LEAST_STEP", 0.3)  # a short search for the greatest one
     weak = {"arm_rear": {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}}
-    with pytest.raises(InputError, match="no equilibrium that lasts was found under longitudinal"):
+    with pytest.raises(
+        PositionError, match="no equilibrium that lasts was found under longitudinal"
+    ):
         axles.deflection(axle_of(STRUT), weak, "braking", [9e5])
 
 

@@ -1,10 +1,19 @@
 """Bushes that give way by any amount: equilibrium in maximal coordinates, limits, refusals."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import InputError, Model, Suspension, arm_angles, characteristics, loads
+from kintrafo import (
+    InputError,
+    Model,
+    PositionError,
+    Suspension,
+    arm_angles,
+    characteristics,
+    loads,
+)
 from kintrafo.core.arguments import Arguments
 from kintrafo.study.loads.elastic.connections import Soft
 from kintrafo.study.loads.elastic.equilibrium import Equilibrium, State
@@ -16,6 +25,7 @@ from kintrafo.suspension.reach import at_rest
 from oracle.constraints import Pose
 from scipy.spatial.transform import Rotation
 from soft_suspensions import BUSHES, BUSHES_OF, LINKED, STRUT, TRAILING, WISHBONES, Stiffness
+from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CARS = [STRUT, WISHBONES, LINKED, TRAILING]
 UNDER = ["lateral", "braking", "recession", "aligning"]
@@ -417,10 +427,24 @@ def test_no_load_presses_a_damper_in_farther_than_it_goes(side: str) -> None:
         return loads.deflection(model, stiff, "braking", amounts, held="spring")
 
     assert under([-2.0 * most, 0.93 * most])["displacement"].shape == (2, 2)
-    with pytest.raises(InputError, match="the damper is beyond its least length"):
+    with pytest.raises(PositionError, match="the damper is beyond its least length"):
         under([0.0, 1.07 * most])
     # held at its height, the wheel does not press it in
     loads.deflection(model, stiff, "braking", [2.0 * most])
+
+
+def test_what_the_suspension_cannot_do_ends_a_command_with_1(
+    kintrafo: Any,  # noqa: F811
+    tmp_path: Path,
+) -> None:
+    """As the page of the command line says of all that is no mistake in what was given."""
+    soft = "[bushings.arm_rear]\naxial_N_per_mm = 1.0\nradial_N_per_mm = 1.0\n"
+    (tmp_path / "soft.toml").write_text(soft, encoding="utf-8")
+    line = "deflection reference_car soft.toml --under braking --most 900000"
+    code, _, err = kintrafo(*line.split())
+    assert (code, "no equilibrium that lasts" in err) == (1, True)
+    code, _, err = kintrafo(*line.replace("braking", "sideways").split())
+    assert code == 2
 
 
 def test_what_cannot_be_is_refused() -> None:
@@ -430,7 +454,7 @@ def test_what_cannot_be_is_refused() -> None:
         loads.deflection(model, bushes, "sideways", [1.0])
     with pytest.raises(InputError, match="1e\\+06 N"):
         loads.deflection(model, bushes, "lateral", [1e9])
-    with pytest.raises(InputError, match="no equilibrium that lasts"):
+    with pytest.raises(PositionError, match="no equilibrium that lasts"):
         loads.deflection(model, {"arm_rear": {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}},
                          "braking", [9e5])  # fmt: skip
     for curve, words in (

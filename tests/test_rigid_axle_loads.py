@@ -471,7 +471,7 @@ def test_what_is_carried_without_bound_is_not_carried(
         rigid_axles.static_loads(AXLE, {"a": {"contact_N": [0.0, 0.0, 6000.0]}})
     with pytest.raises(PositionError, match="a: the linkage is at a dead point"):
         rigid_axles.static_loads(AXLE, {"a": {"travel_mm": 0.0}})
-    with pytest.raises(InputError, match=r"at wheel heights of .* mm and .* mm: the linkage"):
+    with pytest.raises(PositionError, match=r"at wheel heights of .* mm and .* mm: the linkage"):
         rigid_axles.loads_along(*motion[:2])
 
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.errors import InputError
 from ...core.vectors import cross
 from ...suspension.corner import UP
+from ...suspension.reach import PositionError
 from ...suspension.structure import GROUND, Joint, Line
 from .balance import DEAD_POINT, balanced, balanced_at_many, dense
 from .poses import CONTACT, Assembled, touching, wrench_about
@@ -123,14 +123,14 @@ class Equations:
 
         Raises
         ------
-        InputError
+        PositionError
             At a dead point, where what is carried has no bound.
         """
         found, sound = self.solved(applied)
         if not sound.all():
             centers = [wheel.center[~sound][0, 2] for wheel in self.poses.wheels.values()]
             height = " and ".join(f"{1e3 * float(center):.6g} mm" for center in centers)
-            raise InputError([f"at a wheel height of {height}: {DEAD_POINT}"], "loads")
+            raise PositionError(f"at a wheel height of {height}: {DEAD_POINT}")
         return found
 
     def solved(self, applied: Array) -> tuple[Array, NDArray[np.bool_]]:

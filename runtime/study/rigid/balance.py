@@ -10,8 +10,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.errors import InputError
 from ...suspension.corner import UP
+from ...suspension.reach import PositionError
 from ...suspension.rigid.structure import BEAM, CHASSIS
 from ..loads.balance import DEAD_POINT, balanced
 from ..loads.poses import CENTER, CONTACT, wrench_about
@@ -60,13 +60,13 @@ class Balance:
 
         Raises
         ------
-        InputError
+        PositionError
         """
         if not self.sound.all():
             row = int(np.flatnonzero(~self.sound)[0])
             heights = [1e3 * float(self.parts.points[f"{CENTER}_{s}"][row, 2]) for s in SIDES]
             where = " and ".join(f"{height:.6g} mm" for height in heights)
-            raise InputError([f"at wheel heights of {where}: {DEAD_POINT}"], "loads")
+            raise PositionError(f"at wheel heights of {where}: {DEAD_POINT}")
 
     def upward(self, side: str, force: Array) -> Load:
         """Return a vertical force of the road on a wheel."""

@@ -61,9 +61,9 @@ def deflection(
     Raises
     ------
     InputError
-        If an argument cannot be used, or there is no equilibrium.
+        If an argument cannot be used.
     PositionError
-        If the travel is out of reach.
+        If the travel is out of reach, or there is no equilibrium.
 
     Examples
     --------

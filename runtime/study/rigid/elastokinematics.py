@@ -61,9 +61,9 @@ def elastokinematics(
     Raises
     ------
     InputError
-        If an argument cannot be used, or there is no equilibrium.
+        If an argument cannot be used.
     PositionError
-        If a position is out of reach.
+        If a position is out of reach, or there is no equilibrium.
 
     Examples
     --------

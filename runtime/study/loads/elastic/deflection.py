@@ -9,11 +9,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ....core.arguments import Arguments
-from ....core.errors import InputError
 from ....core.named_types import ArrayLike
 from ....core.quantities import attributes, variable
 from ....suspension.corner import RoadWheel
 from ....suspension.model import Model
+from ....suspension.reach import PositionError
 from ...characteristics import wheel
 from ...characteristics.datasets import DATA_SET
 from ..compliance import (
@@ -97,10 +97,10 @@ def deflection(
     Raises
     ------
     InputError
-        If an argument cannot be used, or there is no equilibrium, or one only with damper or strut
-        beyond a length that the file allows.
+        If an argument cannot be used.
     PositionError
-        If the travel is out of reach.
+        If the travel is out of reach, or there is no equilibrium, or one only with damper or strut
+        beyond a length that the file allows.
 
     Notes
     -----
@@ -205,7 +205,7 @@ def _towards(
                 f"{at:.4g} {load.unit}: the bushes do not hold the linkage. Leave greater "
                 "ones out, or make the bushes stiffer."
             )
-            raise InputError([problem], "deflection")
+            raise PositionError(problem)
     return state
 
 
@@ -219,7 +219,7 @@ def _refuse_beyond(
                 f"under {load.words} of {wanted[which]:.4g} {load.unit} {words[0]}. Leave greater "
                 "ones out, or give the file stops that hold it before."
             )
-            raise InputError([problem], "deflection")
+            raise PositionError(problem)
 
 
 # -- results --------------------------------------------------------------------------------------

@@ -8,13 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.arguments import Arguments
-from ....core.errors import InputError
 from ....core.quantities import display_of
 from ....suspension.bushes import RACK, Bush, described_bushings, softness_of_rack
 from ....suspension.corner import RoadWheel
 from ....suspension.model import Model
 from ....suspension.positions import arm_angles, design_height
-from ....suspension.reach import at_rest
+from ....suspension.reach import PositionError, at_rest
 from ...characteristics.catalogue import Quantity
 from ...characteristics.datasets import TRAVEL
 from ..flexibility import shared
@@ -121,5 +120,5 @@ def at_height(suspension: Equilibrium, along: Array, over: Quantity = TRAVEL) ->
             f"no equilibrium that lasts was found at a {over.long_name} of {at}: the bushes do not "
             "hold the linkage there. Make them stiffer, or leave that out."
         )
-        raise InputError([problem], "bushings")
+        raise PositionError(problem)
     return base
