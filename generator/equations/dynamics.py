@@ -20,7 +20,8 @@ from ..declare.geometry import Direction
 from ..declare.joints import Revolute
 from ..kinematics.hinge_angles import positive_axis_at_design
 from ..kinematics.motion import BodyMotion, to_axes
-from ..program.floors import POSITIVE
+from ..program.conditions import Condition
+from ..program.floors import POSITIVE, SINGULAR
 from ..program.functions import Frozen
 from ..program.vectors import ELEMENTS, NO_TWIST, ZERO, SymmetricTensor, Twist, Vector
 from .surroundings import Seen
@@ -394,13 +395,7 @@ class Dynamics:
         work, right = dict(matrix), dict(right)
         inverse: dict[str, sp.Expr] = {}
         for i, k in enumerate(names):
-            pivot = program.guarded(
-                f"pivot_{k}",
-                work[k, k],
-                f"the mass matrix is not positive definite at {k}",
-                "kg m^2 or kg",
-                POSITIVE,
-            )
+            pivot = self._pivot(k, work[k, k], matrix[k, k] if i else NONE)
             self._factors[k, k] = inverse[k] = program.define(f"inverse_pivot_{k}", 1 / pivot)
             for j, row in enumerate(names[i + 1 :], i + 1):
                 factor = program.define(f"factor_{row}_{k}", work[k, row] * inverse[k])
@@ -415,6 +410,22 @@ class Dynamics:
             known = sum((work[k, c] * solution[c] for c in names[i + 1 :]), NONE)
             solution[k] = program.define(f"{k}_acceleration", (right[k] - known) * inverse[k])
         return solution
+
+    def _pivot(self, k: str, left: sp.Expr, whole: sp.Expr) -> sp.Expr:
+        """Return what of the mass that a coordinate moves is left when those before it are gone.
+
+        Where it alone moves no mass, rounding leaves something of the whole, of any sign.
+        """
+        program, unit = self.program, "kg m^2 or kg"
+        meaning = f"the mass matrix is not positive definite at {k}"
+        rounding = program.define(f"rounding_of_mass_{k}", SINGULAR * whole)
+        free = program.guarded(f"pivot_{k}", left - rounding, meaning, unit, POSITIVE)
+        if whole != 0 and program.constants.contains(free):
+            remedy = f"give mass or inertia to something that {k} moves and no other coordinate"
+            program.constants.conditions.setdefault(
+                left, Condition(left, rounding, unit, meaning, remedy)
+            )
+        return free + rounding
 
     # -- derivatives ----------------------------------------------------------------------------
 

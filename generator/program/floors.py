@@ -42,6 +42,9 @@ SMALLEST = sp.Float("1e-24")
 POSITIVE = sp.Float("1e-280")
 """What only has to be positive, in whatever unit: its reciprocal is finite."""
 
+SINGULAR = sp.Float("1e-13")
+"""What elimination leaves of a mass by rounding alone: some hundred units, as a part of it."""
+
 ROUNDING = "1.0e-9"
 """What is still zero: of an angle in rad, of a distance as a part of the length beside it.
 

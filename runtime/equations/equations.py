@@ -418,7 +418,9 @@ def labels_of(described: Mapping[str, Any]) -> list[str]:
 
 
 def _amount_off(value: float, unit: str) -> str:
-    """Return a distance, or an angle given by its sine, as a person reads it."""
+    """Return a distance, an angle given by its sine, or what else it is, as a person reads it."""
     if unit == "m":
         return f"{1e3 * value:.3g} mm"
+    if unit != "1":
+        return f"{value:.3g} {unit}"
     return f"{np.degrees(np.arcsin(min(value, 1.0))):.3g} degrees"

@@ -1,0 +1,80 @@
+"""Masses that only some coordinates together move: rounding is not taken for one."""
+
+import kintrafo
+import numpy as np
+import pytest
+from kintrafo.generator import (
+    Body,
+    Direction,
+    Formulation,
+    Ground,
+    Line,
+    Mechanism,
+    Point,
+    Prismatic,
+    Revolute,
+    Weight,
+)
+from kintrafo.systems.compile.compiler import find_compiler
+
+pytestmark = pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
+
+ALONG = Direction("along", (0.6, 0.0, 0.8))
+MASSES = np.random.default_rng(0).uniform(0.1, 100.0, 50)  # kg
+
+
+def compiled(name: str, first, second) -> kintrafo.System:
+    told = [j.slide if isinstance(j, Prismatic) else j.angle for j in (first, second)]
+    shown = tuple(tell(j.name, j.name) for tell, j in zip(told, (first, second), strict=True))
+    mechanism = Mechanism(name, "Two bodies in a row", (first, second), (Weight(),), shown)
+    model = Formulation(name, "Two bodies in a row", mechanism, (first, second))
+    return kintrafo.System(kintrafo.compile(model))
+
+
+@pytest.fixture(scope="module")
+def slides() -> kintrafo.System:
+    """A slide on a slide, on one line: the mass matrix is a constant."""
+    bodies = (Body(n, 1.0, (0.0, 0.0, 0.0), (0.1, 0.1, 0.1)) for n in ("a", "b"))
+    ground, (a, b) = Ground("ground"), bodies
+    return compiled("slides", Prismatic("low", ground, a, ALONG), Prismatic("high", a, b, ALONG))
+
+
+@pytest.fixture(scope="module")
+def pendulum() -> kintrafo.System:
+    """A pendulum on a pendulum, which moves the other way when both are in line."""
+    ground, across = Ground("ground"), Direction("across", (0.0, 1.0, 0.0))
+    a = Body("a", 1.0, (0.0, 0.0, -0.3), (0.1, 0.1, 0.1))
+    b = Body("b", 1.0, (0.0, 0.0, -1.0), (0.1, 0.1, 0.1))
+    top, middle = Point("top", (0.0, 0.0, 0.0)), Point("middle", (0.0, 0.0, -0.3))
+    return compiled(
+        "pendulums",
+        Revolute("upper", ground, a, Line(top, across)),
+        Revolute("lower", a, b, Line(middle, across)),
+    )
+
+
+def of(system: kintrafo.System, mass: float) -> dict[str, float]:
+    """Return parameters by which the second body alone has mass, in a point."""
+    light = {n: 0.0 for n in system.parameters if n.endswith("_mass") or "_inertia" in n}
+    return light | {"b_mass": float(mass)}
+
+
+def test_a_constant_mass_matrix(slides: kintrafo.System) -> None:
+    """Each mass is refused, whatever its rounding leaves; the smallest mass between is enough."""
+    for mass in MASSES:
+        with pytest.raises(kintrafo.ParameterError, match="not positive definite at high"):
+            kintrafo.System(slides.equations, of(slides, mass))
+    light = kintrafo.System(slides.equations, of(slides, 49.0) | {"a_mass": 1e-9})
+    falling = light.evaluate("rhs", light.state())
+    # both fall along the line at g sin, the second not at all on the first; 49e9 roundings
+    np.testing.assert_allclose(falling[2:], [-9.81 * 0.8, 0.0], atol=1e-4)
+
+
+def test_one_that_varies(pendulum: kintrafo.System) -> None:
+    """Refused in line, where only both together move the mass; not where they are not."""
+    for mass in MASSES:
+        point = kintrafo.System(pendulum.equations, of(pendulum, mass))
+        for angle in (0.0, 0.7, 2.0):
+            with pytest.raises(kintrafo.ModelError, match="not positive definite at lower"):
+                point.evaluate("rhs", point.state(upper=angle))
+        assert np.isfinite(point.evaluate("rhs", point.state(upper=0.3, lower=0.5))).all()
