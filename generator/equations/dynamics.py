@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from ...equations.errors import HEAVIER, WEIGHTLESS
 from ..declare.geometry import Direction
 from ..declare.joints import Revolute
 from ..kinematics.hinge_angles import positive_axis_at_design
@@ -395,7 +396,7 @@ class Dynamics:
         work, right = dict(matrix), dict(right)
         inverse: dict[str, sp.Expr] = {}
         for i, k in enumerate(names):
-            pivot = self._pivot(k, work[k, k], matrix[k, k] if i else NONE)
+            pivot = self._pivot(k, work[k, k], matrix[k, k])
             self._factors[k, k] = inverse[k] = program.define(f"inverse_pivot_{k}", 1 / pivot)
             for j, row in enumerate(names[i + 1 :], i + 1):
                 factor = program.define(f"factor_{row}_{k}", work[k, row] * inverse[k])
@@ -417,13 +418,13 @@ class Dynamics:
         Where it alone moves no mass, rounding leaves something of the whole, of any sign.
         """
         program, unit = self.program, "kg m^2 or kg"
+        eliminated = left != whole
+        rounding = program.define(f"rounding_of_mass_{k}", SINGULAR * whole * int(eliminated))
         meaning = f"the mass matrix is not positive definite at {k}"
-        rounding = program.define(f"rounding_of_mass_{k}", SINGULAR * whole)
         free = program.guarded(f"pivot_{k}", left - rounding, meaning, unit, POSITIVE)
-        if whole != 0 and program.constants.contains(free):
-            remedy = f"give mass or inertia to something that {k} moves and no other coordinate"
+        if eliminated and program.constants.contains(free):
             program.constants.conditions.setdefault(
-                left, Condition(left, rounding, unit, meaning, remedy)
+                left, Condition(left, rounding, unit, WEIGHTLESS.format(k), HEAVIER)
             )
         return free + rounding
 

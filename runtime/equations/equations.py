@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..core.physical import inertia_of_no_body, out_of_range
 from .directions import ADJOINTS, TANGENTS, Behind, Directions
-from .errors import ClosureError, ModelError, ParameterError, place_of
+from .errors import HEAVIER, WEIGHTLESS, ClosureError, ModelError, ParameterError, place_of
 from .residuals import Residuals
 from .status import LAST_GUARD_BIT, NOT_FINITE, bit_of, mask_of
 
@@ -327,12 +327,7 @@ class Equations:
         if failed <= len(self.constant_names):
             name = self.constant_names[failed - 1]
             if name.startswith(_OF_MASS):
-                return (
-                    f"{name.removeprefix(_OF_MASS)!r} can change, alone or with other coordinates, "
-                    "without any mass or inertia being moved, so that forces would accelerate it "
-                    "without end; give what moves then a mass above 0 kg or an inertia above "
-                    "0 kg m^2"
-                )
+                return f"{WEIGHTLESS.format(name.removeprefix(_OF_MASS))}; {HEAVIER}"
             return (
                 f"the constant {name!r} is not finite: the geometry at "
                 "the design position is degenerate (coincident points, or a point on a line that "

@@ -5,7 +5,14 @@ from typing import Any
 
 from ..core.errors import KintrafoError
 
-__all__ = ["ClosureError", "ModelError", "ParameterError", "place_of"]
+__all__ = ["HEAVIER", "WEIGHTLESS", "ClosureError", "ModelError", "ParameterError", "place_of"]
+
+WEIGHTLESS = (
+    "{!r} can change, alone or with other coordinates, without any mass or inertia being moved, so "
+    "that forces would accelerate it without end"
+)
+HEAVIER = "give what moves then a mass above 0 kg or an inertia above 0 kg m^2"
+"""What a mass matrix that is singular means of one of its coordinates, and what to do then."""
 
 
 class ModelError(KintrafoError, ValueError):
