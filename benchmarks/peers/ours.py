@@ -22,9 +22,10 @@ def source() -> Source:
     """Return ``macpherson_rhs_rack_held`` with the adapter; parameters are prepared constants."""
     folder = REPOSITORY / "generated" / "c"
     # The texts themselves, so that what is compiled follows them.
-    header = (folder / "macpherson.h").read_text()
-    emitted = (folder / "macpherson.c").read_text().replace('#include "macpherson.h"', header)
-    code = emitted + _ADAPTER
+    code = (folder / "macpherson.c").read_text()
+    for header in ("macpherson.h", "elementary.h"):
+        code = code.replace(f'#include "{header}"', (folder / header).read_text())
+    code += _ADAPTER
     return Source("kintrafo", code, 4, 4, slice(2, 4), is_derivative=True)
 
 
