@@ -87,14 +87,19 @@ WAYS = (
 )
 
 
+def sizes(model: ModuleType) -> dict[str, int]:
+    """Return how many numbers each function of a model gives."""
+    return {f: len(getattr(model, f).labels) for f in FUNCTIONS if f in model.ADDRESSES}
+
+
 def program(name: str, model: ModuleType) -> str:
     """Return C that evaluates a model at many states, and writes all results."""
-    sizes = {f: len(getattr(model, f).labels) for f in FUNCTIONS if f in model.ADDRESSES}
+    of_results = sizes(model)
     size = {"p": len(model.PARAMETERS), "c": len(model.CONSTANTS), "s": len(model.STATE)}
     values = ", ".join(repr(entry["default"]) for entry in model.PARAMETERS.values())
     calls = "\n        ".join(
         f"{name}_{function}(c, x, in, out);\n        fwrite(out, 8, {length}, stdout);"
-        for function, length in sizes.items()
+        for function, length in of_results.items()
     )
     return f"""\
 #include <stdint.h>
@@ -103,7 +108,7 @@ def program(name: str, model: ModuleType) -> str:
 
 static double p[] = {{{values}}};
 static double c[{size["c"]}], s[{size["s"]}], x[{size["s"]}];
-static double in[{max(1, len(model.INPUTS))}], out[{max(sizes.values())}];
+static double in[{max(1, len(model.INPUTS))}], out[{max(of_results.values())}];
 
 int main(void)
 {{
@@ -122,19 +127,13 @@ int main(void)
 """
 
 
-def widths(model: ModuleType) -> list[int]:
-    """Return where the results of each function end in a row."""
-    sizes = [len(getattr(model, f).labels) for f in FUNCTIONS if f in model.ADDRESSES]
-    return np.cumsum(sizes).tolist()
-
-
 def differing(name: str, ways: list[Way], folder: Path) -> list[int]:
     """Return how many results there are of a model, and how many have other bits in each way."""
     model = import_module(f"{generated.__name__}.{name}")
     (folder / f"{name}_main.c").write_text(program(name, model), encoding="utf-8")
     with ThreadPoolExecutor() as pool:
         first, *others = pool.map(lambda way: way.evaluated(name, folder), ways)
-    ends = widths(model)
+    ends = np.cumsum([*sizes(model).values()])
 
     def apart(found: Array) -> Iterator[int]:
         other = first.view(np.int64) != found.view(np.int64)

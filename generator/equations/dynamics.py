@@ -418,11 +418,12 @@ class Dynamics:
         Where it alone moves no mass, rounding leaves something of the whole, of any sign.
         """
         program, unit = self.program, "kg m^2 or kg"
-        eliminated = left != whole
-        rounding = program.define(f"rounding_of_mass_{k}", SINGULAR * whole * int(eliminated))
+        rounding = NONE
+        if left != whole:
+            rounding = program.define(f"rounding_of_mass_{k}", SINGULAR * whole)
         meaning = f"the mass matrix is not positive definite at {k}"
         free = program.guarded(f"pivot_{k}", left - rounding, meaning, unit, POSITIVE)
-        if eliminated and program.constants.contains(free):
+        if rounding != NONE and program.constants.contains(free):
             program.constants.conditions.setdefault(
                 left, Condition(left, rounding, unit, WEIGHTLESS.format(k), HEAVIER)
             )

@@ -40,7 +40,8 @@ class Condition:
     Attributes
     ----------
     quantity
-        A distance (unit ``m``), or the sine of an angle (``1``); its sign does not matter.
+        A distance (unit ``m``), the sine of an angle (``1``), or what is left of a mass; its sign
+        does not matter.
     least
         What its amount must exceed.
     meaning, remedy

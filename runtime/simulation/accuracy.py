@@ -53,8 +53,7 @@ def accuracy_of(
 ) -> Accuracy:
     """Check how accurately a state of some size is to be integrated."""
     absolute = given.array("atol", atol)
-    positive = (absolute > 0.0).all() if absolute.ndim else float(absolute) > 0.0
-    if not (absolute.shape in ((), (size,)) and positive):
+    if not (absolute.shape in ((), (size,)) and (absolute > 0.0).all()):
         given.refuse(
             f"atol = {shown(atol)}: one positive number, or one for each of the {size} elements of "
             "the state."

@@ -326,10 +326,6 @@ def _tell_once() -> None:
         )
 
 
-def _same(some: Array, others: Array) -> bool:
-    return some.shape == others.shape and bool((some == others).all())
-
-
 def _among(some: Array, times: Array) -> NDArray[np.bool_]:
     """Tell which of some times are among the times of the output, which are in order."""
     known = times if times[-1] >= times[0] else times[::-1]
@@ -494,7 +490,7 @@ class _Run:
     def _rows(self, segment: Segment, piece: Piece) -> tuple[Array, Array, Array]:
         """Return times, states and inputs that belong to the output."""
         t, y = piece.t, piece.y
-        if len(self._pieces) > 1 or not (self._times is None or _same(t, self._times)):
+        if len(self._pieces) > 1 or not (self._times is None or np.array_equal(t, self._times)):
             keep = np.ones(t.size, dtype=bool) if self._times is None else _among(t, self._times)
             if self._pieces[0][0] is not segment:
                 keep[0] = False  # the border is the end of the segment before

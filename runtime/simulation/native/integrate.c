@@ -291,6 +291,13 @@ typedef struct {
     long milestone; /* the first that is still to come */
 } course;
 
+/* Return a guard that does not let an output within a step be evaluated. */
+static int crossed_at(worker *w, double time, const double *state)
+{
+    evaluate_margins(w, time, state, w->margins.between);
+    return kt_crossed(&w->margins, w->margins.between);
+}
+
 /* Put out all times up to the one reached; return a guard that does not let one be evaluated. */
 static int put_out(worker *w, course *c, double reached)
 {
@@ -301,10 +308,7 @@ static int put_out(worker *w, course *c, double reached)
         if (time != reached) {
             w->solver->interpolate(w, time, 0, w->scratch); /* cannot fail within the step */
             row = w->scratch;
-        }
-        if (time != reached && !steady) {
-            evaluate_margins(w, time, row, w->margins.between);
-            int guard = kt_crossed(&w->margins, w->margins.between);
+            int guard = steady ? KT_NONE : crossed_at(w, time, row);
             if (guard != KT_NONE) {
                 return guard;
             }

@@ -1,4 +1,7 @@
-/* A number, where lanes have a vector of numbers (../lanes/vectors.h): what serves both is written of reals. */
+/*
+ * A number, where lanes have a vector of numbers (../lanes/vectors.h): what serves both is written of reals.
+ * The header of emitted equations, elementary.h, has the same of its own, since these are used alone.
+ */
 #ifndef KINTRAFO_NUMBER_H
 #define KINTRAFO_NUMBER_H
 
