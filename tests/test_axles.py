@@ -15,9 +15,11 @@ from kintrafo import (
     InputError,
     Model,
     PositionError,
+    RigidAxle,
     Suspension,
     axles,
     loads,
+    rigid_axles,
     roads,
 )
 from kintrafo.report import Chapter, axle_chapter
@@ -28,9 +30,10 @@ from kintrafo.study.characteristics import wheel
 from kintrafo.study.characteristics.from_model import corner as corner_of
 from kintrafo.study.compare import differences
 from kintrafo.study.scenario import Scenario
+from kintrafo.study.variation.ways import values_of
 from kintrafo.suspension.axle.bar import AntiRollBar
 from kintrafo.suspension.positions import arm_angles, design_height
-from kintrafo.suspension.reach import at_rest
+from kintrafo.suspension.reach import at_rest, travel_range
 from kintrafo.systems.compile.compiler import find_compiler
 from scipy.optimize import brentq
 from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
@@ -249,12 +252,110 @@ def test_in_the_middle_the_axle_is_what_its_sides_are() -> None:
     np.testing.assert_allclose(whole["bar_torque"], 0.0, atol=1e-8)
 
 
+def wheel_centers(axle: Axle, travels: Any, rack: float) -> dict[str, np.ndarray]:
+    """Return where the wheel centres are, by the signals of each side's equations [m]."""
+    found = {}
+    for (side, model), travel in zip(axle.models.items(), travels, strict=True):
+        angles = arm_angles(model, design_height(model) + travel, rack)
+        signals = model.signals(*at_rest(model, angles, rack))
+        found[side] = np.stack([signals[f"wheel_center_{axis}"] for axis in "xyz"], -1)
+    return found
+
+
+KINDS = {
+    "struts": (AXLE, 0.02),
+    "lopsided wishbones": (BENT, -0.01),
+    "wheels at two heights": (
+        Axle.from_dict(
+            LOPSIDED
+            | {"left": WISHBONES.mirrored().with_changes({"hardpoints.wheel_center.z": 315.0})}
+        ),
+        0.01,
+    ),
+    "five links": (
+        Axle.from_dict({"axle": "rear", "side": Suspension.load("multi_link_car")}),
+        0.005,
+    ),
+    "trailing arms": (
+        Axle.from_dict({"axle": "rear", "side": Suspension.load("trailing_arm_car")}),
+        0.0,
+    ),
+}
+
+
+@pytest.mark.parametrize(("axle", "rack"), KINDS.values(), ids=KINDS)
+def test_roll_is_the_inclination_of_the_line_through_the_wheel_centres(
+    axle: Axle, rack: float
+) -> None:
+    angles = np.deg2rad([-4.0, -0.25, 0.0, 1.5, 4.0])
+    left, right = motions.opposite(axle, angles, rack)
+    np.testing.assert_array_equal(left, -right)
+    centers = wheel_centers(axle, (left, right), rack)
+    design = wheel_centers(axle, (np.zeros(1), np.zeros(1)), 0.0)
+    found, before = (
+        np.arcsin(line[:, 2] / np.linalg.norm(line, axis=-1))
+        for line in (each["left"] - each["right"] for each in (centers, design))
+    )
+    # places are rounded to 1e-16 of a metre, a track is longer
+    np.testing.assert_allclose(before - found, angles, rtol=0.0, atol=1e-14)
+    # all doors take these positions
+    pair = Pair.at(axle, left, right, rack)
+    expected = {s: wheel.camber(corner) for s, corner in pair.corners.items()}
+    for side, camber in expected.items():
+        told = axles.roll(axle, angles, rack_position=rack)[f"camber_{side}"]
+        np.testing.assert_array_equal(told, camber)
+        if not rack:
+            also = values_of(axle, "roll", angles)[f"camber_{side}"]
+            np.testing.assert_array_equal(also, camber)
+
+
+def test_on_bushes_roll_is_the_same_inclination() -> None:
+    angles, bushes = np.deg2rad([-3.0, 2.0]), {"arm_rear": {"axial_N_per_mm": 500.0}}
+    found = axles.elastokinematics(AXLE, bushes, "roll", angles, rack_position=0.01)
+    expected = axles.roll(AXLE, angles, rack_position=0.01)
+    np.testing.assert_allclose(
+        found["camber_left"].sel(data_set="kinematic"), expected["camber_left"], atol=1e-15
+    )
+
+
+def test_the_usual_roll_ends_where_a_wheel_does() -> None:
+    """With a strut whose least length leaves the wheels 40 mm of bump or so."""
+    length = 1e3 * float(Model(CAR).signal("strut_length", Model(CAR).design_state))
+    short = CAR.with_changes({"strut.length_min_mm": length - 40.0})
+    axle = Axle.from_dict({"axle": "front", "side": short})
+    most = motions.rolls(axle, motions.Extent())[-1]
+    assert most < motions.USUAL_ROLL
+    assert axles.roll(axle, [-most, most]).sizes == {"roll_angle": 2}
+    low, high = (1e3 * (end - 0.3) for end in travel_range(axle.models["left"]).height)
+    assert 35.0 < min(-low, high) < 50.0
+    with pytest.raises(PositionError, match="is out of reach: the left wheel") as refused:
+        axles.roll(axle, [0.0, 1.1 * most])
+    told = re.search(r"which is (\S+) deg to (\S+) deg", str(refused.value))
+    assert float(told[2]) == pytest.approx(np.degrees(most) / 0.98, rel=1e-2)
+
+
+@pytest.mark.parametrize(
+    "of",
+    [AXLE, BENT, RigidAxle.load("rigid_axle")],
+    ids=["reference", "bent", "rigid"],
+)
+def test_the_roll_moment_gradient_is_the_slope_of_the_roll_moment(of: Any) -> None:
+    angles, step = np.deg2rad([-3.0, 0.0, 1.0]), 1e-3
+    study = rigid_axles if isinstance(of, RigidAxle) else axles
+    low, high, lower, higher = (
+        study.roll(of, angles + by * step)["roll_moment"].values for by in (-1, 1, -2, 2)
+    )
+    slope = (8.0 * (high - low) - (higher - lower)) / (12.0 * step)
+    found = study.roll(of, angles)
+    # the fourth power of the step
+    np.testing.assert_allclose(found["roll_moment_gradient"], slope, rtol=1e-8)
+    assert "levers" in found["roll_moment_gradient"].attrs["definition"]
+    assert "levers y of the contacts, held" in found["roll_stiffness"].attrs["definition"]
+
+
 def test_rates_in_roll_are_derivatives() -> None:
     angles = np.deg2rad(np.linspace(-2.0, 2.0, 401))
     curves = axles.roll(AXLE, angles)
-    # levers change by what the track does: a hundredth, in the second order at design
-    slope = np.gradient(curves["roll_moment"].values, angles)[200]
-    assert float(curves["roll_stiffness"][200]) == pytest.approx(slope, rel=2e-2)
     for side in ("left", "right"):
         for rate, angle in (("roll_steer", "steer"), ("roll_camber", "camber")):
             found = np.gradient(curves[f"{angle}_{side}"].values, angles)[200]

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 _TOLD = {
     "roll": (
         "roll_moment",
+        "roll_moment_gradient",
         "roll_stiffness",
         "roll_center_height",
         "roll_center_lateral",

@@ -40,8 +40,8 @@ _PARTS = {
     ),
     "in roll": (
         "roll_center_height", "roll_center_lateral", "roll_steer", "roll_camber", "jacking",
-        "wheel_rate_alone", "roll_motion_ratio", "roll_stiffness", "roll_stiffness_springs",
-        "roll_stiffness_bar", "bar_share", "roll_stiffness_with_tyres",
+        "wheel_rate_alone", "roll_motion_ratio", "roll_moment_gradient", "roll_stiffness",
+        "roll_stiffness_springs", "roll_stiffness_bar", "bar_share", "roll_stiffness_with_tyres",
     ),
     "steered": ("steer_gradient", "steering_ratio"),
 }  # fmt: skip

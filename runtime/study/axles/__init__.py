@@ -1,6 +1,7 @@
 """Characteristics of an axle as a rig finds them: parallel travel, roll, one wheel, steering.
 
     `motions`    where the wheels are: `bump`, `roll`, `single`, `steer`
+    `line`       the line through the wheel centres, whose inclination is the roll
     `pair`       both wheels and the anti-roll bar in many positions
     `rolling`    roll centre, roll stiffness and jacking: the formulas
     `pitching`   anti-dive, anti-lift and anti-squat: the formulas

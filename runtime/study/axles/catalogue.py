@@ -224,10 +224,23 @@ ROLL = (
     ),
     Measure(
         Quantity(
+            "roll_moment_gradient",
+            "N m/rad",
+            "roll-moment gradient",
+            "derivative of the roll moment by the roll angle, the wheel centres moving oppositely: "
+            "the forces change, and so do their levers",
+            "positive when it resists roll",
+            needs=_GROUND,
+            display=_PER_DEGREE,
+        ),
+        rolling.moment_gradient,
+    ),
+    Measure(
+        Quantity(
             "roll_stiffness",
             "N m/rad",
             "roll stiffness",
-            "derivative of the moment of the wheel forces by the roll angle, levers held; no tyres",
+            "y' K y: levers y of the contacts, held, and stiffness K of both wheels; no tyres",
             "positive when it resists roll",
             needs=_GROUND,
             display=_PER_DEGREE,

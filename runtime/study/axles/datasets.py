@@ -26,7 +26,8 @@ ROLL = Quantity(
     "roll_angle",
     "rad",
     "roll angle",
-    "angle of the body to the line through the wheel centres, which move oppositely",
+    "inclination of the line through the wheel centres, which move oppositely, to the plane of the "
+    "body's x and y axes, from that at design",
     "positive with the right side down",
 )
 _SIDES = xr.Variable("data_set", [LEFT, RIGHT], {"long_name": "side"})
@@ -111,7 +112,7 @@ def roll(axle: Axle, angle: ArrayLike | None = None, *, rack_position: float = 0
     """
     rack, angles = _checked(axle, rack_position, "angle", angle, "rad")
     values = motions.rolls(axle, Extent()) if angles is None else angles
-    pair = Pair.at(axle, *motions.opposite(axle, values), rack)
+    pair = Pair.at(axle, *motions.opposite(axle, values, rack), rack)
     title = "characteristics over roll"
     return _dataset(pair, OVER_TRAVEL, ROLL, values, _held(axle, rack), title)
 

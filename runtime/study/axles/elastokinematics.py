@@ -158,7 +158,7 @@ def _where(
         racks = rack_of(axle, values)[0] if over is STEERING_WHEEL else values
         return still, still, racks
     if motion == "roll":
-        return (*motions.opposite(axle, values), still)
+        return (*motions.opposite(axle, values, held), still)
     nothing = np.zeros_like(values)
     left = nothing if motion == RIGHT else values
     right = nothing if motion == LEFT else values

@@ -11,6 +11,7 @@ from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array
 from ...suspension.positions import PositionError, design_height, travel_range
 from ..sweep import grid, usual_rack, usual_travel
+from .line import Line
 
 MOTIONS = {
     "bump": "both wheels rise and fall together",
@@ -28,6 +29,9 @@ _MOST_TURNS = 40.0 * np.pi  # twenty turns of it
 _MOST_ROLL = np.pi / 4.0
 # A sweep that is not told otherwise keeps clear of the ends of the motion by this part of them.
 _CLEARANCE = 0.02
+# Heights of wheels are met to their rounding, 1e-16 m of a metre: a step as small changes nothing.
+_CLOSE = 1e-15
+_MOST_STEPS = 100
 
 
 @dataclass(frozen=True)
@@ -73,12 +77,8 @@ def rolls(axle: Axle, extent: Extent) -> Array:
     """Return usual roll angles that both wheels reach [rad], zero included."""
     most = extent.roll
     if most is None:
-        reach = min(
-            (1.0 - _CLEARANCE) * abs(end - design_height(model))
-            for model in axle.models.values()
-            for end in travel_range(model).height
-        )
-        most = min(USUAL_ROLL, float(np.arctan2(2.0 * reach, track(axle))))
+        ends = (1.0 - _CLEARANCE) * _most_opposite(axle) * np.array([-1.0, 1.0])
+        most = min(USUAL_ROLL, *np.abs(Line.at(axle, -ends, ends).roll))
     with Arguments("roll") as given:
         most = given.number("roll", most, "rad", least=0.0, below=_MOST_ROLL)
     return grid(-most, most, USUAL_ROLL_STEP)
@@ -132,10 +132,18 @@ def travel_per_turn(axle: Axle) -> float | None:
     return None if given is None else given / 1e3
 
 
-def opposite(axle: Axle, angles: Array) -> tuple[Array, Array]:
+def opposite(axle: Axle, angles: Array, rack: float = 0.0) -> tuple[Array, Array]:
     """Return the travels of the left and the right wheel for roll angles of the body [m].
 
-    The wheel centres move oppositely, so that the line between them has the angle to the body.
+    The wheel centres move oppositely, by as much as turns the line between them by the angle.
+
+    Parameters
+    ----------
+    axle : Axle
+    angles : ndarray, shape (n,)
+        [rad].
+    rack : float, optional
+        Displacement of the rack [m].
 
     Raises
     ------
@@ -146,16 +154,61 @@ def opposite(axle: Axle, angles: Array) -> tuple[Array, Array]:
         worst = np.degrees(np.abs(angles).max())
         problem = f"roll of {worst:.4g} deg: less than 45 deg is needed; Python's unit is rad."
         raise InputError([problem], "axle")
-    half = 0.5 * track(axle) * np.tan(angles)
-    for side, model in axle.models.items():
-        low, high = (end - design_height(model) for end in travel_range(model).height)
-        if np.abs(half).max(initial=0.0) > min(-low, high):
-            most = np.degrees(np.arctan2(2.0 * min(-low, high), track(axle)))
-            worst = np.degrees(np.abs(angles).max())
-            message = (
-                f"roll of {worst:.6g} deg is out of reach: the {side} wheel travels from "
-                f"{1e3 * low:+.2f} mm to {1e3 * high:+.2f} mm from design, which is "
-                f"{np.floor(1e3 * most) / 1e3:g} deg to either side. Choose less roll."
-            )
-            raise PositionError(message)
+    most = _most_opposite(axle, rack)
+    ends = most * np.array([-1.0, 1.0])
+    low, high = Line.at(axle, -ends, ends, rack).roll
+    beyond = (angles < low) | (angles > high)
+    if beyond.any():
+        worst = float(angles[beyond][np.abs(angles[beyond]).argmax()])
+        inside = np.ceil(1e3 * np.degrees(low)) / 1e3, np.floor(1e3 * np.degrees(high)) / 1e3
+        side, travels = _nearest_end(axle, rack)
+        message = (
+            f"roll of {np.degrees(worst):.6g} deg is out of reach: the {side} wheel travels from "
+            f"{1e3 * travels[0]:+.2f} mm to {1e3 * travels[1]:+.2f} mm from design, which is "
+            f"{inside[0]:g} deg to {inside[1]:g} deg. Choose less roll."
+        )
+        raise PositionError(message)
+    half = _half_travels(axle, angles, rack, most)
     return -half, half
+
+
+def _reaches(axle: Axle, rack: float) -> dict[str, tuple[float, float]]:
+    """Return the lowest and the highest travel of each wheel [m]."""
+    return {
+        side: (low - design_height(model), high - design_height(model))
+        for side, model in axle.models.items()
+        for low, high in [travel_range(model, rack).height]
+    }
+
+
+def _nearest_end(axle: Axle, rack: float) -> tuple[str, tuple[float, float]]:
+    """Return the side that ends opposite travels of both wheels, and how far it travels [m]."""
+    reaches = _reaches(axle, rack)
+    side = min(reaches, key=lambda side: min(-reaches[side][0], reaches[side][1]))
+    return side, reaches[side]
+
+
+def _most_opposite(axle: Axle, rack: float = 0.0) -> float:
+    """Return how far both wheels go either way [m]."""
+    low, high = _nearest_end(axle, rack)[1]
+    return min(-low, high)
+
+
+def _half_travels(axle: Axle, angles: Array, rack: float, most: float) -> Array:
+    """Return the travels of the right wheel that turn the line by the angles [m].
+
+    Newton's method with the exact slope. Beside a dead point, where its step may lead out of the
+    bracket, the bracket is halved.
+    """
+    half = np.clip(0.5 * track(axle) * np.sin(angles), -most, most)
+    low, high = np.full_like(half, -most), np.full_like(half, most)
+    for _ in range(_MOST_STEPS):
+        line = Line.at(axle, -half, half, rack)
+        excess = line.roll - angles
+        low, high = np.where(excess <= 0.0, half, low), np.where(excess >= 0.0, half, high)
+        before, newton = half, half - excess / line.roll_rate
+        inside = (newton >= low) & (newton <= high)
+        half = np.where(inside, newton, 0.5 * (low + high))
+        if (np.abs(half - before) <= _CLOSE).all():
+            break
+    return half

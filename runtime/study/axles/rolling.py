@@ -12,6 +12,7 @@ import numpy as np
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array, Corner
 from ..characteristics import wheel
+from .line import inclination_rate
 from .pair import Pair
 
 _SENSE = {LEFT: 1.0, RIGHT: -1.0}
@@ -148,6 +149,24 @@ def moment(pair: Pair) -> Array:
     left, right = _contacts(pair)
     levers = {LEFT: left[..., 1], RIGHT: right[..., 1]}
     return -sum((levers[s] * wheel_force(pair, s) for s in levers), np.zeros_like(pair.twist))
+
+
+def moment_gradient(pair: Pair) -> Array:
+    """Return the derivative of the moment by the roll angle, wheels moving oppositely [N m/rad].
+
+    By the product rule: forces change, and so do their levers.
+    """
+    left, right = (pair.corners[side] for side in (LEFT, RIGHT))
+    line = left.center - right.center
+    # of the roll angle by travel of the right wheel up and the left one down
+    by_travel = inclination_rate(line, left.travel.velocity + right.travel.velocity)
+    travels = np.stack([-np.ones_like(by_travel), np.ones_like(by_travel)], -1) / by_travel[:, None]
+    levers = np.stack([at[..., 1] for at in _contacts(pair)], -1)
+    moved = np.stack([wheel.contact_rate(one)[..., 1] for one in (left, right)], -1) * travels
+    forces = np.stack([wheel_force(pair, side) for side in (LEFT, RIGHT)], -1)
+    changes = np.einsum("...ij,...j->...i", springs(pair) + bar(pair), travels)
+    gradient: Array = -(moved * forces + levers * changes).sum(-1)
+    return gradient
 
 
 def by_roll(pair: Pair, side: str, by_travel: Array) -> Array:

@@ -109,6 +109,12 @@ def contact(corner: RoadWheel) -> Array:
     return lowest_point(corner.center, corner.axis, _radius(corner))
 
 
+def contact_rate(corner: Corner) -> Array:
+    """Return the derivative of the contact's place by wheel travel, (..., 3) [1]."""
+    motion = corner.travel
+    return lowest_point_rate(motion.velocity, corner.axis, motion.turning, _radius(corner))
+
+
 def half_track_change(corner: RoadWheel) -> Array:
     """Return how much farther outboard the contact is than at design [m]."""
     design = lowest_point(corner.design_center, corner.design_axis, _radius(corner))
@@ -273,6 +279,24 @@ def upward_across(axis: Array) -> Array:
     across = axis[..., 2:]
     upward: Array = (UP - axis * across) / np.sqrt(1.0 - across**2)
     return upward
+
+
+def lowest_point_rate(velocity: Array, axis: Array, turning: Array, radius: float) -> Array:
+    """Return how fast the lowest point of a thin disc goes, which is not fixed to it.
+
+    Parameters
+    ----------
+    velocity : ndarray, shape (..., 3)
+        Of its centre.
+    axis, turning : ndarray, shape (..., 3)
+        Its axis, and its angular velocity.
+    radius : float
+    """
+    turned, up = cross(turning, axis), upward_across(axis)
+    across, rate = axis[..., 2:], turned[..., 2:]
+    square = 1.0 - across**2
+    change = up * across * rate / square - (turned * across + axis * rate) / np.sqrt(square)
+    return velocity - np.asarray(radius)[..., None] * change
 
 
 def contact_velocity(corner: Corner) -> Array:

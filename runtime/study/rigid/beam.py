@@ -16,7 +16,7 @@ from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import UP, Array
 from ...suspension.rigid.axle import RigidAxle
 from ...suspension.rigid.model import HEAVE, ROLL, RigidAxleModel
-from ..characteristics.wheel import lowest_point
+from ..characteristics.wheel import lowest_point, lowest_point_rate
 
 SIDES = (LEFT, RIGHT)
 SENSE = {LEFT: 1.0, RIGHT: -1.0}
@@ -89,6 +89,13 @@ class Beam:
         radius = self.axle.tyre_radius()
         assert radius is not None
         return lowest_point(self.wheel_center(side), self._spin_axis(side), radius)
+
+    def contact_rate(self, side: str, by: str) -> Array:
+        """Return how fast this point goes per unit of heave or roll, (n, 3)."""
+        radius = self.axle.tyre_radius()
+        assert radius is not None
+        velocity = self.velocity(self.wheel_center(side), by)
+        return lowest_point_rate(velocity, self._spin_axis(side), self.turning(by), radius)
 
     def _spin_axis(self, side: str) -> Array:
         _, ahead, across = self._axes

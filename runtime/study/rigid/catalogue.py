@@ -152,7 +152,7 @@ GROUND = (
             "m",
             "roll-centre height",
             "midway between the contacts, the point that does not move along the line through them "
-            "as the axle rolls with its wheels moving oppositely",
+            "as the axle rolls while their middle stays on that line",
             "positive above the contacts",
         ),
         formulas.roll_center_height,
@@ -330,10 +330,23 @@ SPRINGS = (
     ),
     Measure(
         Quantity(
+            "roll_moment_gradient",
+            "N m/rad",
+            "roll-moment gradient",
+            "derivative of the roll moment by the roll angle, the wheel centres moving oppositely: "
+            "the forces change, and so do their levers",
+            "positive when it resists roll",
+            display=_PER_DEGREE,
+        ),
+        formulas.roll_moment_gradient,
+        _has_ground,
+    ),
+    Measure(
+        Quantity(
             "roll_stiffness",
             "N m/rad",
             "roll stiffness",
-            "derivative of the moment of the wheel forces by the roll angle, levers held; no tyres",
+            "y' K y: levers y of the contacts, held, and stiffness K of both wheels; no tyres",
             "positive when it resists roll",
             display=_PER_DEGREE,
         ),

@@ -159,6 +159,18 @@ def roll_moment(beam: Beam) -> Array:
     return -(moments[0] + moments[1])
 
 
+def roll_moment_gradient(beam: Beam) -> Array:
+    """Return the derivative of this moment by the roll angle, heave held [N m/rad]."""
+    senses = np.array([SENSE[side] for side in SIDES])
+    changes = of_all(beam) @ senses * beam.lever[:, None]
+    gradient = np.zeros_like(beam.lever)
+    for place, side in enumerate(SIDES):
+        moved = beam.contact_rate(side, ROLL)[:, 1]
+        gradient += moved * wheel_force(beam, side) + beam.contact(side)[:, 1] * changes[:, place]
+    # the body rolls by -roll
+    return gradient
+
+
 def _dot(one: Array, other: Array) -> Array:
     product: Array = (one * other).sum(-1)
     return product
