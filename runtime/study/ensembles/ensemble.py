@@ -23,7 +23,6 @@ from ...systems.system import System
 from .again import Again
 from .collected import Collected
 from .drives import Drives, drives_of
-from .pieces.identity import identity_of
 from .pieces.kept import kept_in
 from .pieces.whole import run_in_pieces
 from .pieces.workers import workers_of
@@ -191,7 +190,7 @@ def ensemble(
     stiff_after = _STIFF_AFTER if stiff else 0
     problem = Problem(model, systems, asked.for_c(model), accuracy, width, stiff_after)
     collected = Collected(problem, asked, Again(problem) if stiff else None)
-    folder = None if kept is None else kept_in(kept, identity_of(collected))
+    folder = None if kept is None else kept_in(kept, collected)
     with _shown_progress(own.count, wanted=progress) as report:
         if workers or folder:
             run_in_pieces(collected, workers, cores, folder, report)

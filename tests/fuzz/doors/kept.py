@@ -70,4 +70,31 @@ def _of_another(random: Generator, folder: Path) -> None:
         path.write_text(json.dumps(wrong[random.integers(len(wrong))]))
 
 
-DAMAGE = (*OF_FILES, *OF_FILES, _of_another)
+def _pieces(folder: Path) -> list[Path]:
+    return sorted(path for path in folder.glob("*.npz") if path.is_file())
+
+
+def _in_the_directory(random: Generator, folder: Path) -> None:
+    """Change one bit of the list of arrays at the end of a file."""
+    pieces = _pieces(folder)
+    if not pieces:
+        return
+    path = pieces[random.integers(len(pieces))]
+    content = bytearray(path.read_bytes())
+    first = content.find(b"PK\x01\x02")
+    if first >= 0:
+        content[random.integers(first, len(content))] ^= 1 << int(random.integers(8))
+        path.write_bytes(content)
+
+
+def _exchange(random: Generator, folder: Path) -> None:
+    """Exchange two files, each of which is sound."""
+    pieces = _pieces(folder)
+    if len(pieces) > 1:
+        one, other = random.choice(len(pieces), 2, replace=False)
+        contents = pieces[one].read_bytes(), pieces[other].read_bytes()
+        pieces[other].write_bytes(contents[0])
+        pieces[one].write_bytes(contents[1])
+
+
+DAMAGE = (*OF_FILES, *OF_FILES, _of_another, *(_in_the_directory,) * 8, *(_exchange,) * 2)

@@ -169,14 +169,25 @@ def found_of(common: Common, piece: Piece, threads: int, report: Report | None =
     )
     collected = Collected(problem, common.asked, Again(problem) if common.again else None)
     run(problem, threads, collected, report)
-    return Found(
+    return replace(
+        taken(collected, 0, piece.systems.count),
         first=piece.first,
         last=piece.first + piece.systems.count,
-        outcome=vars(problem.outcome),
-        samples=collected.samples,
-        of_series=tuple(collected.of_series.values()),
-        solvers=collected.solvers.astype(np.str_),
         reasons={piece.first + place: why for place, why in collected.reasons.items()},
+    )
+
+
+def taken(collected: Collected, first: int, last: int) -> Found:
+    """Return what there is of some systems in the whole; `put` brings it back."""
+    here = slice(first, last)
+    return Found(
+        first,
+        last,
+        outcome={name: values[here] for name, values in vars(collected.problem.outcome).items()},
+        samples=collected.samples[here],
+        of_series=tuple(values[here] for values in collected.of_series.values()),
+        solvers=collected.solvers[here].astype(np.str_),
+        reasons={p: why for p, why in collected.reasons.items() if first <= p < last},
     )
 
 
