@@ -578,7 +578,48 @@ def by_label(*cars: int) -> xr.DataArray:
     return xr.DataArray([1e3, 2e3, 3e3], dims="car", coords={"car": list(cars)})
 
 
+class _Name:
+    def __str__(self) -> str:
+        return "damper_rate"
+
+
+def roads(*labels: Any, given: Any = None) -> dict[str, Any]:
+    """Return cars by their labels, or those that are given, and a course for each of the labels."""
+    courses = {label: 0.01 * place for place, label in enumerate(labels)}
+    variants = {"road_height": list(labels) if given is None else given}
+    return {"variants": variants, "inputs": {"road_height": courses}}
+
+
+def along(*values: float, **coordinates: Any) -> xr.DataArray:
+    return xr.DataArray(list(values), dims="car", coords=coordinates)
+
+
 WRONG: list[tuple[dict[str, Any], str]] = [
+    (roads("1", 1), "has the labels '1' and 1"),
+    (roads("1", 1, given=xr.DataArray(["1", 1], dims="car")), "has the labels '1' and 1"),
+    (roads("1", given=["1", 1]), "has the label 1"),
+    (roads("1", given=(1, "1")), "has the label 1"),
+    (roads(1.5, "1.5"), "has the labels 1.5 and '1.5'"),
+    (roads(True, "True"), "has the labels True and 'True'"),
+    (roads("a", "a\0"), r"has the labels 'a' and 'a\\x00'"),
+    (roads("a", given=["a", "a\0"]), r"has the label 'a\\x00'"),
+    (roads(2**53, 2**53 + 1, 0.5), "has the labels 9007199254740992 and 9007199254740993"),
+    (roads(2**53, 0.5, given=[2**53, 2**53 + 1, 0.5]), "has the label 9007199254740993"),
+    (roads(), "'road_height' is empty"),
+    ({"variants": {"damper_rate": []}}, "'damper_rate' is empty"),
+    ({"variants": {_Name(): [1e3], "damper_rate": [2e3]}}, "name in variants .* a text is needed"),
+    ({"variants": {"damper_rate": along(1e3, damper_rate=("car", [2e3]))}}, "which is not what"),
+    ({"variants": {"spring_rate": along(2e4, damper_rate=("car", [2e3]))}}, "which is not what"),
+    ({"variants": {"spring_rate": along(2e4, beta1=("car", [0.1]))}}, "which is not what 'beta1'"),
+    (
+        {
+            "variants": {
+                "spring_rate": along(2e4, 3e4, name=("car", ["a", "b"])),
+                "damper_rate": along(1e3, 2e3, name=("car", ["b", "a"])),
+            }
+        },
+        "coordinates 'name' of several differ",
+    ),
     ({"variants": {"spring_rat": [1.0]}}, "Did you mean spring_rate"),
     ({"variants": {"spring_rate": ["a"]}}, "numbers are needed"),
     ({"variants": {"spring_rate": [np.nan]}}, "finite number"),
@@ -650,6 +691,26 @@ def test_labels_of_any_kind(car: Model, start: Any) -> None:
         car, {"road_height": heights}, SPAN, start, signals=["camber"]
     )[["camber"]])  # fmt: skip
     assert found["road_height"].values.tolist() == labels.values.tolist()
+
+
+def test_labels_and_coordinates_that_agree(car: Model) -> None:
+    """A label stays what it is in a row of several kinds; coordinates repeat what they label."""
+    labels = ["1", 2, 2**53 + 1, 0.5, np.int64(2)]
+    given = roads(*labels[:4], given=labels)
+    found = ensemble(car, given["variants"], (0.0, 0.01), inputs=given["inputs"], signals=["toe"])
+    expected = ensemble(
+        car, {"road_height": [0.0, 0.01, 0.02, 0.03, 0.01]}, (0.0, 0.01), signals=["toe"]
+    )
+    same(found[["toe"]], expected[["toe"]])
+    assert found["road_height"].values.tolist() == labels
+    name = ("car", ["a", "b"])
+    rates = {
+        "damper_rate": along(1e3, 2e3, damper_rate=("car", [1e3, 2e3]), name=name),
+        "spring_rate": along(2e4, 3e4, damper_rate=("car", [1e3, 2e3]), name=name),
+    }
+    two = ensemble(car, rates, (0.0, 0.01))
+    assert two["damper_rate"].values.tolist() == [1e3, 2e3]
+    assert two["name"].values.tolist() == ["a", "b"]
 
 
 def test_nothing_is_known_of_what_never_began(car: Model) -> None:

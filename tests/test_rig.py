@@ -5,7 +5,21 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import InputError, Model, PositionError, characteristics, compare, export, loads, rig
+import xarray as xr
+from kintrafo import (
+    Axle,
+    InputError,
+    Model,
+    PositionError,
+    RigidAxle,
+    axles,
+    characteristics,
+    compare,
+    export,
+    loads,
+    rig,
+    rigid_axles,
+)
 from kintrafo.plots.curves import _alone
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
@@ -199,6 +213,25 @@ def test_compliance_of_several_is_compared() -> None:
 def test_compliance_that_there_is_not(models: Any, changes: Any, words: str) -> None:
     with pytest.raises(InputError, match=words):
         compare.compare(models, **changes)
+
+
+@pytest.mark.parametrize(
+    "door",
+    [
+        lambda names: compare.compare(dict.fromkeys(names, MODEL)),
+        lambda names: axles.compare({name: Axle.load("reference_axle") for name in names}),
+        lambda names: rigid_axles.compare({name: RigidAxle.load("rigid_axle") for name in names}),
+        lambda names: rig.beside(xr.Dataset(), dict.fromkeys(names, MODEL)),
+    ],
+)
+def test_names_of_data_sets_differ_as_texts(door: Any) -> None:
+    for names, words in (
+        (("1", 1), "has the labels '1' and 1"),
+        (("a", "a\0"), r"has the labels 'a' and 'a\\x00'"),
+        ((1, 2), r"name in (models|axles) = 1: a text is needed"),
+    ):
+        with pytest.raises(InputError, match=words):
+            door(names)
 
 
 def test_compliance_by_the_command(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811

@@ -189,6 +189,21 @@ class Arguments:
         every = tuple(known)
         return tuple(self.among(name, value, every) for value in values)
 
+    def labels(self, name: str, labels: Iterable[Any]) -> None:
+        """Refuse labels that an array of texts or of numbers cannot tell from each other."""
+        known: dict[Any, Any] = {}
+        for label in labels:
+            number = _as_float(label)
+            # an array of texts drops zero bytes at the end
+            for form in {str(label).rstrip("\0"), *([] if math.isnan(number) else [number])}:
+                other = known.setdefault(form, label)
+                if other is not label:
+                    self.refuse(
+                        f"{name} has the labels {shown(other)} and {shown(label)}, which are the "
+                        "same in an array of labels: rename one of them."
+                    )
+                    break
+
     def flag(self, name: str, value: Any) -> bool:
         """Return True or False."""
         if not isinstance(value, bool | np.bool_):
@@ -213,6 +228,17 @@ class Arguments:
             self.refuse(f"{name} = {shown(value)}: a dict of {of} is needed.")
             return {}
         return value
+
+    def by_name(
+        self, name: str, value: Any, of: str, kinds: type | tuple[type, ...], needed: str
+    ) -> Mapping[str, Any]:
+        """Return a dict of some of a kind, by names that stand beside what is found of each."""
+        several = self.mapping(name, value, f"names and {of}")
+        for known, one in several.items():
+            self.text(f"name in {name}", known)
+            self.kind(name.removesuffix("s"), one, kinds, needed)
+        self.labels(name, several)
+        return several
 
     def kind(self, name: str, value: Any, kinds: type | tuple[type, ...], needed: str) -> Any:
         """Return something of a certain class."""

@@ -56,8 +56,7 @@ def compare(
         suspension that nothing steers, only what all of them have.
     """
     with Arguments("compare") as given:
-        for model in given.mapping("models", models, "names and models").values():
-            given.kind("model", model, Model, Model.NEEDED)
+        given.by_name("models", models, "models", Model, Model.NEEDED)
         given.among("over", over, ("travel", "rack"))
         given.function("progress", progress)
         if positions is not None:

@@ -160,8 +160,7 @@ def beside(
     """
     with Arguments("beside") as given:
         given.dataset(measured)
-        for model in given.mapping("models", models, "names and models").values():
-            given.kind("model", model, (Model, RigidAxleModel), Model.NEEDED)
+        given.by_name("models", models, "models", (Model, RigidAxleModel), Model.NEEDED)
         given.text("name", name)
         given.among("held", held, HELD)
         if not given.refused and name in models:

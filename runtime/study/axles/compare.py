@@ -65,8 +65,7 @@ def compare(axles: Mapping[str, Axle], *, over: str = "bump") -> xr.Dataset:
         `kintrafo.compare.differences` takes it.
     """
     with Arguments("compare") as given:
-        for axle in given.mapping("axles", axles, "names and axles").values():
-            given.kind("axle", axle, Axle, Axle.NEEDED)
+        given.by_name("axles", axles, "axles", Axle, Axle.NEEDED)
         given.among("over", over, MOTIONS)
     if len(axles) < 2:
         problem = f"{len(axles)} axle; two or more are needed for a comparison."

@@ -74,16 +74,20 @@ def variants_of(
     """
     choices = {name: several for name, several in courses.items() if isinstance(several, Mapping)}
     with Arguments("ensemble") as arguments:
-        columns = _columns(arguments, model, given)
+        for name, several in choices.items():
+            arguments.labels(f"inputs {name!r}", several)
+        columns = _columns(arguments, model, given, choices)
         if not arguments.refused:
             _check_names(arguments, model, columns, courses)
             _check_units(arguments, model, columns, choices)
             _check_coordinates(arguments, model, given, columns)
         if not arguments.refused:
             columns, shape = _broadcast(arguments, columns, rows)
+        if not arguments.refused:
+            coordinates = _coordinates(arguments, model, given, columns)
         if arguments.refused:
             return Variants({})
-        found = Variants(shape, _coordinates(given, shape))
+        found = Variants(shape, coordinates)
         homes = (
             (model.equations.PARAMETERS, found.parameters),
             (model.state_names, found.states),
@@ -112,7 +116,9 @@ def numbered(labels: NDArray[Any]) -> tuple[list[Any], NDArray[np.int64]]:
 # -- reading --------------------------------------------------------------------------------------
 
 
-def _columns(arguments: Arguments, model: System, given: Any) -> dict[str, xr.DataArray]:
+def _columns(
+    arguments: Arguments, model: System, given: Any, choices: Mapping[str, Any]
+) -> dict[str, xr.DataArray]:
     """Return what was given as labelled arrays by name."""
     if given is None:
         return {}
@@ -123,10 +129,11 @@ def _columns(arguments: Arguments, model: System, given: Any) -> dict[str, xr.Da
         return {str(name): given[name].reset_coords(drop=True) for name in names}
     found = {}
     for name, values in arguments.mapping("variants", given, "names, values").items():
+        arguments.text("name in variants", name)
         if isinstance(values, xr.DataArray):
             found[str(name)] = values.reset_coords(drop=True)
             continue
-        array = _row(values)
+        array = _row(values, exact=name in choices)
         if array is None:
             arguments.refuse(
                 f"variants {shown(name)} = {shown(values)}: one number, or a row of one for each "
@@ -143,16 +150,27 @@ def _described(model: System) -> dict[str, Any]:
     return {**equations.PARAMETERS, **equations.STATE, **equations.INPUTS}
 
 
-def _row(values: Any) -> NDArray[Any] | None:
-    """Return what is one value or a row of them; nothing for anything else."""
+def _row(values: Any, *, exact: bool) -> NDArray[Any] | None:
+    """Return what is one value or a row of them; nothing for anything else.
+
+    Parameters
+    ----------
+    values
+    exact : bool
+        Whether they are labels, which stay as they are: an array of texts has "1" instead of 1.
+    """
     if np.ma.is_masked(values):
         return None
     try:
         array = np.asarray(values)
+        given = np.asarray(values, dtype=object)
+        if exact and array.tolist() != given.tolist():
+            array = given
     except (TypeError, ValueError, OverflowError):
         return None
     # numbers, or labels of any kinds
-    plain = array.dtype != object or all(isinstance(v, str | float | int) for v in array.flat)
+    kinds = str | float | int | np.generic
+    plain = array.dtype != object or all(isinstance(v, kinds) for v in array.flat)
     return array if array.ndim < 2 and plain else None
 
 
@@ -256,16 +274,26 @@ def _broadcast(
     return wide, shape or {CAR: 1}
 
 
-def _coordinates(given: Any, shape: Mapping[Hashable, int]) -> dict[Hashable, Any]:
-    """Return the labels of the systems, as far as they were given."""
-    columns = [given] if isinstance(given, xr.Dataset) else [*(given or {}).values()]
-    labelled = [column for column in columns if isinstance(column, xr.Dataset | xr.DataArray)]
-    return {
-        name: labels.variable
-        for column in labelled
-        for name, labels in column.coords.items()
-        if labels.dims and set(labels.dims) <= set(shape)
-    }
+def _coordinates(
+    arguments: Arguments, model: System, given: Any, columns: Mapping[str, xr.DataArray]
+) -> dict[Hashable, Any]:
+    """Return the labels of the systems, as far as they were given; refuse those that mislead."""
+    arrays = [given] if isinstance(given, xr.Dataset) else [*(given or {}).values()]
+    labelled = [array for array in arrays if isinstance(array, xr.Dataset | xr.DataArray)]
+    found: dict[Hashable, Any] = {}
+    for name, labels in (item for array in labelled for item in array.coords.items()):
+        if labels.dims and not found.setdefault(name, labels.variable).equals(labels.variable):
+            arguments.refuse(f"variants: coordinates {name!r} of several differ.")
+    for name, values in found.items():
+        if name not in _described(model):
+            continue
+        column = columns.get(str(name))
+        if column is None or not np.all(column.variable == values):
+            arguments.refuse(
+                f"variants have a coordinate {name!r}, which is not what {name!r} is: coordinates "
+                "of a dict are labels alone. Give an xarray.Dataset, or rename the coordinate."
+            )
+    return found
 
 
 def _checked(
@@ -273,6 +301,8 @@ def _checked(
 ) -> NDArray[Any]:
     """Return one value for each system."""
     values = column.values.flatten()
+    if not values.size:
+        arguments.refuse(f"variants {name!r} is empty: one system or more is needed.")
     if choices is None:
         return arguments.array(f"variants {name!r}", values, dimensions=[1])
     strange = [label for label in numbered(values)[0] if label not in choices]

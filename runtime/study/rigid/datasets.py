@@ -159,8 +159,7 @@ def compare(axles: Mapping[str, RigidAxle], *, over: str = "bump") -> xr.Dataset
         `kintrafo.compare.differences` takes it.
     """
     with Arguments("compare") as given:
-        for axle in given.mapping("axles", axles, "names and rigid axles").values():
-            given.kind("axle", axle, RigidAxle, RigidAxle.NEEDED)
+        given.by_name("axles", axles, "rigid axles", RigidAxle, RigidAxle.NEEDED)
         given.among("over", over, MOTIONS)
     if len(axles) < 2:
         problem = f"{len(axles)} axle; two or more are needed for a comparison."
