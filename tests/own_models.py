@@ -26,6 +26,7 @@ from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.cache import appearing, damage, fingerprint
 from kintrafo.systems.compile.compiler import FLAGS, Compiler
+from kintrafo.systems.compile.identity import identity, identity_of_derived
 from kintrafo.systems.compile.loader import load
 from oracle.maximal import Motion, Oracle
 
@@ -55,6 +56,11 @@ def shipped(model: Formulation) -> ModuleType:
     return importlib.import_module(f"kintrafo.generated.{model.name}")
 
 
+def said(model: Formulation) -> str:
+    """Return what a model is known by."""
+    return identity(model) or identity_of_derived(generate(model))
+
+
 def derive(model: Formulation, *, derivatives: bool = True) -> Derivation:
     """Derive a model, once for all processes; what has derivatives serves who needs none, too.
 
@@ -65,7 +71,7 @@ def derive(model: Formulation, *, derivatives: bool = True) -> Derivation:
     derivatives
         With those by state and inputs.
     """
-    declared = repr(model)  # says everything
+    declared = said(model)
     found = _derived.get((declared, True)) or _derived.get((declared, derivatives))
     if found is None:
         found = _kept_or_derived(model, derivatives=derivatives)
@@ -91,7 +97,7 @@ def _kept_or_derived(model: Formulation, *, derivatives: bool) -> Derivation:
 def _file_of(model: Formulation, *, derivatives: bool) -> Path:
     """Return where a derived model is kept."""
     built_by = f"{sys.version} derived" + ("" if derivatives else " without derivatives")
-    return KEPT / f"{model.name}-{fingerprint(repr(model), built_by=built_by)}" / "derived.pickle"
+    return KEPT / f"{model.name}-{fingerprint(said(model), built_by=built_by)}" / "derived.pickle"
 
 
 def own(model: Formulation, *, arrays: bool = not has_gcc, derivatives: bool = True) -> ModuleType:
@@ -129,7 +135,7 @@ def _folder_of(model: Formulation, *, arrays: bool, derivatives: bool) -> Path:
     """Return where a compiled model is kept."""
     built_by = "numpy" if arrays else " ".join((*COMPILER.command, _version()))
     built_by += "" if derivatives else " without derivatives"
-    return KEPT / f"{model.name}-{fingerprint(repr(model), built_by=built_by)}"
+    return KEPT / f"{model.name}-{fingerprint(said(model), built_by=built_by)}"
 
 
 @cache

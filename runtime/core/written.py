@@ -3,7 +3,8 @@
 Every file that is written is noted by a hash of its place and its content: a file that is there is
 this program's own as long as it lies where it was written and nobody changed it. No name and no
 content is kept, and nothing is added to the files themselves, of which some have no room for a
-mark. Where nothing can be noted, or the note is lost, a file counts as somebody else's: it is kept.
+mark. Where nothing can be noted, or the note is lost, or others could have written it, a file
+counts as somebody else's: it is kept.
 """
 
 import hashlib
@@ -11,7 +12,7 @@ import os
 from contextlib import suppress
 from pathlib import Path
 
-from .folders import cache_folder
+from .folders import cache_folder, make_folder, shared
 
 _NAME = "written"
 # 64 digits and the end of a line for each file: the last 30,000 files or more are known.
@@ -31,11 +32,13 @@ def note(target: Path, content: Path) -> None:
     register = cache_folder() / _NAME
     entry = _entry(target, content)
     with suppress(OSError):
-        register.parent.mkdir(parents=True, exist_ok=True)
+        make_folder(register.parent)
+        if shared(register.parent, register):
+            return
         _shorten(register)
         # appended in one piece, whoever else does so at the time
         flags = os.O_WRONLY | os.O_APPEND | os.O_CREAT
-        descriptor = os.open(register, flags, 0o666)
+        descriptor = os.open(register, flags, 0o644)
         try:
             os.write(descriptor, entry)
         finally:
@@ -52,7 +55,8 @@ def known(target: Path) -> bool:
     """
     register = cache_folder() / _NAME
     try:
-        return register.is_file() and _entry(target, target) in register.read_bytes()
+        ours = register.is_file() and not shared(register.parent, register)
+        return ours and _entry(target, target) in register.read_bytes()
     except OSError:
         return False
 

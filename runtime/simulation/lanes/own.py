@@ -7,7 +7,7 @@ from pathlib import Path
 from types import ModuleType
 
 from ...core.errors import InputError
-from ...systems.compile.cache import appearing, damage, fingerprint, seal
+from ...systems.compile.cache import appearing, damage, fingerprint, refuse_foreign, seal
 from ...systems.compile.compiler import Compiler, find_compiler
 from .options import OF_WIDTH, SCHEDULED
 
@@ -36,7 +36,8 @@ def library_of(equations: ModuleType, width: int, part: str = "") -> Path:
     Raises
     ------
     InputError
-        If there is no compiler, or what was compiled cannot be kept.
+        If there is no compiler, or what was compiled cannot be kept, or somebody else may have
+        written to it.
     CompilerError
         If it fails.
     """
@@ -55,6 +56,7 @@ def library_of(equations: ModuleType, width: int, part: str = "") -> Path:
             reader.write_bytes((_HERE / _READER).read_bytes())
             compiler.build([reader], temporary / library)
             seal(temporary, target.name)
+    refuse_foreign(target)
     return target / library
 
 

@@ -4,6 +4,7 @@
 `declaration`  what a person wrote: a file, a mechanism or a model
 `derivation`   how the equations were derived, to be printed
 `choices`      which coordinates can be independent
+`identity`     what a declaration is, as far as equations can depend on it
 `cache`        where compiled mechanisms are kept, and under which name
 `compiler`     the C compiler of this machine
 `loader`       a folder of the cache as a Python module

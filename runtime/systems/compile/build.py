@@ -2,19 +2,21 @@
 
 import os
 import warnings
-from collections.abc import Callable
-from contextlib import nullcontext
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Literal
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.folders import refuse_shared
 from ...core.optional import require
 from ...core.suggestions import suggestion
 from .cache import appearing, cache_folder, damage, fingerprint, seal
 from .compiler import Compiler, CompilerError, find_compiler
 from .declaration import model_of, translated_errors
+from .identity import identity, identity_of_derived
 from .loader import load, refuse_damaged
 from .on_terminal import on_terminal
 
@@ -42,8 +44,9 @@ def compile_mechanism(
     """Derive the equations of a mechanism and return them as a compiled module.
 
     What was compiled before is taken from a cache, as long as declaration, generator and compiler
-    are the same. What was damaged there is found before it is loaded, told as a warning, and made
-    again.
+    are the same. A declaration with a class of your own, such as a force, is derived at each call,
+    since its code may have changed; it is compiled only where something else comes out. What was
+    damaged in the cache is found before it is loaded, told as a warning, and made again.
 
     Parameters
     ----------
@@ -61,7 +64,8 @@ def compile_mechanism(
         `System.gradient`: some six times as much code.
     folder : str or Path, optional
         Where compiled mechanisms are kept; by default what the environment variable
-        ``KINTRAFO_CACHE`` names, or else the user's cache folder.
+        ``KINTRAFO_CACHE`` names, or else the user's cache folder. What is in it is run, so that
+        it must be the user's own, and nobody else may write there.
     progress : callable, optional
         Called with what is being done, in a few words: what of it, how much there is, and, of what
         takes more than ten seconds, how long it takes. Without it, that is shown on standard error
@@ -77,7 +81,7 @@ def compile_mechanism(
     ------
     InputError
         If the file cannot be run or an argument is not known; if the folder cannot be written, or
-        what is in it cannot be loaded.
+        what is in it cannot be loaded; if somebody else owns it, or can write there.
     MechanismError
         If the declaration contradicts itself, or a loop does not close in closed form.
     CompilerError
@@ -102,26 +106,35 @@ def compile_mechanism(
     require_generator()
     from ...generator.equations.outputs import generate
 
+    kept = cache_folder() if folder is None else Path(folder)
+    refuse_shared(kept)
     model = model_of(declared, name)
     compiler = _compiler(backend)
     built_by = " ".join((*compiler.command, compiler.version)) if compiler else "numpy"
-    # the declaration is made of nested records, whose text says everything
+
+    @contextmanager
+    def shown() -> Iterator[Report]:
+        with nullcontext(progress) if progress else on_terminal(f"compile {model.name}") as report:
+            yield lambda text: report(f"{model.name}: {text}")
+
+    def derive(tell: Report) -> "Derivation":
+        with translated_errors(model):
+            return generate(model, parameter_derivatives=parameter_derivatives, tell=tell)
+
+    derived, said = None, identity(model)
+    if said is None:
+        with shown() as tell:
+            derived = derive(tell)
+        said = identity_of_derived(derived)
     more = " with parameter_derivatives" if parameter_derivatives else ""
-    key = fingerprint(repr(model) + more, built_by=built_by)
-    target = (cache_folder() if folder is None else Path(folder)) / f"{model.name}-{key}"
+    key = fingerprint(said + more, built_by=built_by)
+    target = kept / f"{model.name}-{key}"
     problem = damage(target)
     if problem and target.exists():
         _tell_of_damage(target, problem)
     if problem:
-        shown = nullcontext(progress) if progress else on_terminal(f"compile {model.name}")
-        with appearing(target) as temporary, shown as report:
-
-            def tell(text: str) -> None:
-                report(f"{model.name}: {text}")
-
-            with translated_errors(model):
-                derived = generate(model, parameter_derivatives=parameter_derivatives, tell=tell)
-            build(derived, temporary, compiler, name=target.name, report=tell)
+        with appearing(target) as temporary, shown() as tell:
+            build(derived or derive(tell), temporary, compiler, name=target.name, report=tell)
         refuse_damaged(target)
     return load(target)
 

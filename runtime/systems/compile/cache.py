@@ -22,9 +22,25 @@ from typing import Any
 
 from ...core.errors import InputError
 from ...core.files import reason
-from ...core.folders import VARIABLE, cache_folder
+from ...core.folders import (
+    VARIABLE,
+    cache_folder,
+    keep_to_owner,
+    make_folder,
+    refuse_shared,
+    shared,
+)
 
-__all__ = ["MANIFEST", "appearing", "cache_folder", "damage", "fingerprint", "seal"]
+__all__ = [
+    "MANIFEST",
+    "appearing",
+    "cache_folder",
+    "damage",
+    "fingerprint",
+    "foreign",
+    "refuse_foreign",
+    "seal",
+]
 
 MANIFEST = "manifest.json"
 # In every folder that is being filled: what has it may be removed, and nothing else.
@@ -127,6 +143,42 @@ def damage(folder: Path) -> str:
     return next((text for entry in listed if (text := _changed(folder, *entry))), "")
 
 
+def foreign(folder: Path) -> str:
+    """Say who else may have written to what a compiled mechanism is loaded from.
+
+    Parameters
+    ----------
+    folder : Path
+        As of `damage`. The folder that it is in counts, too, and all files.
+
+    Returns
+    -------
+    str
+        As of `kintrafo.core.folders.shared`.
+    """
+    return shared(*_places(folder))
+
+
+def refuse_foreign(folder: Path) -> None:
+    """Refuse a compiled mechanism that somebody else may have written to.
+
+    Parameters
+    ----------
+    folder : Path
+        As of `foreign`.
+
+    Raises
+    ------
+    InputError
+    """
+    refuse_shared(*_places(folder))
+
+
+def _places(folder: Path) -> list[Path]:
+    files = sorted(folder.iterdir()) if folder.is_dir() else []
+    return [folder.parent, folder, *(path for path in files if not path.is_dir())]
+
+
 def _changed(folder: Path, name: str, size: int, digest: str) -> str:
     """Say how a file differs from what it was; empty if it does not."""
     try:
@@ -161,16 +213,19 @@ def appearing(target: Path) -> Iterator[Path]:
     Raises
     ------
     InputError
-        If nothing can be written there.
+        If nothing can be written there, or others can write there as well.
     """
     try:
-        target.parent.mkdir(parents=True, exist_ok=True)
+        make_folder(target.parent)
+        refuse_shared(target.parent)
         _remove_leftovers(target.parent)
         temporary = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
         try:
             (temporary / _MARK).write_bytes(_MARKED)
             yield temporary
-            temporary.chmod(0o755)  # mkdtemp lets only its owner in, the cache may be shared
+            temporary.chmod(0o755)  # mkdtemp lets only its owner in
+            for path in temporary.iterdir():
+                keep_to_owner(path)
             _move(temporary, target)
         finally:
             _remove(temporary)

@@ -4,6 +4,12 @@ import sys
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib.machinery import (
+    EXTENSION_SUFFIXES,
+    SOURCE_SUFFIXES,
+    ExtensionFileLoader,
+    FileFinder,
+)
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -12,6 +18,7 @@ from ...core.arguments import Arguments, shown
 from ...core.errors import InputError, KintrafoError
 from ...core.files import told
 from ...core.suggestions import suggestion
+from .loader import AsItIs, forget
 
 if TYPE_CHECKING:
     from ...generator import Formulation, Mechanism
@@ -165,18 +172,56 @@ def _package_of(path: Path) -> str:
 def _neighbours(folder: Path) -> Iterator[None]:
     """Let a file import those beside it, as it can when it is run by itself.
 
-    They are forgotten afterwards: who has changed one of them means what it says now.
+    They are run as they are now: what was imported before counts as little as compiled bytes, which
+    Python trusts by date and size of the source, and they are forgotten afterwards.
     """
-    known = set(sys.modules)
+    before = {name: module for name, module in sys.modules.items() if _is_beside(module, folder)}
+    hook = FileFinder.path_hook(
+        (ExtensionFileLoader, EXTENSION_SUFFIXES), (AsItIs, SOURCE_SUFFIXES)
+    )
+
+    def of_folder(path: str) -> Any:
+        if not _is_inside(path, folder):
+            raise ImportError(path)
+        return hook(path)
+
+    forget(before)
+    _find_anew(folder)
     sys.path.insert(0, str(folder))
+    sys.path_hooks.insert(0, of_folder)
     try:
         yield
     finally:
         sys.path.remove(str(folder))
-        for name in sys.modules.keys() - known:
-            file = getattr(sys.modules[name], "__file__", None)
-            if file and folder in Path(file).resolve().parents:
-                del sys.modules[name]
+        sys.path_hooks.remove(of_folder)
+        _find_anew(folder)
+        forget([name for name, module in sys.modules.items() if _is_beside(module, folder)])
+        sys.modules.update(before)
+
+
+def _is_beside(module: Any, folder: Path) -> bool:
+    """Tell whether a module was found in a folder, or is of a package that was."""
+    name = getattr(module, "__name__", "").partition(".")[0]
+    if name in ("__main__", __name__.partition(".")[0]):
+        return False
+    top = sys.modules.get(name)
+    places = [getattr(top, "__file__", None), *(getattr(top, "__path__", None) or ())]
+    return any(Path(place).parent.resolve() == folder for place in places if place)
+
+
+def _is_inside(path: str, folder: Path) -> bool:
+    """Tell whether a place for modules is in a folder, and not below another such place in it."""
+    place = Path(path).resolve()
+    others = {Path(entry).resolve() for entry in sys.path} - {folder}
+    between = [place, *place.parents]
+    return folder in between and others.isdisjoint(between[: between.index(folder)])
+
+
+def _find_anew(folder: Path) -> None:
+    """Forget what was known of the files of a folder."""
+    for path in list(sys.path_importer_cache):
+        if _is_inside(path, folder):
+            sys.path_importer_cache.pop(path, None)
 
 
 def _where(error: BaseException, path: Path) -> str:

@@ -1,6 +1,7 @@
 """A folder of the cache as a Python module."""
 
 import sys
+from collections.abc import Iterable
 from importlib import import_module
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_file_location
@@ -11,12 +12,12 @@ from typing import Any
 
 from ...core.errors import InputError
 from ...core.folders import VARIABLE
-from .cache import damage
+from .cache import damage, refuse_foreign
 
 _lock = RLock()
 
 
-class _Source(SourceFileLoader):
+class AsItIs(SourceFileLoader):
     """Runs a file as it is: compiled bytes of an earlier time are neither read nor written."""
 
     def path_stats(self, path: Any) -> Any:
@@ -40,7 +41,7 @@ def load(folder: Path) -> ModuleType:
     Raises
     ------
     InputError
-        If the system does not load it.
+        If the system does not load it, or somebody else may have written to it.
     """
     model, _, key = folder.name.rpartition("-")
     package = f"kintrafo_{model}_{key}"
@@ -51,6 +52,7 @@ def load(folder: Path) -> ModuleType:
     }
     with _lock:  # one module for all threads
         if any(name not in sys.modules for name in files):
+            refuse_foreign(folder)
             _run(files, folder)
         return sys.modules[f"{package}.{model}"]
 
@@ -61,20 +63,20 @@ def _run(files: dict[str, Path], folder: Path) -> None:
         for name, path in files.items():
             _run_file(name, path)
     except OSError as error:
-        _forget(files)
+        forget(files)
         problem = (
             f'cannot be loaded: {error}. Name another folder in {VARIABLE}, or use backend="numpy".'
         )
         raise InputError([problem], str(folder)) from error
     except BaseException:
-        _forget(files)
+        forget(files)
         raise
 
 
 def _run_file(name: str, path: Path) -> None:
     package, _, short = name.partition(".")
     inside = None if short else [str(path.parent)]
-    loader = _Source(name, str(path))
+    loader = AsItIs(name, str(path))
     spec = spec_from_file_location(name, path, loader=loader, submodule_search_locations=inside)
     assert spec is not None
     module = module_from_spec(spec)
@@ -84,7 +86,14 @@ def _run_file(name: str, path: Path) -> None:
         setattr(sys.modules[package], short, module)
 
 
-def _forget(names: dict[str, Path]) -> None:
+def forget(names: Iterable[str]) -> None:
+    """Let modules be imported anew.
+
+    Parameters
+    ----------
+    names : iterable of str
+        Of modules, which need not be known.
+    """
     for name in names:
         sys.modules.pop(name, None)
 

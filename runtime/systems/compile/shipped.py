@@ -7,7 +7,7 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
-from .cache import MANIFEST, appearing, cache_folder, damage, seal
+from .cache import MANIFEST, appearing, cache_folder, damage, foreign, seal
 from .loader import load, refuse_damaged
 
 _OF_PROJECT = "kintrafo."
@@ -43,7 +43,7 @@ class Shipped:
         home = Path(self.file).parent
         kept = cache_folder() / home.name
         for folder in (home, kept):
-            if self.name in sys.modules or not damage(folder):
+            if self.name in sys.modules or not (damage(folder) or foreign(folder)):
                 return load(folder)
         with appearing(kept) as temporary:
             for name, content in self.files:
