@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from .systems.rest import rest
     from .systems.state import State
     from .systems.system import System
+    from .targets.export import export_model
 
 __version__ = version("kintrafo")
 
@@ -85,6 +86,7 @@ __all__ = [
     "design_derivative",
     "ensemble",
     "equilibrium",
+    "export_model",
     "gradient",
     "linearise",
     "motion_gradient",
@@ -139,6 +141,7 @@ _MODULES = {
     ".study.ensembles": ("ensemble",),
     ".systems.state": ("State",),
     ".systems.system": ("System",),
+    ".targets.export": ("export_model",),
 }
 _HOMES = {name: module for module, names in _MODULES.items() for name in names}
 # Where this name would hide one of Python's at home.

@@ -92,6 +92,7 @@ WRITING = {
     "report of a rigid axle": (["report", "rigid_axle", "--loads"], "rigid_axle.html"),
     "derivation": (["derivation", "slider_crank", "-o", "a.tex"], "a.tex"),
     "derivation with figures": (["derivation", "slider_crank", "-o", "a.tex"], "a_bodies.pdf"),
+    "export": (["export", "four_bar", "--to", "c", "-o", "."], "four_bar.h"),
     "paper": (["paper", "."], "figure_6_wheel_motion.svg"),
 }
 

@@ -14,6 +14,7 @@ from . import (
     compliance,
     deflection,
     derivation,
+    export,
     export_points,
     fit,
     generate,
@@ -95,7 +96,7 @@ _PANELS = {
         compare,
     ),
     "Design": (sensitivity, tolerance, optimise, pareto, fit, sweep),
-    "Hand over": (report, animate, derivation, paper, generate),
+    "Hand over": (report, animate, derivation, paper, generate, export),
 }
 for panel, modules in _PANELS.items():
     for module in modules:

@@ -19,7 +19,7 @@ RIGID_AXLE = "rigid_axle"
 NOT_A_RIGID_AXLE = (
     "this is the file of a rigid axle. Its commands are check, characteristics, compare, loads, "
     "compliance, deflection, sheet, simulate, sensitivity, tolerance, optimise, pareto, fit, "
-    "sweep, new and report; others are not there for it. In Python: kintrafo.RigidAxle."
+    "sweep, new, export and report; others are not there for it. In Python: kintrafo.RigidAxle."
 )
 """Said where something else is needed than a rigid axle."""
 

@@ -64,11 +64,15 @@ def shipped(equations: ModuleType) -> Shipped:
     return Shipped(name, file, tuple((entry, (folder / entry).read_bytes()) for entry in listed))
 
 
+def sources_of(equations: ModuleType) -> dict[str, Path]:
+    """Return the emitted C files of equations, by name, those that others include first."""
+    folder = Path(str(equations.__file__)).parent
+    code = folder / "c" if equations.__name__.startswith(_OF_PROJECT) else folder
+    return {source: code / source for source in equations.equations.manifest["sources"]}
+
+
 def words_of(equations: ModuleType) -> bytes:
     """Return what was emitted of equations: the same bytes wherever they are compiled."""
-    folder = Path(str(equations.__file__)).parent
-    manifest = folder / f"{equations.NAME}.json"
-    code = folder / "c" if equations.__name__.startswith(_OF_PROJECT) else folder
-    sources = json.loads(manifest.read_bytes())["sources"]
-    texts = [manifest, *(code / source for source in sources)]
+    manifest = Path(str(equations.__file__)).parent / f"{equations.NAME}.json"
+    texts = [manifest, *sources_of(equations).values()]
     return b"\0".join(text.name.encode() + b"\0" + text.read_bytes() for text in texts)

@@ -1,0 +1,92 @@
+"""``kintrafo export``: a model for other programs."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from .console import print_json, problems, say
+from .options import Force, Json, Which, complete_file, load, refuse_which, system_of
+
+if TYPE_CHECKING:
+    from ..systems.system import System
+
+EXAMPLES = (
+    "kintrafo export my_car.toml --to c -o my_car_c",
+    "kintrafo export my_axle.toml --to c",
+    "kintrafo export my_mechanism.py --model crane --to c",
+)
+
+
+def command(
+    file: Annotated[
+        str,
+        typer.Argument(
+            metavar="FILE",
+            help="Hardpoint file, file of an axle, Python file with a mechanism of your own, or a "
+            "name that comes with kintrafo: reference_car, rigid_axle, four_bar.",
+            autocompletion=complete_file,
+        ),
+    ],
+    *,
+    to: Annotated[str, typer.Option(metavar="KIND", help="c: a folder with plain C.")],
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", "-o", metavar="PATH", help="What to write. Default: by FILE."),
+    ] = None,
+    model: Which = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Write a model for other programs, with the numbers of this file, starting at design.
+
+    c: the emitted C99, which needs nothing else, with constants, a CMake file and an example. In
+    Python any state can be the start: kintrafo.export_model(model, "car_c", "c", state=rest).
+    """
+    from ..core.arguments import Arguments
+    from ..targets.export import ENDINGS, export_model
+
+    with Arguments("export") as given:
+        given.among("--to", to, ENDINGS)
+    refuse_which(file, model)
+    stem = Path(file).stem if Path(file).suffix else file
+    path = Path(f"{stem}{ENDINGS[to]}") if out is None else out
+    with problems.status("export"):
+        system = _described_by(file, model)
+        written = export_model(system, path, to, force=force, read=[file])
+    if json:
+        print_json({"path": str(written), "to": to, "equations": system.equations.NAME})
+    else:
+        say(f"  {written}")
+
+
+def _described_by(file: str, model: str | None) -> "System":
+    """Return the equations of what a file describes, or a name."""
+    from importlib import import_module
+
+    from ..suspension.starter import packaged, packaged_axles
+    from ..systems.system import System
+    from . import axles, rigid
+
+    if file.endswith(".py"):
+        return system_of(file, model)
+    if rigid.is_rigid_axle(file):
+        from ..suspension.rigid.model import RigidAxleModel
+
+        return RigidAxleModel(file)
+    if axles.is_axle(file):
+        from ..suspension.axle import Axle
+        from ..suspension.axle.equations import AxleModel
+
+        return AxleModel(Axle.load(file))
+    if file in _shipped() and file not in (*packaged(), *packaged_axles()):
+        return System(import_module(f"kintrafo.generated.{file}"))
+    return load(file)
+
+
+def _shipped() -> list[str]:
+    """Return the names of the equations that come with kintrafo."""
+    from importlib.resources import files
+
+    entries = files("kintrafo.generated").iterdir()
+    return sorted(e.name.removesuffix(".json") for e in entries if e.name.endswith(".json"))

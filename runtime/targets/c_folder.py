@@ -1,0 +1,130 @@
+"""Plain C: emitted sources with the numbers of one parameter set, a CMake file and an example."""
+
+from collections.abc import Iterable, Mapping
+from contextlib import ExitStack, suppress
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from ..core.errors import InputError
+from ..core.files import Paths, replacing, told
+from .emitted import Emitted
+from .text import environment
+
+STEPS, STEP = 100, 1e-4
+"""How many steps the example takes, and their length [s]."""
+
+_TEMPLATES = {
+    "{name}_values.h": "values.h.jinja",
+    "{name}_values.c": "values.c.jinja",
+    "{name}_example.c": "example.c.jinja",
+    "CMakeLists.txt": "CMakeLists.txt.jinja",
+    "README.txt": "README.txt.jinja",
+}
+
+
+def write(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path:
+    """Write a folder of C.
+
+    Parameters
+    ----------
+    emitted : Emitted
+    path : Path
+        The folder; it may be there if nothing else is in it.
+    force : bool
+        Whether files of this name that somebody else wrote are replaced.
+    read : iterable of str or pathlib.Path
+        Files that are never replaced.
+
+    Returns
+    -------
+    Path
+        The folder.
+
+    Raises
+    ------
+    InputError
+        If other files are in the folder, or it cannot be written.
+    """
+    texts = files(emitted)
+    _refuse_others(path, texts)
+    listed = list(read)
+    new = not path.exists()
+    try:
+        with ExitStack() as stack:  # all are complete before the first one appears
+            for name, text in texts.items():
+                target = stack.enter_context(replacing(path / name, force=force, inputs=listed))
+                target.write_text(text, encoding="utf-8", newline="\n")
+    except BaseException:
+        if new:
+            with suppress(OSError):
+                path.rmdir()  # nothing has appeared in it
+        raise
+    return path
+
+
+def files(emitted: Emitted) -> dict[str, str]:
+    """Return the files of the folder, by name."""
+    templates, known = environment("c_files"), _known(emitted)
+    made = {
+        name.format(name=emitted.name): templates.get_template(template).render(known)
+        for name, template in _TEMPLATES.items()
+    }
+    return {**emitted.sources, **made}
+
+
+def _known(emitted: Emitted) -> dict[str, Any]:
+    """Return what the templates tell."""
+    system, manifest = emitted.system, emitted.manifest
+    compiled = emitted.compiled()
+    costs = {"prepare": manifest["prepare"]["operations"]}
+    costs |= {name: entry["operations"] for name, entry in compiled.items()}
+    iterating = [n for n, f in manifest["functions"].items() if "iterates" in f]
+    return {
+        "name": emitted.name,
+        "upper": emitted.name.upper(),
+        "title": emitted.title,
+        "version": version("kintrafo"),
+        "sources": [name for name in emitted.sources if name.endswith(".c")],
+        "parameters": list(system.parameters.items()),
+        "constants": _numbered(system.equations.CONSTANTS, system.constants),
+        "states": _numbered(system.state_names, emitted.state),
+        "inputs": _numbered(system.input_names, emitted.inputs),
+        "signals": system.signal_names,
+        "described_inputs": list(manifest["inputs"].items()),
+        "described_signals": list(manifest["signals"].items()),
+        "costs": list(costs.items()),
+        "iterates": _stages_of(iterating, manifest),
+        "stack": _stack(costs.values()),
+        "steps": STEPS,
+        "step": STEP,
+    }
+
+
+def _numbered(names: Iterable[str], values: Iterable[float]) -> list[tuple[str, float]]:
+    return [(name, float(value)) for name, value in zip(names, values, strict=True)]
+
+
+def _stages_of(names: Iterable[str], manifest: Mapping[str, Any]) -> list[str]:
+    """Return the C functions that compute some results, each once."""
+    return list(dict.fromkeys(manifest["functions"][n].get("stage", n) for n in names))
+
+
+def _stack(costs: Iterable[Mapping[str, int]]) -> int:
+    """Return how many kB of intermediate results there are, if each has its own place."""
+    return 1 + max(8 * counts["total"] for counts in costs) // 1000
+
+
+def _refuse_others(path: Path, texts: Mapping[str, str]) -> None:
+    """Refuse a folder with other files, and what is no folder."""
+    with told(path):
+        if not path.exists():
+            return
+        if not path.is_dir():
+            problem = "there is something here that is not a folder. Give the name of a folder."
+            raise InputError([problem], str(path))
+        others = sorted(entry.name for entry in path.iterdir() if entry.name not in texts)
+    if others:
+        shown = ", ".join(others[:3]) + (", ..." if len(others) > 3 else "")
+        problem = f"this folder holds other files: {shown}. Name a new folder, or an empty one."
+        raise InputError([problem], str(path))

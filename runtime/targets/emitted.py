@@ -1,0 +1,101 @@
+"""What is exported: emitted sources, the numbers of one parameter set, where results lie."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.errors import InputError
+from ..systems.compile.shipped import sources_of
+from ..systems.system import System
+
+Array = NDArray[np.float64]
+
+
+class Result(NamedTuple):
+    """Where a result is among what a C function computes.
+
+    Attributes
+    ----------
+    function : str
+        The C function.
+    size : int
+        Number of all that it computes.
+    start, length : int
+        The first element, and how many there are.
+    """
+
+    function: str
+    size: int
+    start: int
+    length: int
+
+
+@dataclass(frozen=True)
+class Emitted:
+    """The emitted C of a system, with its numbers.
+
+    Attributes
+    ----------
+    system : System
+    state, inputs : ndarray
+        Where others start.
+    """
+
+    system: System
+    state: Array
+    inputs: Array
+
+    @property
+    def name(self) -> str:
+        """Of the equations, which all their C names begin with."""
+        return str(self.manifest["name"])
+
+    @property
+    def title(self) -> str:
+        """What the mechanism is."""
+        return str(self.manifest["title"])
+
+    @property
+    def manifest(self) -> dict[str, Any]:
+        """What the equations are: names, units, meanings, guards, functions."""
+        found: dict[str, Any] = self.system.equations.equations.manifest
+        return found
+
+    @cached_property
+    def sources(self) -> dict[str, str]:
+        """The emitted files, by name.
+
+        Raises
+        ------
+        InputError
+            If there are none.
+        """
+        files = sources_of(self.system.equations)
+        missing = [name for name, path in files.items() if not path.is_file()]
+        if missing:
+            problem = (
+                f"the C code of {self.name} is incomplete, {', '.join(missing)} is not there. "
+                "Compile the mechanism again, or install kintrafo again."
+            )
+            raise InputError([problem], str(next(iter(files.values())).parent))
+        return {name: path.read_text(encoding="utf-8") for name, path in files.items()}
+
+    def result(self, name: str) -> Result | None:
+        """Return where a result is computed; None where the mechanism has none of it."""
+        functions, stages = self.manifest["functions"], self.manifest["stages"]
+        described = functions.get(name)
+        if described is None:
+            return None
+        count = int(np.prod(described["shape"]))
+        stage = described.get("stage", name)
+        size = stages[stage]["size"] if stage in stages else count
+        return Result(f"{self.name}_{stage}", size, described.get("start", 0), count)
+
+    def compiled(self) -> dict[str, dict[str, Any]]:
+        """Return what is said of each C function of constants, state and inputs, by its name."""
+        functions = self.manifest["functions"].items()
+        stages: dict[str, dict[str, Any]] = self.manifest["stages"]
+        return {n: f for n, f in functions if "stage" not in f and n != "residuals"} | stages

@@ -1,0 +1,103 @@
+"""From a system to files for other programs."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from ..core.arguments import Arguments
+from ..core.files import Paths
+from ..core.named_types import ArrayLike
+from ..systems.state import inputs_of
+from ..systems.system import System
+from . import c_folder
+from .emitted import Emitted
+
+Write = Callable[..., Path]
+TARGETS: Mapping[str, Write] = {"c": c_folder.write}
+"""What writes each kind of export: of an `Emitted` and a path, with options of its own."""
+ENDINGS: Mapping[str, str] = {"c": "_c"}
+"""What is added to a name where no path is given."""
+
+
+def export_model(
+    system: System,
+    path: str | Path,
+    to: str,
+    *,
+    state: ArrayLike | None = None,
+    inputs: Mapping[str, float] | None = None,
+    force: bool = False,
+    read: Paths = (),
+    **options: Any,
+) -> Path:
+    """Write a model for other programs, with the numbers of its parameters.
+
+    Parameters
+    ----------
+    system : System, Model, AxleModel or RigidAxleModel
+        With compiled equations.
+    path : str or pathlib.Path
+        What to write: a folder for 'c'.
+    to : {'c'}
+        'c': plain C99 without dependencies, with a CMake file and an example.
+    state : array_like, optional
+        Where it starts; the design position at rest by default. The inputs of a state of
+        `equilibrium` come with it.
+    inputs : mapping, optional
+        Values that inputs start with, by name, SI units; zero, or those of the state, by default.
+    force : bool, optional
+        Whether files that somebody else wrote are replaced, see `kintrafo.core.files`.
+    read : iterable of str or pathlib.Path, optional
+        Files that are never replaced, such as that of the suspension.
+    **options
+        None of 'c'.
+
+    Returns
+    -------
+    pathlib.Path
+        What was written, which is there only when it is complete.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used; if the equations have no C code; if what is there must not
+        be replaced.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> from tempfile import TemporaryDirectory
+    >>> from kintrafo.generated import four_bar
+    >>> with TemporaryDirectory() as folder:
+    ...     written = kintrafo.export_model(kintrafo.System(four_bar), f"{folder}/bar", "c")
+    ...     sorted(file.name for file in written.iterdir())[:4]
+    ['CMakeLists.txt', 'README.txt', 'elementary.h', 'four_bar.c']
+    """
+    with Arguments("export") as given:
+        given.kind("system", system, System, System.NEEDED)
+        given.path("path", path)
+        given.among("to", to, TARGETS)
+        given.flag("force", force)
+        if not given.refused:
+            start = system.design_state
+            if state is not None:
+                count = len(system.state_names)
+                start = given.array("state", state, dimensions=[1], last=count, empty=True)
+            _refuse_options(given, to, options)
+    held = inputs_of(state, system.names_of_states)
+    first = system.inputs() if held is None else held.copy()
+    named = {} if inputs is None else inputs
+    values = system.inputs(named)
+    for name in named:
+        first[system.input_names.index(name)] = values[system.input_names.index(name)]
+    emitted = Emitted(system, start, first)
+    return TARGETS[to](emitted, Path(path), force=force, read=read, **options)
+
+
+def _refuse_options(given: Arguments, to: str, options: Mapping[str, Any]) -> None:
+    """Refuse options that another kind of export has."""
+    known = TARGETS[to].__kwdefaults__ or {}
+    for name in options:
+        if name not in known:
+            has = ", ".join(known) or "none"
+            given.refuse(f"{name} is no option of an export to {to!r}, which has {has}.")

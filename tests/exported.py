@@ -1,0 +1,40 @@
+"""Systems that are exported in tests, and what is compiled of them."""
+
+import importlib
+import subprocess
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import kintrafo
+from kintrafo.generator import Formulation, JointForce, Motion
+from kintrafo.generator.mechanisms import four_bar
+from own_models import STRICT, UNOPTIMISED, own
+
+CC = ("cc", "-std=c99", UNOPTIMISED, "-ffp-contract=off", *STRICT)
+
+
+@cache
+def system_named(name: str) -> kintrafo.System:
+    """Return a small mechanism, one without signals, one without states, or a suspension."""
+    if name == "reference_car":
+        return kintrafo.Model("reference_car")
+    if name == "prescribed":
+        return kintrafo.System(own(_prescribed()))
+    return kintrafo.System(importlib.import_module(f"kintrafo.generated.{name}"))
+
+
+def _prescribed() -> Formulation:
+    """Return the four-bar linkage, its rocker turned by somebody."""
+    plain = tuple(f for f in four_bar.FOUR_BAR.forces if not isinstance(f, JointForce))
+    given = {four_bar.D: Motion("drive", "rad", "angle of the rocker")}
+    mechanism = replace(four_bar.FOUR_BAR, forces=plain)
+    return Formulation("prescribed", "A four-bar that is turned", mechanism, (), prescribed=given)
+
+
+def compiled(folder: Path, *flags: str) -> Path:
+    """Compile all C files of a folder into a program."""
+    program = folder.with_suffix(".exe")
+    files = sorted(map(str, folder.glob("*.c")))
+    subprocess.run([*CC, *flags, *files, "-o", str(program), "-lm"], check=True)
+    return program
