@@ -20,7 +20,7 @@ Code = Mapping[str, int | Callable[..., Any]]
 """The functions by name: addresses of C functions, or functions over NumPy arrays."""
 
 # Whose guards an integration has to know: what it evaluates, what it puts out, what places bodies.
-_OF_A_SIMULATION = ("rhs", "signals", "positions", "orientations")
+_OF_A_SIMULATION = ("rhs", "forces", "signals", "positions", "orientations")
 # Constants that are one over the mass or inertia that a coordinate moves, before its name.
 _OF_MASS = "inverse_pivot_"
 

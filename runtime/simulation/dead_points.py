@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..equations.errors import ClosureError
 from ..systems.system import System
-from .trust import ACTS, NOTHING, PART, PLACES
+from .trust import ACTS, NOTHING, PART, SINGULAR
 
 Array = NDArray[np.float64]
 
@@ -22,7 +22,11 @@ def meanings(equations: ModuleType) -> NDArray[np.int32]:
     """Return what each guard of some equations means for an integration.
 
     Bit 1: where its margin is not positive, the right-hand side or the signals refuse a state. Bit
-    2: it chooses a branch of where bodies are, and the right-hand side depends on it.
+    2: the right-hand side is singular where its margin is zero, and no step may pass over that: it
+    chooses a branch of where bodies are, or it is the square of what a direction is divided by, as
+    the length of a spring. Such a square touches zero and rises again. Pivots of the mass matrix
+    have the first bit only: where one vanishes the accelerations grow without bound, which the
+    error control of every method sees.
     """
     acting = equations.ACTING_GUARDS
     places = set(acting["positions"]) | set(acting["orientations"])
@@ -31,8 +35,9 @@ def meanings(equations: ModuleType) -> NDArray[np.int32]:
     for guard in rates | signals:
         found[guard] |= ACTS
     # of a mechanism whose motion is given as a whole, signals are all that there is
-    for guard in places & (rates if equations.STATE else signals):
-        found[guard] |= PLACES
+    singular = (places | set(acting["forces"])) & rates if equations.STATE else places & signals
+    for guard in singular:
+        found[guard] |= SINGULAR
     return found
 
 
@@ -79,7 +84,7 @@ class Approach:
     def __init__(self, model: System, inputs_at: Any, direction: float) -> None:
         self._model, self._inputs_at, self._direction = model, inputs_at, direction
         meaning = meanings(model.equations)
-        self._acts, self._places = (meaning & ACTS) > 0, (meaning & PLACES) > 0
+        self._acts, self._singular = (meaning & ACTS) > 0, (meaning & SINGULAR) > 0
         self._greatest = model.usual_margins
         self._half = model.design_state.size // 2
 
@@ -104,14 +109,14 @@ class Approach:
         crossed = self.crossed(now)
         if crossed is not None:
             return crossed
-        return _first(self._places & (2.0 * now * lapse < gained * step))
+        return _first(self._singular & (2.0 * now * lapse < gained * step))
 
     def longest_step(
         self, now: Array, gained: Array, lapse: float
     ) -> tuple[float, int | None, bool]:
         """Return how long the next step may be, which guard limits it, and if this is its end."""
         self._greatest = np.maximum(self._greatest, now)
-        falling = self._places & (gained < 0.0)
+        falling = self._singular & (gained < 0.0)
         if not falling.any():
             return np.inf, None, False
         over = falling & (now <= NOTHING * self._greatest)

@@ -3,7 +3,7 @@
 The reasons are there; a test compares the two.
 """
 
-ACTS, PLACES = 1, 2
+ACTS, SINGULAR = 1, 2
 PART = 0.5
 LEFT = 4.0
 NOTHING = 1e-10

@@ -40,7 +40,7 @@ static bits changed(const crew *w, real step, real next)
     real little = KT_LITTLE / greater(next / step, SPREAD(1.0));
     bits found = {0};
     for (int i = 0; i < w->p->guard_count; ++i) {
-        if (w->p->guards[i] & KT_PLACES) {
+        if (w->p->guards[i] & KT_SINGULAR) {
             real now = w->now[i], change = magnitude(now - w->before[i]);
             found |= ~((change <= little * now) & (now > KT_NOTHING * w->greatest[i]));
         }
@@ -64,7 +64,7 @@ static void look_ahead(crew *w, real time, real lapse)
 static void see_reflected(crew *w, bits lanes, real lapse, real step)
 {
     for (int i = 0; i < w->p->guard_count; ++i) {
-        if (w->p->guards[i] & KT_PLACES) {
+        if (w->p->guards[i] & KT_SINGULAR) {
             real gained = w->ahead[i] - w->now[i];
             blame(w, lanes & (2.0 * w->now[i] * lapse < gained * step), i);
         }
@@ -77,7 +77,7 @@ static void limit(crew *w, bits lanes, real lapse, real step)
     real longest = SPREAD(INFINITY);
     bits over = {0}, nearest = (bits){0} + NO_GUARD;
     for (int i = 0; i < w->p->guard_count; ++i) {
-        if (w->p->guards[i] & KT_PLACES) {
+        if (w->p->guards[i] & KT_SINGULAR) {
             real now = w->now[i], gone = now - w->ahead[i];
             real left = greater(now, SPREAD(0.0));
             real allowed = KT_PART * left * lapse / choose(gone > 0.0, gone, SPREAD(1.0));

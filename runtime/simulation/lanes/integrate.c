@@ -355,24 +355,24 @@ static void sweep(crew *w)
     bits lands, fresh = w->fresh;
     real step = planned(w, &lands), lapse;
     real reached = choose(lands, w->goal, w->time + step);
+    real took = reached - w->time; /* as times have it, which margins go by */
     bits refused = attempt(w, step);
     see_stiff(w, w->running & ~refused & ~fresh, step);
     real error = error_of(w, step);
     bits good = w->running & ~refused & (fresh | (error <= 1.0));
     real next = next_step(w, step, error, good);
-    bits looks = ask_margins(w, good, reached, step, next, &lapse);
-    refused |= good & (w->guard != NO_GUARD);
-    good &= ~refused;
-    bits spoiled = put_out(w, good, reached);
-    refused |= spoiled;
-    good &= ~spoiled;
-    commit(w, good, step, reached);
+    bits looks = ask_margins(w, good, reached, took, next, &lapse);
+    bits doubted = good & (w->guard != NO_GUARD);
+    doubted |= put_out(w, good & ~doubted, reached);
+    good &= ~doubted;
+    refused |= doubted;
+    commit(w, good, took, reached);
     if (any(good & looks)) {
-        limit(w, good & looks, lapse, step);
+        limit(w, good & looks, lapse, took);
     }
     w->again = ~good & ~refused; /* what is refused begins anew */
     w->error = choose(refused, SPREAD(0.0), w->error);
-    w->step = choose(refused, KT_SHORTER * step, next);
+    w->step = choose(refused, KT_SHORTER * choose(doubted, took, step), next);
     w->tried -= w->running & ~fresh;
     if (any(fresh & good)) {
         w->step = choose(fresh & good & (w->step == 0.0), first_step(w), w->step);

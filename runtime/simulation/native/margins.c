@@ -51,7 +51,7 @@ int kt_changes(const kt_margins *m, double next)
     for (int i = 0; i < m->count; ++i) {
         double now = m->now[i], change = fabs(now - m->before[i]);
         int calm = change <= little * now && now > KT_NOTHING * m->greatest[i];
-        if ((m->meaning[i] & KT_PLACES) && !calm) {
+        if ((m->meaning[i] & KT_SINGULAR) && !calm) {
             return 1;
         }
     }
@@ -62,7 +62,7 @@ int kt_reflected(const kt_margins *m, double lapse, double step)
 {
     for (int i = 0; i < m->count; ++i) {
         double gained = m->ahead[i] - m->now[i];
-        if ((m->meaning[i] & KT_PLACES) && 2.0 * m->now[i] * lapse < gained * step) {
+        if ((m->meaning[i] & KT_SINGULAR) && 2.0 * m->now[i] * lapse < gained * step) {
             return i;
         }
     }
@@ -83,7 +83,7 @@ double kt_longest_step(const kt_margins *m, double lapse, int *nearest, int *ove
     *over = 0;
     for (int i = 0; i < m->count; ++i) {
         double now = m->now[i], lost = now - m->ahead[i];
-        if (!(m->meaning[i] & KT_PLACES) || !(lost > 0.0)) {
+        if (!(m->meaning[i] & KT_SINGULAR) || !(lost > 0.0)) {
             continue;
         }
         double step = KT_PART * fmax(now, 0.0) * lapse / lost;

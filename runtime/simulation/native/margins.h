@@ -9,6 +9,9 @@
  * time in which s would be used up, s over its velocity, that is twice the margin over its rate:
  * it shrinks to nothing before a dead point and opens again before a turn. So no step is longer than a
  * part of it; and a step at whose end s comes out of zero within the step is not believed.
+ *
+ * The same holds where the ends of a spring meet: s is their distance, the margin its square, which touches
+ * zero and rises again, and the direction of the force turns round within no time.
  */
 #ifndef KINTRAFO_MARGINS_H
 #define KINTRAFO_MARGINS_H

@@ -8,7 +8,7 @@
 /* What a guard of the model means for an integration; a guard may have both bits. */
 enum {
     KT_ACTS = 1,  /* where its margin is not positive, the model refuses to be evaluated */
-    KT_PLACES = 2 /* it chooses a branch of where bodies are */
+    KT_SINGULAR = 2 /* the rates are singular where its margin is zero, and no step passes over that */
 };
 
 /*
