@@ -32,6 +32,7 @@ from kintrafo.study.compare import differences
 from kintrafo.study.scenario import Scenario
 from kintrafo.study.variation.ways import values_of
 from kintrafo.suspension.axle.bar import AntiRollBar
+from kintrafo.suspension.axle.steering import SteeringCurve
 from kintrafo.suspension.positions import arm_angles, design_height
 from kintrafo.suspension.reach import at_rest, travel_range
 from kintrafo.systems.compile.compiler import find_compiler
@@ -418,6 +419,14 @@ def test_the_mirror_image_exchanges_the_sides() -> None:
 
 
 # -- steering -----------------------------------------------------------------------------------
+
+
+def test_a_steering_curve_ends_with_its_points() -> None:
+    curve = SteeringCurve(angle_deg=[-90.0, 0.0, 90.0], rack_mm=[-20.0, 0.0, 21.0])
+    assert curve.rack(np.deg2rad([-90.0, 90.0])) == pytest.approx([-0.02, 0.021])
+    for function in (curve.rack, curve.travel_per_turn):
+        with pytest.raises(InputError, match=r"angle = 91 deg is beyond .* -90 deg to 90 deg"):
+            function(np.deg2rad([0.0, 91.0]))
 
 
 def test_the_steering_wheel_turns_the_wheels() -> None:

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from kintrafo import InputError, Model
+from kintrafo import InputError, Model, equilibrium, simulate
 from kintrafo.simulation.roads import sine, step
+from kintrafo.simulation.solvers import native_available
 from kintrafo.study.excitation import Course, excitation
 from kintrafo.study.measurement import measured
 from kintrafo.study.scenario import Scenario, run
@@ -41,6 +42,16 @@ def test_sine_has_amplitude_and_frequency():
     # the rack's acceleration is taken from it: h^2 / 12 of the same, 1.3e-5
     acceleration = -((2.0 * np.pi * 4.0) ** 2) * expected
     assert road(times, 2) == pytest.approx(acceleration, abs=2e-5 * np.abs(acceleration).max())
+
+
+def test_a_sine_ends_where_it_was_made_to():
+    road = sine(0.01, 4.0, end=2.0)
+    assert np.isfinite(road([0.0, 2.0])).all()
+    assert np.isnan(road([-0.1, 2.1])).all()
+    # margins ahead of the end are those of the curve going on
+    for backend in ("sundials", "scipy") if native_available() else ("scipy",):
+        options = {"backend": backend, "method": "BDF", "inputs": {"road_height": road}}
+        assert simulate(MODEL, (0.0, 2.0), equilibrium(MODEL), **options).success
 
 
 def test_a_sine_too_long_to_tabulate_is_refused():

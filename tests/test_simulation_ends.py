@@ -19,6 +19,7 @@ from typer.testing import CliRunner
 needs_sundials = pytest.mark.skipif(not native_available(), reason="built without SUNDIALS")
 CRANK = System(slider_crank)
 TURNING = CRANK.state(crank_angle_rate=30.0)
+METHODS = tuple(dict.fromkeys([*native_methods(), "Radau", "LSODA", "RK45", "DOP853"]))
 
 
 def endless():
@@ -55,6 +56,28 @@ def test_a_dense_result_can_be_pickled(method):
     again = pickle.loads(pickle.dumps(result))
     times = np.linspace(0.0, 0.1, 7)
     assert np.array_equal(again.sol(times), result.sol(times))
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("end", [0.1, -0.1], ids=["forwards", "backwards"])
+def test_a_dense_result_ends_where_the_motion_does(method, end):
+    options = {"step": 1e-4} if method == "RK4" else {}
+    sol = simulate(CRANK, (0.0, end), TURNING, method=method, dense_output=True, **options).sol
+    assert (sol.t_min, sol.t_max) == (min(0.0, end), max(0.0, end))
+    assert sol([]).shape == (TURNING.size, 0)
+    assert np.isfinite(sol([0.0, end, np.nextafter(end, 10 * end)])).all()
+    for beyond in (-0.01 * end, 1.01 * end, [0.0, 1e9], np.nan):
+        with pytest.raises(InputError, match=r"from -?0.*s to|numbers"):
+            sol(beyond)
+
+
+def test_of_a_motion_that_ends_early_only_that_is_known():
+    with pytest.raises(SimulationError) as caught:
+        simulate(CRANK, (0.0, 1.0), TURNING, dense_output=True, max_steps=20)
+    sol, reached = caught.value.partial.sol, caught.value.time
+    assert sol.t_max == reached
+    with pytest.raises(InputError, match=f"known from 0 s to {reached:.9g} s"):
+        sol(1.0)
 
 
 def test_a_broken_native_module_is_not_called_missing(monkeypatch):

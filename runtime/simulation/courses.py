@@ -90,7 +90,8 @@ def _padded(name: str, curve: PPoly, t_span: tuple[float, float]) -> PPoly:
     if not np.isfinite(curve.c).all():
         raise InputError([f"{name!r}: the coefficients must be finite."], "inputs")
     if degree == 3:
-        return curve
+        # of the same class; where margins are looked at ahead of its end, it goes on
+        return curve.construct_fast(curve.c, curve.x, extrapolate=True)
     return PPoly(np.concatenate((np.zeros((3 - degree, curve.c.shape[1])), curve.c)), curve.x)
 
 

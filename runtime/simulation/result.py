@@ -7,12 +7,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import OptimizeResult
 
+from ..core.arguments import Arguments
 from ..core.errors import KintrafoError
 from ..equations.errors import ModelError
 from ..systems.system import System
 from .validity import Excursion, bounds_of, excursions
 
 Array = NDArray[np.float64]
+
+# By so many roundings a time may be beyond the ends of the solution: such as the last of a range.
+_ROUNDINGS = 8.0
 
 
 class SimulationError(KintrafoError, RuntimeError):
@@ -94,16 +98,32 @@ class Simulation(OptimizeResult):
 
 
 class DenseOutput:
-    """The solution as a function of time, from the polynomials of the steps."""
+    """The solution as a function of time, from the polynomials of the steps.
+
+    Attributes
+    ----------
+    t_min, t_max : float
+        The first and the last time at which it is known [s].
+    """
 
     def __init__(self, parts: list[tuple[float, float, Callable[[Array], Array]]]) -> None:
         self._parts = parts
         self._backward = parts[0][1] < parts[0][0]
         self._ends = np.array([end for _, end, _ in parts])
+        ends = parts[0][0], parts[-1][1]
+        self.t_min, self.t_max = min(ends), max(ends)
 
     def __call__(self, t: ArrayLike) -> Array:
-        """Return the state, shape (n,), or (n, number of times) for an array of times."""
-        times = np.atleast_1d(np.asarray(t, dtype=np.float64))
+        """Return the state, shape (n,), or (n, number of times) for an array of times.
+
+        Raises
+        ------
+        InputError
+            If a time is not a number, or before `t_min` or after `t_max`, by more than rounding.
+        """
+        with Arguments("sol") as given:
+            times = np.atleast_1d(given.array("t", t, "s", dimensions=[0, 1], empty=True))
+            self._refuse_outside(given, times)
         sign = -1.0 if self._backward else 1.0
         which = np.searchsorted(sign * self._ends, sign * times, side="left")
         which = np.clip(which, 0, len(self._parts) - 1)
@@ -113,6 +133,15 @@ class DenseOutput:
             values[chosen] = self._parts[index][2](times[chosen])
         result: Array = values[0] if np.ndim(t) == 0 else values.T
         return result
+
+    def _refuse_outside(self, given: Arguments, times: Array) -> None:
+        slack = _ROUNDINGS * np.spacing(max(abs(self.t_min), abs(self.t_max)))
+        outside = times[(times < self.t_min - slack) | (times > self.t_max + slack)]
+        if outside.size:
+            given.refuse(
+                f"t = {outside[0]:.9g} s: the solution is known from {self.t_min:.9g} s to "
+                f"{self.t_max:.9g} s. Ask within, or simulate for as long."
+            )
 
 
 class Signals(Mapping[str, Array]):

@@ -71,7 +71,8 @@ def sine(amplitude: float, frequency: float, *, end: float) -> CubicSpline:
     Returns
     -------
     scipy.interpolate.CubicSpline
-        Of time [s]; it follows the sine to 1e-10 of the amplitude.
+        Of time [s], from zero to `end`, NaN elsewhere; it follows the sine to 1e-10 of the
+        amplitude.
 
     Examples
     --------
@@ -90,4 +91,5 @@ def sine(amplitude: float, frequency: float, *, end: float) -> CubicSpline:
         )
         raise InputError([problem], "sine")
     times = np.linspace(0.0, end, 4 + math.ceil(_SAMPLES_OF_A_PERIOD * periods))
-    return CubicSpline(times, amplitude * np.sin(2.0 * math.pi * frequency * times))
+    heights = amplitude * np.sin(2.0 * math.pi * frequency * times)
+    return CubicSpline(times, heights, extrapolate=False)

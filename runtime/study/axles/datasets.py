@@ -278,13 +278,9 @@ def _refuse_angles(given: Arguments, axle: Axle, angles: Array) -> None:
             "travel_per_turn_mm in the hardpoint file, or [steering] in the axle's; or give rack."
         )
     elif axle.steering is not None:
-        low, high = axle.steering.limits()
-        beyond = angles[(angles < low) | (angles > high)]
-        if beyond.size:
-            given.refuse(
-                f"angle = {np.degrees(beyond[0]):g} deg is beyond the curve of [steering], from "
-                f"{np.degrees(low):g} deg to {np.degrees(high):g} deg. Add points to it."
-            )
+        problem = axle.steering.beyond(angles)
+        if problem:
+            given.refuse(problem)
 
 
 def rack_of(axle: Axle, angles: Array) -> tuple[Array, Array]:

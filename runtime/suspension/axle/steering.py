@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 from scipy.interpolate import PchipInterpolator
 
+from ...core.errors import InputError
 from ..input.damper import Numbers
 from ..input.section import Section
 
@@ -57,13 +58,45 @@ class SteeringCurve(Section):
         low, high = np.deg2rad([self.angle_deg[0], self.angle_deg[-1]])
         return float(low), float(high)
 
+    def beyond(self, angle: Array) -> str:
+        """Return why angles of the steering wheel [rad] are not on the curve; nothing if they are.
+
+        Parameters
+        ----------
+        angle : ndarray
+        """
+        low, high = self.limits()
+        outside = np.ravel(angle)[~((angle >= low) & (angle <= high)).ravel()]
+        if not outside.size:
+            return ""
+        return (
+            f"angle = {np.degrees(outside[0]):g} deg is beyond the curve of [steering], from "
+            f"{np.degrees(low):g} deg to {np.degrees(high):g} deg. Add points to it."
+        )
+
     def rack(self, angle: Array) -> Array:
-        """Return the displacement of the rack at angles of the steering wheel [m]."""
-        return np.asarray(self._curve()(angle), dtype=np.float64)
+        """Return the displacement of the rack at angles of the steering wheel [m].
+
+        Raises
+        ------
+        InputError
+            If an angle is beyond the points.
+        """
+        return np.asarray(self._curve(angle)(angle), dtype=np.float64)
 
     def travel_per_turn(self, angle: Array) -> Array:
-        """Return the rack travel for one turn of the steering wheel there, with its sign [m]."""
-        return np.asarray(2.0 * np.pi * self._curve().derivative()(angle), dtype=np.float64)
+        """Return the rack travel for one turn of the steering wheel there, with its sign [m].
 
-    def _curve(self) -> PchipInterpolator:
+        Raises
+        ------
+        InputError
+            If an angle is beyond the points.
+        """
+        return np.asarray(2.0 * np.pi * self._curve(angle).derivative()(angle), dtype=np.float64)
+
+    def _curve(self, angle: Array) -> PchipInterpolator:
+        """Return the curve, for angles that are on it."""
+        problem = self.beyond(np.asarray(angle))
+        if problem:
+            raise InputError([problem], "axle")
         return PchipInterpolator(np.deg2rad(self.angle_deg), np.asarray(self.rack_mm) / 1e3)
