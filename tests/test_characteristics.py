@@ -16,9 +16,20 @@ import pytest
 from differences import difference, second_difference
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo import InputError, Model, PositionError, Suspension, characteristics, travel_range
+from kintrafo import (
+    Axle,
+    InputError,
+    Model,
+    PositionError,
+    Suspension,
+    axles,
+    characteristics,
+    travel_range,
+    variation,
+)
 from kintrafo.study.characteristics import axle, wheel
-from kintrafo.study.characteristics.from_model import corner
+from kintrafo.study.characteristics.from_model import corner, vehicle
+from kintrafo.suspension.corner import RoadWheel
 from oracle.constraints import KNUCKLE
 from oracle.newton import Mechanism, observe, solve_pose_at_height
 
@@ -345,6 +356,17 @@ def test_steer_gradient_and_ratio(bench):
         assert float(found["steering_ratio"]) == pytest.approx(ratio, rel=SLOPE)
 
 
+def test_camber_is_seen_from_the_front_and_toe_from_above():
+    """Not the arcsine of a component: of a wheel that leans by 4 deg and is steered by 30 deg."""
+    lean, steered = np.radians([4.0, 30.0])
+    axis = np.array([np.cos(lean) * np.sin(steered), np.cos(lean) * np.cos(steered), -np.sin(lean)])
+    still = RoadWheel(vehicle(MODEL.suspension.mirrored()), np.zeros(3), np.zeros(3), axis, axis)
+    assert np.degrees(wheel.camber(still)) == pytest.approx(4.62, abs=5e-3)
+    assert np.degrees(wheel.toe(still)) == pytest.approx(30.0, rel=1e-12)
+    assert np.degrees(np.arcsin(-axis[2])) == pytest.approx(4.0, rel=1e-12)
+    assert np.degrees(np.arcsin(axis[0])) == pytest.approx(29.92, abs=5e-3)
+
+
 # -- both wheels ----------------------------------------------------------------------------------
 
 
@@ -385,6 +407,67 @@ def test_axle_quantities_of_the_reference_car():
     assert found["ackermann_error"].values == pytest.approx(outer - ideal, rel=1e-12)
     assert found["ackermann"].values == pytest.approx((inner - outer) / (inner - ideal), rel=1e-9)
     assert found["turning_circle"].values == pytest.approx(5.2 / np.sin(outer), rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["reference_car", "double_wishbone_car", "multi_link_car"])
+@pytest.mark.parametrize("travel", [0.0, -0.03])
+def test_static_toe_and_bump_steer_steer_no_car(name, travel):
+    """With toe-in, by hand from the angles that the rack adds; with two files, and many cars."""
+    car = Suspension.load(name).with_changes(
+        {"wheel.toe_deg": 0.4, "vehicle.wheelbase_mm": 2600.0, "vehicle.end": "front"}
+    )
+    racks = np.array([-0.02, -0.002, 0.0, 0.002, 0.02])
+    found = characteristics.steering(Model(car), racks, travel=travel)
+    left, right = (found[f"steer_{side}"].values for side in ("left", "right"))
+    left, right = left - left[2], right - right[2]
+    to_left = left > 0.0
+    inner, outer = np.where(to_left, [left, right], [-right, -left])
+    track = -2e-3 * car.hardpoints.wheel_center[1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ideal = np.arctan(2.6 / (2.6 / np.tan(inner) + track))
+        part, circle = (inner - outer) / (inner - ideal), 5.2 / np.sin(outer)
+    part[2] = np.nan
+    # rounding of the angles, over differences of 1e-5 rad
+    np.testing.assert_allclose(found["ackermann"], part, rtol=1e-8)
+    np.testing.assert_allclose(
+        found["ackermann_error"], np.where(part, outer - ideal, 0), atol=1e-14
+    )
+    np.testing.assert_allclose(found["turning_circle"], np.abs(circle), rtol=1e-11)
+    # from 2 mm to 20 mm of rack it changes little
+    assert abs(part[3] - part[4]) < 0.25 * abs(part[4]) + 0.25
+    axle_file = Axle.from_dict({"axle": "front", "side": car})
+    of_axle = axles.steer(axle_file, rack=racks, travel=travel)
+    np.testing.assert_allclose(of_axle["ackermann"], found["ackermann"], rtol=1e-8)
+    if not travel:
+        many = variation.cars(
+            car,
+            {"wheel.toe_deg": [0.4, -0.4, 0.1]},
+            names=["ackermann"],
+            over="rack",
+            positions=racks,
+        )
+        np.testing.assert_allclose(many["ackermann"][0], found["ackermann"], rtol=1e-8)
+
+
+def test_sides_of_an_axle_have_a_static_toe_each():
+    like, lopsided = (
+        Axle.from_dict(
+            {
+                "axle": "front",
+                "right": CAR.with_changes({"wheel.toe_deg": toe}),
+                "left": CAR.mirrored(),
+            }
+        )
+        for toe in (0.0, 0.5)
+    )
+    expected, found = (axles.steer(axle, rack=[0.002, 0.03]) for axle in (like, lopsided))
+    # the turn about an inclined axis adds a little less or more where the wheel stands otherwise
+    np.testing.assert_allclose(found["ackermann"], expected["ackermann"], atol=0.08)
+
+
+def test_the_percentage_of_wheels_that_turn_to_different_sides_is_none():
+    found = axle.ackermann(np.array([0.05, 0.05]), np.array([-0.001, 0.02]), 2.6, 1.5)
+    assert np.isnan(found).tolist() == [True, False]
 
 
 # -- signs, sides, models -------------------------------------------------------------------------

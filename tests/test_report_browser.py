@@ -439,6 +439,23 @@ def test_wheel_rate_jumps_where_the_stops_begin_to_act(browser, tmp_path_factory
     watched.context.close()
 
 
+@pytest.mark.usefixtures("coarse_report")
+def test_what_is_interpolated_says_so(browser, tmp_path):
+    """On a coarse grid: at its positions values are computed, between them they are in doubt."""
+    watched = Watched(browser, kintrafo.report.write(MODEL, tmp_path / "coarse.html"))
+    told = {}
+    for travel in (0.0, 0.025, 0.010):
+        watched.page.evaluate(f"kintrafo.set({{ travel: {travel}, rack: 0 }})")
+        cell = watched.page.locator('[data-now="bump_steer"]').inner_text()
+        told[travel] = cell
+    exact = kintrafo.characteristics.travel(MODEL, list(told))["bump_steer"].values
+    for (travel, text), value in zip(told.items(), np.degrees(exact) * 1e-3, strict=True):
+        assert text.startswith("\u2248") == (travel == 0.010), told
+        number = float(text.lstrip("\u2248\u00a0").replace("\u2212", "-"))
+        assert travel == 0.010 or number == pytest.approx(value, abs=0.51e-4)
+    watched.context.close()
+
+
 def test_a_printed_report_has_a_picture_and_all_charts(watch):
     watched = watch(color_scheme="dark")
     page = watched.page

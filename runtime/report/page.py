@@ -30,7 +30,7 @@ from .marks import Marks, marks
 from .mechanism.page import report_page
 from .motion import DROP, Motion, NoMotion, simulated_second
 from .payload import Look, page_data
-from .plotted import decimals, meaningful, shown_range
+from .plotted import decimals, shown_range
 from .poses import Poses, poses, reachable_grid
 from .tables import input_tables, summary
 
@@ -260,16 +260,18 @@ def _sample(
 
 
 def _look(curve: Curve, grid: Grid, shown: tuple[float, float], accuracy: Accuracy) -> Look:
-    """Return how a curve is shown; its decimals tell values through the design position apart."""
+    """Return how a curve is shown.
+
+    Its decimals tell values through the design position apart, and say what the one at design is.
+    """
     values = curve.through_design(grid)
     drawn = values if np.isfinite(values).any() else curve.values
     low, high = (end * curve.factor for end in shown_range(drawn))
-    error = accuracy.curves[curve.key]
-    places = decimals(low, high, unit=curve.unit, error=error)
+    design = float(curve.values[grid.travel.zero, grid.rack.zero]) * curve.factor
     return Look(
         shown=(shown[0] * curve.factor, shown[1] * curve.factor),
-        decimals=places,
-        approximate=not meaningful(places, error),
+        decimals=decimals(low, high, unit=curve.unit, value=design),
+        error=accuracy.curves[curve.key],
     )
 
 

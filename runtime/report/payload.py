@@ -12,7 +12,7 @@ from .encode import packed
 from .grid import Axis, Grid
 from .marks import Marks
 from .motion import Motion, NoMotion, TimeCurve
-from .plotted import decimals, full_range
+from .plotted import decimals, full_range, meaningful
 from .poses import Poses
 
 Array = NDArray[np.float64]
@@ -31,13 +31,13 @@ class Look(NamedTuple):
         Values between which it is plotted.
     decimals : int
         With how many it is written.
-    approximate : bool
-        Whether interpolated values may be off by more than these tell.
+    error : float
+        By how much interpolated values may be off; computed ones are not.
     """
 
     shown: tuple[float, float]
     decimals: int
-    approximate: bool = False
+    error: float = 0.0
 
 
 def page_data(
@@ -137,10 +137,10 @@ def _described(curve: Curve | TimeCurve, look: Look) -> dict[str, Any]:
         "unit": curve.unit,
         "factor": curve.factor,
         "decimals": look.decimals,
-        "approximate": look.approximate,
+        "approximate": not meaningful(look.decimals, look.error),
         "range": look.shown,
-        # what hardly changes in the digits that are written is drawn flat
-        "least": 4.0 * 10.0**-look.decimals,
+        # what hardly changes in the digits that are written and right is drawn flat
+        "least": 4.0 * max(10.0**-look.decimals, 2.0 * look.error),
     }
 
 

@@ -78,7 +78,7 @@ def _widened(low: float, high: float) -> tuple[float, float]:
     return low - margin, high + margin
 
 
-def decimals(low: float, high: float, *, unit: str = "", error: float = 0.0) -> int:
+def decimals(low: float, high: float, *, unit: str = "", value: float = 0.0) -> int:
     """Return with how many decimals values are written.
 
     Parameters
@@ -87,8 +87,8 @@ def decimals(low: float, high: float, *, unit: str = "", error: float = 0.0) -> 
         Range of the values, in the unit of the reader.
     unit : str, optional
         That unit.
-    error : float, optional
-        Largest error; digits that it makes meaningless are left out.
+    value : float, optional
+        One of them that is to have three digits, as far as its unit has them.
 
     Returns
     -------
@@ -98,13 +98,15 @@ def decimals(low: float, high: float, *, unit: str = "", error: float = 0.0) -> 
     --------
     >>> decimals(-3.0, 2.5), decimals(-40.0, 10.0), decimals(0.93, 0.96), decimals(0.0, 2e4)
     (2, 1, 4, 0)
+    >>> decimals(-3.0, 2.5, value=-0.0131)
+    4
     """
     width = max(high - low, 1e-3 * max(abs(low), abs(high)), 1e-12)
     most = _MOST_OF_UNIT.get(unit, _MOST_DECIMALS)
-    wanted = min(max(math.ceil(1.8 - math.log10(width)), 0), most)
-    while wanted > 0 and not meaningful(wanted, error):
-        wanted -= 1
-    return wanted
+    wanted = math.ceil(1.8 - math.log10(width))
+    if value != 0.0 and math.isfinite(value):
+        wanted = max(wanted, 2 - math.floor(math.log10(abs(value))))
+    return min(max(wanted, 0), most)
 
 
 def meaningful(places: int, error: float) -> bool:

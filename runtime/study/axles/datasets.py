@@ -11,6 +11,7 @@ from ...core.named_types import ArrayLike
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array
+from ...suspension.positions import PositionError
 from ..characteristics import axle as of_both
 from ..characteristics import catalogue as of_wheels
 from ..characteristics.catalogue import Quantity
@@ -312,16 +313,24 @@ def _of_both(pair: Pair, per_turn: Array | None) -> dict[Quantity, Array]:
     """Return what both wheels decide together when they are steered."""
     left, right = pair.corners[LEFT], pair.corners[RIGHT]
     angles = steer_angle(left), steer_angle(right)
-    values = {}
+    values: dict[str, Array] = {}
     if left.vehicle.wheelbase is not None and pair.axle.end == "front":
-        track = motions.track(pair.axle)
-        values["ackermann_error"] = of_both.ackermann_error(*angles, left.vehicle.wheelbase, track)
-        values["ackermann"] = of_both.ackermann(*angles, left.vehicle.wheelbase, track)
-        values["turning_circle"] = of_both.turning_circle(*angles, left.vehicle.wheelbase)
+        track, static = motions.track(pair.axle), _straight_ahead(pair)
+        one, other = angles[0] - static[LEFT], angles[1] - static[RIGHT]
+        values |= of_both.of_wheels(one, other, left.vehicle.wheelbase, track)
     if per_turn is not None:
         gradients = steer_gradient(left), steer_gradient(right)
         values["steering_ratio"] = of_both.steering_ratio(*gradients, np.abs(per_turn))
     return {of_wheels.AXLE[name]: array for name, array in values.items()}
+
+
+def _straight_ahead(pair: Pair) -> dict[str, Array | float]:
+    """Return the steer angles of both wheels with the rack in its middle, NaN where it is not."""
+    try:
+        middle = Pair.at(pair.axle, pair.travel[LEFT][:1], pair.travel[RIGHT][:1], 0.0)
+    except PositionError:
+        return {LEFT: np.nan, RIGHT: np.nan}
+    return {side: steer_angle(middle.corners[side]) for side in (LEFT, RIGHT)}
 
 
 def _dataset(

@@ -1,15 +1,30 @@
 """Characteristics of the two wheels of a steered axle: the formulas.
 
-Steer angles are positive to the left [rad], as arrays over the positions of the rack.
+Steer angles are positive to the left [rad], as arrays over the positions of the rack. What
+compares both wheels takes them from those with the rack in its middle: without static toe, which
+steers no car.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...suspension.corner import Array
 
 # Wheels that are steered less than this roll straight ahead [rad].
 _STRAIGHT = 1e-9
+# Differences of both angles grow with the square of them, and are rounded by 1e-15 rad: of wheels
+# that are steered less than this the quotient of two differences has not six digits [rad].
+_STEERED = 1e-4
+
+
+def of_wheels(
+    left: Array, right: Array, wheelbase: float, track: float | Array
+) -> dict[str, Array]:
+    """Return what compares both wheels, by name: `ackermann_error` and the others."""
+    return {
+        "ackermann_error": ackermann_error(left, right, wheelbase, track),
+        "ackermann": ackermann(left, right, wheelbase, track),
+        "turning_circle": turning_circle(left, right, wheelbase),
+    }
 
 
 def ackermann_error(left: Array, right: Array, wheelbase: float, track: float | Array) -> Array:
@@ -40,13 +55,15 @@ def ackermann(left: Array, right: Array, wheelbase: float, track: float | Array)
     """Return the Ackermann percentage as a part of one [1].
 
     One for wheels that roll without slip, zero for parallel ones: the difference of the two steer
-    angles over what it has to be. Not defined (NaN) straight ahead.
+    angles over what it has to be. Not defined (NaN) straight ahead, and where the wheels are
+    steered to different sides.
     """
     inner, outer = _inner_and_outer(left, right)
     wanted = inner - _ideal_outer(inner, wheelbase, track)
     with np.errstate(divide="ignore", invalid="ignore"):
         part = (inner - outer) / wanted
-    return np.where(_turning(left, right), part, np.nan)
+    turning = (inner + outer > 2.0 * _STEERED) & (inner >= 0.0) & (outer >= 0.0)
+    return np.where(turning, part, np.nan)
 
 
 def turning_circle(left: Array, right: Array, wheelbase: float) -> Array:
@@ -57,7 +74,7 @@ def turning_circle(left: Array, right: Array, wheelbase: float) -> Array:
     _, outer = _inner_and_outer(left, right)
     with np.errstate(divide="ignore"):
         diameter = 2.0 * wheelbase / np.abs(np.sin(outer))
-    return np.where(_turning(left, right), diameter, np.inf)
+    return np.where(np.abs(left + right) > 2.0 * _STRAIGHT, diameter, np.inf)
 
 
 def steering_ratio(
@@ -93,7 +110,3 @@ def _ideal_outer(inner: Array, wheelbase: float, track: float | Array) -> Array:
     across, along = np.sin(inner), np.cos(inner)
     outer: Array = np.arctan2(wheelbase * across, wheelbase * along + track * across)
     return outer
-
-
-def _turning(left: Array, right: Array) -> NDArray[np.bool_]:
-    return np.abs(left + right) > 2.0 * _STRAIGHT

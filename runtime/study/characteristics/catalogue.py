@@ -349,6 +349,8 @@ STEERING = (
 )
 """What the motion over the rack decides, for one wheel."""
 
+_WITHOUT_TOE = "; steer angles are from those with the rack in its middle, without static toe"
+
 AXLE = {
     quantity.name: quantity
     for quantity in (
@@ -371,7 +373,7 @@ AXLE = {
             "rad",
             "Ackermann error",
             "outer steer angle less that for rolling without slip, d_o - atan(L/(L/tan d_i + t)), "
-            "t the distance of the wheel centres at design",
+            "t the distance of the wheel centres at design" + _WITHOUT_TOE,
             "positive towards parallel steering",
             needs=("wheelbase",),
         ),
@@ -379,8 +381,9 @@ AXLE = {
             "ackermann",
             "1",
             "Ackermann percentage",
-            "difference of the steer angles over that for rolling without slip",
-            "0 % for parallel, 100 % for Ackermann steering; not defined straight ahead",
+            "difference of the steer angles over that for rolling without slip" + _WITHOUT_TOE,
+            "0 % for parallel, 100 % for Ackermann steering; not defined straight ahead, and where "
+            "the wheels are steered to different sides",
             needs=("wheelbase",),
             display=_PERCENT,
         ),
@@ -389,7 +392,7 @@ AXLE = {
             "m",
             "turning circle",
             "diameter of the circle of the outer front wheel's centre, 2 L / sin d_o, without "
-            "tyre width and body overhang",
+            "tyre width and body overhang" + _WITHOUT_TOE,
             "positive always; infinite straight ahead",
             needs=("wheelbase",),
             display=Display("m", 1.0),

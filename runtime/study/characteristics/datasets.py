@@ -2,6 +2,7 @@
 
 from collections.abc import Container, Iterable
 
+import numpy as np
 import xarray as xr
 
 from ...core.arguments import Arguments
@@ -9,12 +10,12 @@ from ...core.named_types import ArrayLike
 from ...suspension.corner import Array, Corner
 from ...suspension.kinds import Suspension
 from ...suspension.model import Model
-from ...suspension.positions import arm_angles, design_height
+from ...suspension.positions import PositionError, arm_angles, design_height
 from ..sweep import usual_rack, usual_travel
 from . import axle, catalogue
 from .catalogue import Quantity
 from .from_model import corner
-from .wheel import steer, steer_gradient
+from .wheel import steer, steer_gradient, toe
 
 TRAVEL = Quantity(
     "wheel_travel",
@@ -177,7 +178,8 @@ def over_rack(
     own = _at_height(model, travel, racks)
     found = of_corner_over_rack(own, names)
     if needs_both_sides(names):
-        found |= of_both_sides(own, _at_height(model.mirror_image, travel, racks))
+        other = _at_height(model.mirror_image, travel, racks)
+        found |= of_both_sides(own, other, _straight_ahead(model, travel))
     return found
 
 
@@ -216,17 +218,34 @@ def _evaluated(quantities: Iterable[Quantity], found: Corner) -> dict[Quantity, 
     }
 
 
-def of_both_sides(own: Corner, other: Corner) -> dict[Quantity, Array]:
-    """Return what both wheels decide, as far as the vehicle is known."""
+def _straight_ahead(model: Model, travel: float) -> Corner | None:
+    """Return the corner with the rack in its middle, if it can be there."""
+    try:
+        return _at_height(model, travel, np.zeros(1))
+    except PositionError:
+        return None
+
+
+def of_both_sides(own: Corner, other: Corner, straight: Corner | None) -> dict[Quantity, Array]:
+    """Return what both wheels decide, as far as the vehicle is known.
+
+    Parameters
+    ----------
+    own, other : Corner
+        Over the rack; the other one is the mirror image.
+    straight : Corner or None
+        The own one with the rack in its middle, at the same height. Without it nothing is known of
+        what compares the wheels (NaN).
+    """
     left, right = (own, other) if own.vehicle.side > 0.0 else (other, own)
     angles = steer(left), steer(right)
     values = {"steer_left": angles[0], "steer_right": angles[1]}
     wheelbase, per_turn = own.vehicle.wheelbase, own.vehicle.travel_per_turn
     if wheelbase is not None:
         track = 2.0 * abs(own.design_center[..., 1])
-        values["ackermann_error"] = axle.ackermann_error(*angles, wheelbase, track)
-        values["ackermann"] = axle.ackermann(*angles, wheelbase, track)
-        values["turning_circle"] = axle.turning_circle(*angles, wheelbase)
+        # toe-in steers the left wheel to the right, and the right one to the left
+        static = np.nan if straight is None else toe(straight)
+        values |= axle.of_wheels(angles[0] + static, angles[1] - static, wheelbase, track)
     if per_turn is not None:
         gradients = steer_gradient(left), steer_gradient(right)
         values["steering_ratio"] = axle.steering_ratio(*gradients, per_turn)

@@ -182,7 +182,9 @@ def _of_fleet(
 
 
 def _corners(fleet: Fleet, look: Curves) -> Iterator[Corner]:
-    """Yield the corner at the positions of a look, and that of the other side if it is needed.
+    """Yield the corner at the positions of a look, and those of both sides if they are needed.
+
+    These are that of the other side, and the own one with the rack in its middle.
 
     Who does not get there is struck, and no more corners are looked at then.
     """
@@ -190,12 +192,15 @@ def _corners(fleet: Fleet, look: Curves) -> Iterator[Corner]:
     still = np.zeros(at.size)
     travel, rack = (at, still) if look.over == "travel" else (still, at)
     both = look.over == "rack" and datasets.needs_both_sides(look.names)
-    for side in [fleet, fleet.mirror_image] if both else [fleet]:
-        angles, reached = fleet_angles(side, travel, rack)
+    sides = [(fleet, travel, rack)]
+    if both:
+        sides += [(fleet.mirror_image, travel, rack), (fleet, still[:1], still[:1])]
+    for side, *place in sides:
+        angles, reached = fleet_angles(side, *place)
         fleet.strike(~(side.there & reached))
         if not fleet.there.all():
             return
-        yield corner(side, angles, rack)
+        yield corner(side, angles, place[1])
 
 
 def _values(look: Curves, corners: Sequence[Corner]) -> dict[str, Array]:

@@ -63,6 +63,7 @@ function sampler(curve, grid, motion) {
       places: () => motion.axis.values,
       line: () => values,
       value: ({ time }) => inUnit(curve, motion.axis.interpolate(curve.values, time)),
+      hits: ({ time }) => motion.axis.hits(time),
     };
   }
   const overRack = curve.over === "rack";
@@ -87,6 +88,7 @@ function sampler(curve, grid, motion) {
           : Array.from(places, (where) => value(where, held(position))),
       ),
     value: ({ travel, rack }) => inUnit(curve, grid.valueAt(curve, travel, rack)),
+    hits: ({ travel, rack }) => grid.hits(travel, rack),
   };
 }
 
@@ -161,7 +163,7 @@ class Chart {
       this.#plot.batch(() => this.#plot.setData([abscissas, this.reference, this.line]));
     }
     this.shown = this.samples.value(this.position);
-    this.output.textContent = reading(this.curve, this.shown);
+    this.output.textContent = reading(this.curve, this.shown, this.samples.hits(this.position));
     this.#place();
   }
 
@@ -273,12 +275,10 @@ class Chart {
     this.tip.hidden = left === undefined || left < 0;
     if (this.tip.hidden) return;
     const x = this.#plot.posToVal(left, "x");
-    const value = this.samples.value({
-      ...this.#values(),
-      [this.along.key]: x / this.along.factor,
-    });
+    const where = { ...this.#values(), [this.along.key]: x / this.along.factor };
+    const value = this.samples.value(where);
     const place = quantity(x, this.along.decimals, this.along.unit, { signed: this.along.signed });
-    this.tip.textContent = `${place}: ${reading(this.curve, value)}`;
+    this.tip.textContent = `${place}: ${reading(this.curve, value, this.samples.hits(where))}`;
     const width = this.#plot.over.clientWidth;
     this.tip.style.left = `${Math.min(Math.max(left, 62), width - 62)}px`;
   }

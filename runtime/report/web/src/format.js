@@ -13,10 +13,11 @@ export function quantity(value, decimals, unit, options) {
   return unit && text !== "–" ? `${text}\u00a0${unit}` : text;
 }
 
-/** A value of a curve as it is read, with the sign of doubt where interpolation is coarse. */
-export function reading(curve, value) {
-  const text = quantity(value, curve.decimals, curve.unit);
-  return curve.approximate && text !== "–" ? `≈\u00a0${text}` : text;
+/** A value of a curve as it is read: with the sign of doubt where it is interpolated between its
+ *  samples, and that may change the last digit. */
+export function reading(curve, value, sampled, { unit = curve.unit } = {}) {
+  const text = quantity(value, curve.decimals, unit);
+  return curve.approximate && !sampled && text !== "–" ? `≈\u00a0${text}` : text;
 }
 
 /** A sample in the unit of the reader; some curves are sampled as one over their values. */

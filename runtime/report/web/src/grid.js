@@ -2,6 +2,7 @@
 // measures its error against the compiled model when the page is written.
 
 const ORDER = 4;
+const HIT = 1e-6; // in steps of the grid: what is so near to a sample is rounded to it
 
 /** Equally spaced values of one coordinate. */
 export class Axis {
@@ -36,6 +37,12 @@ export class Axis {
     };
   }
 
+  /** Whether a value at a place is one of the samples, which are computed. */
+  hits(where) {
+    const place = this.place(where);
+    return Math.abs(place - Math.round(place)) < HIT;
+  }
+
   /** Interpolate samples over this axis alone. */
   interpolate(samples, where) {
     const { first, weights } = this.weights(where);
@@ -48,6 +55,11 @@ export class Grid {
   constructor({ travel, rack }) {
     this.travel = new Axis(travel);
     this.rack = new Axis(rack);
+  }
+
+  /** Whether a position is one of those that were computed. */
+  hits(travel, rack) {
+    return this.travel.hits(travel) && this.rack.hits(rack);
   }
 
   /** One interpolated value; with `size` components a sample, that of one component. */

@@ -9,7 +9,7 @@
 
 import { connectCharts } from "./charts.js";
 import { connectControls } from "./controls.js";
-import { inUnit, number } from "./format.js";
+import { inUnit, reading } from "./format.js";
 import { Axis, Grid } from "./grid.js";
 import { readPayload } from "./payload.js";
 import { Player } from "./player.js";
@@ -57,8 +57,9 @@ function connectTable() {
     data.curves.find(({ key }) => key === cell.dataset.now),
   ]);
   position.onChange(() => {
+    const sampled = position.grid.hits(position.travel, position.rack);
     for (const [cell, curve] of cells) {
-      cell.textContent = number(value(curve), curve.decimals);
+      cell.textContent = reading(curve, value(curve), sampled, { unit: "" });
     }
   });
 }
