@@ -1,6 +1,6 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
-.PHONY: docs drawings help setup sundials generate build run test test-elsewhere fuzz package wheel lint tree types format baseline clean \
+.PHONY: docs drawings help setup sundials generate build run test test-elsewhere golden fuzz package wheel lint tree types format baseline clean \
 	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-bushes benchmark-cluster benchmark-derivatives benchmark-ensemble benchmark-growth benchmark-loads benchmark-loops benchmark-page benchmark-peers benchmark-real-time benchmark-speed benchmark-stiff benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
@@ -41,6 +41,9 @@ test: build ## Run all tests
 
 test-elsewhere: build ## Run what is compared with oracles as a processor of 2008 would compute
 	@$(PYTHON) -m benchmarks.older_processor $(PYTHON) -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder -m numbers
+
+golden: build ## Which numbers of any analysis differ from those stored (ARGS=store: store these)
+	@PYTHONPATH=tests $(PYTHON) -m golden $(ARGS)
 
 fuzz: build ## Try every door for long; a table of what came of it (ARGS="--rounds 100")
 	@PYTHONPATH=tests $(PYTHON) -m fuzz $(ARGS)

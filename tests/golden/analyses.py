@@ -1,0 +1,191 @@
+"""The analyses of the golden set: a dataset each, by name.
+
+Only this file knows what the functions are called and which arguments they take. Where they change,
+it changes with them; the names of analyses and the stored values stay.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import kintrafo
+import numpy as np
+import xarray as xr
+from kintrafo import (
+    Axle,
+    AxleModel,
+    Model,
+    RigidAxle,
+    RigidAxleModel,
+    Suspension,
+    axles,
+    characteristics,
+    checkup,
+    loads,
+    rigid_axles,
+    scenario,
+    sheet,
+    sweep,
+    variation,
+)
+from kintrafo.study.axles import checkup as axle_checkup
+from kintrafo.study.axles import ride
+
+from .subjects import AXLES, BUSHES, CORNERS, RIGID_AXLES
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    Analyses = dict[str, Callable[[], xr.Dataset]]
+
+TRAVEL = np.array([-0.05, -0.02, 0.0, 0.03, 0.06])
+RACK = np.array([-0.02, 0.0, 0.015])
+ROLL = np.radians([-3.0, 0.0, 2.0])
+AMOUNTS = {"lateral": [-2000.0, 1500.0], "braking": [1500.0], "aligning": [60.0]}
+HELD = ("height", "tyre", "spring", "locked")
+SHIPPED = "reference_axle"
+"""The axle whose equations need no compiler."""
+
+
+def analyses(subject: str) -> Analyses:
+    """Return the analyses of a subject."""
+    bushes = BUSHES[subject]
+    if subject in CORNERS:
+        return _of_corner(Suspension.load(subject), bushes)
+    if subject in AXLES:
+        axle = AXLES[subject]()
+        found = _of_axle(axle, bushes)
+        return found | _of_axle_in_motion(AxleModel(axle)) if subject == SHIPPED else found
+    return _of_rigid_axle(RIGID_AXLES[subject](), bushes)
+
+
+def _of_corner(suspension: Suspension, bushes: Any) -> Analyses:
+    model = Model(suspension)
+    steered = suspension.steered()
+    found: Analyses = {
+        "check": lambda: _facts(checkup.as_dict(checkup.checkup(model))),
+        "travel": partial(characteristics.travel, model, TRAVEL),
+        "positions": partial(sweep.positions, model, TRAVEL, RACK if steered else None),
+        "static loads": partial(loads.static, model),
+        "elastokinematics": partial(loads.elastokinematics, model, bushes, TRAVEL),
+        "sheet": partial(sheet.sheet, model, bushes),
+        "simulation": lambda: scenario.run(model, _step(), method="DormandPrince")[1],
+        "loads in motion": lambda: loads.along(
+            model, scenario.run(model, _step(), method="DormandPrince")[0]
+        ),
+        "linearisation": lambda: _linearised(model, kintrafo.equilibrium(model)),
+        "sensitivity": partial(variation.sensitivity, suspension, positions=TRAVEL[1:4]),
+        "tolerance": partial(_tolerance, suspension),
+    }
+    if steered:
+        found["steering"] = partial(characteristics.steering, model, RACK, travel=0.01)
+        found["travel, steered"] = partial(
+            characteristics.travel, model, TRAVEL, rack_position=0.01
+        )
+    for held in HELD:
+        found[f"compliance, {held}"] = partial(
+            loads.compliance, model, bushes, TRAVEL[1:4], held=held
+        )
+    for under, amounts in AMOUNTS.items():
+        found[f"deflection, {under}"] = partial(
+            loads.deflection, model, bushes, under, amounts, travel=0.01
+        )
+    return found
+
+
+def _of_axle(axle: Axle, bushes: Any) -> Analyses:
+    found: Analyses = {
+        "check": lambda: _facts(asdict(axle_checkup.checkup(axle))),
+        "bump": partial(axles.bump, axle, TRAVEL),
+        "roll": partial(axles.roll, axle, ROLL),
+        "left": partial(axles.single, axle, TRAVEL, side="left"),
+        "right": partial(axles.single, axle, TRAVEL, side="right"),
+        "static loads": partial(axles.static_loads, axle),
+        "elastokinematics, bump": partial(axles.elastokinematics, axle, bushes, "bump", TRAVEL),
+        "elastokinematics, roll": partial(axles.elastokinematics, axle, bushes, "roll", ROLL),
+        "sheet": partial(sheet.sheet, axle, bushes),
+    }
+    if axle.steered:
+        found["steer"] = partial(axles.steer, axle, rack=RACK)
+    return found | _giving_way(axles, axle, bushes)
+
+
+def _of_axle_in_motion(model: AxleModel) -> Analyses:
+    def run() -> tuple[Any, xr.Dataset]:
+        return ride.run(model, _step(), wheels="left", method="DormandPrince")
+
+    return {
+        "simulation": lambda: run()[1],
+        "loads in motion": lambda: axles.loads_along(model, run()[0]),
+        "linearisation": lambda: _linearised(model, ride.equilibrium(model)),
+    }
+
+
+def _of_rigid_axle(axle: RigidAxle, bushes: Any) -> Analyses:
+    model = RigidAxleModel(axle)
+
+    def run() -> tuple[Any, xr.Dataset]:
+        return rigid_axles.run(model, _step(), wheels="left", method="DormandPrince")
+
+    return {
+        "check": lambda: _facts(asdict(rigid_axles.checkup(axle))),
+        "bump": partial(rigid_axles.bump, axle, TRAVEL),
+        "roll": partial(rigid_axles.roll, axle, ROLL),
+        "left": partial(rigid_axles.single, axle, TRAVEL, side="left"),
+        "static loads": partial(rigid_axles.static_loads, axle),
+        "elastokinematics, bump": partial(
+            rigid_axles.elastokinematics, axle, bushes, "bump", TRAVEL
+        ),
+        "elastokinematics, roll": partial(rigid_axles.elastokinematics, axle, bushes, "roll", ROLL),
+        "sheet": partial(sheet.sheet, axle, bushes),
+        "simulation": lambda: run()[1],
+        "loads in motion": lambda: rigid_axles.loads_along(model, run()[0]),
+        "linearisation": lambda: _linearised(model, rigid_axles.equilibrium(model)),
+        "sensitivity": partial(variation.sensitivity, axle, positions=TRAVEL[1:4]),
+    } | _giving_way(rigid_axles, axle, bushes)
+
+
+def _giving_way(of: Any, axle: Axle | RigidAxle, bushes: Any) -> Analyses:
+    """Return compliance and deflection of an axle of two corners, or of a rigid one."""
+    found: Analyses = {
+        f"compliance, {held}": partial(of.compliance, axle, bushes, TRAVEL[1:4], held=held)
+        for held in HELD
+    }
+    for under, amounts in AMOUNTS.items():
+        for wheels in ("parallel", "opposed"):
+            found[f"deflection, {under}, {wheels}"] = partial(
+                of.deflection, axle, bushes, under, amounts, wheels=wheels
+            )
+    return found
+
+
+def _tolerance(suspension: Suspension) -> xr.Dataset:
+    """Return bands, without ratios of two deviations that may both be rounding errors."""
+    found = variation.tolerance(
+        suspension, {"hardpoints.wheel_center.z": 1.0}, count=20, positions=TRAVEL
+    )
+    return found.drop_vars([name for name in found if str(name).endswith("_first_order")])
+
+
+def _step() -> scenario.Scenario:
+    """Return a road that rises by 10 mm."""
+    road = kintrafo.roads.step(0.01, at=0.02, end=0.2)
+    return scenario.Scenario(duration=0.2, output_step=0.02, inputs={"road_height": road})
+
+
+def _linearised(model: Any, state: Any) -> xr.Dataset:
+    """Return the matrices of the linear equations about a state."""
+    found = kintrafo.linearise(model, state)
+    return xr.Dataset({name: ([f"{name}_0", f"{name}_1"], getattr(found, name)) for name in "ABCD"})
+
+
+def _facts(facts: Any, name: str = "fact") -> xr.Dataset:
+    """Return the numbers in nested facts as variables, by the path to each."""
+    if isinstance(facts, bool | str) or facts is None:
+        return xr.Dataset()
+    if isinstance(facts, int | float):
+        return xr.Dataset({name: float(facts)})
+    items = facts.items() if isinstance(facts, dict) else enumerate(facts)
+    return xr.merge([_facts(fact, f"{name}.{key}") for key, fact in items])

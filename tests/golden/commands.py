@@ -1,0 +1,101 @@
+"""Commands of the golden set: exit codes, columns of CSV and keys of JSON.
+
+Commands refuse, too: what an axle or a rigid axle does not have today stands here with its exit
+code, so that a hole that closes is seen.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+from kintrafo import cli
+
+DATA = Path(__file__).parents[1] / "data/studies"
+FILES = ("reference_car", "reference_axle", "rigid_axle")
+BUSHED = {
+    "reference_car": "[bushings.arm_rear]\nradial_N_per_mm = 1000.0\n",
+    "reference_axle": "[bushings.arm_rear]\nradial_N_per_mm = 1000.0\n",
+    "rigid_axle": "[bushings.panhard_rod_axle]\naxial_N_per_mm = 5000.0\n",
+}
+GRID = ("--bump", "20", "--rebound", "20")
+LINES: tuple[tuple[str, ...], ...] = (
+    ("characteristics", "FILE", *GRID),
+    ("characteristics", "FILE", *GRID, "--motion", "roll"),
+    ("characteristics", "FILE", *GRID, "--motion", "steer"),
+    ("kinematics", "FILE", *GRID),
+    ("simulate", "FILE", "--duration", "0.02"),
+    ("loads", "FILE"),
+    ("loads", "FILE", "--envelope"),
+    ("compliance", "FILE", "BUSHES", *GRID),
+    ("deflection", "FILE", "BUSHES", "--under", "lateral", "--most", "500"),
+    ("deflection", "FILE", "BUSHES", "--motion", "bump", *GRID),
+    ("sheet", "FILE", "BUSHES"),
+    ("compare", "FILE", "FILE"),
+    ("compare", "FILE", "FILE", "--held", "height"),
+    ("sensitivity", "FILE", "--at", "10"),
+    ("tolerance", "FILE", "TOLERANCES", "--cars", "5"),
+    ("check", "FILE"),
+    ("topology", "FILE"),
+)
+
+
+def observed(folder: Path) -> dict[str, Any]:
+    """Return what each command does with each file: exit code, columns, keys.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        An empty one, for what the commands write.
+    """
+    found = {}
+    for file in FILES:
+        bushes, tolerances = folder / f"{file}_bushes.toml", folder / "tolerances.toml"
+        bushes.write_text(BUSHED[file], encoding="utf-8")
+        tolerances.write_text('[tolerances]\n"hardpoints.wheel_center.z" = 1.0\n', encoding="utf-8")
+        names = {"FILE": file, "BUSHES": str(bushes), "TOLERANCES": str(tolerances)}
+        for line in LINES:
+            arguments = [names.get(word, word) for word in line]
+            spelled = " ".join(file if word == "FILE" else word for word in line)
+            found[spelled] = _observed(arguments, folder / f"{len(found)}.csv")
+    return found
+
+
+def _observed(arguments: list[str], out: Path) -> dict[str, Any]:
+    writes = [] if arguments[0] in {"check", "topology"} else ["--out", str(out)]
+    code, printed = _run([*arguments, "--json", *writes])
+    return {
+        "exit": code,
+        "columns": {
+            path.stem.removeprefix(out.stem): path.read_text(encoding="utf-8").partition("\n")[0]
+            for path in sorted(out.parent.glob(f"{out.stem}[._]*"))
+        },
+        "keys": _keys(json.loads(printed)) if code == 0 else None,
+    }
+
+
+def _run(arguments: list[str]) -> tuple[int, str]:
+    """Return exit code and standard output of a command line."""
+    before, out = sys.argv, io.StringIO()
+    sys.argv = ["kintrafo", *arguments]
+    try:
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(io.StringIO()):
+            cli.run()
+    except SystemExit as end:
+        return int(end.code or 0), out.getvalue()
+    finally:
+        sys.argv = before
+    return 0, out.getvalue()
+
+
+def _keys(value: Any, depth: int = 2) -> Any:
+    """Return the keys of JSON without its values, to a depth."""
+    if isinstance(value, dict) and depth:
+        return {key: _keys(item, depth - 1) for key, item in value.items()}
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        return [_keys(value[0], depth)]
+    return type(value).__name__

@@ -1,0 +1,78 @@
+"""The subjects of the golden set: what files describe, with everything that they may hold."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from kintrafo import Axle, RigidAxle, Suspension
+
+ARM = {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0}
+ROD = {"axial_N_per_mm": 5000.0}
+WISHBONES = {"lower_arm_front": ARM, "lower_arm_rear": ARM, "upper_arm_rear": ARM}
+BUSHES: dict[str, dict[str, dict[str, float]]] = {
+    "chrono_generic": {"arm_rear": ARM},
+    "double_wishbone_car": WISHBONES,
+    "lopsided_axle": WISHBONES,
+    "multi_link_car": {"front_lower_link_inner": ROD, "rear_upper_link_inner": ROD},
+    "multi_link_axle": {"front_lower_link_inner": ROD, "rear_upper_link_inner": ROD},
+    "offset_strut_car": {"arm_front": ARM, "arm_rear": ARM},
+    "pull_rod_car": WISHBONES,
+    "push_rod_axle": WISHBONES,
+    "push_rod_car": WISHBONES,
+    "reference_axle": {"arm_front": ARM, "strut_top": {"axial_N_per_mm": 500.0}},
+    "reference_car": {"arm_front": ARM, "strut_top": {"axial_N_per_mm": 500.0}},
+    "rigid_axle": {"left_link_chassis": ROD, "panhard_rod_axle": ROD},
+    "trailing_arm_car": {"arm_inner": ARM, "arm_outer": ARM},
+}
+"""Bushes of each subject, one set for both sides."""
+
+STEERING = {"angle_deg": [-90.0, 0.0, 90.0], "rack_mm": [11.0, 0.0, -12.0]}
+BAR: dict[str, Any] = {
+    "unit": "mm",
+    "bush": [-250.0, -380.0, 260.0],
+    "link_top": [-60.0, -600.0, 300.0],
+    "link_foot": [-50.0, -610.0, 195.0],
+    "link_on": "knuckle",
+    "axis": [0.1, 1.0, -0.05],
+    "rate_Nm_per_deg": 25.0,
+    "free_twist_deg": 1.5,
+}
+
+CORNERS = (
+    "chrono_generic",
+    "double_wishbone_car",
+    "multi_link_car",
+    "offset_strut_car",
+    "pull_rod_car",
+    "push_rod_car",
+    "reference_car",
+    "trailing_arm_car",
+)
+
+
+def lopsided() -> Axle:
+    """Return a rear axle whose sides differ, with stops and a bar that is twisted at design."""
+    side = Suspension.load("double_wishbone_car")
+    stop = {"clearance_mm": 8.0, "rate_N_per_m": 1e5}
+    left = {"bump_stop": stop, "spring.rate_N_per_m": 65e3, "hardpoints.lower_ball_joint.z": 190.0}
+    return Axle.from_dict(
+        {
+            "axle": "rear",
+            "right": side.with_changes({"bump_stop": stop | {"clearance_mm": 5.0}}),
+            "left": side.mirrored().with_changes(left),
+            "anti_roll_bar": BAR,
+            "drive": {"share": 0.6},
+            "brakes": {"torque_on": "body"},
+        }
+    )
+
+
+AXLES = {
+    "reference_axle": lambda: Axle.load("reference_axle"),
+    "lopsided_axle": lopsided,
+    "multi_link_axle": lambda: Axle.from_dict(
+        {"axle": "rear", "side": "multi_link_car", "steering": STEERING}
+    ),
+    "push_rod_axle": lambda: Axle.from_dict({"axle": "front", "side": "push_rod_car"}),
+}
+RIGID_AXLES = {"rigid_axle": lambda: RigidAxle.load("rigid_axle")}
