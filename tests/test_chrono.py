@@ -274,7 +274,7 @@ class TestMistakes:
 
     @pytest.mark.parametrize(
         ("text", "words"),
-        [(b"{\n,}", "Line 2 is not valid JSON"), (b"[1]", "no keys"), (b"\xff", "no text")],
+        [(b"{\n,}", "Line 2 is not valid JSON"), (b"[1]", "no keys"), (b"\xff", "not UTF-8")],
     )
     def test_no_json(self, tmp_path, text, words):
         path = tmp_path / "strut.json"

@@ -75,7 +75,7 @@ LINES = commands_of(PAGE)
 @pytest.mark.usefixtures("coarse_report", "each_page_of_curves_once", "few_frames")
 def test_the_documented_commands_run(kintrafo, tmp_path):
     tables = re.findall(r"```csv\n(.*?)```", PAGE, flags=re.DOTALL)
-    for name, text in zip(("rig.csv", "road.csv"), tables, strict=True):
+    for name, text in zip(("cad.csv", "rig.csv", "road.csv"), tables, strict=True):
         (tmp_path / name).write_text(text, encoding="utf-8")
     for name in ("MacPhersonStrut.json", "RigidTire.json"):
         shutil.copy(ROOT / "tests/data/chrono" / name, tmp_path)

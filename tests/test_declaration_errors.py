@@ -20,6 +20,7 @@ from kintrafo.generator import (
     Line,
     Mechanism,
     Point,
+    PositionOf,
     Prismatic,
     RelativeCoordinate,
     Revolute,
@@ -188,6 +189,7 @@ class TestTexts:
             lambda: changed(RUSR, (CRANK_PIN, point)),
             lambda: replace(RUSR, coordinates=(replace(entry, meaning=text),)),
             lambda: replace(RUSR, forces=(torque,)),
+            lambda: replace(RUSR, outputs=(PositionOf("pin", ROD, CRANK_PIN, text),)),
         ):
             with pytest.raises(DeclarationError, match="cannot stand in a comment"):
                 make()

@@ -1,12 +1,20 @@
 """Hardpoints from spreadsheets, and into them."""
 
+from itertools import product
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from kintrafo import InputError, Suspension
 from kintrafo.suspension.kinds import KINDS
-from kintrafo.suspension.point_table import merged, read_points, write_merged, write_points
+from kintrafo.suspension.point_table import (
+    as_words,
+    merged,
+    read_points,
+    write_merged,
+    write_points,
+)
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CAR = Suspension.load("reference_car")
@@ -73,7 +81,20 @@ WRONG = {
     "no z": ("point,x [mm],y [mm]\na,1,2\n", "one column z is needed"),
     "units": ("point,x [mm],y [m],z [mm]\na,1,2,3\n", "of all the same; it is m, mm"),
     "no unit": ("point,x,y,z\na,1,2,3\n", "it is none"),
-    "inches": ("point,x [in],y [in],z [in]\na,1,2,3\n", "it is in"),
+    "no length": ("point,x [kg],y [kg],z [kg]\na,1,2,3\n", "it is kg"),
+    "furlongs": ("point,x [furlong],y [furlong],z [furlong]\na,1,2,3\n", "it is furlong"),
+    "another spelling": (HEAD + "ball_joint,1,2,3\nBall Joint,1,2,4\n", "are one point"),
+    "one word": (HEAD + "ball_joint,1,2,3\nBALLJOINT,1,2,4\n", "there twice. Keep one"),
+    "two names": (HEAD + "ball_joint,1,2,3\nlca_outer,1,2,4\n", "may both be ball_joint"),
+    "no name": (HEAD + "ball_joint,1,2,3\n,1,2,4\n", "row 3 has no name"),
+    "unit of one": ("point,x [mm],y,z\nball_joint,1,2,3\n", "it is mm, none"),
+    "unit twice": (
+        "# units: in\n" + HEAD + "ball_joint,1,2,3\n",
+        "is in mm, and a row of units or a comment",
+    ),
+    "row of units": (HEAD + ",in,in,in\nball_joint,1,2,3\n", "is in mm, and a row of units"),
+    "unknown comment": ("# units: ells\npoint,x,y,z\nball_joint,1,2,3\n", "states units that"),
+    "marks": ("point;x [mm];y [mm];z [mm]\nball_joint;1,5;2.5;3\n", "points and commas"),
     "text": (HEAD + "ball_joint,1,two,3\n", "row 2, ball_joint: three numbers"),
     "missing": (HEAD + "ball_joint,1,2\n", "three numbers are needed"),
     "not a number": (HEAD + "ball_joint,nan,2,3\n", "three numbers are needed"),
@@ -88,6 +109,197 @@ WRONG = {
 def test_what_is_wrong_is_named(text: str, message: str, tmp_path: Path) -> None:
     with pytest.raises(InputError, match=message):
         merged(read_points(table(tmp_path, text)), "reference_car")
+
+
+# -- names, units and axes of other programs -------------------------------------------------------
+
+METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254, "ft": 0.3048}
+SPELT = {"mm": "Millimetres", "cm": "CM", "m": "meter", "in": "Inches", "ft": "feet"}
+FORMS = {
+    "brackets": "point,x [{0}],y [{0}],z [{0}]\n{1}",
+    "parentheses": "Name,X ({0}),Y ({0}),Z ({0})\n{1}",
+    "endings": "Hardpoint,x_{0},Y {0},z, {0}\n{1}",
+    "row": "point,x,y,z\n,{0},[{0}],({0})\n{1}",
+    "row with a word": "point,x,y,z\nunits,{0},{0},{0}\n{1}",
+    "comment": "# units: {0}\npoint,x,y,z\n{1}",
+    "comment below": "point,x,y,z\n# all coordinates are in {0}\n{1}",
+    "columns in a comment": "point,x,y,z\n#-,{0},{0},{0}\n{1}",
+    "title": "My car\nLength unit,{0}\n\npoint,x,y,z\n{1}",
+}
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("unit", METRES)
+def test_a_unit_is_one_in_every_form(form: str, unit: str, tmp_path: Path) -> None:
+    text = FORMS[form].replace("z, {0}", '"z, {0}"')
+    for spelling in (unit, SPELT[unit]):
+        path = table(tmp_path, text.format(spelling, "ball_joint,1.5,-2.25,3\n"))
+        found = read_points(path)
+        assert (found.unit, found.points) == (unit, {"ball_joint": (1.5, -2.25, 3.0)})
+
+
+@pytest.mark.parametrize("unit", METRES)
+def test_lengths_are_those_of_the_file(unit: str, tmp_path: Path) -> None:
+    there = {"arm_front": (160.0, -360.0, 195.0), "arm_rear": (-200.0, -360.0, 200.0)}
+    rows = "".join(
+        f"{name},{','.join(repr(1e-3 * value / METRES[unit]) for value in place)}\n"
+        for name, place in there.items()
+    )
+    path = table(tmp_path, "point,x,y,z\n" + rows)
+    new = merged(read_points(path, unit=SPELT[unit]), "reference_car")
+    car = Suspension.load(write_merged(new, tmp_path / "new.toml"))
+    for name, place in there.items():
+        # four roundings: the two products and the quotient here, and that of the conversion
+        np.testing.assert_allclose(getattr(car.hardpoints, name), place, rtol=1e-15, atol=0.0)
+
+
+def test_a_unit_that_is_given_must_not_contradict(tmp_path: Path) -> None:
+    path = table(tmp_path, HEAD + "ball_joint,1,2,3\n")
+    assert read_points(path, unit="millimetre").unit == "mm"
+    with pytest.raises(InputError, match="unit of the table is mm, and not in"):
+        read_points(path, unit="in")
+    with pytest.raises(InputError, match="'parsec' is no length"):
+        read_points(path, unit="parsec")
+
+
+POINTING = {
+    "forward": (1, 0, 0), "rearward": (-1, 0, 0), "left": (0, 1, 0),
+    "right": (0, -1, 0), "up": (0, 0, 1), "down": (0, 0, -1),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("words", [*product(POINTING, repeat=3)], ids=" ".join)
+def test_axes_of_other_programs(words: tuple[str, ...], tmp_path: Path) -> None:
+    path = table(tmp_path, HEAD + "a,1,2,3\n")
+    x, y, z = (np.array(POINTING[word]) for word in words)
+    hand = int(np.cross(x, y) @ z)
+    left_handed = {1: False, -1: True}.get(hand)
+    for told in (False, True):
+        if told == left_handed:
+            found = read_points(path, axes=" ".join(words), left_handed=told)
+            assert found.points["a"] == tuple((1.0 * x + 2.0 * y + 3.0 * z).tolist())
+        else:
+            with pytest.raises(InputError, match=r"-handed axes|on one line"):
+                read_points(path, axes=" ".join(words), left_handed=told)
+
+
+def test_axes_that_are_none(tmp_path: Path) -> None:
+    path = table(tmp_path, HEAD + "a,1,2,3\n")
+    for words in ("", "forward left", "forward left sky", "forward left up down"):
+        with pytest.raises(InputError, match="where x, y and z of the table point"):
+            read_points(path, axes=words)
+
+
+def test_names_of_the_user(tmp_path: Path) -> None:
+    path = table(tmp_path, HEAD + "FLCA outboard,5,-711.5,180\nother,1,2,3\n")
+    points = read_points(path)
+    found = merged(points, "reference_car", names={"ball_joint": "flca_Outboard"})
+    assert found.read == {"ball_joint": "FLCA outboard"}
+    assert found.left_out == ("other",)
+    for names, words in (
+        ({"ball_joint": "x"}, "there is no hardpoint x"),
+        ({"bal_joint": "other"}, "bal_joint is no hardpoint"),
+    ):
+        with pytest.raises(InputError, match=words):
+            merged(points, "reference_car", names=names)
+
+
+def test_every_column_is_read_or_listed(tmp_path: Path) -> None:
+    text = "point,x [mm],y [mm],z [mm],remark,radius [mm]\nball_joint,5,-711.5,180,a,3\n"
+    points = read_points(table(tmp_path, text))
+    assert points.left_out == ("column remark", "column radius [mm]")
+    assert "column remark" in as_words(merged(points, "reference_car"), points)["not read"]
+
+
+LOTUS = """LOTUS SUSPENSION ANALYSIS v4.03
+TYPE 1 Double Wishbone, damper to lower wishbone
+X Y Z
+(mm) (mm) (mm)
+-160.0 360.00 195.0 POINT ( 1 ) = Lower wishbone front pivot
+200.0 360.00 195 POINT:2 Lower wishbone rear pivot
+-5 720.0 185.0 POINT ( 3 ) = Lower wishbone outer ball joint
+0.00 0.00 0.00 POINT:0
+CAMBER ANGLE (deg): 0.00
+"""
+
+
+def test_a_text_of_lotus_suspension_analysis(tmp_path: Path) -> None:
+    """There x points rearward and y to the right."""
+    points = read_points(table(tmp_path, LOTUS, "front.txt"))
+    found = merged(points, "double_wishbone_car")
+    assert found.read == {
+        "lower_arm_front": "Lower wishbone front pivot",
+        "lower_arm_rear": "Lower wishbone rear pivot",
+        "lower_ball_joint": "Lower wishbone outer ball joint",
+    }
+    new = Suspension.load(write_merged(found, tmp_path / "new.toml"))
+    assert new == Suspension.load("double_wishbone_car")
+    with pytest.raises(InputError, match="unit of x, y and z"):
+        read_points(table(tmp_path, LOTUS.replace("(mm)", ""), "front.txt"))
+    with pytest.raises(InputError, match="text with its points"):
+        read_points(table(tmp_path, LOTUS, "front.shk"))
+
+
+SIDES = (
+    (None, "Name:", "Front"),
+    ("User Options", "Length", "millimetre", "mm"),
+    ("Double A-Arm", "Point Name", "Left", None, None, None, "Right"),
+    (None, None, "X", "Y", "Z", None, "X", "Y", "Z"),
+    (None, "CHAS_LowFor", 170.0, 350.0, 190.0, None, 160.0, -360.0, 195.0),
+    (None, "UPRI_LowPnt", 5.0, 720.0, 180.0, None, 5.0, -720.0, 185.0),
+)
+
+
+def workbook(tmp_path: Path, sheets: dict[str, Any], hidden: str = "") -> Path:
+    openpyxl = pytest.importorskip("openpyxl")
+    book = openpyxl.Workbook()
+    book.remove(book.active)
+    for name, rows in sheets.items():
+        sheet = book.create_sheet(name)
+        for row in rows:
+            sheet.append(row)
+        sheet.sheet_state = "hidden" if name == hidden else "visible"
+    book.save(tmp_path / "points.xlsx")
+    return tmp_path / "points.xlsx"
+
+
+def test_a_workbook_of_optimumk(tmp_path: Path) -> None:
+    """Each car gets the points of its own side."""
+    points = read_points(workbook(tmp_path, {"Front": SIDES}))
+    right = Suspension.load("double_wishbone_car")
+    names = {"lower_arm_front": "CHAS_LowFor", "lower_ball_joint": "UPRI_LowPnt"}
+    found = merged(points, "double_wishbone_car")
+    assert found.read == names
+    assert Suspension.load(write_merged(found, tmp_path / "right.toml")) == right
+    right.mirrored().save(tmp_path / "old.toml")
+    new = Suspension.load(write_merged(merged(points, tmp_path / "old.toml"), tmp_path / "l.toml"))
+    assert new.hardpoints.lower_arm_front == (170.0, 350.0, 190.0)
+    with pytest.raises(InputError, match="has both sides"):
+        merged(points, "double_wishbone_car", mirrored=True)
+
+
+def test_sheets_of_a_workbook(tmp_path: Path) -> None:
+    rows = (("point", "x [mm]", "y [mm]", "z [mm]"), ("ball_joint", 5, -711.5, 180.0))
+    both = {"notes": [("nothing",)], "front": rows, "rear": rows}
+    with pytest.raises(InputError, match="on the sheets 'front' and 'rear'"):
+        read_points(workbook(tmp_path, both))
+    path = workbook(tmp_path, both, hidden="rear")
+    assert read_points(path).left_out == ("sheet notes", "sheet rear")
+    assert read_points(path, sheet="rear").left_out == ("sheet notes", "sheet front")
+    with pytest.raises(InputError, match=r"no sheet 'raer'. Did you mean rear"):
+        read_points(path, sheet="raer")
+    with pytest.raises(InputError, match="is for workbooks"):
+        read_points(table(tmp_path, HEAD + "a,1,2,3\n"), sheet="rear")
+
+
+CELLS = [True, "two", "#DIV/0!", "1,5", None, "=1+1", float("inf"), "1_0"]
+
+
+@pytest.mark.parametrize("cell", CELLS, ids=str)
+def test_cells_that_are_no_numbers(cell: Any, tmp_path: Path) -> None:
+    rows = (("point", "x [mm]", "y [mm]", "z [mm]"), ("ball_joint", 5, cell, 180.0))
+    with pytest.raises(InputError, match=r"row 2, ball_joint: three numbers|no Excel workbook"):
+        read_points(workbook(tmp_path, {"a": rows}))
 
 
 def test_the_commands(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811

@@ -173,6 +173,46 @@ def test_units_may_have_brackets_of_their_own(tmp_path):
     )
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Wheel Travel (mm),Toe (deg),Mr. X - left\n{0}",
+        "WheelTravel [mm],TOE [Degrees],x\n{0}",
+        "wheel_travel_mm,toe_deg,x\n{0}",
+        "wheel travel,toe,x\nmm,deg,\n{0}",
+        "wheel travel,toe,x\n[mm],[deg],-\n{0}",
+        "# units: mm, deg\nwheel travel,toe,x\n{0}",
+        "wheel-travel,toe,x\n# mm,deg,\n{0}",
+        "# lengths in mm\nwheel travel,toe [deg],x\n{0}",
+    ],
+)
+def test_names_and_units_of_rigs(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "rig.csv"
+    path.write_text(text.format("-20,0.5,1\n20,-0.5,2\n"), encoding="utf-8")
+    found = rig.measured_curves(path)
+    np.testing.assert_allclose(found["wheel_travel"], [-0.02, 0.02], rtol=1e-15)
+    np.testing.assert_allclose(found["toe"], np.deg2rad([0.5, -0.5]), rtol=1e-15)
+    assert found.attrs["left_out"] in ("x", "Mr. X - left")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("Wheel Travel (mm),toe [deg],TOE (rad)\n1,2,3\n2,3,4\n", "toe stands in 2 columns"),
+        ("# units: mm, in\nwheel travel,toe [deg]\n1,2\n2,3\n", "is in mm, and .* says in"),
+        ("# units: in\nwheel travel [mm],toe [deg]\n1,2\n2,3\n", "is in mm, and .* says in"),
+        ("# units: mm, ells\nwheel travel,toe [deg]\n1,2\n2,3\n", "states units that are not"),
+        ("# units: mm\nwheel travel,toe\n1,2\n2,3\n", r"unit \(none\) does not fit toe"),
+        ("wheel travel,toe\nmm,deg\nmm,deg\n1,2\n2,3\n", "line 3 has wheel travel = 'mm'"),
+    ],
+)
+def test_units_that_contradict_each_other(tmp_path: Path, text: str, words: str) -> None:
+    path = tmp_path / "rig.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=words):
+        rig.measured_curves(path)
+
+
 SOFT, SOFTER = (
     MODEL.suspension.with_changes({"bushings": {"arm_rear": {"radial_N_per_mm": stiffness}}})
     for stiffness in (1200.0, 600.0)

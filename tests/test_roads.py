@@ -121,8 +121,8 @@ def test_distance_becomes_time(tmp_path):
         ("time_s,road_height_mm\n1,0\n1,1\n", "same time"),
         ("road_height_mm,note\n0,0\n1,1\n", "time_s, time_ms or distance_m"),
         ("time_s,time_ms,road_height_mm\n0,0,0\n1,1,1\n", "time stands in 2 columns"),
-        ("time_s,roadheight_mm\n0,0\n1,1\n", "Did you mean road_height_mm?"),
-        ("time_s,road_height_cm\n0,0\n1,1\n", "road_height_cm"),
+        ("time_s,road_heigth_mm\n0,0\n1,1\n", "Did you mean road_height_mm?"),
+        ("time_s,road_height_furlong\n0,0\n1,1\n", "road_height_furlong"),
         ("distance_m,road_height_mm\n0,0\n1,1\n", "speed"),
     ],
 )
@@ -131,6 +131,23 @@ def test_what_cannot_be_read_is_refused_with_its_line(tmp_path, text, words):
         measured(table(tmp_path, text))
     assert words in str(caught.value)
     assert "road.csv" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Time (s),Road Height [in],Remark\n0,0,a\n0.5,2,b\n",
+        "time_ms,RoadHeight_in,Remark\n0,0,a\n500,2,b\n",
+        "time,road height,Remark\ns,in,\n0,0,a\n0.5,2,b\n",
+        "# units: s, in\ntime,road_height,Remark\n0,0,a\n0.5,2,b\n",
+        "time_s,road_height_cm,Remark\n0,0,a\n0.5,5.08,b\n",
+    ],
+)
+def test_names_and_units_are_those_of_every_table(tmp_path, text):
+    found = measured(table(tmp_path, text))
+    assert found.times.tolist() == [0.0, 0.5]
+    np.testing.assert_allclose(found.values["road_height"], [0.0, 0.0508], rtol=1e-15)
+    assert found.left_out == ("Remark",)
 
 
 def test_a_speed_without_a_distance_is_refused(tmp_path):

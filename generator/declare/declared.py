@@ -25,6 +25,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, ValidationError, va
 from pydantic_core import PydanticCustomError
 
 from ...core.errors import KintrafoError
+from ...core.legible import strange
 from ...core.suggestions import suggestion
 
 Declared = TypeVar("Declared", bound=type)
@@ -120,10 +121,13 @@ def _checked(function: Callable[..., Any], name: str, annotated: Any) -> Callabl
     def call(*given: Any, **named: Any) -> Any:
         values = [_with_tuples(value) for value in given]
         keywords = {key: _with_tuples(value) for key, value in named.items()}
+        arguments = dict(zip(names, values, strict=False)) | keywords
+        problems = [f"{key}: {told}" for key, item in arguments.items() if (told := strange(item))]
+        if problems:
+            raise DeclarationError(name, problems)
         try:
             return valid(*values, **keywords)
         except ValidationError as error:
-            arguments = dict(zip(names, values, strict=False)) | keywords
             problems = _problems(error, names, arguments)
             raise DeclarationError(_title(name, arguments.get("name")), problems) from None
 

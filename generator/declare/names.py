@@ -6,13 +6,15 @@ That a name is an identifier is checked where it is given (`declared.Name`).
 from __future__ import annotations
 
 import keyword
+from dataclasses import fields
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from .assembly import Assembly
     from .inputs import Input
+    from .outputs import Output
 
 # What the emitted C and Python call their own, and the words of both languages.
 _C_WORDS = """
@@ -132,9 +134,17 @@ def text_problems(mechanism: Assembly) -> list[str]:
         *((f"parameter {p.name!r}", (p.unit, p.meaning)) for p in mechanism.parameters),
         *((f"coordinate {c.name!r}", (c.unit, c.meaning)) for c in mechanism.coordinates),
         *((f"input {i.name!r}", (i.unit, i.meaning)) for i in mechanism.inputs),
+        *((f"output {o.name!r}", [*_texts(o)]) for o in mechanism.outputs),
     ]
     problems = unwritable("title of the mechanism", mechanism.title)
     return problems + [p for what, texts in entries for t in texts for p in unwritable(what, t)]
+
+
+def _texts(output: Output) -> Iterator[str]:
+    """Yield what an output says of itself in words."""
+    for told in (getattr(output, field.name) for field in fields(output)):
+        if isinstance(told, str):
+            yield told
 
 
 def unwritable(what: str, text: str) -> list[str]:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from .console import note
 from .options import metres
 
 if TYPE_CHECKING:
@@ -36,6 +37,8 @@ def scenario_of(
     if speed is not None and measured is None:
         raise typer.BadParameter("only a road from --measured is driven on at a --speed")
     recording = None if measured is None else read(measured, speed=_per_second(speed))
+    if recording is not None and recording.left_out:
+        note(f"columns of {measured} that were not read: {', '.join(recording.left_out)}.")
     end = duration
     if end is None:
         end = 1.0 if recording is None else recording.duration

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _LONGEST = 60
+_MOST_PROBLEMS = 200
 # What `float` would take for a number.
 _NOT_A_NUMBER = bool, np.bool_, str, bytes
 
@@ -67,7 +68,9 @@ class Arguments:
 
     def refuse(self, problem: str) -> None:
         """Note what is wrong."""
-        if problem not in self._problems:  # of a section each of its numbers has the same one
+        enough = len(self._problems) > _MOST_PROBLEMS  # of which the error shows fewer
+        # of a section each of its numbers has the same one
+        if not enough and problem not in self._problems:
             self._problems.append(problem)
 
     @property

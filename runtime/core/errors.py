@@ -1,12 +1,19 @@
 """The exceptions that kintrafo raises on purpose.
 
 Each of them derives from `KintrafoError`, so that one ``except`` clause catches them all: those of
-the generator and of the generated code too. So this file depends on nothing.
+the generator and of the generated code too. So this file depends on the form of texts alone.
 """
 
 from collections.abc import Iterable
+from itertools import islice
+
+from .legible import readable, short
 
 __all__ = ["InputError", "KintrafoError"]
+
+
+# What is repeated of a file in messages: nobody reads more.
+_MOST_PROBLEMS, _LONGEST = 100, 2000
 
 
 class KintrafoError(Exception):
@@ -27,7 +34,8 @@ class InputError(KintrafoError, ValueError):
     Attributes
     ----------
     problems : tuple of str
-        The problems, in the order of the file's sections.
+        The problems, in the order of the file's sections: the first hundred, each of 2,000
+        characters at most, without what no terminal can show.
     source : str
         Where the data come from.
 
@@ -39,8 +47,8 @@ class InputError(KintrafoError, ValueError):
     """
 
     def __init__(self, problems: Iterable[str], source: str = "input data") -> None:
-        self.problems = tuple(problems)
-        self.source = source
+        self.problems = tuple(_bounded(problems))
+        self.source = readable(source)
         # The base class gets the arguments unchanged: pickling hands them to __init__ again.
         super().__init__(self.problems, source)
 
@@ -49,3 +57,12 @@ class InputError(KintrafoError, ValueError):
         count = len(self.problems)
         head = f"{self.source}: {count} problem{'' if count == 1 else 's'}"
         return "\n".join([head, *(f"  - {problem}" for problem in self.problems)])
+
+
+def _bounded(problems: Iterable[str]) -> list[str]:
+    """Return the first problems, shortened, and that there are more; of what it returns, all."""
+    first = islice(problems, _MOST_PROBLEMS + 1)
+    listed = [short(readable(problem[: _LONGEST + 1]), _LONGEST) for problem in first]
+    if len(listed) > _MOST_PROBLEMS:
+        listed[_MOST_PROBLEMS - 1 :] = ["and more problems."]
+    return listed

@@ -1,9 +1,13 @@
 """Text that every file, figure and terminal can show."""
 
 import re
+from typing import Any
 
 # Control characters, and halves of characters: bytes of a file's name that are not UTF-8 are such.
 _STRANGE = re.compile("[\x00-\x1f\x7f-\x9f\ud800-\udfff]")
+# The same without what stands between the lines and words of a text.
+_STRANGE_IN_TEXTS = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff]")
+_MOST_KEYS = 20_000
 _BYTES = range(0xDC80, 0xDD00)  # how Python keeps bytes from 0x80 on that are not UTF-8 (PEP 383)
 
 
@@ -45,6 +49,37 @@ def short(text: str, most: int = 80) -> str:
     'rate = 100000...'
     """
     return text if len(text) <= most else f"{text[: most - 3]}..."
+
+
+def readable(text: str) -> str:
+    """Return a text of one or more lines with what cannot be shown as Python would write it."""
+    return _STRANGE_IN_TEXTS.sub(_escaped, text)
+
+
+def strange(data: Any) -> str:
+    r"""Say which text or key of nested data has what cannot be shown; empty if none has.
+
+    Data of more than 20,000 keys are strange, too: each of those that are wrong costs a message.
+
+    Examples
+    --------
+    >>> print(strange({"name": ["a", "b\0"]}))
+    the text 'b\x00' has a character that cannot be shown. Leave it out.
+    """
+    left, keys = [data], 0
+    while left:
+        item = left.pop()
+        if isinstance(item, dict):
+            keys += len(item)
+            if keys > _MOST_KEYS:
+                return f"there are more than {_MOST_KEYS} keys, which no such file needs."
+            left += [*item.keys(), *item.values()]
+        elif isinstance(item, list | tuple):
+            left += item
+        elif isinstance(item, str) and _STRANGE_IN_TEXTS.search(item):
+            shown = short(legible(item))
+            return f"the text '{shown}' has a character that cannot be shown. Leave it out."
+    return ""
 
 
 def _escaped(found: re.Match[str]) -> str:

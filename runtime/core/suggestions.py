@@ -3,6 +3,8 @@
 import difflib
 from collections.abc import Iterable
 
+_LONGEST = 100  # characters of a name: what is longer was never meant to be one
+
 
 def nearest(word: str, known: Iterable[str]) -> str:
     """Return the known name that resembles a word most.
@@ -24,6 +26,8 @@ def nearest(word: str, known: Iterable[str]) -> str:
     >>> nearest("Spring_rate", ["length_max_mm", "spring_rate_N_per_m"])
     'spring_rate_N_per_m'
     """
+    if len(word) > _LONGEST:
+        return ""
     by_lower_case = {name.lower(): name for name in known}
     found = difflib.get_close_matches(word.lower(), by_lower_case, n=1, cutoff=0.5)
     return by_lower_case[found[0]] if found else ""

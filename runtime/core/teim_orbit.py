@@ -11,7 +11,7 @@ from pathlib import Path
 
 from .arguments import Arguments
 from .errors import InputError
-from .files import reason
+from .reading import bytes_of
 
 _LINE_END = re.compile(r"\r\n|\r|\n")  # not those that Latin-1 has besides
 _BLOCK = re.compile(r"\s*+\[([^\[\]]*+)\]\s*+([$!].*+)?")
@@ -124,11 +124,7 @@ def read_blocks(path: str | Path) -> list[Block]:
 
 def _text_of(file: Path) -> str:
     """Return the file's text; every byte is a character of Latin-1."""
-    try:
-        content = file.read_bytes()
-    except OSError as error:
-        problem = f"the file cannot be read: {reason(error)}"
-        raise InputError([problem], str(file)) from None
+    content = bytes_of(file)
     if b"\0" in content:
         raise InputError(["the file is no text. Save it as plain text."], str(file))
     try:

@@ -1,10 +1,10 @@
 """Roads, rack motions and forces that were measured: reading them from CSV files."""
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,32 +12,30 @@ from numpy.typing import NDArray
 from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.suggestions import nearest, suggestion
+from ..core.tables import Table, read_table
+from ..core.units import in_si
 from ..simulation.interpolation import Between, Samples
 from ..suspension.kinds import KINDS
 from ..suspension.wheel_loads import UNITS
-from .csv_columns import Sheet
 
 Array = NDArray[np.float64]
 
 
-class _Column(NamedTuple):
-    """What a column of a measurement means."""
-
-    quantity: str
-    factor: float  # to SI units
-
-
-_COLUMNS = {
-    "time_s": _Column("time", 1.0),
-    "time_ms": _Column("time", 1e-3),
-    "distance_m": _Column("distance", 1.0),
-    "road_height_mm": _Column("road_height", 1e-3),
-    "road_height_m": _Column("road_height", 1.0),
-    "rack_position_mm": _Column("rack_position", 1e-3),
-    "rack_position_m": _Column("rack_position", 1.0),
-    **{f"{kind.NAMES.actuator}_N": _Column(kind.NAMES.actuator, 1.0) for kind in KINDS.values()},
-    **{f"{name}_{unit.replace(' ', '')}": _Column(name, 1.0) for name, unit in UNITS.items()},
+_UNITS = {
+    "time": "s",
+    "distance": "m",
+    "road_height": "m",
+    "rack_position": "m",
+    **{kind.NAMES.actuator: "N" for kind in KINDS.values()},
+    **UNITS,
 }
+_SHOWN = {"time": ("s", "ms"), "road_height": ("mm", "m"), "rack_position": ("mm", "m")}
+_COLUMNS = {
+    f"{name}_{shown.replace(' ', '')}": name
+    for name, unit in _UNITS.items()
+    for shown in _SHOWN.get(name, (unit,))
+}
+"""What quantities are called with the units that people use of them."""
 _ABSCISSAE = ("time", "distance")
 
 
@@ -52,10 +50,13 @@ class Measurement:
     values : dict
         Input name (``road_height``, ``rack_position``, that of the actuator) to samples of shape
         (n,), SI units.
+    left_out : tuple of str
+        Columns that were not read.
     """
 
     times: Array
     values: dict[str, Array]
+    left_out: tuple[str, ...] = ()
 
     @property
     def duration(self) -> float:
@@ -75,9 +76,11 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
     the actuator by the name that the kind of suspension has for it: ``strut_force_N``,
     ``spring_actuator_N``; and what acts on the wheel of a model with ``wheel_loads``:
     ``contact_force_x_N`` and so on, ``center_force_x_N``, ``wheel_moment_x_Nm``,
-    ``shaft_torque_Nm``, ``hub_torque_Nm``. Columns are separated by commas, semicolons or tabs;
-    with the latter two, decimals may have a comma. Times increase and are shifted to begin with
-    zero; a time that is given twice is a jump. `kintrafo.Samples` says what is in between.
+    ``shaft_torque_Nm``, ``hub_torque_Nm``. Other units that are usual, and other forms of these
+    names, ``Road height [in]``, are read as `kintrafo.core.tables` says. Columns are separated by
+    commas, semicolons or tabs; with the latter two, decimals may have a comma. Times increase and
+    are shifted to begin with zero; a time that is given twice is a jump. `kintrafo.Samples` says
+    what is in between.
 
     Parameters
     ----------
@@ -98,49 +101,59 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
         given.kind("path", path, (str, Path), "the path of a CSV file is needed")
         if speed is not None:
             given.number("speed", speed, "m/s", above=0.0)
-    sheet = Sheet.read(Path(path))
-    _check_names(sheet.names, sheet.source)
-    table = sheet.numbers(_COLUMNS)
-    columns = {
-        _COLUMNS[name].quantity: table[:, i] * _COLUMNS[name].factor
-        for i, name in enumerate(sheet.names)
-        if name in _COLUMNS
+    sheet = read_table(path)
+    columns = sheet.columns(_UNITS)
+    _check(sheet)
+    table = sheet.numbers([column.at for column in columns])
+    values = {
+        column.name: table[:, at] * in_si(sheet.unit_for(column, _UNITS[column.name]) or "")[1]
+        for at, column in enumerate(columns)
     }
-    times = _times(columns, sheet.line_numbers, speed, sheet.source)
-    values = {name: column for name, column in columns.items() if name not in _ABSCISSAE}
-    return Measurement(times, values)
+    times = _times(values, [line for line, _ in sheet.rows], speed, sheet.source)
+    read = {column.at for column in columns}
+    left_out = tuple(name for i, name in enumerate(sheet.names) if i not in read)
+    values = {name: column for name, column in values.items() if name not in _ABSCISSAE}
+    return Measurement(times, values, left_out)
 
 
-def _check_names(names: list[str], source: str) -> None:
-    known = [name for name in names if name in _COLUMNS]
-    quantities = [_COLUMNS[name].quantity for name in known]
+def _check(sheet: Table) -> None:
+    columns = sheet.columns(_UNITS)
+    names = [column.name for column in columns]
+    read = {column.at for column in columns}
+    others = [heading for i, heading in enumerate(sheet.headings) if i not in read]
     problems = [
-        f"column {name!r} is not known. {suggestion(name, _COLUMNS)}"
-        for name in names
-        if name not in _COLUMNS and _resembles(name)
+        f"column {heading.text!r} is not known. {suggestion(heading.label, _COLUMNS)}"
+        for heading in others
+        if _resembles(heading.label)
     ]
     problems += [
-        f"{quantity} stands in {quantities.count(quantity)} columns. Keep one of them."
-        for quantity in dict.fromkeys(quantities)
-        if quantities.count(quantity) > 1
+        f"{name} stands in {names.count(name)} columns. Keep one of them."
+        for name in dict.fromkeys(names)
+        if names.count(name) > 1
     ]
-    if not problems and sum(quantity in _ABSCISSAE for quantity in quantities) != 1:
+    problems += [
+        problem
+        for column in columns
+        if (problem := sheet.unit_problem(column, _UNITS[column.name]))
+    ]
+    if not problems and sum(name in _ABSCISSAE for name in names) != 1:
         problems.append(
-            f"one column time_s, time_ms or distance_m is needed; the first line has {names}."
+            f"one column time_s, time_ms or distance_m is needed; the first line has {sheet.names}."
         )
-    if not problems and len(quantities) < 2:
-        wanted = [n for n, column in _COLUMNS.items() if column.quantity not in _ABSCISSAE]
-        hints = [nearest(name, wanted) for name in names if name not in _COLUMNS]
+    if not problems and len(names) < 2:
+        wanted = [n for n, name in _COLUMNS.items() if name not in _ABSCISSAE]
+        hints = [nearest(heading.label, wanted) for heading in others]
         hint = "".join(f" Did you mean {name}?" for name in hints if name)
-        needed = f"one of the columns {', '.join(wanted)} is needed; there is {names}.{hint}"
+        needed = f"one of the columns {', '.join(wanted)} is needed; there is {sheet.names}.{hint}"
         problems.append(needed)
     if problems:
-        raise InputError(problems, source)
+        raise InputError(problems, sheet.source)
 
 
 def _resembles(name: str) -> bool:
     """Tell whether a column that is not known was probably meant to be one that is."""
-    return name.partition("_")[0].lower() in {known.partition("_")[0] for known in _COLUMNS}
+    first = re.split(r"[\W_]", name.strip(), maxsplit=1)[0].lower()
+    return first in {known.partition("_")[0] for known in _UNITS}
 
 
 def _times(

@@ -1,7 +1,5 @@
 """Curves that were measured on a rig: reading them, and characteristics beside them."""
 
-import math
-import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -12,6 +10,8 @@ from numpy.typing import NDArray
 from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.suggestions import nearest
+from ..core.tables import Column, Table, read_table
+from ..core.units import in_si
 from ..suspension.model import Model
 from ..suspension.rigid.model import RigidAxleModel
 from . import characteristics, rigid
@@ -19,29 +19,12 @@ from .axles.datasets import ROLL
 from .characteristics.catalogue import Quantity
 from .characteristics.datasets import ALONG, DATA_SET, KNOWN, RACK, TRAVEL
 from .compare import on_bushes
-from .csv_columns import Sheet
 from .loads.compliance import COMPLIANCES
 from .loads.flexibility import HELD, Held
 from .rigid.catalogue import MEASURES
 
 Array = NDArray[np.float64]
 
-_UNITS = {
-    "m": ("m", 1.0),
-    "mm": ("m", 1e-3),
-    "rad": ("rad", 1.0),
-    "deg": ("rad", math.pi / 180.0),
-    "\u00b0": ("rad", math.pi / 180.0),
-    "N": ("N", 1.0),
-    "kN": ("N", 1e3),
-    "N m": ("N m", 1.0),
-    "100 N m": ("N m", 1e2),
-    "kN m": ("N m", 1e3),
-    "%": ("1", 1e-2),
-    "1": ("1", 1.0),
-    "-": ("1", 1.0),
-    "": ("1", 1.0),
-}
 _OF_RIGID_AXLES = {measure.quantity.name: measure.quantity for measure in MEASURES}
 _ALONG = {quantity.name: quantity for quantity in (*ALONG.values(), ROLL)}
 _KNOWN = {ALONG[over].name: known for over, known in KNOWN.items()}
@@ -55,11 +38,13 @@ _NOISE, _PART_OF_NOISE = 1e-4, 1e-2
 def measured_curves(path: str | Path) -> xr.Dataset:
     """Read curves from a CSV file.
 
-    The first line names the columns, each with its unit in brackets: ``wheel_travel [mm]`` or
+    The first line names the columns, each with its unit: ``wheel_travel [mm]`` or
     ``rack_position [mm]``, and characteristics, such as ``toe [deg]`` or ``wheel_rate [N/mm]``, by
     their names in kintrafo; over wheel travel compliance as well, ``toe_by_lateral [deg/kN]``. Of a
     rigid axle they are over ``wheel_travel`` of both wheels or ``roll_angle [deg]``.
-    Columns of other names are left out. Rows may be in any order, and a
+    Columns of other names are left out. How names and units may be written, `kintrafo.core.tables`
+    says: ``Wheel Travel (mm)`` is the same, and units may stand in a row or comment of their own.
+    Rows may be in any order, and a
     position may be there more than once, as of a loop with friction. A cell may be empty. Where
     both positions are there, one must be the same in all rows, to 0.1 mm: the suspension is held
     there, at its mean.
@@ -81,18 +66,21 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     """
     with Arguments("measured_curves") as given:
         given.path("path", path)
-    sheet = Sheet.read(Path(path))
-    split = {name: _split(name) for name in sheet.names}
-    places = [name for name, (quantity, _) in split.items() if quantity in _ALONG]
-    curves = {name: _EVERY[q] for name, (q, _) in split.items() if q in _EVERY}
-    _check(sheet, split, curves, places)
-    numbers = sheet.numbers((*places, *curves), may_be_empty=curves)
+    sheet = read_table(path)
+    columns = sheet.columns([*_ALONG, *_EVERY])
+    units = {column.name: _quantity(column.name).units for column in columns}
+    _check(sheet, columns, units)
+    places = [column.name for column in columns if column.name in _ALONG]
+    curves = {name: _EVERY[name] for name in units if name in _EVERY}
+    numbers = sheet.numbers(
+        [column.at for column in columns],
+        may_be_empty=[column.at for column in columns if column.name in curves],
+    )
     table = {
-        split[name][0]: numbers[:, i] * _factor(split[name][1])
-        for i, name in enumerate(sheet.names)
-        if name in (*places, *curves)
+        column.name: numbers[:, at] * in_si(sheet.unit_for(column, units[column.name]) or "")[1]
+        for at, column in enumerate(columns)
     }
-    varying, held = _told_apart(sheet, {split[name][0]: table[split[name][0]] for name in places})
+    varying, held = _told_apart(sheet, {name: table[name] for name in places})
     along = _ALONG[varying]
     data = {
         quantity.name: xr.Variable(varying, table[quantity.name], quantity.attributes())
@@ -106,12 +94,16 @@ def measured_curves(path: str | Path) -> xr.Dataset:
         raise InputError([problem], sheet.source)
     coordinates = {varying: xr.Variable(varying, table[varying], along.attributes())}
     coordinates |= {name: xr.Variable((), at, _ALONG[name].attributes()) for name, at in held}
-    read = {name for name in sheet.names if name in places or split[name][0] in data}
-    left = ", ".join(name for name in sheet.names if name not in read)
+    read = {column.at for column in columns if column.name in (*places, *data)}
+    left = ", ".join(name for i, name in enumerate(sheet.names) if i not in read)
     return xr.Dataset(data, coordinates, {"title": "measured curves", "left_out": left})
 
 
-def _told_apart(sheet: Sheet, places: Mapping[str, Array]) -> tuple[str, list[tuple[str, float]]]:
+def _quantity(name: str) -> Quantity:
+    return _ALONG[name] if name in _ALONG else _EVERY[name]
+
+
+def _told_apart(sheet: Table, places: Mapping[str, Array]) -> tuple[str, list[tuple[str, float]]]:
     """Return which position varies, and where the other one is held if it is there."""
     spread = {name: float(np.ptp(values)) for name, values in places.items()}
     least = min(_NOISE, _PART_OF_NOISE * max(spread.values()))
@@ -213,62 +205,27 @@ def _curves(model: Model | RigidAxleModel, measured: xr.Dataset, held_by: Held) 
     return characteristics.steering(model, measured[RACK.name].values, travel=held(TRAVEL.name))
 
 
-def _split(column: str) -> tuple[str, str]:
-    """Return name and unit of a column: ``toe [deg]``, ``toe (deg)``, ``motion_ratio``."""
-    found = re.fullmatch(r"\s*(\w+)\s*(?:\[([^\]]*)\]|\((.*)\))?\s*", column)
-    return (found[1], (found[2] or found[3] or "").strip()) if found else (column, "")
-
-
-def _check(
-    sheet: Sheet,
-    split: Mapping[str, tuple[str, str]],
-    curves: Mapping[str, Quantity],
-    places: Sequence[str],
-) -> None:
-    read = {*places, *curves}
-    names = [split[name][0] for name in sheet.names if name in read]
+def _check(sheet: Table, columns: Sequence[Column], units: Mapping[str, str]) -> None:
+    names = [column.name for column in columns]
     problems = [
         f"{name} stands in {names.count(name)} columns. Keep one of them."
         for name in dict.fromkeys(names)
         if names.count(name) > 1
     ]
-    units = {name: _ALONG[split[name][0]].units for name in places}
-    units |= {name: quantity.units for name, quantity in curves.items()}
-    for name, unit in units.items():
-        given = split[name][1]
-        if _in_si(given)[0] != unit:
-            problems.append(
-                f"column {name!r}: the unit {given or '(none)'} does not fit {split[name][0]}, "
-                f"which is in {unit} or what people use of it."
-            )
-    if not places:
+    problems += [
+        problem for column in columns if (problem := sheet.unit_problem(column, units[column.name]))
+    ]
+    if {*names}.isdisjoint(_ALONG):
         problems.append(
             f"one column {TRAVEL.name} [mm] or {RACK.name} [mm] is needed; the first line has "
             f"{sheet.names}."
         )
-    if not curves and not problems:
-        others = [quantity for quantity, _ in split.values() if quantity not in _ALONG]
+    if {*names}.isdisjoint(_EVERY) and not problems:
+        read = {column.at for column in columns}
+        others = [h.label for i, h in enumerate(sheet.headings) if i not in read]
         hints = [f"Did you mean {h}?" for h in (nearest(name, _EVERY) for name in others) if h]
         problems.append(
             " ".join([f"no characteristic is among the columns {sheet.names}.", *hints[:1]])
         )
     if problems:
         raise InputError(problems, sheet.source)
-
-
-def _in_si(unit: str) -> tuple[str, float]:
-    """Return the SI unit of one for people, and the factor to it; empty if it is not known."""
-    parts = [_UNITS.get(part.strip(" ()")) for part in unit.split("/")]
-    known = [part for part in parts if part is not None]
-    if len(known) < len(parts) or len(parts) > 2:
-        return "", math.nan
-    factor = known[0][1] / (known[1][1] if len(known) == 2 else 1.0)
-    if len(known) == 1 or known[1][0] == "1":
-        return known[0][0], factor
-    below = f"({known[1][0]})" if " " in known[1][0] else known[1][0]
-    return ("1" if known[0][0] == known[1][0] else f"{known[0][0]}/{below}"), factor
-
-
-def _factor(unit: str) -> float:
-    """Return what a number in a unit is multiplied with for one in its SI unit."""
-    return _in_si(unit)[1]

@@ -1,13 +1,12 @@
 """Hardpoints as a table of a spreadsheet: reading one into an input file, and writing one.
 
 A table has a row for each point, with its name and three coordinates; the first row names the
-columns, ``point, x [mm], y [mm], z [mm]``. CSV and Excel are read.
+columns, ``point, x [mm], y [mm], z [mm]``. CSV, Excel and the texts of some programs are read.
 """
 
 import csv
 import math
-import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,23 +14,29 @@ from typing import Any
 import tomlkit
 
 from ..core.arguments import Arguments
-from ..core.csv_lines import cells_of, delimiter_of, lines_of
 from ..core.errors import InputError
-from ..core.files import Paths, reason, refuse, replacing
-from ..core.optional import require
+from ..core.files import Paths, refuse, replacing
+from ..core.legible import legible, short
 from ..core.suggestions import nearest
+from ..core.tables import key
+from ..core.units import LENGTHS, in_si, length_in, unit_of
 from .data import find
-from .input.units import LengthUnit, in_metres
 from .kinds import Suspension
+from .point_names import known, listed, matched
+from .point_rows import AXES, SIDES, Found, found_in
+from .vehicle_axes import axes_of
 
-ENDINGS = (".csv", ".xlsx")
+ENDINGS = (".csv", ".tsv", ".txt", ".xlsx")
 """What the name of a table ends in."""
 
-_UNITS: dict[str, LengthUnit] = {"mm": "mm", "m": "m"}
-_NAMES = ("point", "name", "hardpoint")
-_HEADING = re.compile(r"([^\[\]()]+?)\s*(?:[\[(]\s*(\w*)\s*[\])])?")
+_OTHER_PROGRAMS = (
+    "Save it as one of them. Of OptimumK its Excel export is read, and of Lotus Suspension "
+    "Analysis (.shk) the text with its points. Subsystems of Adams/Car: kintrafo import-adams."
+)
+_MOST_POINTS = 10_000
+_MOST_HINTS = 20
 
-Row = tuple[int, list[Any]]
+Point = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
@@ -42,14 +47,25 @@ class PointTable:
     ----------
     source : str
         Where it comes from.
-    unit : {'mm', 'm'}
+    unit : str
+        A unit of length: mm, m, in and so on.
     points : dict
-        By names as they stand in the table, three coordinates in that unit.
+        By names as they stand in the table, three coordinates in that unit and in axes of ISO 8855:
+        x forward, y left, z up. Those of the left side, where the table has both.
+    right : dict, optional
+        Those of the right side, where the table has both.
+    axes : str
+        Where x, y and z of the table point.
+    left_out : tuple of str
+        Columns and sheets that were not read.
     """
 
     source: str
-    unit: LengthUnit
-    points: dict[str, tuple[float, float, float]]
+    unit: str
+    points: dict[str, Point]
+    right: dict[str, Point] | None = None
+    axes: str = "forward left up"
+    left_out: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -74,13 +90,33 @@ class Merged:
     left_out: tuple[str, ...]
 
 
-def read_points(path: str | Path) -> PointTable:
+def read_points(
+    path: str | Path,
+    *,
+    unit: str | None = None,
+    axes: str | None = None,
+    left_handed: bool = False,
+    sheet: str | None = None,
+) -> PointTable:
     """Read a table of hardpoints.
+
+    The unit of x, y and z stands in the first row, in a row of units or a comment line
+    (`kintrafo.core.tables`), or above the table. Coordinates may be there for both sides, below
+    ``Left`` and ``Right``. The points of a text of Lotus Suspension Analysis are read as well.
 
     Parameters
     ----------
     path : str or pathlib.Path
-        A file ``.csv`` (commas, semicolons or tabs) or ``.xlsx`` (its first sheet).
+        A file ``.csv``, ``.tsv`` or ``.txt`` (commas, semicolons or tabs), or ``.xlsx``.
+    unit : str, optional
+        Of a table that does not say it: mm, cm, m, in or ft.
+    axes : str, optional
+        Where x, y and z point: ``"rearward right up"``. By default as in ISO 8855, forward left up;
+        in a text of Lotus Suspension Analysis rearward right up.
+    left_handed : bool, optional
+        Whether these axes are left-handed.
+    sheet : str, optional
+        The sheet of a workbook; by default the only one with hardpoints that is not hidden.
 
     Returns
     -------
@@ -95,37 +131,103 @@ def read_points(path: str | Path) -> PointTable:
     """
     with Arguments("read_points") as given:
         given.path("path", path)
+        for name, text in {"unit": unit, "axes": axes, "sheet": sheet}.items():
+            if text is not None:
+                given.text(name, text)
+        given.flag("left_handed", left_handed)
     file = Path(path)
     if file.suffix.lower() not in ENDINGS:
-        problem = f"a table of hardpoints ends in {' or '.join(ENDINGS)}."
+        problem = f"a table of hardpoints ends in {' or '.join(ENDINGS)}. {_OTHER_PROGRAMS}"
         raise InputError([problem], str(path))
-    rows = _rows_of_excel(file) if file.suffix.lower() == ".xlsx" else _rows_of_csv(file)
-    if not rows:
-        raise InputError(["the table is empty: the first row names the columns."], str(path))
-    (_, heading), *others = rows
-    columns, unit = _columns(heading, str(path))
-    points: dict[str, tuple[float, float, float]] = {}
-    problems = []
-    for number, cells in others:
-        name, *values = (cells[i] if i < len(cells) else "" for i in columns)
-        numbers = tuple(map(_number, values))
-        if not str(name or "").strip():
-            continue
-        if not all(map(math.isfinite, numbers)):
-            shown = ", ".join(repr(value) for value in values)
-            problems.append(f"row {number}, {name}: three numbers are needed, not {shown}.")
-        elif str(name).strip() in points:
-            problems.append(f"row {number}: {name} is there twice. Keep one of them.")
+    found = found_in(file, sheet)
+    turned = axes_of(found.axes if axes is None else axes, left_handed=left_handed)
+    length = _unit(found, unit)
+    sides = {
+        side: {name: turned.point(place) for name, place in _points(found, columns).items()}
+        for side, columns in found.coordinates.items()
+    }
+    first = next(iter(sides)) if SIDES[0] not in sides else SIDES[0]
+    right = sides.get(SIDES[1]) if first != SIDES[1] else None
+    if set(sides) == {SIDES[1]}:
+        raise InputError(["the table has columns of the right side alone."], str(path))
+    return PointTable(str(path), length, sides[first], right, turned.words, found.left_out)
+
+
+def _unit(found: Found, given: str | None) -> str:
+    """Return the unit of x, y and z, which all of them have; refuse several, or none."""
+    table = found.table
+    read = {index for columns in found.coordinates.values() for index in columns}
+    columns = [column for column in table.columns(AXES) if column.at in read]
+    stated = [text for text in (*table.stated, *found.above) if in_si(text)[0] == "m"]
+    every = {unit_of(text) or text for text in [*(c.unit for c in columns), *stated] if text}
+    if not (stated or given) and len({column.unit is None for column in columns}) == 2:
+        every.add("none")
+    lengths = [column for column in columns if in_si(column.unit or "")[0] == "m"]
+    problems = [problem for c in lengths if (problem := table.unit_problem(c, "m"))]
+    wanted = None if given is None else unit_of(given)
+    if given is not None and wanted not in LENGTHS:
+        problems.append(f"unit {given!r} is no length. There are {', '.join(LENGTHS)}.")
+    elif wanted and every - {wanted}:
+        problems.append(f"the unit of the table is {', '.join(sorted(every))}, and not {wanted}.")
+    elif not (every or wanted):
+        problems.append(
+            f"the unit of x, y and z must be {', '.join(LENGTHS)}; it is none. Write x [mm], or "
+            "give it: --unit mm (unit=)."
+        )
+    elif not every <= LENGTHS.keys() or (len(every) > 1 and not problems):
+        told = short(", ".join(sorted(every)))
+        problems.append(
+            f"the unit of x, y and z must be {', '.join(LENGTHS)}, of all the same; it is {told}."
+        )
+    if problems:
+        raise InputError(problems, table.source)
+    return wanted or every.pop()
+
+
+def _points(found: Found, columns: Iterable[int]) -> dict[str, Point]:
+    """Return the points of one side by their names, in the axes of the table."""
+    table, columns = found.table, [*columns]
+    points: dict[str, Point] = {}
+    spelt: dict[str, str] = {}
+    problems = table.mixed_marks(columns)
+    if len(table.rows) > _MOST_POINTS:
+        problems.append(f"there are {len(table.rows)} rows; {_MOST_POINTS} are the most.")
+    for number, cells in table.rows[:_MOST_POINTS]:
+        name, *values = (cells[i] if i < len(cells) else None for i in (found.name, *columns))
+        name = legible(str("" if name is None else name).strip())
+        x, y, z = map(table.number, values)
+        if not name:
+            if any(value not in (None, "") for value in values):
+                problems.append(f"row {number} has no name. Give it one, or leave the row out.")
+        elif not all(map(math.isfinite, (x, y, z))):
+            problems.append(f"row {number}, {short(name)}: {_no_point(values)}")
+        elif key(name) in spelt:
+            other = spelt[key(name)]
+            same = "is" if other == name else f"and {short(other)} are one point, which is"
+            problems.append(f"row {number}: {short(name)} {same} there twice. Keep one of them.")
         else:
-            points[str(name).strip()] = (numbers[0], numbers[1], numbers[2])
+            points[name] = (x, y, z)
+            spelt[key(name)] = name
     if not points and not problems:
         problems.append("there are no points below the names of the columns.")
     if problems:
-        raise InputError(problems, str(path))
-    return PointTable(str(path), unit, points)
+        raise InputError(problems, table.source)
+    return points
 
 
-def merged(table: PointTable, file: str | Path, *, mirrored: bool = False) -> Merged:
+def _no_point(values: Iterable[Any]) -> str:
+    told = ", ".join(repr("" if v is None else short(legible(str(v)), 30)) for v in values)
+    formula = " A formula counts once Excel has saved its value." if None in [*values] else ""
+    return f"three numbers are needed, not {told}.{formula}"
+
+
+def merged(
+    table: PointTable,
+    file: str | Path,
+    *,
+    mirrored: bool = False,
+    names: Mapping[str, str] | None = None,
+) -> Merged:
     """Return an input file with the hardpoints of a table.
 
     Parameters
@@ -135,6 +237,9 @@ def merged(table: PointTable, file: str | Path, *, mirrored: bool = False) -> Me
         The file whose points are replaced; or the name of a packaged data set.
     mirrored : bool, optional
         Whether the table is of the other side of the car.
+    names : mapping of str to str, optional
+        What the table calls hardpoints, by our names, where it is neither these nor those of
+        Adams/Car, OptimumK or Lotus Suspension Analysis.
 
     Returns
     -------
@@ -143,27 +248,24 @@ def merged(table: PointTable, file: str | Path, *, mirrored: bool = False) -> Me
     Raises
     ------
     InputError
-        If no suspension can be like this, or no row is a hardpoint.
+        If no suspension can be like this, no row is a hardpoint, or one may be two.
     """
     with Arguments("merged") as given:
         given.kind("table", table, PointTable, "what read_points returns is needed")
         given.flag("mirrored", mirrored)
+        called = given.mapping("names", names or {}, "hardpoints and what they are called there")
     old = Suspension.load(file)
-    known = [*type(old.hardpoints).names(), *old.hardpoints.STAND_INS]
-    read: dict[str, str] = {}
-    left_out = []
-    for name in table.points:
-        plain = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_")
-        if plain in known and plain not in read:
-            read[plain] = name
-        else:
-            left_out.append(name)
+    points = _of_side(table, old.vehicle.side, mirrored=mirrored)
+    read = matched(points, old.suspension, called, table.source)
+    left_out = [name for name in points if name not in read.values()]
     if not read:
-        hints = {n: nearest(n, known) for n in left_out}
+        every = known(old.suspension)
+        hints = {n: nearest(n, every) for n in left_out[:_MOST_HINTS]}
         near = ", ".join(f"{n} (is it {hint}?)" for n, hint in hints.items() if hint)
         problem = (
-            f"none of its rows is a hardpoint of a {old.TITLE}: {near or ', '.join(left_out)}. "
-            f"Known are: {', '.join(known)}."
+            f"none of its rows is a hardpoint of a {old.TITLE}: {near or listed(left_out)}. "
+            f"Known are: {', '.join(every)}. Say what the table calls them: --name "
+            f"{every[0]}={short(left_out[0])} (names=)."
         )
         raise InputError([problem], table.source)
     document = tomlkit.parse(find(file).read_text(encoding="utf-8-sig"))
@@ -171,7 +273,7 @@ def merged(table: PointTable, file: str | Path, *, mirrored: bool = False) -> Me
         document,
         {
             key: (x, -y if mirrored else y, z)
-            for key, (x, y, z) in ((key, table.points[name]) for key, name in read.items())
+            for key, (x, y, z) in ((key, points[name]) for key, name in read.items())
         },
         table.unit,
     )
@@ -184,7 +286,17 @@ def merged(table: PointTable, file: str | Path, *, mirrored: bool = False) -> Me
     return Merged(text, read, kept, tuple(left_out))
 
 
-def put_points(document: Any, points: Mapping[str, Iterable[float]], unit: LengthUnit) -> None:
+def _of_side(table: PointTable, side: str, *, mirrored: bool) -> dict[str, Point]:
+    """Return the points of a side of the car."""
+    if table.right is None:
+        return table.points
+    if mirrored:
+        problem = "the table has both sides. Leave --mirror (mirrored=True) out."
+        raise InputError([problem], table.source)
+    return table.right if side == "right" else table.points
+
+
+def put_points(document: Any, points: Mapping[str, Iterable[float]], unit: str) -> None:
     """Put hardpoints into the text of an input file, in the unit that it has.
 
     Parameters
@@ -193,14 +305,13 @@ def put_points(document: Any, points: Mapping[str, Iterable[float]], unit: Lengt
         Is changed; its comments stay.
     points : mapping
         By name three coordinates.
-    unit : {'mm', 'm'}
-        Of these.
+    unit : str
+        Of these: mm, m, in and so on.
     """
     section = document["hardpoints"]
-    scale = _scale(unit, section["unit"])
     for name, point in points.items():
         # the sum makes no zero negative
-        section[name] = [scale * value + 0.0 for value in point]
+        section[name] = [length_in(value, unit, section["unit"]) + 0.0 for value in point]
 
 
 def _refuse_other_side(old: Suspension, section: Any, read: Iterable[str], source: str) -> None:
@@ -265,91 +376,19 @@ def write_points(
     return Path(path)
 
 
-def _scale(given: LengthUnit, wanted: LengthUnit) -> float:
-    """Return what a length in one unit is multiplied with for the other."""
-    if given == wanted:
-        return 1.0
-    return 1000.0 if wanted == "mm" else in_metres(1.0, "mm")
-
-
-def _columns(heading: Sequence[Any], source: str) -> tuple[list[int], LengthUnit]:
-    """Return which columns have name, x, y and z, and their unit."""
-    matches = [_HEADING.fullmatch(str(cell or "").strip()) for cell in heading]
-    words = [(m[1].lower(), m[2] or "") if m else ("", "") for m in matches]
-    names = [i for i, (word, _) in enumerate(words) if word in _NAMES]
-    axes = [[i for i, (word, _) in enumerate(words) if word == axis] for axis in "xyz"]
-    problems = []
-    if len(names) != 1:
-        problems.append(f"one column with the names is needed, called {' or '.join(_NAMES)}.")
-    problems += [
-        f"one column {axis} is needed, with its unit: {axis} [mm]."
-        for axis, found in zip("xyz", axes, strict=True)
-        if len(found) != 1
-    ]
-    units = {words[i][1] for found in axes for i in found}
-    if not problems and (len(units) != 1 or not units <= _UNITS.keys()):
-        told = ", ".join(sorted(unit or "none" for unit in units))
-        problems.append(f"the unit of x, y and z must be mm or m, of all the same; it is {told}.")
-    if problems:
-        found = ", ".join(str(cell) for cell in heading if cell is not None)
-        raise InputError([*problems, f"the first row is: {found}."], source)
-    return [names[0], *(found[0] for found in axes)], _UNITS[units.pop()]
-
-
-def _number(cell: Any) -> float:
-    """Return the number in a cell; NaN where there is none."""
-    if isinstance(cell, bool):
-        return math.nan
-    if isinstance(cell, int | float):
-        return float(cell)
-    text = str(cell or "").strip()
-    try:
-        return math.nan if "_" in text else float(text)
-    except ValueError:
-        return math.nan
-
-
-def _rows_of_csv(file: Path) -> list[Row]:
-    lines = lines_of(file)
-    delimiter = delimiter_of(lines[0][1]) if lines else ","
-    # where commas do not separate, they are those of decimals
-    plain = str if delimiter == "," else _with_point
-    return [(n, [plain(cell) for cell in cells_of(line, delimiter)]) for n, line in lines]
-
-
-def _with_point(cell: str) -> str:
-    """Return a number with a decimal comma as one with a point; other texts as they are."""
-    return cell.replace(",", ".") if re.fullmatch(r"\s*[-+]?\d+,\d+\s*", cell) else cell
-
-
-def _rows_of_excel(file: Path) -> list[Row]:
-    require("openpyxl", purpose="Reading Excel files", extra="excel")
-    from openpyxl import load_workbook  # noqa: PLC0415 (an extra)
-
-    try:
-        book = load_workbook(file, read_only=True, data_only=True)
-        try:
-            sheet: Iterable[Sequence[Any]] = book.worksheets[0].iter_rows(values_only=True)
-            rows: list[Row] = [(n, list(cells)) for n, cells in enumerate(sheet, 1)]
-        finally:
-            book.close()
-    except OSError as error:
-        problem = f"the file cannot be read: {reason(error)}"
-        raise InputError([problem], str(file)) from None
-    except Exception:  # noqa: BLE001 (whatever a damaged workbook makes of its reader)
-        problem = "the file is no Excel workbook that can be read. Save it as .xlsx or .csv."
-        raise InputError([problem], str(file)) from None
-    return [(n, cells) for n, cells in rows if any(cell is not None for cell in cells)]
-
-
-def as_words(found: Merged) -> Mapping[str, str]:
-    """Return what was read, kept and left out, in words."""
+def as_words(found: Merged, table: PointTable | None = None) -> Mapping[str, str]:
+    """Return what was read, kept and left out, in words; of the table, too, how it was read."""
     with Arguments("as_words") as given:
         given.kind("found", found, Merged, "what merged returns is needed")
+        if table is not None:
+            given.kind("table", table, PointTable, "what read_points returns is needed")
     read = (n if n == called else f"{n} (from {called})" for n, called in found.read.items())
     said = {
         "read": ", ".join(read),
         "as in the file": ", ".join(found.kept),
         "no hardpoints": ", ".join(found.left_out),
     }
+    if table is not None:
+        said["unit and axes of the table"] = f"{table.unit}; x, y, z: {table.axes}"
+        said["not read"] = ", ".join(table.left_out)
     return {head: text for head, text in said.items() if text}

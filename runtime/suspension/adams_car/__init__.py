@@ -3,14 +3,13 @@
 `subsystem`     what stands in the file
 `values`        its values: texts, numbers and units
 `springs`       the spring, from a file beside it
-`names`         what templates call the hardpoints of each kind
 `rest`          the file that the rest comes from
 `fitting`       what in it goes along with the hardpoints
 `importing`     both of them as an input file
 """
 
+from ..point_names import read_names
 from .importing import Imported, imported
-from .names import read_names
 from .subsystem import Subsystem, read
 
 __all__ = ["Imported", "Subsystem", "imported", "read", "read_names"]

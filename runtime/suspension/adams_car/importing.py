@@ -11,9 +11,9 @@ from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.legible import legible
 from ..kinds import KINDS, Suspension
+from ..point_names import assumed_of, known, listed, matched, points_of
 from ..point_table import Merged, put_points
 from .fitting import move_along, put, to_side
-from .names import assumed_of, known, listed, matched, points_of
 from .rest import Rest, rest_of
 from .springs import Spring, put_spring, spring_of
 from .subsystem import ANGLES, Point, Side, Subsystem

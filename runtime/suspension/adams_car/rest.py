@@ -11,8 +11,8 @@ from ...core.legible import legible
 from ...core.suggestions import suggestion
 from ..data import find
 from ..kinds import KINDS, Suspension
+from ..point_names import kind_of, nearest_kinds
 from .fitting import by_force
-from .names import kind_of, nearest_kinds
 from .subsystem import Subsystem
 
 

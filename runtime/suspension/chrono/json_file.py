@@ -9,8 +9,8 @@ from pydantic import BaseModel, ValidationError
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
-from ...core.files import reason
-from ...core.legible import short
+from ...core.legible import short, strange
+from ...core.reading import text_of
 
 # A text, a comment to the end of the line, a comment between marks. Each of them matches up to the
 # end of the file where it is not closed, and never goes back: the time is linear in the length.
@@ -34,13 +34,9 @@ def content(path: str | Path) -> dict[str, Any]:
     """Read JSON that may have comments, as Chrono allows."""
     with Arguments("chrono") as given:
         given.path("path", path)
+    text = text_of(Path(path))
     try:
-        text = Path(path).read_text(encoding="utf-8-sig")
         data = json.loads(_COMMENT.sub(_without_comment, text))
-    except OSError as error:
-        raise InputError([f"cannot be read: {reason(error)}"], str(path)) from error
-    except UnicodeDecodeError as error:
-        raise InputError(["is no text. Give a JSON file."], str(path)) from error
     except json.JSONDecodeError as error:
         problem = f"Line {error.lineno} is not valid JSON: {error.msg}."
         raise InputError([problem], str(path)) from error
@@ -52,6 +48,8 @@ def content(path: str | Path) -> dict[str, Any]:
         raise InputError([problem], str(path)) from error
     if not isinstance(data, dict):
         raise InputError(["has no keys. Give a file of Project Chrono's templates."], str(path))
+    if problem := strange(data):
+        raise InputError([problem], str(path))
     return data
 
 

@@ -12,6 +12,7 @@ from ...core.legible import short
 from ...core.suggestions import nearest, suggestion
 from .section import Range, Section
 
+_MOST_LOOKED_AT = 200  # errors: nobody reads more, and each is compared with all known keys
 _EXPECTATIONS = {
     "finite_number": "must be a finite number. Enter the measured or estimated value.",
     "float_type": "must be a number. Write digits without quotes, with a point for decimals.",
@@ -38,7 +39,7 @@ def messages_of(error: ValidationError, model: type[Section], data: Mapping[str,
     list of str
         One text for each problem, beginning with the section and the key.
     """
-    details = error.errors(include_url=False)
+    details = error.errors(include_url=False)[:_MOST_LOOKED_AT]
     # A misspelt key is reported once, not a second time as missing.
     misspelt = {
         _Place(detail["loc"], model, data).probably_meant()

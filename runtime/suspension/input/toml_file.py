@@ -9,8 +9,8 @@ from typing import Any
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
-from ...core.files import reason
-from ...core.legible import short
+from ...core.legible import short, strange
+from ...core.reading import text_of
 from ...core.suggestions import suggestion
 
 _PYTHON = (
@@ -43,11 +43,11 @@ def read_toml(file: Path | Traversable) -> dict[str, Any]:
     """
     if file.name.endswith(".py"):
         raise InputError([_PYTHON], str(file))
-    text = _text_of(file)
+    text = text_of(file)
     if _TOO_DEEP.search(text):
         raise InputError([_DEEP], str(file))
     try:
-        return tomllib.loads(text)
+        data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise InputError([_syntax_problem(str(error), text)], str(file)) from None
     except RecursionError:
@@ -55,6 +55,9 @@ def read_toml(file: Path | Traversable) -> dict[str, Any]:
     except ValueError:  # Python's limit of 4300 digits, which tomllib lets pass
         problem = "A number has thousands of digits. Write it with an exponent, as 1.5e6."
         raise InputError([problem], str(file)) from None
+    if problem := strange(data):
+        raise InputError([problem], str(file))
+    return data
 
 
 def read_sections(path: str | Path, known: Sequence[str], needed: str = "") -> dict[str, Any]:
@@ -87,23 +90,6 @@ def read_sections(path: str | Path, known: Sequence[str], needed: str = "") -> d
     if problems:
         raise InputError(problems, str(path))
     return data
-
-
-def _text_of(file: Path | Traversable) -> str:
-    """Return the file's text, without the byte order mark that some Windows editors write."""
-    try:
-        content = file.read_bytes()
-    except OSError as error:
-        problem = f"The file cannot be read: {reason(error)}"
-        raise InputError([problem], str(file)) from None
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = content.count(b"\n", 0, error.start) + 1
-        problem = (
-            f"Line {line} has a character that is not UTF-8. Save the file with UTF-8 encoding."
-        )
-        raise InputError([problem], str(file)) from None
 
 
 def _syntax_problem(message: str, text: str) -> str:

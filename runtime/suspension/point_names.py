@@ -1,46 +1,53 @@
-"""What Adams/Car's templates call the hardpoints of each kind of suspension."""
+"""What other programs call the hardpoints of each kind of suspension.
+
+Adams/Car's templates, OptimumK and Lotus Suspension Analysis; capitals, blanks, hyphens and
+underscores do not matter.
+"""
 
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
-from ...core.arguments import Arguments
-from ...core.errors import InputError
-from ...core.legible import legible, short
-from ...core.suggestions import nearest, suggestion
-from ..input.hardpoints import Hardpoints
-from ..kinds import KINDS
+from ..core.arguments import Arguments
+from ..core.errors import InputError
+from ..core.legible import legible, short
+from ..core.suggestions import nearest, suggestion
+from ..core.tables import key
+from .input.hardpoints import Hardpoints
+from .kinds import KINDS
 
-# By our names, those of the templates; where there are two, templates differ.
+# By our names, those of others: of Adams/Car, where templates differ several; of OptimumK, which
+# begin with CHAS, UPRI, NSMA or ROCK; of Lotus, in words.
 _EVERY = {
-    "wheel_center": ("wheel_center",),
-    "tie_rod_outer": ("tierod_outer",),
-    "tie_rod_inner": ("tierod_inner",),
+    "wheel_center": ("wheel_center", "wheel centre", "wheel centre point"),
+    "tie_rod_outer": ("tierod_outer", "UPRI_TiePnt", "outer track rod ball joint"),
+    "tie_rod_inner": ("tierod_inner", "CHAS_TiePnt", "inner track rod ball joint"),
 }
 _STRUT: Mapping[str, tuple[str, ...]] = {
-    "arm_front": ("lca_front",),
-    "arm_rear": ("lca_rear",),
-    "ball_joint": ("lca_outer",),
+    "arm_front": ("lca_front", "lower wishbone front pivot"),
+    "arm_rear": ("lca_rear", "lower wishbone rear pivot"),
+    "ball_joint": ("lca_outer", "lower wishbone outer ball joint"),
     "strut_top": ("top_mount",),
     "strut_lower": ("strut_lwr_mount",),
     "spring_seat": ("spring_lwr_seat",),
 }
 _ARMS = {
-    "lower_arm_front": ("lca_front",),
-    "lower_arm_rear": ("lca_rear",),
-    "lower_ball_joint": ("lca_outer",),
-    "upper_arm_front": ("uca_front",),
-    "upper_arm_rear": ("uca_rear",),
-    "upper_ball_joint": ("uca_outer",),
+    "lower_arm_front": ("lca_front", "CHAS_LowFor", "lower wishbone front pivot"),
+    "lower_arm_rear": ("lca_rear", "CHAS_LowAft", "lower wishbone rear pivot"),
+    "lower_ball_joint": ("lca_outer", "UPRI_LowPnt", "lower wishbone outer ball joint"),
+    "upper_arm_front": ("uca_front", "CHAS_UppFor", "upper wishbone front pivot"),
+    "upper_arm_rear": ("uca_rear", "CHAS_UppAft", "upper wishbone rear pivot"),
+    "upper_ball_joint": ("uca_outer", "UPRI_UppPnt", "upper wishbone outer ball joint"),
 }
 _COIL = {"spring_top": ("top_mount",), "spring_seat": ("lwr_strut_mount",)}
 # The second point of the bellcrank is one on its axis, which is all that a bearing says, too.
 _ROCKER = {
-    "rocker_front": ("bellcrank_pivot_orient",),
-    "rocker_rear": ("bellcrank_pivot",),
-    "spring_top": ("shock_to_chassis",),
-    "spring_seat": ("shock_to_bellcrank",),
+    "rocker_front": ("bellcrank_pivot_orient", "CHAS_RocAxi"),
+    "rocker_rear": ("bellcrank_pivot", "CHAS_RocPiv"),
+    "spring_top": ("shock_to_chassis", "CHAS_AttPnt"),
+    "spring_seat": ("shock_to_bellcrank", "ROCK_CoiPnt"),
 }
-_ROD_OUTER, _ROD_INNER = ("prod_outboard", "prod_outer"), ("prod_to_bellcrank", "prod_inboard")
+_ROD_OUTER = "prod_outboard", "prod_outer", "NSMA_PPAttPnt"
+_ROD_INNER = "prod_to_bellcrank", "prod_inboard", "ROCK_RodPnt"
 
 NAMES: Mapping[str, Mapping[str, tuple[str, ...]]] = {
     "macpherson": _STRUT,
@@ -99,7 +106,7 @@ def read_names(texts: Iterable[str]) -> dict[str, str]:
     Returns
     -------
     dict
-        The names in the subsystem by those of this project.
+        The names in the other file by those of this project.
 
     Raises
     ------
@@ -120,7 +127,7 @@ def read_names(texts: Iterable[str]) -> dict[str, str]:
         elif ours in found:
             problems.append(f"{ours} is named twice: {found[ours]} and {theirs}. Keep one.")
         else:
-            found[ours] = theirs.lower()
+            found[ours] = theirs
     if problems:
         raise InputError(problems, "names of hardpoints")
     return found
@@ -129,12 +136,12 @@ def read_names(texts: Iterable[str]) -> dict[str, str]:
 def matched(
     there: Collection[str], kind: str, given: Mapping[str, str], source: str
 ) -> dict[str, str]:
-    """Return which hardpoints of a kind a subsystem has, and what they are called there.
+    """Return which hardpoints of a kind a file has, and what they are called there.
 
     Parameters
     ----------
     there : collection of str
-        The names in the subsystem, in lower case.
+        The names in the file, of which no two are spellings of one.
     kind : str
     given : mapping of str to str
         What the user says, see `read_names`; it goes before what templates call them.
@@ -144,26 +151,33 @@ def matched(
     Returns
     -------
     dict
-        Names in the subsystem by our names; those that it does not have are not there.
+        Names in the file by our names; those that it does not have are not there.
 
     Raises
     ------
     InputError
-        If the user names what there is not, or the subsystem has two names for one hardpoint.
+        If the user names what there is not, or the file has two names for one hardpoint.
     """
+    by_key = {key(name): name for name in there}
     problems = [
+        f"{name} and {by_key[key(name)]} are two spellings of one name. Keep one of them."
+        for name in there
+        if name != by_key[key(name)]
+    ]
+    problems += [
         f"{ours} is no hardpoint of a {KINDS[kind].TITLE}. {suggestion(ours, known(kind))}"
         for ours in given
         if ours not in known(kind)
     ]
     problems += [
-        f"{ours}={theirs}: the subsystem has no hardpoint {theirs}. {_hint(theirs, there)}"
+        f"{ours}={theirs}: there is no hardpoint {theirs}. {_hint(theirs, there)}"
         for ours, theirs in given.items()
-        if theirs not in there
+        if key(theirs) not in by_key
     ]
     found: dict[str, str] = {}
     for ours in known(kind):
-        usual = [given[ours]] if ours in given else [n for n in _usual(ours, kind) if n in there]
+        names = [given[ours]] if ours in given else _usual(ours, kind)
+        usual = [by_key[key(name)] for name in names if key(name) in by_key]
         if len(usual) > 1:
             problems.append(
                 f"{' and '.join(usual)} may both be {ours}. Say which: --name {ours}={usual[0]}."
@@ -235,10 +249,15 @@ def _present(
     there: Collection[str], kind: str, given: Mapping[str, str], names: Iterable[str]
 ) -> list[str]:
     """Return those of our names that the subsystem has."""
-    return [n for n in names if given.get(n) in there or any(u in there for u in _usual(n, kind))]
+    keys = {key(name) for name in there}
+    return [
+        name
+        for name in names
+        if any(key(n) in keys for n in (given.get(name, ""), *_usual(name, kind)))
+    ]
 
 
 def _usual(ours: str, kind: str) -> tuple[str, ...]:
     """Return what templates call a hardpoint; its own name is good in each of them."""
     theirs = {**_EVERY, **NAMES.get(kind, {})}.get(ours, ())
-    return theirs if ours in theirs else (*theirs, ours)
+    return tuple({key(name): name for name in (*theirs, ours)}.values())

@@ -1,0 +1,109 @@
+"""What stands on the sheets of an Excel workbook, within limits."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from zipfile import BadZipFile, ZipFile
+
+from .errors import InputError
+from .files import reason
+from .optional import require
+from .reading import MIB, MOST_OF_DATA
+
+ROWS, COLUMNS = 1_048_576, 16_384
+"""What a sheet of Excel holds at most, the heading included (its file format)."""
+
+_MOST_ROWS, _MOST_COLUMNS = 10_000, 256
+_MOST_SHEETS = 100
+_MOST_UNPACKED = 32 * MIB  # texts that repeat are packed to a thousandth
+
+
+@dataclass(frozen=True)
+class Page:
+    """A sheet: what it is called, whether it is hidden, and its rows with their numbers.
+
+    A cell has a number, a text, a truth value, a time, or None; a formula has its last value.
+    """
+
+    name: str
+    hidden: bool
+    rows: list[tuple[int, list[Any]]]
+
+
+def pages_of(file: Path) -> list[Page]:
+    """Return the sheets of a workbook, without rows that are empty.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, or a cell stands further out than any table of a suspension goes.
+    MissingPackageError
+    """
+    require("openpyxl", purpose="Reading Excel files", extra="excel")
+    from openpyxl import load_workbook  # noqa: PLC0415 (an extra)
+
+    _refuse_large(file)
+    try:
+        book = load_workbook(file, read_only=True, data_only=True, keep_links=False)
+        try:
+            return [
+                Page(sheet.title, sheet.sheet_state != "visible", list(_rows(sheet, file)))
+                for sheet in book.worksheets[:_MOST_SHEETS]
+            ]
+        finally:
+            book.close()
+    except InputError:
+        raise
+    except OSError as error:
+        raise InputError([f"the file cannot be read: {reason(error)}"], str(file)) from None
+    except Exception:  # noqa: BLE001 (whatever a damaged workbook makes of its reader)
+        raise InputError([_NO_WORKBOOK], str(file)) from None
+
+
+_NO_WORKBOOK = "the file is no Excel workbook that can be read. Save it as .xlsx or .csv."
+
+
+def _refuse_large(file: Path) -> None:
+    """Refuse a workbook that is large, or would be once it is unpacked."""
+    try:
+        packed = file.stat().st_size
+        with ZipFile(file) as archive:
+            # no more than this is unpacked of a member, whatever is in it
+            unpacked = sum(member.file_size for member in archive.infolist())
+    except OSError as error:
+        raise InputError([f"the file cannot be read: {reason(error)}"], str(file)) from None
+    except (BadZipFile, ValueError, NotImplementedError):
+        raise InputError([_NO_WORKBOOK], str(file)) from None
+    if packed > MOST_OF_DATA or unpacked > _MOST_UNPACKED:
+        problem = (
+            f"the workbook has more than {MOST_OF_DATA // MIB} MiB, or "
+            f"{_MOST_UNPACKED // MIB} MiB once it is unpacked. Copy the table into a new one."
+        )
+        raise InputError([problem], str(file))
+
+
+def _rows(sheet: Any, file: Path) -> Iterator[tuple[int, list[Any]]]:
+    """Yield the rows in which something stands; a row that is far away is no reason to wait."""
+    sheet.reset_dimensions()  # what the sheet says of its own size need not be so
+    held = 0
+    for number, cells in enumerate(sheet.iter_rows(values_only=True), 1):
+        if number > ROWS:
+            raise InputError([_NO_WORKBOOK], str(file))
+        filled = [i for i, cell in enumerate(cells) if cell is not None]
+        if not filled:
+            continue
+        held += 1
+        if held > _MOST_ROWS or number > _MOST_ROWS or filled[-1] >= _MOST_COLUMNS:
+            raise InputError([_stray(sheet.title, number, filled[-1])], str(file))
+        yield number, list(cells)
+
+
+def _stray(title: str, row: int, column: int) -> str:
+    from openpyxl.utils import get_column_letter  # noqa: PLC0415 (an extra)
+
+    return (
+        f"sheet {title}: something stands in cell {get_column_letter(column + 1)}{row}; a table "
+        f"may have {_MOST_ROWS} rows and {_MOST_COLUMNS} columns. Delete that cell, or copy "
+        "the table into a new workbook."
+    )

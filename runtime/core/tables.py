@@ -1,0 +1,368 @@
+"""Tables of people, with names and units in any usual form: CSV files, rows of spreadsheets.
+
+Every table is read by the same rules. Capitals, blanks, hyphens and underscores in names do not
+matter. The unit of a column stands behind its name, ``wheel travel [mm]``, ``Wheel Travel (mm)``
+or ``wheel_travel_mm``; or in a row of units below the names; or in a comment line, ``# units: mm,
+deg``, for all columns of that kind. Units that contradict each other are refused.
+"""
+
+import csv
+import math
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import InputError
+from .legible import legible, short
+from .reading import MOST_OF_MEASUREMENTS, text_of
+from .units import in_si
+
+Array = NDArray[np.float64]
+Row = tuple[int, list[Any]]
+
+_DELIMITERS = ("\t", ";", ",")
+_MOST_LISTED = 5  # problems with single rows
+_MOST_ROWS, _MOST_COLUMNS = 5_000_000, 1000
+_BRACKETS = re.compile(r"(.*?)\s*(?:\[([^\[\]]*)\]|\(((?:[^()]|\([^()]*\))*)\))\s*")
+_BETWEEN = re.compile(r"[\s_,/]+(?:in\s+)?")
+_STROKE_OR_NUMBER = re.compile(r"[\[(]?[\d.,eE+\s-]*[\])]?")
+# what states units, in a comment line
+_STATES = re.compile(
+    r"\W*(?:all\s+)?(?:units?|lengths?|coordinates?|dimensions?)\s*(?:are\s+|is\s+)?(?:in\b|[:=])(.*)",
+    re.IGNORECASE,
+)
+
+
+def key(name: str) -> str:
+    """Return what is the same for all spellings of a name.
+
+    Examples
+    --------
+    >>> key("Lower Arm-Front") == key("lower_arm_front") == key("LowerArmFront")
+    True
+    """
+    return re.sub(r"[\W_]+", "", name.casefold())
+
+
+class Heading(NamedTuple):
+    """The name of a column, and its unit as it stands there; None where there is none."""
+
+    text: str
+    label: str
+    unit: str | None
+
+    @classmethod
+    def of(cls, cell: Any) -> "Heading":
+        """Return what a cell of the first row says."""
+        text = legible(" ".join(str("" if cell is None else cell).split()))
+        found = _BRACKETS.fullmatch(text) if len(text) < 500 else None
+        if found is None or not found[1]:
+            return cls(text, text, None)
+        return cls(text, found[1], found[3] if found[2] is None else found[2])
+
+    def among(self, known: Mapping[str, str]) -> tuple[str, str | None] | None:
+        """Return which of the known names this is, by their keys, and the unit; None if none is."""
+        name = known.get(key(self.label))
+        if name or self.unit is not None:
+            return (name, self.unit) if name else None
+        for between in _BETWEEN.finditer(self.label[:200]):
+            name = known.get(key(self.label[: between.start()]))
+            unit = self.label[between.end() :].replace("_per_", "/").replace("_", " ")
+            if name and unit and in_si(unit)[0]:
+                return name, unit
+        return None
+
+
+class Column(NamedTuple):
+    """A column of a known name.
+
+    Attributes
+    ----------
+    name : str
+    at : int
+        Which of the columns it is.
+    unit : str or None
+        As it stands in the table; None where there is none.
+    """
+
+    name: str
+    at: int
+    unit: str | None
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows below the names of columns.
+
+    Attributes
+    ----------
+    source : str
+        Where it comes from, for messages.
+    headings : tuple of Heading
+    rows : list of (int, list)
+        What follows, with the numbers of the lines.
+    units : tuple of (str or None)
+        Those of the row of units, one for each column; None where it has none.
+    stated : tuple of str
+        Units that comment lines state for all columns.
+    commas : bool
+        Whether numbers may have decimal commas.
+    """
+
+    source: str
+    headings: tuple[Heading, ...]
+    rows: list[Row]
+    units: tuple[str | None, ...]
+    stated: tuple[str, ...]
+    commas: bool
+
+    @classmethod
+    def of(
+        cls, source: str, rows: Sequence[Row], comments: Iterable[Row] = (), *, commas: bool = False
+    ) -> "Table":
+        """Return the table whose first row names the columns.
+
+        Parameters
+        ----------
+        source : str
+        rows : sequence of (int, list)
+            One or more.
+        comments : iterable of (int, list)
+            Comment lines by their cells, without the hash.
+        commas : bool, optional
+        """
+        (_, names), *others = rows
+        if len(names) > _MOST_COLUMNS:
+            problem = f"the first line has {len(names)} columns; {_MOST_COLUMNS} are the most."
+            raise InputError([problem], source)
+        headings = tuple(map(Heading.of, names))
+        units: list[str | None] = [None] * len(headings)
+        if others and (row := _units_row(others[0][1], len(headings))):
+            units, others = row, others[1:]
+        stated: list[str] = []
+        for number, cells in comments:
+            if len(headings) > 1 and (row := _units_row(cells, len(headings))):
+                units = [one or other for one, other in zip(units, row, strict=True)]
+            else:
+                stated += _stated(source, number, ", ".join(map(str, cells)))
+        return cls(source, headings, others, tuple(units), tuple(stated), commas)
+
+    @property
+    def names(self) -> list[str]:
+        """What the first row has."""
+        return [heading.text for heading in self.headings]
+
+    def columns(self, known: Iterable[str]) -> list[Column]:
+        """Return the columns of known names, in their order, each with its unit."""
+        by_key = {key(name): name for name in known}
+        return [
+            Column(found[0], i, self.units[i] if found[1] is None else found[1])
+            for i, heading in enumerate(self.headings)
+            if (found := heading.among(by_key))
+        ]
+
+    def unit_problem(self, column: Column, unit: str) -> str:
+        """Say why the unit of a column does not fit a quantity in an SI unit; empty if it does."""
+        given, heading = self.unit_for(column, unit), self.headings[column.at]
+        if in_si(given or "")[0] != unit:
+            return (
+                f"column {short(heading.text)!r}: the unit {short(given or '(none)')} does not fit "
+                f"{column.name}, which is in {unit} or what people use of it."
+            )
+        elsewhere = [self.units[column.at], *self.stated]
+        others = [o for o in elsewhere if o is not None and _contradicts(o, given or "")]
+        if others:
+            return (
+                f"column {short(heading.text)!r} is in {given}, and a row of units or a comment "
+                f"says {others[0]}. Keep one of them."
+            )
+        return ""
+
+    def unit_for(self, column: Column, unit: str) -> str | None:
+        """Return the unit of a column: its own, or the one stated for all of this SI unit."""
+        if column.unit is not None:
+            return column.unit
+        return next((stated for stated in self.stated if in_si(stated)[0] == unit), None)
+
+    def numbers(self, wanted: Sequence[int], may_be_empty: Collection[int] = ()) -> Array:
+        """Return the numbers of some columns, in the order in which they are wanted.
+
+        Parameters
+        ----------
+        wanted : sequence of int
+            The columns that are read.
+        may_be_empty : collection of int, optional
+            Those of them in which a cell may have nothing, or what is infinite: NaN.
+
+        Raises
+        ------
+        InputError
+            With the lines that are wrong.
+        """
+        problems = []
+        if len(self.rows) < 2:
+            problems.append(f"rows of numbers: {len(self.rows)}; at least two are needed.")
+        values = np.full((len(self.rows), len(wanted)), math.nan)
+        for row, (line, cells) in enumerate(self.rows):
+            problem = self._fill(values[row], cells, wanted, may_be_empty)
+            if problem:
+                problems.append(f"line {line} {problem}")
+            if len(problems) > _MOST_LISTED:
+                problems[_MOST_LISTED:] = ["and perhaps more lines."]
+                break
+        problems += self.mixed_marks(wanted)
+        if problems:
+            raise InputError(problems, self.source)
+        return values
+
+    def mixed_marks(self, wanted: Collection[int]) -> list[str]:
+        """Refuse numbers with points and with commas: one of them may be that of thousands."""
+        if not self.commas:
+            return []
+        marks = {
+            mark
+            for _, cells in self.rows
+            for i in wanted
+            if i < len(cells)
+            for mark in ",."
+            if mark in str(cells[i])
+        }
+        if len(marks) < 2:
+            return []
+        return [
+            "numbers have points and commas: write one of them, for decimals, and no thousands."
+        ]
+
+    def number(self, cell: Any) -> float:
+        """Return the number in a cell; NaN where there is none."""
+        if isinstance(cell, bool):
+            return math.nan
+        if isinstance(cell, int | float):
+            return float(cell) if abs(cell) < 1e300 else math.inf
+        text = str("" if cell is None else cell).strip()
+        if "_" in text:  # Python's own way to group digits, and a slip of the pen in a file
+            return math.nan
+        try:
+            return float(text.replace(",", ".") if self.commas else text)
+        except ValueError:
+            return math.nan
+
+    def _fill(
+        self,
+        row: Array,
+        cells: Sequence[Any],
+        wanted: Sequence[int],
+        may_be_empty: Collection[int],
+    ) -> str:
+        """Put the numbers of a row into an array; return what is wrong, empty if nothing is."""
+        if len(cells) != len(self.headings):
+            counts = f"has {len(cells)} values; the first line names {len(self.headings)} columns."
+            return f"{counts} Separate them alike."
+        for at, i in enumerate(wanted):
+            value = self.number(cells[i])
+            nothing = i in may_be_empty and (cells[i] == "" or math.isinf(value))
+            if not (math.isfinite(value) or nothing):
+                name, cell = short(self.headings[i].text), short(legible(str(cells[i])))
+                return f"has {name} = {cell!r}; a finite number is needed."
+            row[at] = value if math.isfinite(value) else math.nan
+        return ""
+
+
+def csv_rows(
+    path: str | Path, most: int = MOST_OF_MEASUREMENTS
+) -> tuple[list[Row], list[Row], bool]:
+    """Return the rows of a CSV file, its comment lines, and whether decimals may have commas.
+
+    Columns are separated by tabs, semicolons or commas; comments begin with a hash.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is too large or is not UTF-8.
+    """
+    lines = [
+        (number, line)
+        for number, line in enumerate(text_of(Path(path), most).splitlines(), start=1)
+        if line.strip()
+    ]
+    plain = [(number, line) for number, line in lines if line[0] != "#"]
+    if len(lines) > _MOST_ROWS:
+        problem = f"the file has {len(lines)} lines; {_MOST_ROWS} are the most. Give a part of it."
+        raise InputError([problem], str(path))
+    delimiter = _delimiter_of(plain[0][1]) if plain else ","
+    rows: list[Row] = [(number, _cells_of(line, delimiter)) for number, line in plain]
+    remarks: list[Row] = [
+        (number, _cells_of(line.lstrip("#"), delimiter)) for number, line in lines if line[0] == "#"
+    ]
+    return rows, remarks, delimiter != ","
+
+
+def read_table(path: str | Path) -> Table:
+    """Return the table of a CSV file, whose first line names the columns.
+
+    Raises
+    ------
+    InputError
+        If there is nothing to be read.
+    """
+    rows, comments, commas = csv_rows(path)
+    if not rows:
+        raise InputError(["the file is empty. The first line names the columns."], str(path))
+    return Table.of(str(path), rows, comments, commas=commas)
+
+
+def _delimiter_of(heading: str) -> str:
+    """Return what separates the columns: a tab, a semicolon or a comma, outside of quotes."""
+    outside_quotes = re.sub(r'"[^"]*"', "", heading)
+    return next((mark for mark in _DELIMITERS if mark in outside_quotes), ",")
+
+
+def _cells_of(line: str, delimiter: str) -> list[Any]:
+    """Return the cells of a line."""
+    try:
+        (cells,) = csv.reader([line], delimiter=delimiter, skipinitialspace=True)
+    except (csv.Error, ValueError):  # a cell without end
+        cells = line.split(delimiter)
+    return [cell.strip() for cell in cells]
+
+
+def _units_row(cells: Sequence[Any], count: int) -> list[str | None] | None:
+    """Return the units of a row that has nothing else, one for each column; None if it has."""
+    texts = ["" if cell is None else str(cell).strip() for cell in cells]
+    texts += [""] * (count - len(texts))
+    if len(texts) != count or not any(_names_unit(text) for text in texts):
+        return None
+    units = [text.strip("[]() ") for text in texts]
+    if not all(_names_unit(unit) or unit.lower() in ("", "-", "unit", "units") for unit in units):
+        return None
+    return [unit if _names_unit(unit) or unit == "-" else None for unit in units]
+
+
+def _names_unit(text: str) -> bool:
+    """Tell whether a text is a unit, and neither a number nor a stroke for nothing."""
+    return len(text) < 40 and not _STROKE_OR_NUMBER.fullmatch(text) and bool(in_si(text)[0])
+
+
+def _stated(source: str, number: int, comment: str) -> Iterator[str]:
+    """Yield the units that a comment line states for all columns."""
+    found = _STATES.fullmatch(comment[:500])
+    pieces = re.split(r"[,;]|\band\b", found[1] if found else comment[:500])
+    units = [piece.strip(" .[]()") for piece in pieces]
+    if all(map(_names_unit, units)):
+        yield from units
+    elif found and re.match(r"\W*(all\s+)?units?\s*[:=]", comment, re.IGNORECASE):
+        problem = (
+            f"line {number}: the comment {short(legible(comment.strip()))!r} states units that are "
+            "not known. Write them as # units: mm, deg."
+        )
+        raise InputError([problem], source)
+
+
+def _contradicts(one: str, other: str) -> bool:
+    (unit, factor), (other_unit, other_factor) = in_si(one), in_si(other)
+    return bool(unit) and unit == other_unit and factor != other_factor

@@ -1,0 +1,100 @@
+"""Units as people write them, and what they are in SI units."""
+
+import math
+from fractions import Fraction
+
+LENGTHS = {
+    "m": Fraction(1),
+    "mm": Fraction(1, 1000),
+    "cm": Fraction(1, 100),
+    "km": Fraction(1000),
+    "in": Fraction(254, 10000),
+    "ft": Fraction(3048, 10000),
+}
+"""Units of length, in metres; those of the inch are exact."""
+
+_UNITS = {
+    **{name: ("m", float(length)) for name, length in LENGTHS.items()},
+    "s": ("s", 1.0),
+    "ms": ("s", 1e-3),
+    "rad": ("rad", 1.0),
+    "deg": ("rad", math.pi / 180.0),
+    "N": ("N", 1.0),
+    "kN": ("N", 1e3),
+    "lbf": ("N", 4.4482216152605),
+    "N m": ("N m", 1.0),
+    "100 N m": ("N m", 1e2),
+    "kN m": ("N m", 1e3),
+    "%": ("1", 1e-2),
+    "1": ("1", 1.0),
+    "-": ("1", 1.0),
+    "": ("1", 1.0),
+}
+_SPELLINGS = {
+    "mm": ("millimetre", "millimetres", "millimeter", "millimeters"),
+    "cm": ("centimetre", "centimetres", "centimeter", "centimeters"),
+    "m": ("metre", "metres", "meter", "meters"),
+    "in": ("inch", "inches", '"'),
+    "ft": ("foot", "feet"),
+    "s": ("sec", "second", "seconds"),
+    "ms": ("msec", "millisecond", "milliseconds"),
+    "deg": ("degree", "degrees", "\u00b0"),
+    "rad": ("radian", "radians"),
+    "N": ("newton", "newtons"),
+    "N m": ("Nm",),
+    "100 N m": ("100 Nm",),
+    "kN m": ("kNm",),
+    "%": ("percent",),
+    "1": ("none",),
+}
+_KNOWN = {name.lower(): name for name in _UNITS} | {
+    spelling.lower(): name for name, spellings in _SPELLINGS.items() for spelling in spellings
+}
+
+
+def unit_of(text: str) -> str:
+    """Return the usual spelling of a single unit, ``in`` of ``Inches``; empty if it is not known.
+
+    Examples
+    --------
+    >>> unit_of("Inches"), unit_of("[mm]"), unit_of("furlong")
+    ('in', 'mm', '')
+    """
+    plain = " ".join(text.replace("\u00b7", " ").replace("*", " ").split()).strip(" []().")
+    return _KNOWN.get(plain.lower(), "")
+
+
+def in_si(text: str) -> tuple[str, float]:
+    """Return the SI unit of one for people, and the factor to it; empty if it is not known.
+
+    Examples
+    --------
+    >>> in_si("N/mm")
+    ('N/m', 1000.0)
+    >>> in_si("furlong")[0]
+    ''
+    """
+    text = text.strip()
+    if len(text) > 1 and text[0] + text[-1] in ("[]", "()"):
+        text = text[1:-1]
+    parts = text.split("/")
+    known = [_UNITS[unit_of(part)] for part in parts if unit_of(part) or not text.strip()]
+    if len(known) < len(parts) or len(parts) > 2:
+        return "", math.nan
+    factor = known[0][1] / (known[1][1] if len(known) == 2 else 1.0)
+    if len(known) == 1 or known[1][0] == "1":
+        return known[0][0], factor
+    below = f"({known[1][0]})" if " " in known[1][0] else known[1][0]
+    return ("1" if known[0][0] == known[1][0] else f"{known[0][0]}/{below}"), factor
+
+
+def length_in(value: float, given: str, wanted: str) -> float:
+    """Return a length in another unit: the double that is nearest for the units of `LENGTHS`.
+
+    Examples
+    --------
+    >>> length_in(205.0, "mm", "m"), length_in(1.0, "in", "mm")
+    (0.205, 25.4)
+    """
+    # rounded once, at the end: the factor 0.001 would have been rounded before
+    return float(Fraction(value) * LENGTHS[given] / LENGTHS[wanted])
