@@ -18,7 +18,6 @@ from .commands import observed
 from .subjects import AXLES, CORNERS, RIGID_AXLES
 
 if TYPE_CHECKING:
-
     import xarray as xr
 
 VALUES = Path(__file__).parent / "values"
@@ -115,4 +114,4 @@ def _difference(stored: list[Any], today: list[Any]) -> float:
     apart = (before != now) & ~(np.isnan(before) & np.isnan(now))
     if not np.isfinite([before[apart], now[apart]]).all():
         return np.inf
-    return float(np.abs(before - now)[apart].max(initial=0.0))
+    return float(np.abs(before[apart] - now[apart]).max(initial=0.0))
