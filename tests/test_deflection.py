@@ -1,11 +1,13 @@
 """Bushes that give way by any amount: equilibrium in maximal coordinates, limits, refusals."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from kintrafo import (
+    Axle,
     InputError,
     Model,
     PositionError,
@@ -15,14 +17,20 @@ from kintrafo import (
     loads,
 )
 from kintrafo.core.arguments import Arguments
+from kintrafo.core.vectors import unit_vector
+from kintrafo.study.axles.on_bushes import softs_of
+from kintrafo.study.characteristics import wheel
 from kintrafo.study.loads.elastic.connections import Soft
+from kintrafo.study.loads.elastic.deflection import BY_NAME, unit_load
 from kintrafo.study.loads.elastic.equilibrium import Equilibrium, State
+from kintrafo.study.loads.elastic.held import at_height, on_bushes, soft_of, suspension_on
 from kintrafo.study.loads.elastic.places import Angles, Distances, Lengths, Places, Radii, Twists
 from kintrafo.study.loads.poses import Poses
 from kintrafo.suspension.bush_curve import Curve
 from kintrafo.suspension.positions import design_height
 from kintrafo.suspension.reach import at_rest
 from oracle.constraints import Pose
+from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 from soft_suspensions import BUSHES, BUSHES_OF, LINKED, STRUT, TRAILING, WISHBONES, Stiffness
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
@@ -481,3 +489,103 @@ def test_what_cannot_be_is_refused() -> None:
     both = {"arm_rear": {"axial_N_per_mm": 1.0, "axial_curve": {"mm": [0, 1], "N": [0, 1]}}}
     with pytest.raises(InputError, match="Keep one"):
         loads.compliance(model, both)
+
+
+# -- what the bearings of an arm carry where the hardpoints are ----------------------------------
+
+_STIFF, _LOOSE = 4000.0, 300.0
+_BENT = {"mm": [-3.0, -1.0, 0.0, 1.0, 3.0], "N": [-9000.0, -700.0, 0.0, 500.0, 8000.0]}
+BEARINGS = {
+    "along the arm": (
+        {"axial_N_per_mm": _STIFF, "radial_N_per_mm": 2000.0},
+        {"axial_N_per_mm": _LOOSE, "radial_N_per_mm": 9000.0},
+    ),
+    "one bent": (
+        {"axial_curve": _BENT, "radial_N_per_mm": 2000.0},
+        {"axial_N_per_mm": _LOOSE},
+    ),
+    "across the arm": (
+        {"axial_N_per_mm": 900.0, "radial_N_per_mm": [300.0, 5000.0], "axis": [0.3, 0.2, 1.0]},
+        {"axial_N_per_mm": _LOOSE, "radial_curve": {"mm": [0, 1, 3], "N": [0, 900, 9000]},
+         "axis": [1.0, 0.4, 0.2]},
+    ),
+    "one rigid": ({"radial_N_per_mm": 2000.0}, {"axial_N_per_mm": _LOOSE}),
+}  # fmt: skip
+
+
+def _given_way(bush: Any, force: np.ndarray) -> np.ndarray:
+    """Return where a bush goes under a force, by a search along each of its axes [m]."""
+    carried = bush.axes @ force
+    found = bush.soft * carried
+    axial, radial, _ = bush.curves
+    if axial is not None:
+        found[0] = brentq(lambda d: axial.force(np.array(d)) - carried[0], -0.1, 0.1, xtol=1e-15)
+    if radial is not None:
+        size = np.linalg.norm(carried[1:])
+        far = brentq(lambda d: radial.force(np.array(d)) - size, 0.0, 0.1, xtol=1e-15)
+        found[1:] = far * carried[1:] / size
+    moved: np.ndarray = bush.axes.T @ found
+    return moved
+
+
+@pytest.mark.parametrize("kind", BEARINGS)
+@pytest.mark.parametrize("on", ["suspension", "axle"])
+def test_two_bearings_share_a_force_as_their_bushes_do(kind: str, on: str) -> None:
+    """Along their axis the bearings of a rigid arm move alike: there the energy is least."""
+    front, rear = BEARINGS[kind]
+    names = {"reference_car": ("arm_front", "arm_rear", "control_arm"),
+             "double_wishbone_car": ("lower_arm_front", "lower_arm_rear", "lower_arm")}  # fmt: skip
+    for name, (one, other, arm) in names.items():
+        car = Suspension.load(name)
+        model = Model(car)
+        bushes = {one: front, other: rear}
+        with Arguments("test") as given:
+            if on == "suspension":
+                soft = soft_of(given, model, bushes, "loaded")
+            else:
+                axle = Axle.from_dict({"axle": "front", "side": car})
+                soft = softs_of(given, axle, bushes, "loaded")[car.vehicle.side]
+        forces = {at: soft.carried["chassis", arm, at][:3] for at in (one, other)}
+        axis = unit_vector(car.hardpoints.metres(other) - car.hardpoints.metres(one))
+        moved = {at: _given_way(soft.bushes[at], forces[at]) @ axis for at in forces}
+        # a search for forces of 1e3 N to 1e-14 of them, that give way by a millimetre
+        assert moved[one] == pytest.approx(moved[other], abs=1e-12)
+        # both together are what statics says
+        held = loads.static(model, {"design": {"travel_mm": 0.0}})
+        both = held["force"].sel(load=[f"{arm} at {at} by chassis" for at in forces])
+        np.testing.assert_allclose(sum(forces.values()), both[0].sum("load"), atol=1e-6)
+        if kind == "along the arm":
+            share = (forces[one] @ axis) / (forces[other] @ axis)
+            assert share == pytest.approx(_STIFF / _LOOSE, rel=1e-9)
+        if kind == "one rigid":
+            assert abs(forces[other] @ axis) < 1e-6
+
+
+def test_how_bearings_share_matters_to_the_toe() -> None:
+    """By the forces of the rigid bearing alone, put in by hand."""
+    model = Model("reference_car")
+    bushes = {
+        "arm_front": {"axial_N_per_mm": _STIFF, "radial_N_per_mm": 2000.0},
+        "arm_rear": {"axial_N_per_mm": _LOOSE, "radial_N_per_mm": 1000.0},
+    }
+    with Arguments("test") as given:
+        soft = soft_of(given, model, bushes, "loaded")
+    half, carried = dict(soft.carried), soft.carried
+    keys = [("chassis", "control_arm", at) for at in ("arm_front", "arm_rear")]
+    points = model.suspension.hardpoints
+    axis = unit_vector(points.metres("arm_rear") - points.metres("arm_front"))
+    along = sum(carried[key][:3] @ axis for key in keys)
+    for key in keys:
+        own = carried[key].copy()
+        own[:3] += (0.5 * along - own[:3] @ axis) * axis
+        half[key] = own
+    toes = []
+    for each in (soft, replace(soft, carried=half)):
+        suspension = suspension_on(model, np.zeros(1), 0.0, each)
+        base = at_height(suspension, np.zeros(1))
+        unit = unit_load(BY_NAME["lateral"], suspension.wheels[0])[:, None]
+        state = suspension.under(4000.0 * unit, "height", base)
+        toes.append(np.diff([wheel.toe(on_bushes(suspension, s)) for s in (base, state)], axis=0))
+    found = loads.deflection(model, bushes, "lateral", [4000.0])["toe_change"][0, 0]
+    assert float(found) == pytest.approx(float(toes[0][0, 0]), rel=1e-9)
+    assert abs(float(found) / float(toes[1][0, 0]) - 1.0) > 1e-5

@@ -97,13 +97,111 @@ def test_joints_carry_what_multipliers_say(seed: int, free: bool) -> None:
     largest = abs(found["force"].values).max()
     pairs = [(0, ARM), (ARM, KNUCKLE), (KNUCKLE, UPPER_STRUT), (0, UPPER_STRUT),
              (KNUCKLE, TIE_ROD), (RACK, TIE_ROD), (KNUCKLE, WHEEL)]  # fmt: skip
-    for first, second in pairs:
+
+    def multipliers(first: int, second: int) -> np.ndarray:
         own = (bodies == (first, second)).all(axis=1)
-        wrench = -(rows[own].T @ solved.multipliers[:count][own]).reshape(6, 6)[second - 1]
-        part = BODIES[second - 1]
+        wrench: np.ndarray = -(rows[own].T @ solved.multipliers[:count][own]).reshape(6, 6)
+        return wrench[second - 1]
+
+    for first, second in pairs:
+        wrench, part = multipliers(first, second), BODIES[second - 1]
         by = "chassis" if first == 0 else BODIES[first - 1]
         ours = total(found, part, by, pose.position[second - 1])
         np.testing.assert_allclose(ours, wrench, rtol=0.0, atol=1e-9 * largest)
+    guide, steering = (
+        total(found, "rack", by, pose.position[RACK - 1]) for by in ("chassis", "steering")
+    )
+    wrench = multipliers(0, RACK)
+    if free:
+        # there the steering pushes at the centre of mass
+        axis = np.array([model.parameters[f"rack_axis_{c}"] for c in "xyz"])
+        wrench[:3] += values["rack_force"] * axis
+        guide += steering
+    np.testing.assert_allclose(guide, wrench, rtol=0.0, atol=1e-9 * largest)
+
+
+EVERY = (CAR, OFFSET, WISHBONES, PUSHED, PULLED, LINKED, TRAILING)
+
+
+def left_of(found: xr.Dataset) -> dict[str, np.ndarray]:
+    """Return the sums of all listed loads on each part about the origin, the chassis's as well."""
+    force, at = found["force"].values, found["at"].values
+    moment = found["moment"].values + np.cross(at, force)
+    return {
+        str(part): np.concatenate([force[:, own].sum(1), moment[:, own].sum(1)], axis=-1)
+        for part in np.unique(found["part"].values)
+        for own in [(found["part"] == part).values]
+    }
+
+
+@pytest.mark.parametrize("car", EVERY, ids=lambda car: car.TITLE)
+def test_all_listed_loads_are_in_equilibrium(car: Suspension) -> None:
+    """On every part that is named, the rack too; the chassis has what acts from outside."""
+    found = loads.static(Model(car), {"held": {"travel_mm": 15.0, "contact_N": [900, -800, 0],
+                                               "center_N": [-300, 20, 10],
+                                               "contact_Nm": [5, 8, 30]}})  # fmt: skip
+    outside = found.isel(load=found["by"].isin(["road", "drive", "gravity"]).values)
+    sums, acting = left_of(found), sum(left_of(outside).values())
+    assert car.steered() == ("rack" in sums)
+    for part, left in sums.items():
+        expected = acting if part == "chassis" else 0.0
+        # tens of terms of 1e4 N
+        np.testing.assert_allclose(left, np.broadcast_to(expected, left.shape), atol=1e-8)
+
+
+def test_a_rack_that_moves_by_itself_is_in_equilibrium_with_its_inertia() -> None:
+    model = Model(heavy(CAR), free_rack=True)
+    rest = equilibrium(model, spin_rate=50.0)
+    motion = simulate(model, (0.0, 0.05), rest, inputs={"rack_force": lambda t: 300.0 * t})
+    found = loads.along(model, motion)
+    assert {"gravity", "inertia"} <= set(found["by"].values[found["part"].values == "rack"])
+    for part, left in left_of(found).items():
+        assert part == "chassis" or abs(left).max() < 1e-6, part
+    steering = found.isel(load=((found["part"] == "rack") & (found["by"] == "steering")).values)
+    pushed = 300.0 * motion.t
+    # the motion is as exact as its tolerances, of forces of 1e4 N
+    np.testing.assert_allclose(steering["force"].values[:, 0, 1], pushed, atol=1e-5)
+
+
+@pytest.mark.parametrize("car", EVERY, ids=lambda car: car.TITLE)
+def test_a_mount_carries_the_total_of_what_is_bolted_there(car: Suspension) -> None:
+    found = loads.static(Model(car), STILL | {"held": {"travel_mm": 15.0}})
+    names = [str(name) for name in found["mount"].values]
+    own = found.isel(load=(found["part"] == "chassis").values)
+    points = car.hardpoints.at_design()
+    for name, by in zip(names, found["total_by"].values, strict=True):
+        at = found["total_at"].sel(mount=name).values
+        here = [n for n in own["point"].values if np.allclose(points.get(n, at[0]), at[0])]
+        if name == "strut_top":
+            here = ["strut_top", "spring_top"]
+        chosen = own.isel(load=own["point"].isin(here).values)
+        if name != "rack_guide":
+            chosen = chosen.isel(load=(chosen["point"] != "rack_guide").values)
+        force = chosen["force"].values
+        arms = chosen["at"].values - at[:, None]
+        moment = (chosen["moment"].values + np.cross(arms, force)).sum(1)
+        np.testing.assert_allclose(found["total_force"].sel(mount=name), force.sum(1), atol=1e-9)
+        np.testing.assert_allclose(found["total_moment"].sel(mount=name), moment, atol=1e-9)
+        assert set(str(by).split(", ")) == set(chosen["by"].values)
+    whole = found["total_force"].sum("mount")
+    np.testing.assert_allclose(whole, own["force"].sum("load"), atol=1e-8)
+    rows = loads.table(found)
+    totals = rows.isel(load=(rows["part"] == "total").values)
+    assert [str(point) for point in totals["point"].values] == names
+    np.testing.assert_array_equal(totals["force_z"], found["total_force"].sel(axis="z"))
+
+
+def test_the_top_of_a_strut_has_the_spring_in_its_total(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+    """At rest the body carries the wheel less what hangs on it: nearly all at the mount."""
+    out = tmp_path / "loads.csv"
+    status, told, _ = kintrafo(*f"loads reference_car --out {out}".split())
+    assert status == 0
+    assert "strut_top, total" in told
+    text = next(t for t in out.read_text().splitlines() if '"upper_strut, spring"' in t)
+    assert text.startswith('"total at strut_top by upper_strut, spring",static')
+    assert ",total," in text
+    force = loads.static(Model(CAR), STILL)["total_force"].sel(mount="strut_top", axis="z")
+    assert float(force[0]) == pytest.approx(3487.0, abs=1.0)
 
 
 @pytest.mark.parametrize(
@@ -123,7 +221,8 @@ def test_joints_do_no_work(car: Suspension) -> None:
     centers = model.evaluate("positions", states, inputs)
     powers: dict[frozenset[str], np.ndarray] = {}
     for i, (part, by) in enumerate(zip(found["part"].values, found["by"].values, strict=True)):
-        if by in ("gravity", "inertia", "spring", "damper", "road") or part == "chassis":
+        acting = ("gravity", "inertia", "spring", "damper", "road", "steering")
+        if by in acting or part == "chassis":
             continue
         which = bodies.index(part)
         at = found["at"].values[:, i] - centers[:, which]
@@ -132,7 +231,8 @@ def test_joints_do_no_work(car: Suspension) -> None:
         power += (found["moment"].values[:, i] * twists[:, which, :3]).sum(-1)
         pair = frozenset((part, by))
         powers[pair] = powers.get(pair, 0.0) + power
-    assert len(powers) == len(car.structure().joints)
+    # and the guide of the rack
+    assert len(powers) == len(car.structure().joints) + car.steered()
     for pair, power in powers.items():
         # newtons times metres a second, of some 10 kN and 1 m/s
         assert abs(power).max() < 1e-8, pair

@@ -80,6 +80,7 @@ def command(
     """
     from ..study import export
     from ..study import loads as study
+    from ..study.loads.mounts import with_totals
     from ..study.loads.sheets import overview
 
     inputs: list[str | Path] = [file, *([] if cases is None else [cases])]
@@ -110,10 +111,11 @@ def command(
     if json:
         print_json(export.as_dict(found))
     else:
+        told = with_totals(found, several=True)
         for name in shown or ():
-            console.print(_components(found, name, parts, file))
+            console.print(_components(told, name, parts, file))
         if envelope:
-            console.print(_extremes(found, study.envelope(found), parts, file))
+            console.print(_extremes(told, study.envelope(told), parts, file))
         elif not shown:
             print_table(overview(found, f"{file}: sizes of the forces [N]", parts or ()))
         _tell(found)

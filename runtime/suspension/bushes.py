@@ -98,6 +98,41 @@ class Bush:
         whole[3:, 3:] = self.tilt * (np.eye(3) - np.outer(self.spin, self.spin))
         return whole
 
+    def give(self, wrench: Array) -> tuple[Array, Array]:
+        """Return how far it gives way, however far that is; chassis axes at design.
+
+        Parameters
+        ----------
+        wrench : ndarray, shape (6,)
+            Force and moment on the joint's second part.
+
+        Returns
+        -------
+        moved : ndarray, shape (6,)
+            Displacement and rotation.
+        slopes : ndarray, shape (6, 6)
+            Their derivatives by force and moment.
+        """
+        slopes = self.compliance
+        moved: Array = slopes @ wrench
+        axial, radial, _ = self.curves
+        if axial is None and radial is None:
+            return moved, slopes
+        force = self.axes @ wrench[:3]
+        shift, by = self.soft * force, np.diag(self.soft)
+        if axial is not None:
+            shift[0] = axial.displacement(float(force[0]))
+            by[0, 0] = 1.0 / float(axial.rate(shift[:1])[0])
+        size = float(np.linalg.norm(force[1:]))
+        if radial is not None and size:
+            far, along = radial.displacement(size), force[1:] / size
+            outer = np.outer(along, along)
+            shift[1:] = far * along
+            rate = float(radial.rate(np.array([far]))[0])
+            by[1:, 1:] = outer / rate + far / size * (np.eye(2) - outer)
+        moved[:3], slopes[:3, :3] = self.axes.T @ shift, self.axes.T @ by @ self.axes
+        return moved, slopes
+
 
 def read_bushes(path: str | Path) -> dict[str, Any]:
     """Read a TOML file of bushes.

@@ -6,7 +6,7 @@ one they are the opposite. Arrays have any leading dimensions, one element for e
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
@@ -296,10 +296,13 @@ class Structure:
     joints : sequence of Joint
     lines : sequence of Line
         Those of springs and dampers.
+    mounted : mapping of str to str
+        Points on the chassis that belong to a mount at another point.
     """
 
     joints: Sequence[Joint]
     lines: Sequence[Line]
+    mounted: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def parts(self) -> tuple[str, ...]:

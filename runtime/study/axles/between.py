@@ -10,12 +10,12 @@ from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array
 from ...suspension.points import carried
-from ..loads.dataset import Place
-from ..loads.poses import Poses, wrench_about
+from ..loads.between import STILL, Place, on_both, on_the_rack, sum_of
+from ..loads.poses import Poses
 from ..loads.reactions import Load
 
 SIDES = (LEFT, RIGHT)
-BAR, LINK, RACK, STEERING = "anti_roll_bar", "drop_link", "rack", "steering"
+BAR, LINK = "anti_roll_bar", "drop_link"
 
 _OF_BAR = "two bearings of an anti-roll bar share the force along it equally"
 _OF_RACK = "the housing of the rack holds it in the middle between the tie rods"
@@ -73,7 +73,11 @@ class Between:
         self, poses: Mapping[str, Poses], loads: list[Load]
     ) -> tuple[list[Load], dict[str, Place]]:
         """Return all loads, and where bar, links and rack are; see `kintrafo.study.loads`."""
-        rack, places = self._rack(loads) if self.axle.steered() else ([], {})
+        rack: list[Load] = []
+        places: dict[str, Place] = {}
+        if self.axle.steered():
+            axis = unit_vector(self.axle.right.rack.axis)
+            rack, places = on_the_rack(axis, loads, "rack_middle")
         if self.axle.halves:
             bar, of_bar = self._bar(poses, loads)
             rack, places = [*bar, *rack], of_bar | places
@@ -89,49 +93,15 @@ class Between:
             top = self.axle.halves[side].top_at(turn)
             link, point = f"{LINK}_{side}", f"link_top_{side}"
             foot = replace(pull, part=link, by=pull.part, force=-pull.force)
-            found += [foot, *_both(link, BAR, Load(link, point, BAR, pull.force, _NONE, top))]
-            places[link] = _at(pull.at)
+            found += [foot, *on_both(link, BAR, Load(link, point, BAR, pull.force, STILL, top))]
+            places[link] = Place.unturned(pull.at)
         bushes = [np.broadcast_to(self.axle.halves[s].bush, top.shape) for s in SIDES]
         middle = np.mean(bushes, axis=0)
-        bearings = _on_bearings(bushes, _sum(found, BAR, middle))
+        bearings = _on_bearings(bushes, sum_of(found, BAR, middle))
         for side, bush, wrench in zip(SIDES, bushes, bearings, strict=True):
             load = Load(BAR, f"bar_bush_{side}", "chassis", wrench[:, :3], wrench[:, 3:], bush)
-            found += _both(BAR, "chassis", load)
-        return found, places | {BAR: _at(middle)}
-
-    def _rack(self, loads: list[Load]) -> tuple[list[Load], dict[str, Place]]:
-        """Return what holds the rack: along it the steering, in all else its housing."""
-        own = [load for load in loads if load.part == RACK]
-        middle = np.mean([load.at for load in own], axis=0)
-        wrench = _sum(own, RACK, middle)
-        axis = unit_vector(self.axle.right.rack.axis)
-        along = (wrench[:, :3] @ axis)[:, None] * axis
-        steering = Load(RACK, "rack_middle", STEERING, -along, _NONE, middle)
-        across = along - wrench[:, :3]
-        housing = Load(RACK, "rack_middle", "chassis", across, -wrench[:, 3:], middle)
-        reaction = replace(steering, part="chassis", force=along)
-        return [steering, reaction, *_both(RACK, "chassis", housing)], {RACK: _at(middle)}
-
-
-_NONE = np.zeros(3)
-
-
-def _both(one: str, other: str, load: Load) -> list[Load]:
-    """Return a load of one part by another, and its opposite."""
-    back = replace(load, part=other, by=one, force=-load.force, moment=-load.moment)
-    return [load, back]
-
-
-def _at(center: Array) -> Place:
-    """Return a part whose own axes are those of the chassis."""
-    return Place(center, np.broadcast_to(np.eye(3), (*center.shape, 3)))
-
-
-def _sum(loads: list[Load], part: str, about: Array) -> Array:
-    """Return force and moment of the loads on a part about a point, (n, 6)."""
-    own = [wrench_about(about, o.at, o.force, o.moment) for o in loads if o.part == part]
-    total: Array = np.sum(own, axis=0)
-    return total
+            found += on_both(BAR, "chassis", load)
+        return found, places | {BAR: Place.unturned(middle)}
 
 
 def _on_bearings(bushes: list[Array], wrench: Array) -> tuple[Array, Array]:

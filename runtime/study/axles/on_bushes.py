@@ -1,5 +1,6 @@
 """Both sides of an axle on their bushes, as a caller describes them, held by the road."""
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from ...core.arguments import Arguments
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
-from ...suspension.bushes import softness_of_rack
+from ...suspension.bushes import Bush, softness_of_rack
 from ...suspension.corner import Array
 from ...suspension.positions import arm_angles, design_height
 from ...suspension.reach import at_rest
@@ -36,21 +37,23 @@ def softs_of(
     if any(side.tyre_radius() is None for side in axle.sides.values()):
         given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
     loaded = hardpoints == "loaded" and not given.refused
-    carried = _carried_at_design(axle) if loaded else {side: {} for side in SIDES}
+    carried = _carried_at_design(axle, bushes) if loaded else {side: {} for side in SIDES}
     return {
         side: Soft({bush.point: bush for bush in bushes[side]}, rack, carried[side])
         for side in SIDES
     }
 
 
-def _carried_at_design(axle: Axle) -> dict[str, dict[tuple[str, str, str], Array]]:
+def _carried_at_design(
+    axle: Axle, bushes: Mapping[str, Sequence[Bush]]
+) -> dict[str, dict[tuple[str, str, str], Array]]:
     """Return what the joints of both sides carry at design, with what the bar does there."""
     poses = {side: at_design(axle.models[side]) for side in SIDES}
     pulled: dict[str, list[Any]] = {side: [] for side in SIDES}
     if axle.halves:
         torque = torque_of_bar(axle, {f"_{side}": at for side, at in poses.items()})
         pulled = {side: [pull_of_bar(axle, side, poses[side], torque)] for side in SIDES}
-    found = {side: dict(carried_at(poses[side], pulled[side])) for side in SIDES}
+    found = {side: dict(carried_at(poses[side], pulled[side], bushes[side])) for side in SIDES}
     if axle.steered():
         # one rack, on which both tie rods pull
         both = found[LEFT][GUIDE] + found[RIGHT][GUIDE]

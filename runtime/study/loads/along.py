@@ -16,10 +16,11 @@ from ...suspension.model import Model
 from ...systems.inputs import rates_of
 from ...systems.system import System
 from ..recording import TIME
-from .dataset import Between, alone, dataset_of, joined
+from .between import Between, alone, rules_of
+from .dataset import dataset_of, joined
 from .inertia import Twists, tensor_of_part, tensor_of_wheel
 from .poses import CENTER, CONTACT, Poses, touching, wheel_axes
-from .reactions import Equations, Load, known
+from .reactions import RACK, Equations, Load, known
 
 Array = NDArray[np.float64]
 
@@ -71,7 +72,7 @@ def along(model: Model, result: Simulation) -> xr.Dataset:
         if not given.refused and not is_motion_of(model, result):
             given.refuse(f"result: it is not a motion of this model, {model!r}.")
     found = over_time(partial(in_motion, model), result)
-    return found.assign_attrs(rules="; ".join(model.suspension.structure().rules))
+    return found.assign_attrs(rules=rules_of(model.suspension))
 
 
 def over_time(find: Callable[[Array, Array], xr.Dataset], result: Simulation) -> xr.Dataset:
@@ -197,7 +198,7 @@ def _inertia(poses: Poses, parts: tuple[str, ...], by_time: Array) -> list[Load]
     twists = Twists.of(model, poses.states, poses.inputs, by_time, rates_of_inputs)
     axis = model.suspension.wheel.spin_axis(model.suspension.vehicle.sign)
     loads = []
-    for part in (part for part in parts if values[f"{part}_mass"] != 0.0):
+    for part in (part for part in (*parts, RACK) if values.get(f"{part}_mass", 0.0) != 0.0):
         wheel = part == "wheel"
         tensor = tensor_of_wheel(values, part, axis) if wheel else tensor_of_part(values, part)
         mass, turned, center = values[f"{part}_mass"], poses.turned[part], poses.centers[part]

@@ -1,7 +1,7 @@
 """Loads on parts as a dataset, and the extremes of them."""
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -13,6 +13,8 @@ from ...core.quantities import variable
 from ...core.vectors import cross
 from ...suspension.reach import PositionError
 from ...suspension.structure import GROUND
+from .between import Between, Place, alone
+from .mounts import totals, with_totals
 from .poses import Poses
 from .reactions import Load
 
@@ -25,35 +27,9 @@ _ENDS = "min", "min_case", "max", "max_case"
 _NEEDED = "what kintrafo.loads.static or along returns is needed"
 
 
-@dataclass(frozen=True)
-class Place:
-    """Where a part in equilibrium is, in n positions.
-
-    Attributes
-    ----------
-    center : ndarray, shape (n, 3)
-        About which its moments are summed [m].
-    turned : ndarray, shape (n, 3, 3)
-        Its rotation from design.
-    """
-
-    center: Array
-    turned: Array
-
-
-Between = Callable[[Mapping[str, Poses], list[Load]], tuple[list[Load], dict[str, Place]]]
-"""Takes poses by suffix and loads, and returns all loads with those between the sides, and the
-parts in equilibrium that are of neither."""
-
-
-def alone(_poses: Mapping[str, Poses], loads: list[Load]) -> tuple[list[Load], dict[str, Place]]:
-    """Return the loads of one suspension, which shares nothing."""
-    return loads, {}
-
-
 def joined(
     poses: Mapping[str, Poses], loads: Mapping[str, Sequence[Load]], between: Between = alone
-) -> tuple[list[Load], dict[str, Place]]:
+) -> tuple[list[Load], dict[str, Place], dict[str, str]]:
     """Return the loads of one suspension, or of both of an axle and what is between them.
 
     Parameters
@@ -61,6 +37,14 @@ def joined(
     poses, loads : mapping
         By what goes behind the names of a side.
     between : callable, optional
+
+    Returns
+    -------
+    loads : list of Load
+    places : dict of str to Place
+        The parts that are in equilibrium.
+    mounted : dict of str to str
+        As of `Structure`.
     """
     every = [of_side(load, suffix) for suffix, own in loads.items() for load in own]
     places = {
@@ -69,7 +53,12 @@ def joined(
         for part in side.model.suspension.structure().parts
     }
     every, shared = between(poses, every)
-    return every, places | shared
+    mounted = {
+        f"{point}{suffix}": f"{mount}{suffix}"
+        for suffix, side in poses.items()
+        for point, mount in side.model.suspension.structure().mounted.items()
+    }
+    return every, places | shared, mounted
 
 
 def of_side(load: Load, suffix: str) -> Load:
@@ -82,7 +71,12 @@ def of_side(load: Load, suffix: str) -> Load:
     )
 
 
-def dataset_of(over: str, loads: Sequence[Load], places: Mapping[str, Place]) -> xr.Dataset:
+def dataset_of(
+    over: str,
+    loads: Sequence[Load],
+    places: Mapping[str, Place],
+    mounted: Mapping[str, str] | None = None,
+) -> xr.Dataset:
     """Return loads over the positions.
 
     Parameters
@@ -93,6 +87,8 @@ def dataset_of(over: str, loads: Sequence[Load], places: Mapping[str, Place]) ->
         All that there are.
     places : mapping
         The parts that are in equilibrium.
+    mounted : mapping of str to str, optional
+        As of `Structure`.
     """
     count = max(len(place.center) for place in places.values())
     fields = {name: _columns(loads, name, count) for name in ("force", "moment", "at")}
@@ -128,7 +124,8 @@ def dataset_of(over: str, loads: Sequence[Load], places: Mapping[str, Place]) ->
         name: variable((over, LOAD, AXIS), np.moveaxis(columns, -1, 0), meaning, unit)
         for name, (columns, meaning, unit) in data.items()
     }
-    return xr.Dataset(described | residuals, coordinates)
+    found = xr.Dataset(described | residuals, coordinates)
+    return found.assign(totals(over, loads, mounted or {}, count))
 
 
 def over_cases(
@@ -212,11 +209,13 @@ def table(dataset: xr.Dataset) -> xr.Dataset:
     -------
     xarray.Dataset
         ``force_x`` to ``moment_z`` and ``at_x`` to ``at_z`` over case, or time, and load: a row for
-        each load on each part, chassis axes.
+        each load on each part, and for the total at each mount of the chassis as that on the part
+        ``total``; chassis axes.
     """
     with Arguments("table") as given:
         given.kind("dataset", dataset, xr.Dataset, _NEEDED)
         _check(given, dataset)
+    dataset = with_totals(dataset)
     columns = {
         f"{name}_{axis}": dataset[name].sel({AXIS: axis}, drop=True)
         for name in ("force", "moment", "at")
@@ -241,13 +240,13 @@ def workbook(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
     Returns
     -------
     dict of str to xarray.Dataset
-        ``loads``, as of `table`, and in load cases ``envelope``: a row for each load on each part,
-        with the least and the greatest of every component, and the case in which it is.
+        ``loads``, as of `table`, and in load cases ``envelope``: a row for each of these, with the
+        least and the greatest of every component, and the case in which it is.
     """
     found = {"loads": table(dataset)}
     if CASE not in dataset.dims:
         return found
-    ends = envelope(dataset)
+    ends = envelope(with_totals(dataset))
     columns = {
         f"{name}_{axis}_{end}": ends[f"{name}_{end}"].sel({AXIS: axis}, drop=True)
         for name, axis, end in product(("force", "moment"), "xyz", _ENDS)

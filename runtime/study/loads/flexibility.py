@@ -7,10 +7,11 @@ carries another is an energy; what statics does not decide gives the least of it
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import root
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
@@ -34,6 +35,8 @@ HELD = {
 """What holds a wheel under the loads."""
 
 _VERTICAL, _COMPONENTS = 2, 6
+# What is softer than the rest by this, rounding of it, is rigid.
+_RIGID = 1e-12
 
 
 @dataclass(frozen=True)
@@ -169,8 +172,11 @@ class _Energy:
             self.on_rack[~acting, :, which] = 0.0
 
 
-def shared(equations: Equations, unknowns: Array, bushes: Sequence[Bush]) -> Array:
-    """Return unknowns with what statics does not decide as the least energy of bushes has it.
+def shared(equations: Equations, unknowns: Array, bushes: Sequence[Bush]) -> list[Array]:
+    """Return what the joints carry in the first position, the parts as they are at design.
+
+    What statics does not decide has the least energy of the bushes, however curved they are; what
+    is rigid on all sides is left as it is.
 
     Parameters
     ----------
@@ -178,22 +184,65 @@ def shared(equations: Equations, unknowns: Array, bushes: Sequence[Bush]) -> Arr
     unknowns : ndarray, shape (n, unknowns)
         From `Equations.solve`.
     bushes : sequence of Bush
+
+    Returns
+    -------
+    list of ndarray, each of shape (touching points, 6)
+        Of each joint.
     """
-    free = equations.indeterminate
-    if not free.shape[-1]:
-        return unknowns
+    states = np.concatenate([unknowns[..., None], equations.indeterminate], axis=-1)
+    tensions = [joint.tensions(equations.poses.points)[0] for joint in equations.joints]
+    place, count = states.shape[-1], sum(own.shape[-1] for own in tensions)
+    every = []
+    for at_points, own in zip(equations.at_joints(states), tensions, strict=True):
+        nothing = np.zeros((*own.shape[:-1], count))
+        carried = np.concatenate([at_points[0], nothing], axis=-1)
+        carried[..., place : place + own.shape[-1]] = own
+        place += own.shape[-1]
+        every.append(carried)
     by_point = {bush.point: bush for bush in bushes}
-    every = np.concatenate([unknowns[..., None], free], axis=-1)
-    energy = np.sum(
-        [
-            _of_joint(joint, carried, by_point, equations.poses)
-            for joint, carried in zip(equations.joints, equations.at_joints(every), strict=True)
-        ],
-        axis=0,
-    )
-    parts = np.linalg.solve(energy[:, 1:, 1:], -energy[:, 1:, :1])
-    result: Array = unknowns + (free @ parts)[..., 0]
-    return result
+    on_bushes = [
+        (by_point[point], carried[i])
+        for joint, carried in zip(equations.joints, every, strict=True)
+        for i, point in enumerate(joint.at)
+        if point in by_point
+    ]
+    parts = _of_least_energy(on_bushes, every[0].shape[-1] - 1)
+    return [carried[..., 0] + carried[..., 1:] @ parts for carried in every]
+
+
+def _of_least_energy(on_bushes: Sequence[tuple[Bush, Array]], count: int) -> Array:
+    """Return how much of each state of tension makes the energy of bushes least.
+
+    Parameters
+    ----------
+    on_bushes : sequence of tuple of Bush and ndarray
+        What each carries, (6, 1 + count): of the loads, and of each state of tension.
+    count : int
+    """
+
+    def slopes(parts: Array) -> tuple[Array, Array]:
+        first, second = np.zeros(count), np.zeros((count, count))
+        for bush, carried in on_bushes:
+            own = carried[:, 1:]
+            moved, by = bush.give(carried[:, 0] + own @ parts)
+            first, second = first + own.T @ moved, second + own.T @ by @ own
+        return first, second
+
+    sizes, ways = np.linalg.eigh(slopes(np.zeros(count))[1])
+    free = ways[:, sizes > _RIGID * sizes.max(initial=0.0)]
+
+    def reduced(along: Array) -> tuple[Array, Array]:
+        first, second = slopes(free @ along)
+        return free.T @ first, free.T @ second @ free
+
+    if not free.shape[1]:
+        return np.zeros(count)
+    search: Any = root  # its stubs know no function that gives its slopes as well
+    found: Array = search(reduced, np.zeros(free.shape[1]), jac=True, options={"xtol": 1e-14}).x
+    first, second = reduced(found)
+    parts: Array = free @ (found - np.linalg.solve(second, first))
+    return parts
 
 
 def _of_joint(joint: Joint, carried: Array, bushes: Mapping[str, Bush], poses: Assembled) -> Array:

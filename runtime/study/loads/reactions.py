@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 
 # From so many positions on, one elimination for all of them takes less time than one for each.
 _MANY = 200
+RACK = "rack"
 
 
 @dataclass(frozen=True)
@@ -197,7 +198,7 @@ def known(poses: Assembled) -> list[Load]:
     weights, forces = poses.weights(), poses.forces_along_lines()
     loads = [
         Load(part, "mass", "gravity", weights[part], still, poses.centers[part])
-        for part in structure.parts
+        for part in (*structure.parts, RACK)
         if part in weights and weights[part].any()
     ]
     for line in structure.lines:

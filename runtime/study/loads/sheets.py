@@ -7,6 +7,7 @@ import xarray as xr
 
 from ...core.quantities import bracketed, display_of, displayed, long_name
 from ...core.tabulated import Tabulated, significant, whole
+from .mounts import ALL, CHASSIS, with_totals
 
 # What stands in tables of deflections, and what the other curve is called there.
 _IN_TABLES = (
@@ -61,12 +62,14 @@ def overview(found: xr.Dataset, title: str, parts: Sequence[str] = ()) -> Tabula
     for rod in rods:
         pulls = found["rod_force"].sel(rod=rod).values
         rows.append((f"{rod}, pull", *(whole(float(pull)) for pull in pulls)))
+    found = with_totals(found, several=True)
     sizes = np.linalg.norm(found["force"].values, axis=-1)
     for i in shown_rows(found, parts):
         part, point, by = (str(found[name].values[i]) for name in ("part", "point", "by"))
         # a rod has its row, and the torque of a bar
         if part not in rods and by not in rods and np.nan_to_num(sizes[:, i]).any():
             name = by if acts(by) else point
+            name = f"{point}, total" if part == ALL else name
             rows.append((name, *(whole(float(size)) for size in sizes[:, i])))
     return Tabulated(title, ("at", *map(str, found["case"].values)), tuple(rows))
 
@@ -81,8 +84,11 @@ def _words(name: str) -> str:
 
 
 def shown_rows(found: xr.Dataset, parts: Sequence[str] = ()) -> list[int]:
-    """Return the loads that are shown: of what two parts exert on each other one, if not asked."""
-    given = [*found["part"].values]
+    """Return the loads that are shown: of what two parts exert on each other one, if not asked.
+
+    Totals at mounts go with the loads on the chassis.
+    """
+    given = [CHASSIS if part == ALL and parts else part for part in found["part"].values]
     sizes = np.abs(found["force"].values) + np.abs(found["moment"].values)
     strong = np.nan_to_num(sizes).max(axis=(0, 2)) > 0.0
     if parts:

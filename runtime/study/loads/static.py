@@ -15,8 +15,9 @@ from ...suspension.model import Model
 from ...suspension.positions import PositionError, design_height, equilibrium
 from ...suspension.reach import at_rest
 from .balance import DEAD_POINT
+from .between import Between, alone, rules_of
 from .cases import GREATEST, Case, cases_of, standard_cases
-from .dataset import CASE, Between, alone, dataset_of, joined, over_cases, refuse_if_none
+from .dataset import CASE, dataset_of, joined, over_cases, refuse_if_none
 from .outside import outside_loads
 from .poses import CENTER, Poses
 from .reactions import Equations, Load, known
@@ -56,7 +57,11 @@ def static(
         the suspension cannot carry the case. ``residual`` [N] and ``residual_moment`` [N m] over
         ``moving_part`` are what is left of the sums of forces and moments on it, and
         ``holding_force`` [N] the vertical force at the contact that is missing: all of them none,
-        to rounding.
+        to rounding. A rack is held along its axis by ``steering``, and by the chassis, its guide,
+        in all else, at ``rack_guide``, where the tie rod ends. ``total_force`` [N] and
+        ``total_moment`` [N m] over ``mount`` are the sums of all loads on the chassis at a point to
+        which parts are bolted, moments about that point (``total_at`` [m]), and ``total_by`` names
+        what acts; the spring of a strut belongs to the mount of the strut.
 
     Raises
     ------
@@ -96,7 +101,7 @@ def static(
                 given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
     angles, reasons = standing(model, wanted)
     found = dataset_of_cases({"": Side(model, wanted, angles)}, reasons)
-    return found.assign_attrs(rules="; ".join(model.suspension.structure().rules))
+    return found.assign_attrs(rules=rules_of(model.suspension))
 
 
 def _at_rest_on_the_road(given: Arguments, model: Model, described: Mapping[str, Any]) -> float:

@@ -16,13 +16,14 @@ from ...suspension.reach import PositionError
 from ...suspension.rigid.axle import RigidAxle
 from ...suspension.rigid.model import RigidAxleModel, equilibrium
 from ..axles import cases as of_axles
+from ..loads.between import Place
 from ..loads.cases import GREATEST, Case
-from ..loads.dataset import CASE, Place, dataset_of, over_cases, refuse_if_none
+from ..loads.dataset import CASE, dataset_of, over_cases, refuse_if_none
 from ..loads.reactions import Load
 from ..loads.static import in_parts_of_it
 from .balance import Balance
 from .beam import SIDES
-from .parts import Parts
+from .parts import MIDDLE, Parts
 from .standing import outside_of, standing
 
 Array = NDArray[np.float64]
@@ -218,7 +219,8 @@ def dataset_of_parts(
     """
     parts = balance.parts
     places = {name: Place(parts.centers[name], parts.turned[name]) for name in parts.centers}
-    found = dataset_of(over, loads, places).assign_coords({ROD: [*balance.pulls]})
+    # how the bar gets to the body is left out
+    found = dataset_of(over, loads, places, {MIDDLE: ""}).assign_coords({ROD: [*balance.pulls]})
     told = {
         f"holding_force_{side}": variable(
             over, force, f"vertical force at the contact that is missing, {side}", "N"

@@ -354,7 +354,8 @@ the strut extended (`spring_preload_N`), or by its force at the design position
             Line("spring", ("spring_force",), "chassis", "knuckle", ("spring_top", "spring_seat")),
             Line("damper", damper, "upper_strut", "knuckle", ("strut_top", "strut_lower")),
         )
-        return Structure(steered(*joints), lines)
+        # one mount is bolted to the body for both
+        return Structure(steered(*joints), lines, {"spring_top": "strut_top"})
 
     # -- what its characteristics are computed from ---------------------------------------------
 

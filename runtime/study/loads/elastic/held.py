@@ -44,7 +44,7 @@ def soft_of(given: Arguments, model: Model, bushings: Any, hardpoints: Hardpoint
     if model.suspension.tyre_radius() is None:
         given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
     loaded = hardpoints == "loaded" and not given.refused
-    carried = carried_at(at_design(model)) if loaded else {}
+    carried = carried_at(at_design(model), bushes=bushes) if loaded else {}
     return Soft({bush.point: bush for bush in bushes}, rack, carried)
 
 
@@ -61,7 +61,7 @@ def at_design(model: Model) -> Poses:
 def carried_at(
     poses: Assembled, pulled: Sequence[Load] = (), bushes: Sequence[Bush] = ()
 ) -> Carried:
-    """Return what the joints carry in the first position, the wheel held by the road.
+    """Return what the joints carry at design, the first position, the wheel held by the road.
 
     Parameters
     ----------
@@ -69,17 +69,15 @@ def carried_at(
     pulled : sequence of Load, optional
         What else acts on the parts.
     bushes : sequence of Bush, optional
-        Those that share what statics does not decide, where parts are held more often than they
-        move.
+        Those that share what statics does not decide: the force along the axis of an arm, and what
+        holds parts more often than they move.
     """
     equations = Equations(poses)
     unknowns = equations.solve(equations.applied([*known(poses), *pulled]))
-    unknowns = shared(equations, unknowns, bushes)
+    every = shared(equations, unknowns, bushes)
     found = {
-        (joint.first, joint.second, point): at_points[0, which, :, 0]
-        for joint, at_points in zip(
-            equations.joints, equations.at_joints(unknowns[..., None]), strict=True
-        )
+        (joint.first, joint.second, point): at_points[which]
+        for joint, at_points in zip(equations.joints, every, strict=True)
         for which, point in enumerate(joint.at)
     }
     if poses.rack_axis is None:

@@ -1,0 +1,105 @@
+"""What is between the parts of a suspension, or of both of an axle, and the chassis: a rack."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...suspension.kinds import Suspension
+from .poses import Poses, wrench_about
+from .reactions import RACK, Load
+
+Array = NDArray[np.float64]
+
+STEERING = "steering"
+"""What holds a rack along its axis."""
+
+_OF_GUIDE = "the guide of the rack is told about the inner end of the tie rod"
+
+STILL = np.zeros(3)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a part in equilibrium is, in n positions.
+
+    Attributes
+    ----------
+    center : ndarray, shape (n, 3)
+        About which its moments are summed [m].
+    turned : ndarray, shape (n, 3, 3)
+        Its rotation from design.
+    """
+
+    center: Array
+    turned: Array
+
+    @classmethod
+    def unturned(cls, center: Array) -> "Place":
+        """Return a part whose own axes are those of the chassis."""
+        return cls(center, np.broadcast_to(np.eye(3), (*center.shape, 3)))
+
+
+Between = Callable[[Mapping[str, Poses], list[Load]], tuple[list[Load], dict[str, Place]]]
+"""Takes poses by suffix and loads, and returns all loads with those between the sides, and the
+parts in equilibrium that are of neither."""
+
+
+def rules_of(suspension: Suspension) -> str:
+    """Return what decides where statics alone does not, of one suspension."""
+    of_guide = (_OF_GUIDE,) if suspension.steered() else ()
+    return "; ".join([*suspension.structure().rules, *of_guide])
+
+
+def alone(poses: Mapping[str, Poses], loads: list[Load]) -> tuple[list[Load], dict[str, Place]]:
+    """Return the loads of one suspension, with what holds its rack if it has one."""
+    (own,) = poses.values()
+    if own.rack_axis is None:
+        return loads, {}
+    held, places = on_the_rack(own.rack_axis, loads, "rack_guide")
+    return [*loads, *held], places
+
+
+def on_the_rack(
+    axis: Array, loads: Sequence[Load], point: str
+) -> tuple[list[Load], dict[str, Place]]:
+    """Return what holds a rack: along its axis the steering, in all else its guide.
+
+    Parameters
+    ----------
+    axis : ndarray, shape (3,)
+        A unit vector.
+    loads : sequence of Load
+        All others; those of tie rods on the rack say where it is.
+    point : str
+        What the middle between the tie rods is called, about which this is told.
+
+    Returns
+    -------
+    loads : list of Load
+        On the rack and on the chassis.
+    places : dict of str to Place
+    """
+    rods = [o.at for o in loads if o.part == RACK and o.by not in ("gravity", "inertia")]
+    middle = np.mean(rods, axis=0)
+    wrench = sum_of(loads, RACK, middle)
+    along = (wrench[:, :3] @ axis)[:, None] * axis
+    steering = Load(RACK, point, STEERING, -along, STILL, middle)
+    guide = Load(RACK, point, "chassis", along - wrench[:, :3], -wrench[:, 3:], middle)
+    reaction = replace(steering, part="chassis", force=along)
+    held = [steering, reaction, *on_both(RACK, "chassis", guide)]
+    return held, {RACK: Place.unturned(middle)}
+
+
+def on_both(one: str, other: str, load: Load) -> list[Load]:
+    """Return a load of one part by another, and its opposite."""
+    back = replace(load, part=other, by=one, force=-load.force, moment=-load.moment)
+    return [load, back]
+
+
+def sum_of(loads: Sequence[Load], part: str, about: Array) -> Array:
+    """Return force and moment of the loads on a part about a point, (n, 6)."""
+    own = [wrench_about(about, o.at, o.force, o.moment) for o in loads if o.part == part]
+    total: Array = np.sum(np.broadcast_arrays(*own, np.zeros((len(about), 6))), axis=0)
+    return total
