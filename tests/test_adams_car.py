@@ -15,6 +15,7 @@ from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CARS = {kind: Suspension.load(KINDS[kind].STARTER) for kind in KINDS}
 OFFSET = Suspension.load("offset_strut_car")
+DATA = Path(__file__).parents[1] / "runtime/suspension/data"
 WISHBONES = CARS["double_wishbone"].with_changes({"wheel.camber_deg": -1.2, "wheel.toe_deg": 0.15})
 MORE = """\
 [BUSHING_ASSEMBLY]
@@ -59,7 +60,7 @@ def test_hardpoints_come_back(name: str, side: str, unit: str, tmp_path: Path) -
         here = new.hardpoints.metres(point)
         assert 1000.0 * here == pytest.approx(1000.0 * expected.hardpoints.metres(point), abs=1e-9)
     assert (new.wheel.camber_deg, new.wheel.toe_deg) == (car.wheel.camber_deg, car.wheel.toe_deg)
-    assert found.left_out == ("parameters kinematic_flag",)
+    assert found.left_out == ("parameter kinematic_flag single integer 0",)
 
 
 @pytest.mark.parametrize("name", ["double_wishbone", "with angles", "push_rod", "macpherson"])
@@ -102,9 +103,7 @@ def force_at_design(car: Any) -> float:
 
 def test_a_file_of_the_user_gives_the_rest(tmp_path: Path) -> None:
     mine = tmp_path / "mine.toml"
-    text = (
-        Path(__file__).parents[1] / "runtime/suspension/data/double_wishbone_car.toml"
-    ).read_text(encoding="utf-8")
+    text = (DATA / "double_wishbone_car.toml").read_text(encoding="utf-8")
     mine.write_text(
         "#:schema ./s.json\n" + text.replace("mass_kg = 12.0", "mass_kg = 14.5  # weighed"),
         encoding="utf-8",
@@ -135,13 +134,32 @@ def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
     assert found.kind == "push_rod"
 
 
-def test_comments_tell_of_the_new_strut(tmp_path: Path) -> None:
-    found = taken(tmp_path, subsystem(OFFSET))
-    assert "strut axis passes through it" not in found.text
-    assert "# strut_lower to strut_top, the strut fully extended" in found.text
-    assert "spring_free_slide_mm = " not in found.text
-    assert "300 mm\ndamper" not in found.text
-    assert "strut axis passes through it" in taken(tmp_path, subsystem(CARS["macpherson"])).text
+@pytest.mark.parametrize("kind", KINDS)
+def test_comments_say_nothing_of_the_packaged_car(kind: str, tmp_path: Path) -> None:
+    """Beside a value stands what its key means, whatever the value."""
+    packaged = (DATA / f"{KINDS[kind].STARTER}.toml").read_text(encoding="utf-8")
+    asked = kind if kind in ("push_rod", "pull_rod") else None
+    text = taken(tmp_path, subsystem(CARS[kind]), kind=asked).text
+    kept = {line.partition("#")[2] for line in packaged.splitlines() if re.match("[a-z].*#", line)}
+    now = {line.partition("#")[2] for line in text.splitlines() if re.match("[a-z].*#", line)}
+    assert {words for words in kept & now if re.search("[0-9]", words)} == set()
+    assert "PROJECT'S OWN" not in text
+    schema = Suspension.load(KINDS[kind].STARTER).hardpoints
+    for name, field in type(schema).model_fields.items():
+        if name in schema.given() and re.search(rf"(?m)^{name} .*#", packaged):
+            assert re.search(rf"(?m)^{name} .*# {re.escape(field.description or '')}$", text)
+
+
+def test_comments_beside_changed_values_of_a_user_are_fresh(tmp_path: Path) -> None:
+    mine = tmp_path / "mine.toml"
+    old = (DATA / "double_wishbone_car.toml").read_text(encoding="utf-8")
+    old = old.replace("camber_deg = 0.0  ", "camber_deg = 0.0  # none, as measured\n  # in 2019")
+    mine.write_text(old.replace("mass_kg = 12.0", "mass_kg = 12.0 # weighed"), encoding="utf-8")
+    text = taken(tmp_path, subsystem(WISHBONES), base=mine).text
+    assert "camber_deg = -1.2  # camber at design, positive with the top outboard\n" in text
+    assert ("measured" in text, "2019" in text) == (False, False)
+    assert "mass_kg = 12.0 # weighed" in text
+    assert "\ntoe_deg = 0.15                           # toe at design, positive toe-in\n" in text
 
 
 def test_names_of_the_companys_own(tmp_path: Path) -> None:
@@ -230,13 +248,24 @@ def test_angles_in_radians(tmp_path: Path) -> None:
 def test_what_is_not_read_is_told(tmp_path: Path) -> None:
     rows = [*rows_of(WISHBONES), ("drive_shaft_inr", "left/right", 0.0, -200.0, 225.0)]
     found = taken(tmp_path, subsystem(WISHBONES, rows=rows, more=MORE))
+    beside = "its file 'own.spr' is not beside the subsystem."
     assert found.left_out == (
-        "hardpoint drive_shaft_inr",
-        "spring ride_spring: its file 'own.spr' is not beside the subsystem",
-        "parameters kinematic_flag",
-        "[BUSHING_ASSEMBLY] lca_front, lca_rear",
+        "hardpoint drive_shaft_inr (left/right): 0, -200, 225 mm",
+        f"spring ride_spring: {beside} PROPERTY_FILE = <own>/springs.tbl/own.spr",
+        "parameter kinematic_flag single integer 0",
+        "[BUSHING_ASSEMBLY] USAGE = lca_front, SYMMETRY = left/right",
+        "[BUSHING_ASSEMBLY] USAGE = lca_rear",
     )
-    assert ("left out", "hardpoint drive_shaft_inr") in found.words()
+    assert ("left out", found.left_out[0]) in found.words()
+
+
+@pytest.mark.parametrize("block", ["HARDPOINT", "PARAMETER", "UNITS", "OTHER"])
+def test_comments_are_neither_rows_nor_columns(block: str, tmp_path: Path) -> None:
+    comment = "(COMMENTS)\n{comment_string}\n'camber_angle of nobody'\n'a = b'\n"
+    text = subsystem(WISHBONES, more="[OTHER]\n").replace(f"[{block}]\n", f"[{block}]\n{comment}")
+    found = taken(tmp_path, text, side="right")
+    assert loaded(found, tmp_path) == WISHBONES
+    assert found.left_out == ("parameter kinematic_flag single integer 0", "[OTHER]")
 
 
 def test_a_ground_that_is_elsewhere_is_told(tmp_path: Path) -> None:
@@ -300,18 +329,28 @@ LEFT_OUT = {
 def test_a_spring_that_is_left_out(text: str, message: str, tmp_path: Path) -> None:
     (tmp_path / "own.spr").write_text(text, encoding="utf-8")
     found = taken(tmp_path, subsystem(WISHBONES, more=MORE))
-    (told,) = (line for line in found.left_out if line.startswith("spring ride_spring: own.spr"))
+    (told,) = (line for line in found.left_out if line.startswith("spring ride_spring: "))
     assert message in told
     assert found.spring is None
 
 
 def test_springs_that_are_not_taken(tmp_path: Path) -> None:
     (tmp_path / "own.spr").write_text(SPRING, encoding="utf-8")
-    second = MORE + "[NSPRING_ASSEMBLY]\n USAGE = 'helper'\n"
+    second = MORE + "[NSPRING_ASSEMBLY]\n USAGE = 'helper'\n SYMMETRY = 'left/right'\n"
     more = taken(tmp_path, subsystem(WISHBONES, more=second))
-    assert "springs ride_spring, helper: there is more than one" in more.left_out
+    assert "spring helper is not the only one: SYMMETRY = left/right" in more.left_out
     scaled = taken(tmp_path, subsystem(WISHBONES, more=MORE + " FORCE_SCALE = 1.1\n"))
-    assert "spring ride_spring: FORCE_SCALE is not 1" in scaled.left_out
+    (told,) = (line for line in scaled.left_out if "FORCE_SCALE is not 1. " in line)
+    assert told.endswith("FORCE_SCALE = 1.1")
+    unused = " VALUE_TYPE = 'installed_length'\n USER_VALUE = 250.0\n"
+    length = taken(tmp_path, subsystem(WISHBONES, more=MORE + unused))
+    assert "spring ride_spring: VALUE_TYPE = installed_length, USER_VALUE = 250.0" in (
+        length.left_out
+    )
+    assert "force of the spring: as in the packaged double_wishbone_car" in length.assumed
+    right = taken(tmp_path, subsystem(WISHBONES, more=MORE + " SYMMETRY = 'right'\n"))
+    assert right.spring is None
+    assert any(t.startswith("spring ride_spring is not of the left side: ") for t in right.left_out)
     based = taken(tmp_path, subsystem(WISHBONES, more=MORE), base="double_wishbone_car")
     told = "spring 45 N/mm (own.spr): the file double_wishbone_car has its own"
     assert told in based.left_out
@@ -353,6 +392,10 @@ REFUSED = {
     ),
     "open quote": (changed("'lca_front     ", "lca_front     "),
                    "a quote is not closed"),
+    "a spring's key twice": (
+        subsystem(WISHBONES, more=MORE + " PROPERTY_FILE = 'x.spr'\n"),
+        r"PROPERTY_FILE is there 2 times in \[NSPRING_ASSEMBLY\]. Keep one of them",
+    ),
     "symmetry": (changed("'left/right'  -160", "'both'  -160"), "symmetry is 'both'; it can be"),
     "single": (
         changed("'left/right'  -160", "'single'  -160"),
@@ -417,7 +460,7 @@ def test_the_command(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     code, out, _ = kintrafo("import-adams", "front.sub", "car.toml", "--side", "right")
     assert code == 0
     assert "read      double wishbone suspension, right side" in out
-    assert "left out  [BUSHING_ASSEMBLY] lca_front, lca_rear" in out
+    assert "left out  [BUSHING_ASSEMBLY] USAGE = lca_front, SYMMETRY = left/right" in out
     assert "assumed   axes: x rearward" in out
     assert Suspension.load(tmp_path / "car.toml") == WISHBONES
     (tmp_path / "mine.toml").write_text("mine", encoding="utf-8")

@@ -9,7 +9,9 @@ parts, whose points are taken from the files once more.
 import json
 import math
 import re
+from contextlib import suppress
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -44,7 +46,7 @@ def written(folder, data):
 
 class TestReading:
     def test_is_the_packaged_data_set(self):
-        found, _ = chrono.read(STRUT, tire=TIRE)
+        found, _, _ = chrono.read(STRUT, tire=TIRE)
         for name in ("ball_joint", "strut_top", "strut_lower", "tie_rod_outer", "wheel_center"):
             np.testing.assert_allclose(
                 found.hardpoints.metres(name), GENERIC.hardpoints.metres(name), atol=1e-15
@@ -59,7 +61,7 @@ class TestReading:
             assert ours[name] == pytest.approx(packaged_ones[name], rel=1e-4)
 
     def test_has_its_characteristics(self):
-        found, _ = chrono.read(STRUT, tire=TIRE)
+        found, _, _ = chrono.read(STRUT, tire=TIRE)
         at = [-0.05, 0.0, 0.05]
         ours, theirs = (travel(Model(s), at) for s in (found, GENERIC))
         for name in ("camber", "toe", "caster", "roll_center_height_kinematic"):
@@ -69,7 +71,7 @@ class TestReading:
         """Toe about the vertical, then camber about the spindle's own axis, on the left side."""
         camber, toe = -3.0, 20.0
         data = content() | {"Camber Angle (deg)": camber, "Toe Angle (deg)": toe}
-        found, _ = chrono.read(written(tmp_path, data))
+        found, _, _ = chrono.read(written(tmp_path, data))
         c, t = -math.radians(camber), -math.radians(toe)
         about_z = np.array([[np.cos(t), -np.sin(t), 0], [np.sin(t), np.cos(t), 0], [0, 0, 1]])
         about_x = np.array([[1, 0, 0], [0, np.cos(c), -np.sin(c)], [0, np.sin(c), np.cos(c)]])
@@ -78,7 +80,7 @@ class TestReading:
 
     def test_inertia_of_the_arm_is_turned_out_of_its_own_axes(self):
         """The principal moments stay; about the hinge it is what the file has about x."""
-        found, _ = chrono.read(STRUT)
+        found, _, _ = chrono.read(STRUT)
         arm = found.bodies.control_arm
         xx, yy, zz, xy, xz, yz = arm.elements().values()
         tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
@@ -90,51 +92,57 @@ class TestReading:
 
     def test_inertia_in_the_axes_of_the_vehicle_is_taken_as_it_is(self, tmp_path):
         data = content() | {"Vehicle-Frame Inertia": True}
+        del data["Upright"]["Inertia"]
         data["Upright"] |= {
             "Moments of Inertia": [0.03, 0.04, 0.02],
             "Products of Inertia": [0.001, -0.002, 0.003],
         }
-        found, _ = chrono.read(written(tmp_path, data))
+        found, _, _ = chrono.read(written(tmp_path, data))
         assert list(found.bodies.control_arm.elements().values())[:3] == [0.0269, 0.06058, 0.03377]
         expected = [0.03, 0.04, 0.02, 0.001, -0.002, 0.003]
         assert list(found.bodies.knuckle.elements().values()) == expected
 
-    def test_a_damper_curve_is_turned_round(self, tmp_path):
+    @pytest.mark.parametrize("key", ["Damping Curve Data", "Curve Data"])
+    def test_a_damper_curve_is_turned_round(self, tmp_path, key):
         """Chrono's curve is over the rate of the length, which is positive in rebound."""
         data = content()
         del data["Shock"]["Damping Coefficient"]
-        data["Shock"]["Curve Data"] = [[-1.0, -900.0], [0.0, 0.0], [1.0, 2000.0]]
-        found, _ = chrono.read(written(tmp_path, data))
+        data["Shock"][key] = [[-1.0, -900.0], [0.0, 0.0], [1.0, 2000.0]]
+        found = chrono.read(written(tmp_path, data)).suspension
         assert found.damper.velocity_m_per_s == (-1.0, 0.0, 1.0)
         assert found.damper.force_N == (-2000.0, 0.0, 900.0)
 
     def test_without_a_tire_the_wheel_is_a_usual_one(self):
-        found, told = chrono.read(STRUT)
+        found, told, _ = chrono.read(STRUT)
         assert found.bodies.wheel.mass_kg == pytest.approx(21.103, rel=1e-15)
         assert found.tyre.radius_mm is None
         assert "wheel: 20 kg, 1 kg m^2 about its axis" in told[2]
 
     def test_assumptions_are_told(self, tmp_path):
-        _, told = chrono.read(STRUT)
-        assert [text.partition(":")[0] for text in told] == [
-            "rack",
-            "tyre",
-            "wheel",
-            "strut",
-            "upper strut",
-        ]
+        _, told, left_out = chrono.read(STRUT)
+        heads = [text.partition(":")[0] for text in told]
+        assert heads == ["rack", "tyre", "wheel", "strut", "ground"]
+        assert "Strut: Mass = 5.0, Inertia = [0.001, 0.001, 0.001], Radius = 0.02" in left_out
         data = content()
-        data["Strut"]["Mass"] = 0.0
-        data["Shock"]["Location Upright"][0] += 0.03
-        data["Spring"] |= {"Minimum Length": 0.2, "Maximum Length": 0.4}
-        _, told = chrono.read(written(tmp_path, data), tire=TIRE)
-        assert [text.partition(":")[0] for text in told] == [
-            "rack",
-            "tyre",
-            "strut",
-            "damper",
-            "stops",
-        ]
+        # on the axis of the strut, but nearer to its lower end
+        top, seat = (np.array(data["Spring"][f"Location {end}"]) for end in ("Chassis", "Upright"))
+        data["Shock"]["Location Chassis"] = list(0.8 * top + 0.2 * seat)
+        data["Spindle"]["Inertia"] = [0.5, 0.1, 0.0]
+        _, told, _ = chrono.read(written(tmp_path, data), tire=TIRE)
+        heads = [text.partition(":")[0] for text in told]
+        assert heads == ["rack", "tyre", "tire", "wheel", "strut", "damper"]
+        assert told[3] == "wheel: 17.25 kg m^2 across its axis, the mean of 17.5 and 17"
+
+    def test_the_shaft_of_the_axle_turns_with_the_wheel(self, tmp_path):
+        """A tire of a flat disc's moments, (3, 6, 3), beside the spindle's and the shaft's."""
+        disc = {"Type": "Tire", "Template": "RigidTire", "Radius": 0.3, "Mass": 35.0,
+                "Inertia": [3.0, 6.0, 3.0]}  # fmt: skip
+        path = tmp_path / "tire.json"
+        path.write_text(json.dumps(disc), encoding="utf-8")
+        wheel = chrono.read(STRUT, tire=path).suspension.bodies.wheel
+        assert wheel.inertia_spin_kg_m2 == pytest.approx(6.0 + 0.000479 + 0.4, rel=1e-15)
+        assert wheel.inertia_diametral_kg_m2 == pytest.approx(3.000487, rel=1e-15)
+        assert wheel.inertia_shaft_kg_m2 == 0.4
 
 
 class TestDoubleWishbone:
@@ -149,8 +157,8 @@ class TestDoubleWishbone:
         points["tie_rod_outer"] = data["Tierod"]["Location Upright"]
         points = {name: np.array(point, dtype=float) for name, point in points.items()}
         carrier = Carrier(points, np.array([0.0, 1.0, 0.0]))
-        found, told = chrono.read(WISHBONES, tire=TIRE)
-        assert [text.partition(":")[0] for text in told] == ["rack", "tyre"]
+        found, told, _ = chrono.read(WISHBONES, tire=TIRE)
+        assert [text.partition(":")[0] for text in told] == ["rack", "tyre", "tire"]
         places = np.array([-0.06, -0.02, 0.0, 0.03, 0.06])
         ours = sweep.positions(Model(found), places)
         for i, place in enumerate(places):
@@ -163,7 +171,7 @@ class TestDoubleWishbone:
                 assert center == pytest.approx(pose.center[at], abs=1e-13)
 
     def test_spring_damper_and_masses_are_those_of_the_file(self):
-        found, _ = chrono.read(WISHBONES, tire=TIRE)
+        found, _, _ = chrono.read(WISHBONES, tire=TIRE)
         model = Model(found)
         moving = model.state(**{f"{model.names.arm}_rate": 1.0})
         force = 5e5 * (0.51 - math.hypot(0.04, 0.1, 0.5))
@@ -182,17 +190,367 @@ class TestDoubleWishbone:
             assert body.mass_kg == mass
             np.testing.assert_allclose(np.linalg.eigvalsh(tensor), sorted(moments), rtol=1e-11)
 
-    def test_what_is_left_out_is_told(self, tmp_path):
+    @pytest.mark.parametrize("law", ["rate", "curve"])
+    def test_a_damper_with_points_of_its_own_does_the_same_at_design(self, tmp_path, law):
+        """Its power is that of Chrono's damper between its points, about the lower arm's hinge."""
         data = content(WISHBONES)
-        data["Shock"]["Location Arm"][1] += 0.02
-        data["Shock"] |= {"Curve Data": [[-1.0, -900.0], [0.0, 0.0], [1.0, 2000.0]]}
-        data["Tierod"]["Mass"] = 6.0
-        data["Lower Control Arm"]["Bushing Data"] = {"Stiffness Linear": [7e7, 7e7, 7e7]}
+        arm, shock = data["Lower Control Arm"], data["Shock"]
+        shock |= {"Location Arm": [0.01, 0.55, -0.27], "Location Chassis": [-0.02, 0.5, 0.3]}
+        forces = {-2.0: -2e4, 3.0: 3e4}  # by the rate of its length, positive in rebound
+        if law == "curve":
+            del shock["Damping Coefficient"]
+            forces = {-2.0: -4000.0, 3.0: 9000.0}
+            shock["Damping Curve Data"] = [[0.0, 0.0], *([v, f] for v, f in forces.items())]
+        found, told, _ = chrono.read(written(tmp_path, data), tire=TIRE)
+        (words,) = (text for text in told if text.startswith("damper: "))
+        assert '"Location Arm" = [0.01, 0.55, -0.27] m' in words
+        model = Model(found)
+        front, back = (np.array(arm[f"Location Chassis {end}"]) for end in ("Front", "Back"))
+        hinge = (front - back) / np.linalg.norm(front - back)
+        end = np.array(shock["Location Arm"])
+        line = end - shock["Location Chassis"]
+        ratio = abs(np.cross(hinge, end - front) @ line / np.linalg.norm(line))
+        rate = f"{model.names.arm}_rate"
+        sense = np.sign(float(model.signal("spring_velocity", model.state(**{rate: 1.0}))))
+        for speed, force in forces.items():
+            moving = model.state(**{rate: sense * speed / ratio})
+            ours = [float(model.signal(n, moving)) for n in ("damper_force", "spring_velocity")]
+            assert math.prod(ours) == pytest.approx(-force * speed, rel=1e-9)
+
+    def test_a_damper_across_the_motion_has_no_place(self, tmp_path):
+        data = content(WISHBONES)
+        # from the lower arm's end along its hinge
+        data["Shock"] |= {
+            "Location Arm": [0.0, 0.62, -0.27],
+            "Location Chassis": [0.4, 0.57, -0.27],
+        }
+        with pytest.raises(InputError, match=r"between them the damper moves .* times as fast"):
+            chrono.read(written(tmp_path, data))
+
+
+def leaves(data, above=()):
+    for key, value in data.items():
+        if isinstance(value, dict):
+            yield from leaves(value, (*above, key))
+        else:
+            yield *above, key
+
+
+class TestKeys:
+    """Every key is used, listed with its value, or refused."""
+
+    @pytest.mark.parametrize("points_only", [False, True])
+    @pytest.mark.parametrize("path", [STRUT, WISHBONES])
+    def test_none_is_lost(self, tmp_path, path, points_only):
+        """Without a key the import is another one, or is refused."""
+
+        def result(data):
+            try:
+                found = chrono.read(written(tmp_path, data), points_only=points_only)
+            except InputError:
+                return None
+            return found.suspension.to_dict(), found.left_out
+
+        data = content(path)
+        data["Lower Control Arm" if path == WISHBONES else "Control Arm"]["Bushing Data"] = {
+            "Stiffness Linear": 7e7, "DOF": {"Stiffness Linear": 0}}  # fmt: skip
+        data["Spring"] |= {"Minimum Length": 0.2, "Maximum Length": 0.6, "Preload": 10.0}
+        data |= {"Camber Angle (deg)": 1.0, "Toe Angle (deg)": 2.0, "Output": True}
+        data["Shock"] |= {"Preload": 3.0}
+        if path == WISHBONES:
+            for part in ("Upright", "Upper Control Arm", "Lower Control Arm"):
+                data[part]["Products of Inertia"] = [1e-4, 1e-5, 2e-5]
+        whole = result(data)
+        assert whole is not None
+        for place in leaves(data):
+            less = json.loads(json.dumps(data))
+            holder = less
+            for key in place[:-1]:
+                holder = holder[key]
+            del holder[place[-1]]
+            assert result(less) != whole, place
+
+    def test_what_is_not_read_stands_with_its_value(self, tmp_path):
+        data = content(WISHBONES) | {"Wishes": {"Many": [1, 2], "More": {"Deep": "x"}}}
+        data["Tierod"] |= {"Mass": 6.0, "Inertia": [0.05, 0.05, 0.5]}
         data["Spring"] |= {"Minimum Length": 0.4, "Maximum Length": 0.6}
-        found, told = chrono.read(written(tmp_path, data), tire=TIRE)
-        heads = ["rack", "tyre", "damper", "tie rod", "bushes", "stops"]
-        assert [text.partition(":")[0] for text in told] == heads
-        assert found.damper.force_N == (-2000.0, 0.0, 900.0)
+        data["Lower Control Arm"]["Bushing Data"] = {"Stiffness Linear": 7e7}
+        left_out = chrono.read(written(tmp_path, data)).left_out
+        for words in (
+            "Wishes: Many = [1, 2]",
+            'Wishes > More: Deep = "x"',
+            "Tierod: Mass = 6.0, Inertia = [0.05, 0.05, 0.5]",
+            "Spring: Minimum Length = 0.4, Maximum Length = 0.6",
+            "Lower Control Arm > Bushing Data: Stiffness Linear = 70000000.0",
+        ):
+            assert words in left_out
+
+    @pytest.mark.parametrize("points_only", [False, True])
+    @pytest.mark.parametrize(
+        ("place", "other"),
+        [
+            (("Camber Angle (deg)",), "Camber Angle"),
+            (("Toe Angle (deg)",), "toe angle (deg)"),
+            (("Tierod", "Location Upright"), "Location upright"),
+            (("Spindle", "COM"), "Com"),
+        ],
+    )
+    def test_other_spellings_are_refused(self, tmp_path, place, other, points_only):
+        data = content()
+        holder = data if len(place) == 1 else data[place[0]]
+        holder[other] = holder.pop(place[-1])
+        words = f'> {other}" is' if len(place) > 1 else f'"{other}" is'
+        with pytest.raises(InputError, match=re.escape(words)) as caught:
+            chrono.read(written(tmp_path, data), points_only=points_only)
+        assert f'Is it "{place[-1]}"?' in str(caught.value)
+
+    def test_a_preload_pushes_the_ends_apart(self, tmp_path):
+        """Chrono's force is preload - rate (length - free length)."""
+        data = content()
+        at_rest = data["Spring"]["Free Length"]
+        data["Spring"]["Preload"] = 369.149
+        strut = chrono.read(written(tmp_path, data)).suspension.strut
+        assert strut.spring_free_length_mm == pytest.approx(1e3 * at_rest + 1.0, rel=1e-14)
+
+    def test_a_damper_that_stands_in_the_spring(self, tmp_path):
+        data = content()
+        data["Spring"]["Damping Coefficient"] = data["Shock"].pop("Damping Coefficient")
+        assert (
+            chrono.read(written(tmp_path, data)).suspension.strut.damper_rate_N_s_per_m == 22459.0
+        )
+
+    @pytest.mark.parametrize(
+        ("part", "changes", "words"),
+        [
+            ("Shock", {"Damping Curve Data": [[-1, -1], [1, 1]]}, "both give its force"),
+            (
+                "Shock",
+                {"Map Data": [[0, 1]]},
+                '"Shock > Map Data" is a force over length and speed',
+            ),
+            ("Shock", {"Degressivity Compression": 0.1}, "is a degressive damper"),
+            (
+                "Shock",
+                {"Spring Coefficient": 5.0},
+                '"Shock > Spring Coefficient" is a second spring',
+            ),
+            ("Spring", {"Damping Coefficient": 5.0}, "is a second damper, beside that of"),
+            ("Spring", {"Spring Curve Data": [[0, 0], [1, 1]]}, "both give its force"),
+            ("Spring", {"Preload": 5.0, "Spring Coefficient": 0.0}, "is a constant force"),
+            ("Shock", {"Location Upright": [0.0, 0.8, 0.2]}, "off the axis of the strut"),
+            ("Upright", {"Moments of Inertia": [1, 1, 1]}, "both give the inertia"),
+            ("Spring", {"Preload": None}, '"Spring > Preload" = null: null is no value.'),
+        ],
+    )
+    def test_what_there_is_no_place_for(self, tmp_path, part, changes, words):
+        data = content()
+        data[part] |= changes
+        with pytest.raises(InputError, match=re.escape(words)):
+            chrono.read(written(tmp_path, data))
+
+    @pytest.mark.parametrize(
+        ("part", "key", "words"),
+        [
+            ("Shock", "Damping Coefficient", '"Damping Curve Data" is missing'),
+            ("Spring", "Spring Coefficient", '"Spring Curve Data" is missing'),
+            ("Spring", "Free Length", '"Spring > Free Length" is missing'),
+            ("Upright", "Inertia", '"Upright > Inertia" or "Moments of Inertia" is missing'),
+        ],
+    )
+    def test_what_is_missing(self, tmp_path, part, key, words):
+        data = content()
+        del data[part][key]
+        with pytest.raises(InputError, match=re.escape(words)):
+            chrono.read(written(tmp_path, data))
+
+    def test_a_key_that_is_there_twice(self, tmp_path):
+        path = tmp_path / "strut.json"
+        text = json.dumps(content())
+        path.write_text(
+            text.replace('"Axle":', '"Axle": {"Inertia": 1}, "Axle":'), encoding="utf-8"
+        )
+        with pytest.raises(InputError, match='"Axle" is there 2 times'):
+            chrono.read(path)
+
+
+class TestNoBody:
+    """An inertia that no body can have."""
+
+    ARM: ClassVar = {"Moments of Inertia": [0.4, 0.4, 0.8938]}
+
+    def test_is_told_by_the_keys_of_the_file(self, tmp_path):
+        data = content(WISHBONES)
+        data["Lower Control Arm"] |= self.ARM
+        path = written(tmp_path, data)
+        with pytest.raises(InputError) as caught:
+            chrono.read(path)
+        (problem,) = caught.value.problems
+        assert problem.startswith('"Lower Control Arm > Moments of Inertia" = [0.4, 0.4, 0.8938], ')
+        assert "allowed is at most the sum of the other two, 0.8 kg m^2" in problem
+        assert "--points-only" in problem
+        assert "inertia_xx" not in problem
+        assert chrono.read(path, points_only=True).suspension.hardpoints.lower_arm_front
+
+    @pytest.mark.parametrize(
+        ("path", "part", "changes", "key"),
+        [
+            (WISHBONES, "Spring", {"Spring Coefficient": -5.0}, "Spring"),
+            (WISHBONES, "Spring", {"Free Length": -1.0}, "Spring"),
+            (WISHBONES, "Shock", {"Damping Coefficient": -5.0}, "Shock"),
+            (WISHBONES, "Upper Control Arm", {"Mass": 0.0}, "Upper Control Arm"),
+            (STRUT, "Spring", {"Spring Coefficient": -5.0}, "Spring"),
+            (STRUT, "Shock", {"Damping Coefficient": -5.0}, "Shock"),
+            (STRUT, "Spindle", {"Inertia": [-9, 0, 0]}, 'Spindle" with "Axle'),
+            (STRUT, "Control Arm", {"Location Upright": [0.22, 0.52, -0.156]},
+             "Control Arm > Location Upright"),
+        ],
+    )  # fmt: skip
+    def test_other_values_too(self, tmp_path, path, part, changes, key):
+        data = content(path)
+        data[part] |= changes
+        with pytest.raises(InputError) as caught:
+            chrono.read(written(tmp_path, data))
+        assert any(f'In the file: "{key}"' in problem or f', "{key}"' in problem
+                   for problem in caught.value.problems), caught.value  # fmt: skip
+
+
+class TestPointsOnly:
+    @pytest.mark.parametrize("path", [STRUT, WISHBONES])
+    def test_hardpoints_camber_and_toe_are_those_of_the_file(self, tmp_path, path):
+        """The wheel moves as that of the whole file, whatever else is in it."""
+        data = content(path) | {"Camber Angle (deg)": -1.0, "Toe Angle (deg)": 0.5}
+        whole = chrono.read(written(tmp_path, data)).suspension
+        for part in ("Spring", "Shock", "Upright"):
+            data[part] = {k: v for k, v in data[part].items() if k.startswith("Location")}
+        del data["Axle"]
+        found, told, left_out = chrono.read(written(tmp_path, data), points_only=True)
+        for name in whole.hardpoints.given():
+            np.testing.assert_allclose(
+                found.hardpoints.metres(name), whole.hardpoints.metres(name), rtol=0, atol=1e-15
+            )
+        assert found.wheel == whole.wheel
+        at = [-0.04, 0.0, 0.04]
+        ours, theirs = (travel(Model(car), at) for car in (found, whole))
+        for name in ("camber", "toe", "caster"):
+            np.testing.assert_allclose(ours[name], theirs[name], atol=1e-13)
+        assert told[0].startswith("spring, damper, masses, tyre and vehicle: as in the packaged ")
+        assert any(line.startswith("Spindle: Mass = 1.103, ") for line in left_out)
+
+    def test_the_command(self, tmp_path, monkeypatch):
+        monkeypatch.chdir(tmp_path)
+        data = content(WISHBONES)
+        data["Lower Control Arm"] |= TestNoBody.ARM
+        path = written(tmp_path, data)
+        arguments = ["import-chrono", str(path), "car.toml", "--points-only", "--side", "right"]
+        result = CliRunner().invoke(app, arguments)
+        assert result.exit_code == 0, result.output
+        assert "  left out  Lower Control Arm: Mass = 1.611" in result.output
+        car = Suspension.load("car.toml")
+        assert car == chrono.read(path, points_only=True).suspension.mirrored()
+        with pytest.raises(InputError, match="nothing of a tire is taken"):
+            chrono.read(path, tire=TIRE, points_only=True)
+
+
+def tire_of(template, **parts):
+    return {"Name": "mine", "Type": "Tire", "Template": template} | parts
+
+
+DESIGN = {"Unloaded Radius [m]": 0.33, "Mass [kg]": 11.5, "Inertia [kg.m2]": [0.4, 0.7, 0.4],
+          "Width [m]": 0.245}  # fmt: skip
+OWN = {"Mass": 11.5, "Inertia": [0.4, 0.7, 0.4]}
+PAC89 = {"Unloaded Radius": 0.33, "Vertical Stiffness": 2.5e5, "Width": 0.2}
+TIRES = {
+    "RigidTire": OWN | {"Radius": 0.33},
+    "TMeasyTire": {"Design": DESIGN},
+    "TMsimpleTire": {"Design": DESIGN},
+    "FialaTire": OWN | {"Fiala Parameters": PAC89},
+    "Pac89Tire": OWN | {"Design Parameters": PAC89},
+    "Pac02Tire": OWN | {"Dimension": {"Unloaded Radius": 0.33}},
+    "MFTire": OWN | {"UNITS": {"LENGTH": "meter"}, "DIMENSION": {"UNLOADED_RADIUS": 0.33}},
+    "ANCFTire": {"Tire Radius": 0.33, "Rim Radius": 0.2},
+    "ReissnerTire": {"Tire Radius": 0.33},
+    "FEATire": {"Tire Radius": 0.33},
+}
+TIR = "[UNITS]\nLENGTH = 'mm'\n[DIMENSION]\nUNLOADED_RADIUS = 330.0 $ free\n"
+
+
+class TestTires:
+    def read(self, folder, data):
+        path = folder / "tire.json"
+        path.write_text(json.dumps(data), encoding="utf-8")
+        return chrono.read(STRUT, tire=path)
+
+    @pytest.mark.parametrize("template", TIRES)
+    def test_radius_mass_and_inertia(self, tmp_path, template):
+        found, told, left_out = self.read(tmp_path, tire_of(template, **TIRES[template]))
+        elements = template in ("ANCFTire", "ReissnerTire", "FEATire")
+        mass, spin = (20.0, 1.0) if elements else (11.5, 0.7)
+        assert found.tyre.radius_mm == 330.0
+        assert found.bodies.wheel.mass_kg == pytest.approx(mass + 1.103, rel=1e-15)
+        assert found.bodies.wheel.inertia_spin_kg_m2 == pytest.approx(spin + 0.400479, rel=1e-15)
+        assert any(f"of the template {template}" in text for text in told)
+        assert any("inertia of a usual one" in text for text in told) == elements
+        assert any(line.startswith('tire > Name = "mine"') for line in left_out)
+
+    @pytest.mark.parametrize("template", TIRES)
+    def test_no_key_is_lost(self, tmp_path, template):
+        data = tire_of(template, **TIRES[template])
+        whole = self.read(tmp_path, data)
+        for place in leaves(data):
+            holder = less = json.loads(json.dumps(data))
+            for key in place[:-1]:
+                holder = holder[key]
+            value = holder.pop(place[-1])
+            if place in (("Type",), ("Template",)):
+                continue
+            with suppress(InputError):
+                assert self.read(tmp_path, less)[::2] != whole[::2], place
+            holder[f"{place[-1]} "] = value
+            try:
+                other = self.read(tmp_path, less)
+            except InputError:
+                continue
+            assert any(place[-1] in line for line in other.left_out), place
+
+    def test_a_rate_that_is_one_is_taken(self, tmp_path):
+        data = tire_of("FialaTire", **TIRES["FialaTire"])
+        assert self.read(tmp_path, data).suspension.tyre.rate_N_per_m == 2.5e5
+        curved = PAC89 | {"Vertical Curve Data": [[0, 0], [0.1, 2e4]]}
+        found = self.read(tmp_path, data | {"Fiala Parameters": curved})
+        assert found.suspension.tyre.rate_N_per_m == chrono.TYRE_RATE
+        assert any("Vertical Stiffness = 250000.0" in line for line in found.left_out)
+
+    @pytest.mark.parametrize("key", ["TIR Specification File", "Pacejka Parameter File"])
+    def test_a_radius_in_a_file_beside(self, tmp_path, key):
+        template = "Pac02Tire" if key.startswith("TIR") else "PacejkaTire"
+        data = tire_of(template, **OWN, **{key: "hmmwv/tire/own.tir"})
+        found = self.read(tmp_path, data)
+        assert found.suspension.tyre.radius_mm is None
+        assert any("Enter radius_mm in [tyre]" in text for text in found.assumptions)
+        (tmp_path / "own.tir").write_text(TIR, encoding="utf-8")
+        found = self.read(tmp_path, data)
+        assert found.suspension.tyre.radius_mm == 330.0
+        assert "only UNLOADED_RADIUS is read" in found.assumptions[-1]
+
+    @pytest.mark.parametrize(
+        ("data", "words"),
+        [
+            (tire_of("TMeasyTire", Design=DESIGN | {"Mass [kg]": -1}), '"Design > Mass [kg]" = -1'),
+            (tire_of("TMeasyTire", Design={}), "is missing in a file of the template TMeasyTire"),
+            (tire_of("TMeasyTire", Design={"Unloaded Radius": 1}), 'Is it "Design > Unloaded Rad'),
+            (tire_of("RigidTire", **OWN, radius=0.3), '"radius" is no key'),
+            (tire_of("RigidTire", **OWN | {"Inertia": [0.1, 0.7, 0.1]}, Radius=0.3),
+             '"Inertia" = [0.1, 0.7, 0.1] kg m^2: the principal moments are 0.1, 0.1, 0.7'),
+            (tire_of("OwnTire"), '"Template" is "OwnTire"; of tires, these can be read: Rigid'),
+            ({"Type": "Wheel", "Template": "Wheel"}, '"Type" is "Wheel"; the file of a tire is'),
+            (tire_of("MFTire", **OWN, UNITS={"LENGTH": "mm"}), 'only "meter" can be read'),
+            (tire_of("RigidTire", **OWN, Radius=0), '"Radius" = 0: input should be greater than'),
+            (tire_of("RigidTire", Mass=1, Inertia=[1, 2], Radius=1), '"Inertia > 2" is missing'),
+        ],
+    )  # fmt: skip
+    def test_mistakes_are_named(self, tmp_path, data, words):
+        with pytest.raises(InputError, match=re.escape(words)):
+            self.read(tmp_path, data)
 
 
 class TestMultiLink:
@@ -269,7 +627,8 @@ class TestMistakes:
     def test_a_spring_by_a_curve(self, tmp_path):
         data = content()
         del data["Spring"]["Spring Coefficient"]
-        with pytest.raises(InputError, match="a spring by a curve cannot be read"):
+        data["Spring"]["Spring Curve Data"] = [[-0.1, -6000.0], [0.1, 6000.0]]
+        with pytest.raises(InputError, match="is a spring by a curve, which cannot be read"):
             chrono.read(written(tmp_path, data))
 
     @pytest.mark.parametrize(
@@ -326,7 +685,7 @@ class TestCommand:
         arguments = [str(STRUT), "car.toml", "--tire", str(TIRE), "--side", side]
         result = CliRunner().invoke(app, ["import-chrono", *arguments])
         assert result.exit_code == 0, result.output
-        assert "assumed  rack" in result.output
+        assert "assumed   rack" in result.output
         car, expected = Suspension.load("car.toml"), chrono.read(STRUT, tire=TIRE).suspension
         assert car == (expected if side == "left" else expected.mirrored())
         text = Path("car.toml").read_text(encoding="utf-8")

@@ -603,7 +603,6 @@ def test_a_stop_between_hinges_has_an_angle_of_any_sign():
         ),
         (double_wishbone, {"gravity": -9.81}, r"'gravity' = -9.81 m/s\^2 is out"),
         (double_wishbone, {"knuckle_inertia_xx": 9.0}, "inertia of 'knuckle': .* those of no body"),
-        (double_wishbone, {"wheel_inertia_spin": 9.0}, "'wheel_inertia_spin' = 9 .* flat disc"),
         (front_axle, {"knuckle_mass": -1.0}, "'knuckle_mass' = -1 kg is out"),
     ],
 )
@@ -617,6 +616,13 @@ def test_parameters_out_of_range_reach_no_model(equations, changes, words):
     ):
         with pytest.raises(kintrafo.ParameterError, match=words):
             make()
+
+
+def test_a_shaft_may_turn_with_a_rotor():
+    """It adds to the moment about the axis alone; a body that is declared is without one."""
+    kintrafo.System(double_wishbone, {"wheel_inertia_spin": 9.0})
+    with pytest.raises(DeclarationError, match=r"'wheel_inertia_spin' = 9 .* \(a flat disc\)"):
+        with_default(DOUBLE_WISHBONE, wheel_inertia_spin=9.0)
 
 
 def test_masses_and_rates_may_be_zero():

@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from kintrafo.core.errors import InputError, KintrafoError
 from kintrafo.suspension.kinds import Suspension
+from kintrafo.suspension.model import Model
 
 CAR = Suspension.load("reference_car")
 CAR_TEXT = (resources.files("kintrafo.suspension.data") / "reference_car.toml").read_text("utf-8")
@@ -808,8 +809,19 @@ class TestInertia:
         assert only_problem({"bodies.wheel.inertia_spin_kg_m2": 1.3}) == (
             "[bodies.wheel] inertia_spin_kg_m2 = 1.3 kg m^2 is more than any wheel with "
             "inertia_diametral_kg_m2 = 0.6 kg m^2 can have; allowed is at most twice that, "
-            "1.2 kg m^2 (a flat disc). Lower the first or raise the second."
+            "1.2 kg m^2 (a flat disc). Lower the first or raise the second; inertia_shaft_kg_m2 is "
+            "what a drive shaft adds to the first."
         )
+
+    def test_a_drive_shaft_adds_to_the_moment_about_the_axis_alone(self):
+        """A wheel of a flat disc's moments, 1.2 and 0.6 kg m^2, and a shaft of 0.4 kg m^2."""
+        spin, shaft = "bodies.wheel.inertia_spin_kg_m2", "bodies.wheel.inertia_shaft_kg_m2"
+        model = Model(CAR.with_changes({spin: 1.6, shaft: 0.4}))  # of the equations, too
+        assert model.parameters["wheel_inertia_spin"] == 1.6
+        assert "1.7 kg m^2 without inertia_shaft_kg_m2 = 0.4" in only_problem(
+            {spin: 1.7, shaft: 0.4}
+        )
+        assert "allowed is less than that" in only_problem({shaft: 9.0})
 
     def test_flat_disc(self):
         CAR.with_changes({"bodies.wheel.inertia_spin_kg_m2": 1.2})

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...core.physical import inertia_of_no_body, out_of_range
+from ...core.physical import inertia_of_no_body, out_of_range, rotors_of_no_body
 from .evaluation import AtDefaults
 from .geometry import Direction, Line, Point
 from .joints import Revolute
@@ -26,7 +26,10 @@ _ROUNDING = 1e-9
 def value_problems(mechanism: Assembly) -> list[str]:
     """Find defaults out of their ranges, impossible inertia, and lines without a direction."""
     values = {p.name: p.default for p in mechanism.parameters}
-    problems = out_of_range(values, described(mechanism)) or inertia_of_no_body(values)
+    problems = out_of_range(values, described(mechanism)) or [
+        *inertia_of_no_body(values),
+        *rotors_of_no_body(values),
+    ]
     return problems + (list(_lost_directions(mechanism)) or _angle_problems(mechanism))
 
 

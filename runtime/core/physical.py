@@ -61,11 +61,11 @@ def out_of_range(
 
 
 def inertia_of_no_body(values: Mapping[str, float]) -> list[str]:
-    """Find inertia tensors, and moments of rotors, that no body can have.
+    """Find inertia tensors that no body can have.
 
-    The principal moments of a body are none above the sum of the others; those of a body of
-    revolution are at most those of a flat disc. What is not given as a whole is not looked at: in a
-    plane only one moment counts.
+    The principal moments of a body are none above the sum of the others. What is not given as a
+    whole is not looked at: in a plane only one moment counts. The moment of a rotor about its axis
+    has no bound: a shaft that turns with it adds to this one alone.
 
     Parameters
     ----------
@@ -77,7 +77,30 @@ def inertia_of_no_body(values: Mapping[str, float]) -> list[str]:
     list of str
         One text for each body.
     """
-    return [*_impossible_tensors(values), *_impossible_rotors(values)]
+    return list(_impossible_tensors(values))
+
+
+def rotors_of_no_body(values: Mapping[str, float]) -> list[str]:
+    """Find bodies of revolution that are flatter than a disc.
+
+    Parameters
+    ----------
+    values : mapping
+        Parameters by name: those that end in ``_inertia_spin`` and ``_inertia_diametral``, SI
+        units, of the bodies alone, without shafts.
+
+    Returns
+    -------
+    list of str
+        One text for each body.
+    """
+    return [
+        f"parameter '{body}_inertia_spin' = {spin:g} kg m^2 is more than twice "
+        f"'{body}_inertia_diametral' = {across:g} kg m^2, the most that a body of revolution can "
+        "have (a flat disc)"
+        for body, spin, across in _rotors(values)
+        if spin > 2.0 * across * (1.0 + _ROUNDING)
+    ]
 
 
 def impossible(
@@ -105,8 +128,6 @@ def impossible(
         found |= ~(value <= entry.get("most", np.inf))
     for _, elements in _tensors(values):
         found |= _of_no_body(_moments(elements))
-    for _, spin, across in _rotors(values):
-        found |= _more_than_a_disc(spin, across)
     return found
 
 
@@ -133,17 +154,13 @@ def _of_no_body(moments: Array) -> NDArray[np.bool_]:
     return found
 
 
-def _rotors(values: Mapping[str, Any]) -> Iterator[tuple[str, Any, Any]]:
+def _rotors(values: Mapping[str, float]) -> Iterator[tuple[str, float, float]]:
     """Yield the bodies of revolution, with their moments about the axis and across."""
     for name, spin in values.items():
         body = name.removesuffix("_inertia_spin")
         across = values.get(f"{body}_inertia_diametral")
         if body != name and across is not None:
             yield body, spin, across
-
-
-def _more_than_a_disc(spin: Any, across: Any) -> Any:
-    return spin > 2.0 * across * (1.0 + _ROUNDING)
 
 
 def _impossible_tensors(values: Mapping[str, float]) -> Iterator[str]:
@@ -157,14 +174,4 @@ def _impossible_tensors(values: Mapping[str, float]) -> Iterator[str]:
                 "the others and none is negative. Check the diagonal and the signs of xy, xz and "
                 "yz (elements of the tensor: minus the products of inertia). In a plane, where "
                 "only the moment about the normal counts, give each of the others half of it"
-            )
-
-
-def _impossible_rotors(values: Mapping[str, float]) -> Iterator[str]:
-    for body, spin, across in _rotors(values):
-        if _more_than_a_disc(spin, across):
-            yield (
-                f"parameter '{body}_inertia_spin' = {spin:g} kg m^2 is more than twice "
-                f"'{body}_inertia_diametral' = {across:g} kg m^2, the most that a body of "
-                "revolution can have (a flat disc)"
             )

@@ -1,7 +1,8 @@
 """Text files in the TeimOrbit format, which Adams/Car writes.
 
 Blocks begin with a name in brackets, parts of them with one in parentheses. In them are keys with
-values, and tables, whose columns are named in braces. Comments begin with ``$`` or ``!``.
+values, and tables, whose columns are named in braces. Comments begin with ``$`` or ``!``, or are
+texts in quotes below ``(COMMENTS)`` or ``{comment_string}``.
 """
 
 import re
@@ -20,6 +21,9 @@ _COLUMNS = re.compile(r"\s*+\{([^{}]*+)\}?\s*+([$!].*+)?")
 _KEY = re.compile(r"""\s*+([^\s='"$!]++)\s*+=(.*+)""")
 # a text in quotes, a bare word, or a comment to the end of the line
 _CELL = re.compile(r"""'([^']*+)'|"([^"]*+)"|([^\s'"$!,]++)|([$!].*+)|[\s,]++""")
+
+
+_OF_COMMENTS = ("comments", "comment_string")
 
 
 @dataclass(frozen=True)
@@ -42,14 +46,14 @@ class Block:
 
     def values(self) -> Iterator[tuple[str, str]]:
         """Yield keys, in lower case, and values, without quotes."""
-        for _, line in self.lines:
+        for _, line in self._uncommented():
             found = _KEY.fullmatch(line)
             if found:
                 yield found[1].lower(), " ".join(cells_of(found[2]) or [found[2].strip()])
 
     def columns(self) -> list[str]:
         """Return the names of the columns of its first table, in lower case."""
-        for _, line in self.lines:
+        for _, line in self._uncommented():
             found = _COLUMNS.fullmatch(line)
             if found:
                 return [cell.lower() for cell in cells_of(found[1]) or []]
@@ -57,11 +61,22 @@ class Block:
 
     def rows(self) -> Iterator[tuple[int, str, list[str] | None]]:
         """Yield number, text and cells of the rows of its tables; no cells of a broken row."""
-        for number, line in self.lines:
+        for number, line in self._uncommented():
             if not any(kind.fullmatch(line) for kind in (_PART, _COLUMNS, _KEY)):
                 cells = cells_of(line)
                 if cells != []:
                     yield number, line.strip(), cells
+
+    def _uncommented(self) -> Iterator[tuple[int, str]]:
+        """Yield its lines without the texts that are comments, one in a line."""
+        of_comments = False
+        for number, line in self.lines:
+            begin = _PART.fullmatch(line) or _COLUMNS.fullmatch(line)
+            if begin:
+                of_comments = begin[1].strip().lower() in _OF_COMMENTS
+            text = begin or (not _KEY.fullmatch(line) and len(cells_of(line) or ()) == 1)
+            if not (of_comments and text):
+                yield number, line
 
 
 def cells_of(line: str) -> list[str] | None:

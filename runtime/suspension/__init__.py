@@ -5,6 +5,7 @@
 `schema`        the input file's JSON Schema and its reference page
 `starter`       the file that a new project begins with; `data` has what is packaged
 `chrono`, `adams_car`    suspensions of Project Chrono and of Adams/Car
+`fitting`       another car's hardpoints in a file
 `facts`, `drawing`    what a kind says of its equations, and how it is drawn
 `geometry`      what the geometry of any suspension must fulfil
 `typical`       where cars usually lie

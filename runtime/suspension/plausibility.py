@@ -313,7 +313,7 @@ def unlikely_tyre(tyre: Tyre) -> Iterator[str]:
 def unlikely_wheel(wheel: WheelBody, radius: float | None) -> Iterator[str]:
     """Compare the inertia of a wheel about its axis with that of a hoop."""
     hoop = wheel.mass_kg * (radius or np.inf) ** 2
-    if wheel.inertia_spin_kg_m2 > _HOOPS * hoop:
+    if wheel.inertia_spin_kg_m2 - wheel.inertia_shaft_kg_m2 > _HOOPS * hoop:
         yield (
             f"[bodies.wheel] inertia_spin_kg_m2 = {wheel.inertia_spin_kg_m2:g} kg m^2: a hoop of "
             f"{wheel.mass_kg:g} kg and the tyre's radius of {radius:.3f} m has {hoop:.3g} kg m^2, "

@@ -4,7 +4,6 @@
 `values`        its values: texts, numbers and units
 `springs`       the spring, from a file beside it
 `rest`          the file that the rest comes from
-`fitting`       what in it goes along with the hardpoints
 `importing`     both of them as an input file
 """
 

@@ -10,13 +10,13 @@ import tomlkit
 from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.legible import legible
+from ..fitting import Point, Side, differences, fresh, ground, move_along, put, to_side
 from ..kinds import KINDS, Suspension
 from ..point_names import assumed_of, known, listed, matched, points_of
 from ..point_table import Merged, put_points
-from .fitting import move_along, put, to_side
 from .rest import Rest, rest_of
 from .springs import Spring, put_spring, spring_of
-from .subsystem import ANGLES, Point, Side, Subsystem
+from .subsystem import ANGLES, Subsystem
 from .values import shown
 
 _SCHEMA = "#:schema"  # editors look for it in the first line
@@ -105,7 +105,7 @@ def imported(
     angles = _angles(subsystem, wanted)
     document: Any = tomlkit.parse(rest.text)
     old = to_side(document, rest.suspension, wanted)
-    spring, reason = _spring(subsystem, rest)
+    spring, unread = _spring(subsystem, rest, wanted)
     moved = move_along(document, old, points) if rest.packaged else []
     put_points(document, points, "mm")
     for key, angle in angles.items():
@@ -113,6 +113,8 @@ def imported(
     if spring:
         put_spring(document, spring)
     new = Suspension.from_dict(document.unwrap(), source=subsystem.source)
+    changed = None if rest.packaged else differences(rest.suspension, new)
+    text = fresh(tomlkit.dumps(document), new, changed)
     kept = tuple(name for name in new.hardpoints.given() if name not in read)
     assumed = (
         *_assumed(new, kept, angles, spring, rest.title),
@@ -120,10 +122,10 @@ def imported(
         *moved,
     )
     return Imported(
-        text=_with_head(tomlkit.dumps(document), _head(subsystem, rest.title, assumed)),
+        text=_with_head(text, _head(subsystem, rest.title, assumed)),
         read=read,
         kept=kept,
-        left_out=(*_left_out(subsystem, read), *([reason] if reason else []), *subsystem.others),
+        left_out=(*_left_out(subsystem, read), *unread, *subsystem.others),
         kind=rest.kind,
         side=wanted,
         angles=angles,
@@ -132,12 +134,12 @@ def imported(
     )
 
 
-def _spring(subsystem: Subsystem, rest: Rest) -> tuple[Spring | None, str]:
-    """Return the spring, or why it is left out: a file of the user has its own."""
-    found, reason = spring_of(subsystem)
+def _spring(subsystem: Subsystem, rest: Rest, side: Side) -> tuple[Spring | None, list[str]]:
+    """Return the spring, and what of springs is left out: a file of the user has its own."""
+    found, unread = spring_of(subsystem, side)
     if found is None or rest.packaged:
-        return found, reason
-    return None, f"{found.words()}: the {rest.title} has its own"
+        return found, unread
+    return None, [f"{found.words()}: the {rest.title} has its own", *unread]
 
 
 def _angles(subsystem: Subsystem, side: Side) -> dict[str, float]:
@@ -211,20 +213,16 @@ def _assumed(
         for key in ANGLES.values()
         if key not in angles
     ]
-    if new.tyre.radius_mm is None:
-        radius = new.tyre_radius()
-        height = 1000.0 * float(new.hardpoints.metres("wheel_center")[2])
-        told.append(
-            f"wheel: {1000.0 * radius:g} mm of radius, as the ground is taken to be at z = 0"
-            if radius
-            else f"ground: not known, as the wheel centre is at z = {height:g} mm; tell the "
-            "wheel's radius with radius_mm in [tyre]"
-        )
-    return told
+    return told + ground(new)
 
 
 def _left_out(subsystem: Subsystem, read: Mapping[str, str]) -> list[str]:
-    return [f"hardpoint {shown(name)}" for name in subsystem.points if name not in read.values()]
+    return [
+        f"hardpoint {shown(name)} ({side}): {', '.join(f'{value:.10g}' for value in point)} mm"
+        for name, rows in subsystem.points.items()
+        if name not in read.values()
+        for side, point in rows.items()
+    ]
 
 
 def _head(subsystem: Subsystem, rest: str, assumed: Iterable[str]) -> list[str]:
@@ -240,5 +238,6 @@ def _head(subsystem: Subsystem, rest: str, assumed: Iterable[str]) -> list[str]:
 def _with_head(text: str, head: list[str]) -> str:
     """Return a file with a comment above it, but below a line that is for editors."""
     first, end, rest = text.partition("\n")
-    comment = "".join(f"# {legible(line)}\n" for line in head) + "#\n"
+    comment = "".join(f"# {legible(line)}\n" for line in head)
+    comment += "#\n" if text.startswith("#") else "\n"
     return f"{first}{end}{comment}{rest}" if first.startswith(_SCHEMA) else comment + text

@@ -4,15 +4,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-import tomlkit
-
 from ...core.errors import InputError
 from ...core.legible import legible
 from ...core.suggestions import suggestion
 from ..data import find
+from ..fitting import packaged
 from ..kinds import KINDS, Suspension
 from ..point_names import kind_of, nearest_kinds
-from .fitting import by_force
 from .subsystem import Subsystem
 
 
@@ -47,9 +45,7 @@ def rest_of(
     if base is not None:
         return _users(subsystem, kind, base, given)
     found = kind or kind_of(subsystem.points, given, subsystem.source)
-    starter = KINDS[found].STARTER
-    text = by_force(_text(starter), Suspension.load(starter))
-    suspension = Suspension.from_dict(tomlkit.parse(text).unwrap(), source=starter)
+    starter, text, suspension = packaged(found)
     return Rest(found, f"packaged {starter}", text, suspension, packaged=True)
 
 
@@ -70,8 +66,5 @@ def _users(
             f"Give another file, or say what it is: --kind {own}."
         )
         raise InputError([problem], subsystem.source)
-    return Rest(own, title, _text(base), suspension, packaged=False)
-
-
-def _text(file: str | Path) -> str:
-    return find(file).read_text(encoding="utf-8-sig")
+    text = find(base).read_text(encoding="utf-8-sig")
+    return Rest(own, title, text, suspension, packaged=False)

@@ -14,11 +14,14 @@ from typing import Any, NamedTuple
 
 from ...core.errors import InputError
 from ...core.teim_orbit import Block, read_blocks
+from ..fitting import Side
 from .subsystem import Subsystem
 from .values import MILLIMETRES, NEWTONS, Values, number, shown, unit_of
 
 _STRAIGHT = 1e-3  # of the greatest force: so far a curve may be from a line
 _FOLDER = "springs.tbl"
+_NAME = "usage"  # key with what the template calls it
+_FORCE = ("value_type", "user_value")
 
 
 class Spring(NamedTuple):
@@ -44,36 +47,58 @@ class Spring(NamedTuple):
         return f"spring {self.rate / 1000.0:g} N/mm{force} ({self.file})"
 
 
-def spring_of(subsystem: Subsystem) -> tuple[Spring | None, str]:
-    """Return the spring of a subsystem; if it cannot be read, why.
+def spring_of(subsystem: Subsystem, side: Side) -> tuple[Spring | None, list[str]]:
+    """Return the spring of a side; and what of the springs is not read.
 
     Parameters
     ----------
     subsystem : Subsystem
+    side : {'left', 'right'}
 
     Returns
     -------
     spring : Spring or None
-    reason : str
-        Empty if there is a spring, or if the subsystem names none.
+    unread : list of str
+        Springs that are left out, with the reason, and keys of the spring, with their values.
     """
-    if not subsystem.springs:
-        return None, ""
-    names = ", ".join(shown(values.get("usage", "")) for values in subsystem.springs)
-    if len(subsystem.springs) > 1:
-        return None, f"springs {names}: there is more than one"
-    (values,) = subsystem.springs
+    of_side, unread = [], []
+    for values in subsystem.springs:
+        if values.get("symmetry", "left/right").lower() in ("left/right", "single", side):
+            of_side.append(values)
+        else:
+            unread.append(f"{_named(values)} is not of the {side} side: {_words(values)}")
+    if len(of_side) != 1:
+        several = [f"{_named(v)} is not the only one: {_words(v)}" for v in of_side]
+        return None, [*unread, *several]
+    (values,) = of_side
+    try:
+        found = _spring(values, subsystem)
+    except InputError as error:
+        return None, [*unread, f"{_named(values)}: {error.problems[0]} {_words(values)}"]
+    read = ["symmetry", "property_file", *(_FORCE if found.force is not None else ())]
+    rest = {key: value for key, value in values.items() if key not in read}
+    return found, [*unread, *([f"{_named(values)}: {_words(rest)}"] if _words(rest) else [])]
+
+
+def _named(values: Mapping[str, str]) -> str:
+    return f"spring {shown(values.get(_NAME, ''))}"
+
+
+def _words(values: Mapping[str, str]) -> str:
+    """Return keys and values as they can be printed."""
+    return ", ".join(f"{shown(k.upper())} = {shown(v)}" for k, v in values.items() if k != _NAME)
+
+
+def _spring(values: Mapping[str, str], subsystem: Subsystem) -> Spring:
+    """Return the spring of a block; say why if it cannot be read."""
     name = re.split(r"[\\/:>]", values.get("property_file", ""))[-1]
     file = _beside(Path(subsystem.source).parent, name)
     if file is None:
-        return None, f"spring {names}: its file {shown(name)!r} is not beside the subsystem"
+        raise InputError([f"its file {shown(name)!r} is not beside the subsystem."])
     scaled = [key for key, text in values.items() if "scal" in key and number(text) != 1.0]
     if scaled:
-        return None, f"spring {names}: {shown(scaled[0].upper())} is not 1"
-    try:
-        return Spring(_rate(file), _force(values, subsystem), shown(name)), ""
-    except InputError as error:
-        return None, f"spring {names}: {shown(name)}: {error.problems[0]}"
+        raise InputError([f"{shown(scaled[0].upper())} is not 1."])
+    return Spring(_rate(file), _force(values, subsystem), shown(name))
 
 
 def put_spring(document: Any, spring: Spring) -> None:

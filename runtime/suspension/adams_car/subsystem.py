@@ -5,17 +5,17 @@ the left one.
 """
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 from ...core.errors import InputError
 from ...core.teim_orbit import Block, read_blocks
+from ..fitting import Point, Side
 from .values import DEGREES, MILLIMETRES, Values, number, shown, unit_of
 
-Point = tuple[float, float, float]
-Side = Literal["left", "right"]
 _Value = TypeVar("_Value", float, Point)
 
 ANGLES = {"camber_angle": "camber_deg", "toe_angle": "toe_deg"}
@@ -113,6 +113,7 @@ def read(path: str | Path) -> Subsystem:
     angles: dict[str, dict[str, float]] = {}
     for row in of_angles:
         _put(angles, row, turn * number(row.others[-1]), problems)
+    problems += [text for block in blocks if block.name in _SPRINGS for text in _twice(block)]
     if not points and not problems:
         problems.append("there are no rows in a block [HARDPOINT].")
     if problems:
@@ -203,11 +204,24 @@ def _problem_of(cells: list[str] | None, count: int, order: list[int], numbers: 
 
 
 def _other_parameters(blocks: Iterable[Block]) -> list[str]:
-    """Return the names of the parameters that are not read, as one text; none if there are none."""
-    rows = (row for block in blocks if block.name == _PARAMETERS.block for row in block.rows())
-    names = dict.fromkeys(cells[0] for _, _, cells in rows if cells)
-    left_out = [n for n in names if n.lower() not in (*ANGLES, _PARAMETERS.columns[0])]
-    return [f"parameters {', '.join(map(shown, left_out))}"] if left_out else []
+    """Return the parameters that are not read, with their values."""
+    rows = [row for block in blocks if block.name == _PARAMETERS.block for row in block.rows()]
+    return [
+        f"parameter {shown(' '.join(cells or [text]))}"
+        for _, text, cells in rows
+        if not (cells and cells[0].lower() in (*ANGLES, _PARAMETERS.columns[0]))
+    ]
+
+
+def _twice(block: Block) -> list[str]:
+    """Say which keys a block has more than once."""
+    counts = Counter(key for key, _ in block.values())
+    return [
+        f"line {block.number}: {shown(key.upper())} is there {count} times in "
+        f"[{shown(block.name.upper())}]. Keep one of them."
+        for key, count in counts.items()
+        if count > 1
+    ]
 
 
 def _put(rows: dict[str, dict[str, _Value]], row: _Row, value: _Value, problems: list[str]) -> None:
@@ -224,13 +238,11 @@ def _put(rows: dict[str, dict[str, _Value]], row: _Row, value: _Value, problems:
 
 
 def _others(blocks: Iterable[Block]) -> list[str]:
-    """Return what blocks there are that are not read, with what they are of."""
-    found: dict[str, list[str]] = {}
+    """Return the blocks that are not read, each with its keys, its rows and their values."""
+    found = []
     for block in blocks:
         if block.name not in (*_FORMAL, *_SPRINGS, "parameter"):
-            names = [value for key, value in block.values() if key == "usage"]
-            found.setdefault(block.name, []).extend(names)
-    return [
-        " ".join([f"[{shown(name.upper())}]", ", ".join(map(shown, names))]).strip()
-        for name, names in found.items()
-    ]
+            keys = [f"{shown(key.upper())} = {shown(value)}" for key, value in block.values()]
+            rows = [shown(" ".join(cells or [text])) for _, text, cells in block.rows()]
+            found.append(f"[{shown(block.name.upper())}] {', '.join([*keys, *rows])}".strip())
+    return found

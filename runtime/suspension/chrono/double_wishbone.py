@@ -1,82 +1,136 @@
 """The template DoubleWishbone."""
 
-from typing import Any, Literal
+from collections.abc import Mapping
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
-from .parts import (
-    ON_THE_LINE,
-    ControlArm,
-    Ends,
-    Finite,
-    Point,
-    Shock,
-    Spring,
-    SuspensionFile,
-    bushes_of,
-    curve_of,
-    millimetres,
-    rate_of,
-    stops_of,
-)
+from ...core.vectors import cross
+from .forces import Shock, Spring, damper_law, damper_section, free_length_mm, spring_law
+from .keys import Part
+from .parts import ON_THE_LINE, POINTS_ONLY, ArmPoints, ControlArm, Point
+from .suspension_file import PointsFile, SuspensionFile, arm_sources
+
+# How much of the spring's speed the damper has at least, of which it can do the work.
+_LEAST_RATIO = 0.1
+
+_SOURCES = {
+    **arm_sources("lower_arm", "Lower Control Arm"),
+    **arm_sources("upper_arm", "Upper Control Arm"),
+    "lower_ball_joint": "Lower Control Arm > Location Upright",
+    "upper_ball_joint": "Upper Control Arm > Location Upright",
+    "spring_top": "Spring > Location Chassis",
+    "spring_seat": "Spring > Location Arm",
+}
 
 
-class _Spring(Spring):
+class _SpringPoints(Part):
+    chassis: Point = Field(alias="Location Chassis")
     arm: Point = Field(alias="Location Arm")
+
+
+class _Spring(Spring, _SpringPoints):
+    pass
 
 
 class _Shock(Shock):
     arm: Point = Field(alias="Location Arm")
 
 
-class _TieRod(Ends):
-    mass: Finite = Field(default=0.0, alias="Mass", ge=0.0)
+class WishbonePoints(PointsFile):
+    """The points of two arms; the spring stands on the lower one."""
 
-
-class DoubleWishbone(SuspensionFile):
-    """Two arms; spring and damper stand on the lower one."""
-
-    TEMPLATE = "DoubleWishbone"
+    TEMPLATE: ClassVar[str] = "DoubleWishbone"
+    KIND: ClassVar[str] = "double_wishbone"
+    SOURCES: ClassVar[Mapping[str, str]] = {**PointsFile.SOURCES, **_SOURCES}
 
     template: Literal["DoubleWishbone"] = Field(alias="Template")
+    upper: ArmPoints = Field(alias="Upper Control Arm")
+    lower: ArmPoints = Field(alias="Lower Control Arm")
+    spring: _SpringPoints = Field(alias="Spring")
+
+    def own_points(self) -> dict[str, Point]:
+        """Return the joints of the arms and the ends of the spring."""
+        points = {}
+        for name, arm in (("lower", self.lower), ("upper", self.upper)):
+            points[f"{name}_arm_front"], points[f"{name}_arm_rear"] = arm.front, arm.back
+            points[f"{name}_ball_joint"] = arm.upright
+        return points | {"spring_top": self.spring.chassis, "spring_seat": self.spring.arm}
+
+
+class DoubleWishbone(SuspensionFile, WishbonePoints):
+    """Two arms; spring and damper stand on the lower one."""
+
+    SOURCES: ClassVar[Mapping[str, str]] = {
+        **SuspensionFile.SOURCES,
+        **_SOURCES,
+        "[bodies.lower_arm]": "Lower Control Arm",
+        "[bodies.upper_arm]": "Upper Control Arm",
+        "[spring]": "Spring",
+        "[damper]": "Shock",
+    }
+
     upper: ControlArm = Field(alias="Upper Control Arm")
     lower: ControlArm = Field(alias="Lower Control Arm")
-    tie_rod: _TieRod = Field(alias="Tierod")
     spring: _Spring = Field(alias="Spring")
     shock: _Shock = Field(alias="Shock")
 
-    def sections(self) -> dict[str, Any]:
-        """Return the kind, hardpoints, spring, damper and the arms as bodies."""
-        arms = {"lower": self.lower, "upper": self.upper}
-        points = {}
-        for name, arm in arms.items():
-            points[f"{name}_arm_front"], points[f"{name}_arm_rear"] = arm.front, arm.back
-            points[f"{name}_ball_joint"] = arm.upright
-        points |= {"spring_top": self.spring.chassis, "spring_seat": self.spring.arm}
-        spring = {
-            "rate_N_per_m": rate_of(self.spring, self.name),
-            "free_length_mm": millimetres(self.spring.free_length),
-        }
-        shock = self.shock
-        straight = {"rate_N_s_per_m": shock.rate or 0.0}
+    def arms(self) -> dict[str, tuple[str, ControlArm]]:
+        """Return both arms."""
         return {
-            "suspension": "double_wishbone",
-            "hardpoints": points,
-            "spring": spring,
-            "damper": straight if shock.curve is None else curve_of(shock.curve),
-            "bodies": {f"{name}_arm": self.arm(arm) for name, arm in arms.items()},
+            "lower_arm": ("Lower Control Arm", self.lower),
+            "upper_arm": ("Upper Control Arm", self.upper),
+        }
+
+    def problems(self) -> list[str]:
+        """Say, besides, where the damper has no place."""
+        told = super().problems()
+        if self._is_apart() and not self._ratio() >= _LEAST_RATIO:
+            told.append(
+                f'"Shock > Location Chassis" = {list(self.shock.chassis)} m and "Location Arm" = '
+                f"{list(self.shock.arm)} m: between them the damper moves {self._ratio():.3g} "
+                "times as fast as the spring at design. Here both stand between the same points, "
+                f"and at least {_LEAST_RATIO:g} is needed. Correct them, or {POINTS_ONLY}."
+            )
+        return told
+
+    def forces(self) -> dict[str, Any]:
+        """Return spring and damper."""
+        spring = spring_law(self.spring)
+        damper = damper_law(self.spring, self.shock)
+        return {
+            "spring": {"rate_N_per_m": spring.rate, "free_length_mm": free_length_mm(spring)},
+            "damper": damper_section(damper.scaled(self._ratio()) if self._is_apart() else damper),
         }
 
     def left_open(self) -> list[str]:
-        """Tell where the damper stands, and what is left out."""
-        told = []
-        apart = (
-            np.subtract(self.shock.chassis, self.spring.chassis),
-            np.subtract(self.shock.arm, self.spring.arm),
+        """Say where the damper stands."""
+        if not self._is_apart():
+            return []
+        ratio = self._ratio()
+        told = (
+            f"damper: between the points of the spring, with {ratio:.4g} times its force at "
+            f"{1.0 / ratio:.4g} times its speed, which does the same at design as between its own, "
+            f'"Shock > Location Chassis" = {list(self.shock.chassis)} and "Location Arm" = '
+            f"{list(self.shock.arm)} m"
         )
-        if max(np.linalg.norm(offset) for offset in apart) > ON_THE_LINE:
-            told.append("damper: stands where the spring does, not at points of its own")
-        if self.tie_rod.mass > 0.0:
-            told.append(f"tie rod: its mass of {self.tie_rod.mass:g} kg is left out")
-        return told + bushes_of(self.lower, self.upper) + stops_of(self.spring)
+        return [told]
+
+    def _is_apart(self) -> bool:
+        """Return whether the damper has points of its own, and stands there."""
+        ends = ((self.shock.chassis, self.spring.chassis), (self.shock.arm, self.spring.arm))
+        away = max(np.linalg.norm(np.subtract(own, other)) for own, other in ends)
+        return bool(away > ON_THE_LINE) and bool(self.shock.dampers())
+
+    def _ratio(self) -> float:
+        """Return the speed of the damper between its own points, by that of the spring."""
+        front, back = np.array(self.lower.front), np.array(self.lower.back)
+
+        def speed(element: _Spring | _Shock) -> float:
+            end = np.array(element.arm)
+            line = end - element.chassis
+            return float(cross(front - back, end - front) @ line / np.linalg.norm(line))
+
+        with np.errstate(all="ignore"):  # of points on each other, which are refused by name
+            return speed(self.shock) / speed(self.spring) if speed(self.spring) else np.nan

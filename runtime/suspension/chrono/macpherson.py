@@ -1,90 +1,130 @@
 """The template MacPhersonStrut."""
 
-from typing import Any, Literal
+from collections.abc import Mapping
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
 from ...core.vectors import cross
-from .parts import (
-    ON_THE_LINE,
-    ControlArm,
-    Finite,
-    Part,
-    Point,
-    Shock,
-    Spring,
-    SuspensionFile,
-    bushes_of,
-    curve_of,
-    millimetres,
-    rate_of,
-    stops_of,
-)
+from .forces import Shock, Spring, damper_law, damper_section, free_length_mm, spring_law
+from .keys import Part
+from .parts import DRAWING, ON_THE_LINE, POINTS_ONLY, ArmPoints, ControlArm, Point, millimetres
+from .suspension_file import PointsFile, SuspensionFile, arm_sources
 
 _STROKE = 0.1
 """How much longer than at design the extended strut is assumed to be [m]."""
 
+_SOURCES = {
+    **arm_sources("arm", "Control Arm"),
+    "ball_joint": "Control Arm > Location Upright",
+    "strut_top": "Spring > Location Chassis",
+    "strut_lower": "Spring > Location Upright",
+}
 
-class _Strut(Part):
-    mass: Finite = Field(alias="Mass", ge=0.0)
 
-
-class _Spring(Spring):
+class _SpringPoints(Part):
+    chassis: Point = Field(alias="Location Chassis")
     upright: Point = Field(alias="Location Upright")
+
+
+class _Spring(Spring, _SpringPoints):
+    pass
 
 
 class _Shock(Shock):
     upright: Point = Field(alias="Location Upright")
 
 
-class MacPhersonStrut(SuspensionFile):
-    """A strut that guides the upright; its axis is that of the spring, as in Chrono's joint."""
+class _Strut(Part):
+    UNREAD: ClassVar[frozenset[str]] = DRAWING | {"Mass", "Inertia"}
 
-    TEMPLATE = "MacPhersonStrut"
+
+class StrutPoints(PointsFile):
+    """The points of a strut; its axis is that of the spring, as in Chrono's joint."""
+
+    TEMPLATE: ClassVar[str] = "MacPhersonStrut"
+    KIND: ClassVar[str] = "macpherson"
+    SOURCES: ClassVar[Mapping[str, str]] = {**PointsFile.SOURCES, **_SOURCES}
 
     template: Literal["MacPhersonStrut"] = Field(alias="Template")
-    control_arm: ControlArm = Field(alias="Control Arm")
-    strut: _Strut = Field(alias="Strut")
-    spring: _Spring = Field(alias="Spring")
-    shock: _Shock = Field(alias="Shock")
+    control_arm: ArmPoints = Field(alias="Control Arm")
+    spring: _SpringPoints = Field(alias="Spring")
 
-    def sections(self) -> dict[str, Any]:
-        """Return hardpoints, strut, damper curve and the arm as a body."""
-        spring, shock = self.spring, self.shock
-        length = float(np.linalg.norm(np.subtract(spring.chassis, spring.upright)))
-        strut = {
-            "length_max_mm": round(millimetres(length + _STROKE), 3),
-            "spring_rate_N_per_m": rate_of(spring, self.name),
-            "spring_free_length_mm": millimetres(spring.free_length),
-        }
-        damper = {}
-        if shock.curve is None:
-            strut["damper_rate_N_s_per_m"] = shock.rate or 0.0
-        else:
-            damper["damper"] = curve_of(shock.curve)
-        points = {
+    def own_points(self) -> dict[str, Point]:
+        """Return the joints of the arm and the ends of the strut."""
+        return {
             "arm_front": self.control_arm.front,
             "arm_rear": self.control_arm.back,
             "ball_joint": self.control_arm.upright,
-            "strut_top": spring.chassis,
-            "strut_lower": spring.upright,
+            "strut_top": self.spring.chassis,
+            "strut_lower": self.spring.upright,
         }
-        bodies = {"control_arm": self.arm(self.control_arm)}
-        return {"hardpoints": points, "strut": strut, "bodies": bodies} | damper
+
+
+class MacPhersonStrut(SuspensionFile, StrutPoints):
+    """A strut that guides the upright."""
+
+    SOURCES: ClassVar[Mapping[str, str]] = {
+        **SuspensionFile.SOURCES,
+        **_SOURCES,
+        "[bodies.control_arm]": "Control Arm",
+        "[strut] spring_": "Spring",
+        "[strut] damper_": "Shock",
+        "[damper]": "Shock",
+    }
+
+    control_arm: ControlArm = Field(alias="Control Arm")
+    strut: _Strut = Field(default=_Strut(), alias="Strut")
+    spring: _Spring = Field(alias="Spring")
+    shock: _Shock = Field(alias="Shock")
+
+    def arms(self) -> dict[str, tuple[str, ControlArm]]:
+        """Return the arm."""
+        return {"control_arm": ("Control Arm", self.control_arm)}
+
+    def problems(self) -> list[str]:
+        """Say, besides, where the damper has no place."""
+        told, off = super().problems(), self._off_the_axis()
+        if self.shock.dampers() and off > ON_THE_LINE:
+            told.append(
+                f'"Shock > Location Chassis" = {list(self.shock.chassis)} m and "Location Upright" '
+                f"= {list(self.shock.upright)} m are {1e3 * off:.3g} mm off the axis of the strut, "
+                f"which leads through those of the spring; allowed is {1e3 * ON_THE_LINE:g} mm. "
+                f"Correct them, or {POINTS_ONLY}."
+            )
+        return told
+
+    def forces(self) -> dict[str, Any]:
+        """Return the strut with its spring and damper."""
+        spring, damper = spring_law(self.spring), damper_law(self.spring, self.shock)
+        length = float(np.linalg.norm(np.subtract(self.spring.chassis, self.spring.upright)))
+        strut = {
+            "length_max_mm": round(millimetres(length + _STROKE), 3),
+            "spring_rate_N_per_m": spring.rate,
+            "spring_free_length_mm": free_length_mm(spring),
+        }
+        if damper.curve:
+            return {"strut": strut, "damper": damper_section(damper)}
+        return {"strut": strut | {"damper_rate_N_s_per_m": damper.rate}}
 
     def left_open(self) -> list[str]:
-        """Tell the stroke of the strut, and what of it is left out."""
+        """Say what stroke the strut has, and along which line the damper acts."""
         told = [f"strut: {1e3 * _STROKE:g} mm longer when fully extended than at design"]
-        if self.strut.mass > 0.0:
-            told.append(f"upper strut: its mass of {self.strut.mass:g} kg is left out")
-        if not self._damps_along_the_strut():
-            told.append("damper: acts along the strut's axis, not between points of its own")
-        return told + bushes_of(self.control_arm) + stops_of(self.spring)
+        ends = np.subtract(self.shock.chassis, self.spring.chassis)
+        if self.shock.dampers() and np.linalg.norm(ends) > ON_THE_LINE:
+            told.append(
+                "damper: along the strut's axis in every position, as at design between its own "
+                f'points, "Shock > Location Chassis" = {list(self.shock.chassis)} m'
+            )
+        return told
 
-    def _damps_along_the_strut(self) -> bool:
+    def _off_the_axis(self) -> float:
+        """Return how far the ends of the damper are from the strut's axis [m]."""
         start, end = np.array(self.spring.upright), np.array(self.spring.chassis)
-        line = (end - start) / np.linalg.norm(end - start)
+        length = np.linalg.norm(end - start)
+        if not length > 0.0:
+            return 0.0  # no axis: the hardpoints are refused later, by name
         ends = (self.shock.chassis, self.shock.upright)
-        offsets = [cross(np.array(point) - start, line) for point in ends]
-        return bool(max(np.linalg.norm(offset) for offset in offsets) < ON_THE_LINE)
+        offsets = [cross(np.array(point) - start, (end - start) / length) for point in ends]
+        return float(max(np.linalg.norm(offset) for offset in offsets))

@@ -1,6 +1,7 @@
 """The bodies of a suspension: masses, centres of mass and inertia tensors."""
 
 from abc import abstractmethod
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
@@ -16,6 +17,11 @@ _ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 
 # What rounding may do to a principal moment of inertia, relative to the largest element.
 _ROUNDING = 1e-9
+
+_REMEDY = (
+    "Check the diagonal, and the signs of xy, xz and yz (elements of the tensor: minus the "
+    "products of inertia); all zero make a point mass."
+)
 
 
 class RigidBody(Section):
@@ -75,8 +81,8 @@ class RigidBody(Section):
                 "Enter its mass, or set the inertia to 0."
             )
             return [problem]
-        reason = _why_impossible(elements, scale)
-        return [f"{names} kg m^2: {reason}"] if reason else []
+        reason = impossible_inertia(elements)
+        return [f"{names} kg m^2: {reason}. {_REMEDY}"] if reason else []
 
 
 class TieRod(RigidBody):
@@ -96,23 +102,40 @@ class Rack(RigidBody):
 
 
 class WheelBody(Section):
-    """The wheel with tyre, hub and disc: symmetric about its spin axis, balanced at its centre."""
+    """The wheel with tyre, hub and disc: symmetric about its spin axis, balanced at its centre.
+
+    What turns with it about this axis alone, as a drive shaft, has a part of its moment about it.
+    """
 
     mass_kg: Positive = Field(description="mass of the wheel")
     inertia_spin_kg_m2: Positive = Field(description="moment of inertia about the spin axis")
     inertia_diametral_kg_m2: Positive = Field(
         description="moment of inertia about any diameter through the wheel's centre"
     )
+    inertia_shaft_kg_m2: NonNegative = Field(
+        default=0.0,
+        description="part of inertia_spin_kg_m2 that is of a drive shaft, which turns with the "
+        "wheel and adds nothing to inertia_diametral_kg_m2",
+    )
 
     def problems(self) -> list[str]:
-        """Say why no body can have this inertia."""
-        spin, diametral = self.inertia_spin_kg_m2, self.inertia_diametral_kg_m2
-        if spin > 2.0 * diametral * (1.0 + _ROUNDING):
+        """Say why no wheel, and no shaft, can have this inertia."""
+        spin, shaft = self.inertia_spin_kg_m2, self.inertia_shaft_kg_m2
+        if not shaft < spin:
             problem = (
-                f"inertia_spin_kg_m2 = {spin} kg m^2 is more than any wheel with "
-                f"inertia_diametral_kg_m2 = {diametral} kg m^2 can have; allowed is at most twice "
-                f"that, {2.0 * diametral:.4g} kg m^2 (a flat disc). Lower the first or raise the "
-                "second."
+                f"inertia_shaft_kg_m2 = {shaft} kg m^2 is part of inertia_spin_kg_m2 = {spin} "
+                "kg m^2; allowed is less than that. Add the moment of the wheel to the second."
+            )
+            return [problem]
+        most = 2.0 * self.inertia_diametral_kg_m2
+        # rounding of the sum that the first is, relative to it
+        if spin - shaft > most + _ROUNDING * spin:
+            of_shaft = f" without inertia_shaft_kg_m2 = {shaft} kg m^2" if shaft > 0.0 else ""
+            problem = (
+                f"inertia_spin_kg_m2 = {spin} kg m^2{of_shaft} is more than any wheel with "
+                f"inertia_diametral_kg_m2 = {self.inertia_diametral_kg_m2} kg m^2 can have; "
+                f"allowed is at most twice that, {most:.4g} kg m^2 (a flat disc). Lower the first "
+                "or raise the second; inertia_shaft_kg_m2 is what a drive shaft adds to the first."
             )
             return [problem]
         return []
@@ -171,24 +194,29 @@ class Bodies(Section):
         return values
 
 
-def _why_impossible(elements: dict[str, float], scale: float) -> str:
-    """Return why a tensor is no body's inertia; empty if it may be one."""
+def impossible_inertia(elements: Mapping[str, float]) -> str:
+    """Return why a tensor is no body's inertia; empty if it may be one.
+
+    Parameters
+    ----------
+    elements : mapping
+        By name, ``xx`` to ``yz``, in kg m^2.
+    """
+    scale = greatest(abs(value) for value in elements.values())
+    if scale == 0.0:
+        return ""
     xx, yy, zz, xy, xz, yz = (elements[name] / scale for name in _ELEMENTS)
     moments = sorted_moments([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     small, middle, large = moments
     listed = ", ".join(f"{scale * moment:.4g}" for moment in moments)
-    remedy = (
-        "Check the diagonal, and the signs of xy, xz and yz (elements of the tensor: minus the "
-        "products of inertia); all zero make a point mass."
-    )
     if small < -_ROUNDING:
         return (
             f"the principal moments {listed} kg m^2 include a negative one; allowed is 0 or "
-            f"more (the tensor must be positive definite). {remedy}"
+            "more (the tensor must be positive definite)"
         )
     if large > small + middle + _ROUNDING:
         return (
             f"the principal moments are {listed} kg m^2; allowed is at most the sum of the other "
-            f"two, {scale * (small + middle):.4g} kg m^2, for the largest. {remedy}"
+            f"two, {scale * (small + middle):.4g} kg m^2, for the largest"
         )
     return ""

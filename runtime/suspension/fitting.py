@@ -2,17 +2,41 @@
 
 import math
 import re
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any, Literal
 
-from ..kinds import Suspension
-from ..kinds.macpherson import MacPherson
-from .subsystem import Point, Side
+import tomlkit
+from pydantic import BaseModel
+
+from .data import find
+from .kinds import KINDS, Suspension
+from .kinds.macpherson import MacPherson
 
 Place = tuple[str, ...]
+Point = tuple[float, float, float]
+Side = Literal["left", "right"]
 
 # A key with its comment, which goes on in lines of its own.
 _FREE_SLIDE = re.compile(r"^spring_free_slide_mm = .*\n(?:[ \t]+#.*\n)*", re.MULTILINE)
+
+
+# A line of a file: what begins a section, and a key with its value and the comment beside it, which
+# may go on in lines of its own.
+_SECTION = re.compile(r"\s*\[([^\[\]#]+)\]\s*(#.*)?")
+_LINE = re.compile(r"(\s*([A-Za-z0-9_.-]+)\s*=\s*[^#\n]*?)(\s*)(#.*)")
+_COMMENT = re.compile(r"[ \t]*#.*")
+_HEAD = re.compile(r"\A(?:#.*\n|\n)+")
+
+
+def packaged(kind: str) -> tuple[str, str, Suspension]:
+    """Return the packaged file of a kind: its name, its text, and what it describes.
+
+    The text is without the comment that it begins with, which is about that car.
+    """
+    starter = KINDS[kind].STARTER
+    text = _HEAD.sub("", find(starter).read_text(encoding="utf-8"))
+    text = _by_force(text, Suspension.load(starter))
+    return starter, text, Suspension.from_dict(tomlkit.parse(text).unwrap(), source=starter)
 
 
 def put(document: Any, place: Place, value: Any) -> None:
@@ -46,12 +70,12 @@ def _differences(old: Any, new: Any, place: Place = ()) -> Iterator[tuple[Place,
     """Yield the places where two suspensions differ, and what is there in the new one."""
     if isinstance(new, Mapping):
         for key, value in new.items():
-            yield from _differences(old[key], value, (*place, key))
+            yield from _differences(old.get(key) if old else None, value, (*place, key))
     elif new != old:
         yield place, new
 
 
-def by_force(text: str, suspension: Suspension) -> str:
+def _by_force(text: str, suspension: Suspension) -> str:
     """Return the text of a packaged file that says by a force where its spring is free.
 
     The slide of the strut says so, too, but only of a spring that is concentric with it, and in a
@@ -62,8 +86,7 @@ def by_force(text: str, suspension: Suspension) -> str:
     points, strut = suspension.hardpoints, suspension.strut
     seats = points.distance("spring_seat", "spring_top")
     force = _rounded(strut.spring_rate_N_per_m * (strut.free_length(seats) - seats))
-    line = f"spring_force_at_design_N = {force}  # of the spring, at the design position\n"
-    return _FREE_SLIDE.sub(line, text)
+    return _FREE_SLIDE.sub(f"spring_force_at_design_N = {force}\n", text)
 
 
 def move_along(document: Any, old: Suspension, points: Mapping[str, Point]) -> list[str]:
@@ -104,17 +127,71 @@ def move_along(document: Any, old: Suspension, points: Mapping[str, Point]) -> l
 
 
 def _fit_strut(document: Any, old: Suspension, points: Mapping[str, Point]) -> str:
-    """Keep the stroke of a strut; its comments say between which points it is."""
+    """Keep the stroke of a strut."""
     lower = "strut_lower" if "strut_lower" in points else "ball_joint"
     was = 1000.0 * old.hardpoints.distance("strut_lower", "strut_top")
     new = math.dist(points[lower], points["strut_top"])
     strut = document["strut"]
     slide = strut["length_max_mm"] - was
     strut["length_max_mm"] = _rounded(new + slide)
-    if lower == "strut_lower":
-        strut["length_max_mm"].comment("strut_lower to strut_top, the strut fully extended")
-        document["hardpoints"]["ball_joint"].comment("control arm to knuckle")
     return f"strut: {slide:.1f} mm longer when fully extended than at design"
+
+
+def ground(suspension: Suspension) -> list[str]:
+    """Return where the ground is taken to be, if no file gives the radius of the tyre."""
+    if suspension.tyre.radius_mm is not None:
+        return []
+    radius = suspension.tyre_radius()
+    height = 1000.0 * float(suspension.hardpoints.metres("wheel_center")[2])
+    return [
+        f"wheel: {1000.0 * radius:g} mm of radius, as the ground is taken to be at z = 0"
+        if radius
+        else f"ground: not known, as the wheel centre is at z = {height:g} mm; enter the wheel's "
+        "radius as radius_mm in [tyre]"
+    ]
+
+
+def differences(old: Suspension, new: Suspension) -> set[Place]:
+    """Return the places where two suspensions of a kind differ."""
+    return {place for place, _ in _differences(old.to_dict(), new.to_dict())}
+
+
+def fresh(text: str, suspension: Suspension, changed: Collection[Place] | None = None) -> str:
+    """Return the text of a file without what comments beside its values say of other values.
+
+    In their place stands what the key means.
+
+    Parameters
+    ----------
+    text : str
+    suspension : Suspension
+        What it describes.
+    changed : collection of tuple of str, optional
+        The places of values that are others than before; all by default.
+    """
+    lines, section, stale = [], "", False
+    for line in text.splitlines():
+        if stale and _COMMENT.fullmatch(line):
+            continue
+        stale, new = False, line
+        if found := _SECTION.fullmatch(line):
+            section = found[1].strip()
+        elif found := _LINE.fullmatch(line):
+            place = (*filter(None, section.split(".")), *found[2].split("."))
+            stale = changed is None or place in changed
+            meaning = _meaning(suspension, place)
+            new = f"{found[1]}{found[3]}# {meaning}" if meaning else found[1]
+        lines.append(new if stale else line)
+    return "\n".join(lines) + "\n"
+
+
+def _meaning(model: Any, place: Place) -> str:
+    """Return what a key means, by the description of its field."""
+    *sections, key = place
+    for section in sections:
+        model = getattr(model, section, None)
+    fields = type(model).model_fields if isinstance(model, BaseModel) else {}
+    return (fields[key].description or "") if key in fields else ""
 
 
 def _rounded(value: float) -> float:

@@ -1,0 +1,184 @@
+"""Files of suspensions: the points of a template, and everything that it has."""
+
+import math
+from abc import abstractmethod
+from collections.abc import Mapping
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from .forces import Shock, Spring, problems_of
+from .keys import Part
+from .parts import Axle, Body, Centre, ControlArm, Ends, Finite, Point, Spindle, millimetres
+from .tires import TYRE_RATE, USUAL, Tire
+
+_ALIKE = 0.01  # moments across a wheel that differ by less are taken as one without a word
+
+
+class PointsFile(Part):
+    """What of a file is where: its points, camber and toe.
+
+    Attributes
+    ----------
+    TEMPLATE : str
+        What the file calls its template.
+    KIND : str
+        What this project calls it.
+    SOURCES : dict of str to str
+        Keys of the file by those of a hardpoint file, for messages.
+    """
+
+    UNREAD: ClassVar[frozenset[str]] = frozenset({"Name", "Output", "Vehicle-Frame Inertia"})
+
+    TEMPLATE: ClassVar[str]
+    KIND: ClassVar[str]
+    SOURCES: ClassVar[Mapping[str, str]] = {
+        "tie_rod_outer": "Tierod > Location Upright",
+        "tie_rod_inner": "Tierod > Location Chassis",
+        "wheel_center": "Spindle > COM",
+        "camber_deg": "Camber Angle (deg)",
+        "toe_deg": "Toe Angle (deg)",
+    }
+
+    type: Literal["Suspension"] = Field(alias="Type")
+    template: str = Field(alias="Template")
+    camber: Finite = Field(default=0.0, alias="Camber Angle (deg)")
+    toe: Finite = Field(default=0.0, alias="Toe Angle (deg)")
+    spindle: Centre = Field(alias="Spindle")
+    tie_rod: Ends = Field(alias="Tierod")
+
+    @abstractmethod
+    def own_points(self) -> dict[str, Point]:
+        """Return the hardpoints that are those of the kind [m]."""
+
+    def points(self) -> dict[str, Point]:
+        """Return all hardpoints [m]."""
+        return self.own_points() | {
+            "tie_rod_outer": self.tie_rod.upright,
+            "tie_rod_inner": self.tie_rod.chassis,
+            "wheel_center": self.spindle.com,
+        }
+
+    def alignment(self) -> dict[str, float]:
+        """Return camber and toe as seen from the front and from above [deg].
+
+        Chrono turns the spindle by toe about the vertical and then by camber about its own axis.
+        """
+        camber, toe = math.radians(self.camber), math.radians(self.toe)
+        projected = math.degrees(math.atan2(math.tan(camber), math.cos(toe)))
+        return {"camber_deg": projected, "toe_deg": self.toe}
+
+
+class SuspensionFile(PointsFile):
+    """Everything that a file has."""
+
+    UNREAD: ClassVar[frozenset[str]] = frozenset({"Name", "Output"})
+    SOURCES: ClassVar[Mapping[str, str]] = {
+        **PointsFile.SOURCES,
+        "free_height_mm": "Spindle > COM",
+        "[bodies.knuckle]": "Upright",
+        "[bodies.wheel]": 'Spindle" with "Axle',
+    }
+
+    vehicle_axes: bool = Field(default=False, strict=True, alias="Vehicle-Frame Inertia")
+    spindle: Spindle = Field(alias="Spindle")
+    upright: Body = Field(alias="Upright")
+    axle: Axle = Field(alias="Axle")
+    spring: Spring = Field(alias="Spring")
+    shock: Shock = Field(alias="Shock")
+
+    @abstractmethod
+    def arms(self) -> dict[str, tuple[str, ControlArm]]:
+        """Return the arms, with what the file calls them, by their names as bodies."""
+
+    @abstractmethod
+    def forces(self) -> dict[str, Any]:
+        """Return the sections of spring and damper of a file without `problems`."""
+
+    @abstractmethod
+    def left_open(self) -> list[str]:
+        """Return what the template leaves open, and what is otherwise here."""
+
+    def problems(self) -> list[str]:
+        """Say what in the file has no place in a suspension of this project."""
+        bodies: dict[str, Body] = dict(self.arms().values()) | {"Upright": self.upright}
+        of_bodies = [text for name, body in bodies.items() for text in body.problems(name)]
+        return of_bodies + problems_of(self.spring, self.shock)
+
+    def data(self, tire: Tire) -> dict[str, Any]:
+        """Return the hardpoint file of the left suspension."""
+        touching = {
+            "rate_N_per_m": TYRE_RATE if tire.rate is None else tire.rate,
+            "free_height_mm": millimetres(self.spindle.com[2]),
+        }
+        radius = {} if tire.radius is None else {"radius_mm": millimetres(tire.radius)}
+        arms = {name: arm.rigid(self._axes(arm)) for name, (_, arm) in self.arms().items()}
+        bodies = arms | {"knuckle": self.upright.rigid(np.eye(3)), "wheel": self._wheel(tire)}
+        return {
+            "suspension": self.KIND,
+            "vehicle": {"side": "left"},
+            "hardpoints": {"unit": "m"} | {name: list(p) for name, p in self.points().items()},
+            "wheel": self.alignment(),
+            **self.forces(),
+            "tyre": touching | radius,
+            "rack": {"axis": [0.0, 1.0, 0.0]},
+            "gravity": {"acceleration_m_per_s2": 9.81},
+            "bodies": bodies,
+        }
+
+    def assumptions(self, tire: Tire) -> list[str]:
+        """Return what the files leave open, a sentence each."""
+        told = [RACK]
+        given = "" if tire.rate is not None else f"{TYRE_RATE / 1e3:g} N/mm, "
+        told.append(f"tyre: {given}just touching at design")
+        if tire.is_usual:
+            told.append(
+                f"wheel: {USUAL.mass:g} kg, {USUAL.inertia[1]:g} kg m^2 about its axis and "
+                f"{USUAL.inertia[0]:g} kg m^2 across it; give a tire for its own"
+            )
+        else:
+            told.append(
+                f"tire: of the template {tire.template}, on a rim without mass, as the file of "
+                "Chrono's wheel is not read"
+            )
+        across, _, other = np.array(self.spindle.inertia) + tire.inertia
+        if abs(across - other) > _ALIKE * max(across, other):
+            told.append(
+                f"wheel: {(across + other) / 2.0:g} kg m^2 across its axis, the mean of {across:g} "
+                f"and {other:g}"
+            )
+        return told + self.left_open()
+
+    def _axes(self, arm: ControlArm) -> Any:
+        return np.eye(3) if self.vehicle_axes else arm.axes()
+
+    def _wheel(self, tire: Tire) -> dict[str, float]:
+        """Return the body that turns with the wheel: spindle and tire, and the axle's shaft."""
+        across, along, other = np.array(self.spindle.inertia) + tire.inertia
+        return {
+            "mass_kg": self.spindle.mass + tire.mass,
+            "inertia_spin_kg_m2": float(along) + self.axle.inertia,
+            "inertia_diametral_kg_m2": float(across + other) / 2.0,
+            "inertia_shaft_kg_m2": self.axle.inertia,
+        }
+
+
+RACK = "rack: moves along y; the file of the steering is not read"
+"""What is assumed of the steering."""
+
+
+def arm_sources(hardpoint: str, arm: str) -> dict[str, str]:
+    """Return the keys of an arm by its hardpoints' names.
+
+    Parameters
+    ----------
+    hardpoint : str
+        What the names of its bearings begin with.
+    arm : str
+        What the file calls it.
+    """
+    return {
+        f"{hardpoint}_front": f"{arm} > Location Chassis Front",
+        f"{hardpoint}_rear": f"{arm} > Location Chassis Back",
+    }
