@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ...core.suggestions import suggestion
 from .bodies import Body, Ground
-from .declared import Name, declared, parts
+from .declared import DeclarationError, Name, declared, parts
 from .forces import Force
 from .forces.force_element import ForceElement
 from .inputs import Input
@@ -69,9 +69,16 @@ class Assembly:
 
     @cached_property
     def _parts(self) -> tuple[Any, ...]:
-        return tuple(
-            dict.fromkeys(parts((self.joints, self.forces, self.coordinates, self.outputs)))
-        )
+        found = tuple(parts((self.joints, self.forces, self.coordinates, self.outputs)))
+        problems = [
+            f"a {type(part).__name__} cannot be told from another one ({error}): make its class a "
+            "dataclass(frozen=True), with tuples in the place of lists"
+            for part in found
+            if (error := _unhashable(part))
+        ]
+        if problems:
+            raise DeclarationError(self.name, list(dict.fromkeys(problems)))
+        return tuple(dict.fromkeys(found))
 
     def _derived(self) -> dict[str, sp.Expr]:
         """Return what the names of copies stand for: expressions in parameters."""
@@ -150,6 +157,15 @@ class Assembly:
             if isinstance(joint, Universal) and joint.at == center and joint.second.name == body:
                 return joint
         return None
+
+
+def _unhashable(part: object) -> str:
+    """Say why something has no hash; empty if it has one."""
+    try:
+        hash(part)
+    except TypeError as error:
+        return str(error)
+    return ""
 
 
 def _named(things: Iterable[Named], name: str) -> Named:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .bodies import Body, Ground
 from .declared import DeclarationError
@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 
 def check_mechanism(mechanism: Assembly) -> None:
     """Raise `DeclarationError` if a mechanism has names or numbers that cannot be."""
+    strange = _force_problems(mechanism)
+    if strange:
+        raise DeclarationError(mechanism.name, strange)
     problems = [
         *_ground_problems(mechanism),
         *_repeated_problems(mechanism),
@@ -35,6 +38,20 @@ def check_mechanism(mechanism: Assembly) -> None:
     problems += [] if problems else value_problems(mechanism)
     if problems:
         raise DeclarationError(mechanism.name, problems)
+
+
+def _force_problems(mechanism: Assembly) -> list[str]:
+    """See that forces, also those of somebody's own, can be told apart."""
+    problems = []
+    for force in mechanism.forces:
+        kind = type(force).__name__
+        found: Any = force.identity  # whatever a class of somebody's own returns
+        along: Any = force.along
+        if not (isinstance(found, tuple) and [type(part) for part in found] == [str, str]):
+            problems.append(f"identity of a {kind} is {found!r}; two texts are needed: kind, name")
+        if along is not None and not isinstance(along, Joint):
+            problems.append(f"along of a {kind} is {along!r}; a joint is needed, or None")
+    return problems
 
 
 def _ground_problems(mechanism: Assembly) -> list[str]:

@@ -14,6 +14,7 @@ from __future__ import annotations
 import inspect
 import math
 import re
+import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from functools import wraps
@@ -287,3 +288,12 @@ def parts(value: object) -> Iterator[Any]:
         for entry in fields(value):
             if entry.name != "image":  # what it is an image of is in another mechanism
                 yield from parts(getattr(value, entry.name))
+
+
+def is_own(kind: type) -> bool:
+    """Tell whether a class is somebody's own, and none that a module of the generator defines."""
+    package = __name__.removesuffix("declare.declared")
+    found: Any = sys.modules.get(kind.__module__) if kind.__module__.startswith(package) else None
+    for name in kind.__qualname__.split("."):
+        found = getattr(found, name, None)
+    return found is not kind

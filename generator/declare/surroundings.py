@@ -18,12 +18,20 @@ Motion = dict[str, "sp.Expr"]
 """The rate of something per unit rate of each coordinate that moves it."""
 
 
+class UnseenError(LookupError):
+    """A force asks for what there is not."""
+
+    def __str__(self) -> str:
+        """Return what is asked for, and what there is."""
+        return str(self.args[0])
+
+
 class Surroundings(Protocol):
     """Places, twists and directions of the bodies, in program steps.
 
     Vectors are in the axes of the body that is named, or in those of the world: x forward, y left,
-    z up. Coordinates are those that are independent or prescribed.
-
+    z up. Coordinates are those that are independent or prescribed. Bodies, joints and coordinates
+    are given by their names; where there is none of a name, `UnseenError` says which there are.
     """
 
     @property
@@ -45,13 +53,20 @@ class Surroundings(Protocol):
     # -- coordinates --
 
     def coordinate(self, joint: str) -> str:
-        """Return the coordinate of a driven joint."""
+        """Return the coordinate of a driven joint: one that is independent or prescribed.
+
+        A joint that follows it through gears has none of its own: `hinge` and `guide` say how fast
+        it is for a rate of that coordinate.
+        """
 
     def rate(self, coordinate: str) -> sp.Expr:
         """Return the rate of a coordinate."""
 
     def acceleration(self, coordinate: str) -> sp.Expr:
-        """Return the acceleration of a coordinate; signals may ask for it, forces may not."""
+        """Return the acceleration of a coordinate, for signals: `Force.act` is refused it.
+
+        That of a prescribed coordinate is an input, and zero here.
+        """
 
     # -- bodies --
 

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ...equations.errors import HEAVIER, WEIGHTLESS
+from ..declare.declared import DeclarationError
 from ..declare.geometry import Direction
 from ..declare.joints import Revolute
 from ..kinematics.hinge_angles import positive_axis_at_design
@@ -25,6 +26,7 @@ from ..program.conditions import Condition
 from ..program.floors import POSITIVE, SINGULAR
 from ..program.functions import Frozen
 from ..program.vectors import ELEMENTS, NO_TWIST, ZERO, SymmetricTensor, Twist, Vector
+from .acting import acted, shown_by
 from .surroundings import Seen
 
 if TYPE_CHECKING:
@@ -299,10 +301,10 @@ class Dynamics:
     # -- forces ---------------------------------------------------------------------------------
 
     def _add_forces(self) -> None:
-        at = Seen(self.moving, self._momentum, self.accelerations)
+        at = Seen(self.moving, self._momentum, None)
         for force in self.mechanism.forces:
             self.program.section(f"forces: {type(force).__name__}")
-            action = force.act(at)
+            action = acted(force, at)
             self._actions.append(action)
             for k in self.names:
                 if k in action.forces:
@@ -312,12 +314,14 @@ class Dynamics:
         """Yield what the forces show, force by force."""
         at = Seen(self.moving, self._momentum, self.accelerations)
         for force, action in zip(self.mechanism.forces, self._actions, strict=True):
-            yield from force.signals(at, action)
+            yield from shown_by(force, at, action)
 
     def total(self, force: Force) -> sp.Expr:
         """Return with how much a force pushes two ends apart."""
         found = self._actions[self.mechanism.forces.index(force)].total
-        assert found is not None  # of an element
+        if found is None:
+            problem = "its Action has no total, which an output shows: give it what pushes the ends"
+            raise DeclarationError(" ".join(force.identity), [problem])
         return found
 
     # -- equations ------------------------------------------------------------------------------

@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import sympy as sp
 
+from ...core.suggestions import suggestion
 from ..declare.geometry import UP
-from ..declare.joints import Prismatic, Revolute
+from ..declare.joints import Cylindrical, Joint, Prismatic, Revolute
+from ..declare.surroundings import UnseenError
 from ..kinematics.guide_slides import slide_of, sliding_rates
 from ..kinematics.hinge_angles import angle_of, turning_rates
 from ..kinematics.motion import from_axes, to_axes
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from ..declare.geometry import Direction, Point
     from ..declare.surroundings import Motion
     from ..kinematics.kinematics import Kinematics
+    from ..kinematics.motion import BodyMotion
     from ..program.vectors import Twist, Vector
     from .in_motion import InMotion
+
+OfKind = TypeVar("OfKind", bound=Joint)
 
 Momenta = dict[tuple[str, str], "Vector"]
 """Linear momentum per unit rate, in body axes, by body and coordinate."""
@@ -35,49 +40,84 @@ class Seen:
     momenta
         Those of the bodies that carry mass.
     accelerations
-        Of the independent coordinates; empty until they are known.
+        Of the independent coordinates; None until they are known.
+
+    Attributes
+    ----------
+    driven
+        Names of all coordinates, also of those that stand still in this variant.
     """
 
     def __init__(
-        self, moving: InMotion, momenta: Momenta, accelerations: Mapping[str, sp.Expr]
+        self, moving: InMotion, momenta: Momenta, accelerations: Mapping[str, sp.Expr] | None
     ) -> None:
         self._moving, self._placed, self._part_of = moving, moving.placed, moving.part_of
         self._driven = moving.coordinates
         self.program, self.mechanism = moving.program, moving.mechanism
         self.independent, self.coordinates = self._driven.independent, self._driven.moving
+        self.driven = tuple(self._driven.symbols)
         self._momenta, self._accelerations = momenta, accelerations
+
+    @property
+    def all_move(self) -> bool:
+        """Whether no coordinate stands still."""
+        return len(self.coordinates) == len(self.driven)
 
     # -- coordinates ------------------------------------------------------------------------------
 
     def coordinate(self, joint: str) -> str:
         """Return the coordinate of a driven joint."""
-        return self._driven.of(self.mechanism.joint(joint))
+        found = self._joint(joint)
+        if found not in self._driven.driven:
+            problem = f"joint {joint!r} is neither independent nor prescribed"
+            if found.gear:
+                problem = f"joint {joint!r} follows {found.first_followed.name!r} through gears"
+            names = ", ".join(repr(joint.name) for joint in self._driven.driven)
+            problem = f"{problem}, and has no coordinate of its own; {names} have one"
+            raise UnseenError(problem)
+        return self._driven.of(found)
 
     def rate(self, coordinate: str) -> sp.Expr:
         """Return the rate of a coordinate."""
-        return self._driven.true_rate(coordinate)
+        return self._driven.true_rate(self._coordinate(coordinate))
 
     def acceleration(self, coordinate: str) -> sp.Expr:
         """Return the acceleration of a coordinate; that of a prescribed one is in the bias."""
-        return self._accelerations.get(coordinate, sp.Integer(0))
+        if self._accelerations is None:
+            problem = (
+                "forces are what accelerations follow from, so that act cannot read them; signals "
+                "may"
+            )
+            raise UnseenError(problem)
+        return self._accelerations.get(self._coordinate(coordinate), sp.Integer(0))
+
+    def _coordinate(self, name: str) -> str:
+        return _known("coordinate", name, self.driven)
+
+    def _joint(self, name: str) -> Joint:
+        joints = {joint.name: joint for joint in self.mechanism.joints}
+        return joints[_known("joint", name, joints)]
+
+    def _body(self, name: str) -> BodyMotion:
+        return self._placed[_known("body", name, self._placed)]
 
     # -- bodies -----------------------------------------------------------------------------------
 
     def local(self, body: str, point: Point) -> Vector:
         """Return the constant coordinates of a point, in body axes."""
-        placed = self._placed[body]
+        placed = self._body(body)
         return self._part_of[body].local(placed, point)
 
     def direction(self, body: str, direction: Direction) -> Vector:
         """Return the constant components of a direction fixed in a body, in body axes."""
-        placed = self._placed[body]
+        placed = self._body(body)
         return self._part_of[body].local_direction(placed, direction)
 
     def line(self, body: str, direction: Direction, follows: bool) -> Vector:
         """Return a unit vector in body axes, fixed in the body if it follows, or in the world."""
         if follows:
             return self.direction(body, direction)
-        placed = self._placed[body]
+        placed = self._body(body)
         line = to_axes(placed.axes, self._part_of[body].design_direction(direction))
         name = "up" if direction == UP else f"{direction.name}_in_world"
         return self.program.vector(f"{body}_{name}", line, "123")
@@ -88,7 +128,7 @@ class Seen:
 
     def twists(self, body: str) -> Mapping[str, Twist]:
         """Return the twist per unit rate of each coordinate that moves a body, in body axes."""
-        return self._placed[body].motion
+        return self._body(body).motion
 
     def momenta(self) -> Iterator[tuple[str, str, Vector]]:
         """Yield body, coordinate and linear momentum per unit rate, in body axes, where mass is."""
@@ -96,24 +136,24 @@ class Seen:
 
     def height(self, body: str, local: Vector) -> sp.Expr:
         """Return the height of a point of a body in the world."""
-        placed, part = self._placed[body], self._part_of[body]
+        placed, part = self._body(body), self._part_of[body]
         origin = placed.origin.dot(part.design_direction(UP)) + part.work_origin.z
         return origin + local.dot(self.up(body))
 
     def place(self, body: str, local: Vector) -> Vector:
         """Return the position of a point of a body in the world."""
-        placed, part = self._placed[body], self._part_of[body]
+        placed, part = self._body(body), self._part_of[body]
         work = placed.origin + from_axes(placed.axes, local)
         return part.to_ground(work) + part.work_origin
 
     def in_world(self, body: str, vector: Vector) -> Vector:
         """Return the components in the world of a vector in body axes."""
-        placed = self._placed[body]
+        placed = self._body(body)
         return self._part_of[body].to_ground(from_axes(placed.axes, vector))
 
     def rising(self, body: str, local: Vector) -> sp.Expr:
         """Return the upward acceleration of a point that the coordinates' own leave over."""
-        placed = self._placed[body]
+        placed = self._body(body)
         own = self.up(body).dot(self._part_of[body].point_bias(placed, local))
         return own * self._driven.rate_scale_of(placed) ** 2
 
@@ -121,23 +161,29 @@ class Seen:
 
     def telescope(self, joint: str) -> tuple[sp.Expr, Motion, sp.Expr]:
         """Return length of a telescope, its rate per unit rate, and its slide."""
+        self._of_kind(joint, Cylindrical)
         part = self._with_joint(joint)
         line = part.telescopes[joint]
         return line.length, line.length_motion, part.slides[joint]
 
     def hinge(self, joint: str) -> tuple[sp.Expr, Motion]:
         """Return the angle of a hinge, and its rate per unit rate of each coordinate."""
-        hinge = self.mechanism.joint(joint)
-        assert isinstance(hinge, Revolute)  # checked with the mechanism
+        hinge = self._of_kind(joint, Revolute)
         part = self._with_joint(joint)
         return angle_of(part, hinge), turning_rates(part, hinge)
 
     def guide(self, joint: str) -> tuple[sp.Expr, Motion]:
         """Return the slide of a guide, and its rate per unit rate of each coordinate."""
-        guide = self.mechanism.joint(joint)
-        assert isinstance(guide, Prismatic)  # checked with the mechanism
+        guide = self._of_kind(joint, Prismatic)
         part = self._with_joint(joint)
         return slide_of(part, guide), sliding_rates(part, guide)
+
+    def _of_kind(self, name: str, kind: type[OfKind]) -> OfKind:
+        joint = self._joint(name)
+        if not isinstance(joint, kind):
+            problem = f"joint {name!r} is {joint.kind}, where {kind.kind} is needed"
+            raise UnseenError(problem)
+        return joint
 
     def _with_joint(self, joint: str) -> Kinematics:
         """Return the part that a joint belongs to: nothing closes between two parts."""
@@ -149,9 +195,24 @@ class Seen:
         self, first: tuple[str, Point], second: tuple[str, Point]
     ) -> tuple[Vector, Mapping[str, Vector]]:
         """Return the way from one point to another, and its rate per unit rate, in equal axes."""
+        for body, _ in (first, second):
+            self._body(body)
         relative = self._moving.relative_motion(first, second)
         return relative.position, relative.motion
 
     def extent(self, body: str, point: Point) -> Vector:
         """Return where a point is at the design position: a measure of size."""
+        self._body(body)
         return self._part_of[body].design(point)
+
+
+def _known(what: str, name: Any, names: Iterable[str]) -> str:
+    """Return a name that there is."""
+    names = list(names)
+    if isinstance(name, str) and name in names:
+        return name
+    if isinstance(name, str):
+        problem = f"there is no {what} {name!r}. {suggestion(name, names)}"
+    else:
+        problem = f"{name!r} is no name of a {what}: give one of {', '.join(names)}"
+    raise UnseenError(problem)

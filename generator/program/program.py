@@ -10,6 +10,8 @@ belong to the right-hand side.
 
 from __future__ import annotations
 
+import re
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -19,13 +21,14 @@ from .derivatives import chain_rule
 from .floors import SMALLEST
 from .functions import Component, Frozen, Guarded, Iterated
 from .narrow import function_of
+from .spelling import SpellingError, spelled
 from .steps import Guard, Step, ancestors, first_free
 from .symbols import symbols_of
 from .together import share_together
 from .vectors import Vector
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from .constants import ConstantStage
     from .function import Block, Function
@@ -47,6 +50,7 @@ class Program:
     _section: str = ""
     _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
     _varying: set[sp.Expr] = field(default_factory=set)  # nothing in them can be hoisted
+    _spells: bool = False
 
     def section(self, title: str) -> None:
         """Name the part of the derivation that the next steps belong to."""
@@ -59,6 +63,8 @@ class Program:
         already a step is not repeated, so that zeros and shared values disappear on the way. The
         symbol has a number behind its name where something else has that name already.
         """
+        if self._spells:
+            expression = self._spelled(name, expression)
         expression = self.constants.insert_derived(sp.sympify(expression))
         if expression.is_Atom or (-expression).is_Symbol:
             return expression
@@ -73,6 +79,27 @@ class Program:
         self.steps[symbol] = Step(symbol, expression, self._section)
         self._known[expression] = symbol
         return symbol
+
+    @contextmanager
+    def spelling(self) -> Iterator[None]:
+        """Let steps have formulas as anybody writes them; see `spelled`.
+
+        Raises
+        ------
+        SpellingError
+            By `define`, where one cannot be emitted.
+        """
+        self._spells = True
+        try:
+            yield
+        finally:
+            self._spells = False
+
+    def _spelled(self, name: str, formula: Any) -> sp.Expr:
+        if not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name):
+            message = f"the step {name!r} has a name that cannot be written in C"
+            raise SpellingError(message)
+        return spelled(self.define, formula)
 
     def _has(self, name: str) -> bool:
         return sp.Symbol(name) in self.steps or self.constants.has(name)

@@ -1,7 +1,6 @@
 """What a declaration is, as far as anything that is derived from it can depend on it."""
 
 import hashlib
-import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from typing import TYPE_CHECKING, Any
@@ -57,6 +56,8 @@ class _Reader:
         return self._known[id(value)][1]
 
     def _parts(self, value: Any) -> Iterator[bytes]:
+        from ...generator.declare.declared import is_own
+
         kind = type(value)
         yield f"{kind.__module__}.{kind.__qualname__}".encode()
         if kind in _PLAIN:
@@ -66,7 +67,7 @@ class _Reader:
         elif isinstance(value, Mapping) and kind.__module__ in ("builtins", "types"):
             for item in value.items():
                 yield from map(self.read, item)
-        elif is_dataclass(value) and _is_of_generator(kind):
+        elif is_dataclass(value) and not is_own(kind):
             for entry in fields(value):
                 if entry.name not in _COUNTED:
                     yield entry.name.encode()
@@ -75,15 +76,6 @@ class _Reader:
             yield _written(value)
         else:
             raise _UnknownError(kind)
-
-
-def _is_of_generator(kind: type) -> bool:
-    """Tell whether a class is one of the generator's, whose files `cache.fingerprint` reads."""
-    package = __name__.partition(".")[0] + ".generator."
-    found: Any = sys.modules.get(kind.__module__) if kind.__module__.startswith(package) else None
-    for name in kind.__qualname__.split("."):
-        found = getattr(found, name, None)
-    return found is kind
 
 
 def _written(expression: Any) -> bytes:

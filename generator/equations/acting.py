@@ -1,0 +1,145 @@
+"""What a force does, seen through: it is complete, it can be emitted, and nothing of it is lost.
+
+The forces of the generator are right by their tests. One of somebody's own may name what is not
+there, return something else, or have a formula without a spelling; each is refused, with the line
+of the code where that is known.
+"""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from ...core.suggestions import suggestion
+from ..declare.declared import DeclarationError, is_own, parts
+from ..declare.forces.force import Action, Force
+from ..declare.shown import Shown
+from ..declare.surroundings import UnseenError
+from ..program.spelling import SpellingError, spelled
+
+if TYPE_CHECKING:
+    import sympy as sp
+
+    from .surroundings import Seen
+
+
+def acted(force: Force, at: Seen) -> Action:
+    """Return what a force does.
+
+    Raises
+    ------
+    DeclarationError
+        If its `act` fails, or returns what is no action on the coordinates.
+    """
+    if not _has_own_code(force):
+        return force.act(at)
+    with _told(force, at, "act"):
+        action = force.act(at)
+        problem = _problem(force, at, action)
+        if problem:
+            raise UnseenError(problem)
+        forces = _all_spelled(at, action.forces, "the force along")
+        values = _all_spelled(at, action.values, "the value")
+        total = None if action.total is None else spelled(at.program.define, action.total)
+        return replace(action, forces=forces, values=values, total=total)
+
+
+def shown_by(force: Force, at: Seen, action: Action) -> Iterator[Shown]:
+    """Yield the signals of a force.
+
+    Raises
+    ------
+    DeclarationError
+        If its `signals` fails, or yields what is no signal.
+    """
+    if not _has_own_code(force):
+        yield from force.signals(at, action)
+        return
+    with _told(force, at, "signals"):
+        found: list[Any] = list(force.signals(at, action))
+        for shown in found:
+            if not isinstance(shown, Shown):
+                problem = f"it yields {shown!r}; a Shown(name, value, unit, meaning) is needed"
+                raise UnseenError(problem)
+        found = [replace(shown, value=spelled(at.program.define, shown.value)) for shown in found]
+    yield from found
+
+
+def _has_own_code(force: Force) -> bool:
+    """Tell whether a force, or a law or a path in it, is of a class of somebody's own."""
+    return any(is_own(type(part)) for part in (force, *parts(force)))
+
+
+def _all_spelled(at: Seen, values: Mapping[str, Any], what: str) -> dict[str, sp.Expr]:
+    found = {}
+    for name, value in values.items():
+        try:
+            found[name] = spelled(at.program.define, value)
+        except SpellingError as error:
+            message = f"{what} {name!r}: {error}"
+            raise SpellingError(message) from error
+    return found
+
+
+@contextmanager
+def _told(force: Force, at: Seen, method: str) -> Iterator[None]:
+    """Let formulas be written as anybody writes them, and say of which force an error is."""
+    try:
+        with at.program.spelling():
+            yield
+    except DeclarationError:
+        raise
+    except Exception as error:
+        known = isinstance(error, UnseenError | SpellingError)
+        text = str(error) if known else f"{type(error).__name__}: {error}"
+        problem = f"{method}{_line(force, method, error)}: {text}"
+        raise DeclarationError(" ".join(map(str, force.identity)), [problem]) from error
+
+
+def _line(force: Force, method: str, error: Exception) -> str:
+    """Return the line of a force's own file at which an error occurred."""
+    code = getattr(getattr(type(force), method), "__code__", None)
+    file = code.co_filename if code else ""
+    frames = traceback.extract_tb(error.__traceback__)
+    lines = [frame.lineno for frame in frames if frame.filename == file]
+    return f", line {lines[-1]}" if lines else ""
+
+
+def _problem(force: Force, at: Seen, action: Any) -> str:
+    """Say what of an action is lost; nothing where nothing is."""
+    if not isinstance(action, Action):
+        return f"it returns {action!r}; an Action(forces) is needed"
+    for what in ("forces", "values"):
+        if not isinstance(getattr(action, what), Mapping):
+            return f"the {what} of its Action are {getattr(action, what)!r}, and no dictionary"
+    for name in action.forces:
+        if name not in at.driven:
+            return f"a force along {_shown(name, at)}"
+    silent = type(force).signals is Force.signals
+    for name in action.values if silent else ():
+        return (
+            f"the value {name!r} is shown by nothing: give the force a method signals(at, action) "
+            f"that yields Shown({name!r}, action.values[{name!r}], unit, meaning)"
+        )
+    nothing = silent and not action.forces and at.all_move
+    return "it acts along no coordinate and shows nothing; leave it out" if nothing else ""
+
+
+def _shown(name: Any, at: Seen) -> str:
+    """Say of what is no coordinate what it is."""
+    coordinates = ", ".join(at.driven)
+    joints = [joint.name for joint in at.mechanism.joints]
+    if name in joints:
+        return (
+            f"{name!r}, which is a joint, and no coordinate: at.coordinate({name!r}) is that of a "
+            f"driven joint. There are {coordinates}"
+        )
+    if isinstance(name, str):
+        return (
+            f"{name!r}, which is no independent or prescribed coordinate. "
+            f"{suggestion(name, at.driven)} (There are {coordinates}.)"
+        )
+    return f"{name!r}, which is no name: give one of {coordinates}"
