@@ -201,7 +201,7 @@ def declare(
             Weight(),
             ForceElement("spring", AlongLine(*seats), laws),
             *(
-                JointForce(named[j], Input(f"{j}_force", "N or N m", f"force along {j}"))
+                JointForce(named[j], Input(f"{j}_force", named[j].force_unit, f"force along {j}"))
                 for j in independent
             ),
         ),

@@ -27,6 +27,7 @@ from symbolic import constants_of, python
 MODEL, FREE, GENERAL = macpherson.MODELS
 MECHANISM = MODEL.mechanism
 STRANGE = four_bar.A
+TORQUE = Input("torque", "N m", "torque")
 
 
 @pytest.mark.parametrize(
@@ -53,7 +54,7 @@ def test_models(changes, words):
     [
         ({"forces": (*MECHANISM.forces, Weight())}, "weight .* declared 2 times"),
         (
-            {"forces": (JointForce(STRANGE, RACK_FORCE),)},
+            {"forces": (JointForce(STRANGE, TORQUE),)},
             "joint 'A', which a force .* is none of its joints",
         ),
         ({"coordinates": (STRANGE.angle("q", "q"),)}, "joint 'A', which a force or a coordinate"),
@@ -82,7 +83,7 @@ def test_a_tyre_damps_against_the_rate_of_the_road():
     with pytest.raises(DeclarationError, match="give damper and road_velocity, or neither"):
         replace(TYRE, damper=damper)
     with pytest.raises(DeclarationError, match="'road_velocity' is not the rate of the road"):
-        replace(TYRE, road=RACK_FORCE, damper=damper, road_velocity=ROAD_VELOCITY)
+        replace(TYRE, road=RACK_MOTION.inputs[0], damper=damper, road_velocity=ROAD_VELOCITY)
 
 
 def test_all_problems_are_listed():
@@ -212,6 +213,7 @@ def defaults(mechanism):
 
 
 PULL = Input("pull", "N", "some force")
+IMPULSE = Input("impulse", "N s", "what a force adds up to")
 
 
 def pulled_by(*inputs):
@@ -226,8 +228,8 @@ def pulled_by(*inputs):
     [
         ((PULL, replace(PULL, meaning="another force")), "2 different inputs are named 'pull'"),
         (
-            tuple(Input(f"rate_{i}", "N", "", derivative_of=PULL) for i in (1, 2)),
-            "'rate_1' and 'rate_2' are both the derivative of 'pull'",
+            tuple(Input(f"rate_{i}", "N", "", derivative_of=IMPULSE) for i in (1, 2)),
+            "'rate_1' and 'rate_2' are both the derivative of 'impulse'",
         ),
     ],
 )
@@ -237,8 +239,8 @@ def test_an_input_is_the_derivative_of_another_one_once(inputs, words):
 
 
 def test_what_an_input_is_the_derivative_of_is_an_input():
-    pulled = pulled_by(Input("jerk", "N", "how it changes", derivative_of=PULL))
-    assert {"pull", "jerk"} <= {*pulled.input_names}
+    pulled = pulled_by(Input("pull", "N", "how it changes", derivative_of=IMPULSE))
+    assert {"impulse", "pull"} <= {*pulled.input_names}
 
 
 def test_a_prescribed_motion_has_its_rates():
@@ -246,6 +248,8 @@ def test_a_prescribed_motion_has_its_rates():
     assert position.derivative_of is None
     assert velocity.derivative_of == position
     assert acceleration.derivative_of == velocity
-    other = Input("rack_speed", "N", "", derivative_of=position)
+    other = Input("rack_speed", "m/s", "", derivative_of=position)
+    damper = DamperRate("tyre_damper", 1.0, "damper")
+    tyre = replace(TYRE, road=position, damper=damper, road_velocity=other)
     with pytest.raises(DeclarationError, match="are both the derivative of 'rack_position'"):
-        replace(MODEL, mechanism=pulled_by(other))
+        replace(MODEL, mechanism=changed(MECHANISM, (TYRE, tyre)))

@@ -60,7 +60,6 @@ SCALES = {
     "rad/s^2": 10.0,
     "N": 100.0,
     "N m": 1.0,
-    "N or N m": 1.0,
 }
 """Size of the inputs by unit."""
 

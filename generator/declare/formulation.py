@@ -168,8 +168,14 @@ def _gear_problems(formulation: Formulation) -> list[str]:
 
 
 def _input_problems(formulation: Formulation) -> list[str]:
-    """Find motions that are given twice, and inputs of one name."""
-    problems = repeated(
+    """Find motions in other units than their joints, or given twice, and inputs of one name."""
+    units = [
+        f"motion {motion.name!r} is in {motion.unit}; {joint.unit} is needed for joint "
+        f"{joint.name!r}, which is {joint.kind}"
+        for joint, motion in formulation.prescribed.items()
+        if isinstance(joint, Revolute | Prismatic) and motion.unit != joint.unit
+    ]
+    problems = units + repeated(
         "motion of prescribed joints", [motion.name for motion in formulation.prescribed.values()]
     )
     entries = [entry for motion in formulation.prescribed.values() for entry in motion.inputs]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from ...core.si_units import powers_of, problem_of, rate_of
 from .declared import DeclarationError, Name, declared
 
 if TYPE_CHECKING:
@@ -19,7 +20,9 @@ class Input:
 
     Attributes
     ----------
-    unit, meaning
+    unit
+        Of SI, without a factor: N, N m, m, rad, m/s.
+    meaning
         For the documentation of the generated code.
     derivative_of
         The input whose rate this one is. Whoever simulates gives that one alone.
@@ -31,9 +34,14 @@ class Input:
     derivative_of: Any = None
 
     def __post_init__(self) -> None:
-        source = self.derivative_of
+        source, problem = self.derivative_of, problem_of(self.unit)
         if source is not None and not isinstance(source, Input):
             problem = f"derivative_of is {source!r}; an Input is needed"
+        elif source is not None and not problem:
+            unit = rate_of(source.unit)
+            if powers_of(unit) != powers_of(self.unit):
+                problem = f"it is in {self.unit}, and the rate of {source.name!r} in {unit}"
+        if problem:
             raise DeclarationError(f"Input {self.name!r}", [problem])
 
 
@@ -47,7 +55,7 @@ class Motion:
     name
         Begins the names of its inputs, ``<name>_position``, ``_velocity`` and ``_acceleration``.
     unit
-        Of the position: m or rad.
+        Of the position: m for a guide, rad for a hinge.
     position, velocity, acceleration
         What the inputs mean; the latter two follow from the first if they are left out.
     """
@@ -58,6 +66,11 @@ class Motion:
     velocity: str = ""
     acceleration: str = ""
 
+    def __post_init__(self) -> None:
+        if self.unit not in ("m", "rad"):
+            problem = f"unit {self.unit!r}: 'm' is needed for a guide, 'rad' for a hinge"
+            raise DeclarationError(f"Motion {self.name!r}", [problem])
+
     @cached_property
     def inputs(self) -> tuple[Input, Input, Input]:
         """Position, velocity and acceleration."""
@@ -65,8 +78,9 @@ class Motion:
         rate = self.velocity or f"rate of the {self.position}"
         change = self.acceleration or f"acceleration of the {self.position}"
         position = Input(f"{name}_position", unit, self.position)
-        velocity = Input(f"{name}_velocity", f"{unit}/s", rate, position)
-        return position, velocity, Input(f"{name}_acceleration", f"{unit}/s^2", change, velocity)
+        velocity = Input(f"{name}_velocity", rate_of(unit), rate, position)
+        rate_unit = rate_of(velocity.unit)
+        return position, velocity, Input(f"{name}_acceleration", rate_unit, change, velocity)
 
     @property
     def rates(self) -> tuple[str, str]:

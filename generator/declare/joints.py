@@ -143,6 +143,8 @@ class Revolute(Joint):
     kind: ClassVar[str] = "revolute"
     common: ClassVar[str] = "an axis"
     coordinates: ClassVar[tuple[str, ...]] = ("angle",)
+    unit: ClassVar[str] = "rad"
+    force_unit: ClassVar[str] = "N m"
     turns_about: ClassVar[tuple[str, ...]] = ("axis",)
 
     def angle(self, name: Name, meaning: str) -> RelativeCoordinate:
@@ -173,6 +175,8 @@ class Prismatic(Joint):
     kind: ClassVar[str] = "prismatic"
     common: ClassVar[str] = "a direction, without rotation"
     coordinates: ClassVar[tuple[str, ...]] = ("slide",)
+    unit: ClassVar[str] = "m"
+    force_unit: ClassVar[str] = "N"
 
     def slide(self, name: Name, meaning: str) -> RelativeCoordinate:
         """Report its slide [m]."""

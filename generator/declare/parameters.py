@@ -14,7 +14,8 @@ from typing import Any, ClassVar
 
 import sympy as sp
 
-from .declared import Name, Number, declared
+from ...core.si_units import problem_of
+from .declared import DeclarationError, Name, Number, declared
 
 _written = count()
 
@@ -95,7 +96,9 @@ class Parameter(Owner):
     ----------
     default
         Value in SI units.
-    unit, meaning
+    unit
+        Of SI, without a factor.
+    meaning
         For the documentation of the generated code.
     least, above, most
         Bounds of its values: the smallest, what it must be more than, the greatest.
@@ -111,6 +114,11 @@ class Parameter(Owner):
 
     of_angle: ClassVar[bool] = False
     """Whether it is about an angle or a moment, where others are about a length or a force."""
+
+    def __post_init__(self) -> None:
+        problem = problem_of(self.unit)
+        if problem:
+            raise DeclarationError(f"{type(self).__name__} {self.name!r}", [problem])
 
     @property
     def symbol(self) -> sp.Symbol:

@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from ...core.si_units import problem_of
 from ...core.suggestions import suggestion
 from ..declare.declared import DeclarationError, is_own, parts
 from ..declare.forces.force import Action, Force
@@ -64,6 +65,8 @@ def shown_by(force: Force, at: Seen, action: Action) -> Iterator[Shown]:
             if not isinstance(shown, Shown):
                 problem = f"it yields {shown!r}; a Shown(name, value, unit, meaning) is needed"
                 raise UnseenError(problem)
+            if problem := problem_of(shown.unit):
+                raise UnseenError(f"signal {shown.name!r}: {problem}")
         found = [replace(shown, value=spelled(at.program.define, shown.value)) for shown in found]
     yield from found
 

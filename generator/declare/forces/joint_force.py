@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..declared import declared
+from ..declared import DeclarationError, declared
 from ..inputs import Input
 from ..joints import Prismatic, Revolute
 from .force import Action, Force, Told
@@ -19,10 +19,27 @@ if TYPE_CHECKING:
 @declared
 @dataclass(frozen=True)
 class JointForce(Force):
-    """A force (or moment) along an independent joint coordinate, given as an input."""
+    """A force (or moment) along an independent joint coordinate, given as an input.
+
+    Parameters
+    ----------
+    joint
+        A guide or a hinge that is independent.
+    input
+        The force along a guide [N], or the moment about a hinge [N m].
+    """
 
     joint: Revolute | Prismatic
     input: Input
+
+    def __post_init__(self) -> None:
+        unit = self.joint.force_unit
+        if self.input.unit != unit:
+            problem = (
+                f"input {self.input.name!r} is in {self.input.unit}; {unit} is needed along joint "
+                f"{self.joint.name!r}, which is {self.joint.kind}"
+            )
+            raise DeclarationError(f"JointForce by {self.input.name!r}", [problem])
 
     @property
     def identity(self) -> tuple[str, str]:

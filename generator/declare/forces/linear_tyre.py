@@ -65,6 +65,8 @@ class LinearTyre(Force):
 
     def __post_init__(self) -> None:
         problems = []
+        if self.road.unit != "m":
+            problems.append(f"road {self.road.name!r} is in {self.road.unit}; m is needed")
         if (self.damper is None) != (self.road_velocity is None):
             problems.append("give damper and road_velocity, or neither")
         elif self.road_velocity is not None and self.road_velocity.derivative_of != self.road:

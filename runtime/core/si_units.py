@@ -1,0 +1,81 @@
+"""Units of declared quantities: SI without prefixes and factors, as text.
+
+A unit is a product of names with whole powers over others: ``N m``, ``m/s^2``, ``N s/m``; ``1`` is
+that of a pure number. All numbers that equations read are in such units, so that one with a factor,
+a degree or a millimetre, would be read as another number.
+"""
+
+import re
+from collections import Counter
+
+COHERENT = (
+    *("m", "kg", "s", "A", "K", "mol", "cd", "rad", "sr"),
+    *("Hz", "N", "Pa", "J", "W", "C", "V", "F", "ohm", "S", "Wb", "T", "H", "lm", "lx", "Bq"),
+)
+"""Names of units without a factor, those of mass, length and time first."""
+
+_FACTOR = re.compile(r"([A-Za-z]+)(?:\^(-?[0-9]{1,2}))?")
+
+
+def powers_of(unit: str) -> dict[str, int] | None:
+    """Return the powers in a unit by name; None if it is no unit of SI without a factor.
+
+    Parameters
+    ----------
+    unit : str
+
+    Examples
+    --------
+    >>> powers_of("N s/m"), powers_of("1"), powers_of("deg")
+    ({'N': 1, 's': 1, 'm': -1}, {}, None)
+    """
+    powers: Counter[str] = Counter()
+    for place, part in enumerate(unit.split("/")):
+        for word in part.split():
+            found = _FACTOR.fullmatch(word)
+            if found and found[1] in COHERENT:
+                powers[found[1]] += int(found[2] or 1) * (-1 if place else 1)
+            elif word != "1":
+                return None
+        if not part.strip():
+            return None
+    return {name: power for name, power in powers.items() if power}
+
+
+def problem_of(unit: str) -> str:
+    """Say that a unit has a factor, or is none; empty if it is one of SI.
+
+    Parameters
+    ----------
+    unit : str
+
+    Examples
+    --------
+    >>> problem_of("N m")
+    ''
+    """
+    if powers_of(unit) is not None:
+        return ""
+    return (
+        f"unit {unit!r} is none of SI without a factor: numbers are in m, kg, s, rad, N and so on; "
+        "write a product such as 'N m' or 'm/s^2', and '1' for a pure number"
+    )
+
+
+def rate_of(unit: str) -> str:
+    """Return the unit of a rate.
+
+    Parameters
+    ----------
+    unit : str
+        One of SI.
+
+    Examples
+    --------
+    >>> rate_of("m"), rate_of("rad/s")
+    ('m/s', 'rad/s^2')
+    """
+    below, mark, power = unit.rpartition("/s")
+    if mark and (not power or re.fullmatch(r"\^[0-9]+", power)):
+        return f"{below}/s^{int(power[1:] or 1) + 1}"
+    return f"{unit}/s"
