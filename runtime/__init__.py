@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from .simulation.interpolation import Samples
     from .simulation.result import Simulation, SimulationError
     from .simulation.simulate import simulate
+    from .simulation.stepper import Stepper
     from .study.ensembles import ensemble
     from .suspension.axle import Axle
     from .suspension.axle.equations import AxleModel
@@ -77,6 +78,7 @@ __all__ = [
     "Simulation",
     "SimulationError",
     "State",
+    "Stepper",
     "Suspension",
     "System",
     "animate",
@@ -138,6 +140,7 @@ _MODULES = {
     ".simulation.result": ("Simulation", "SimulationError"),
     ".report.animation": ("animate",),
     ".simulation.simulate": ("simulate",),
+    ".simulation.stepper": ("Stepper",),
     ".study.ensembles": ("ensemble",),
     ".systems.state": ("State",),
     ".systems.system": ("System",),

@@ -34,3 +34,26 @@ def integrate(
     usual_margins: Array,
     stopped: Callable[[], bool] | None = None,
 ) -> dict[str, Any]: ...
+
+class Motion:
+    def __init__(
+        self,
+        addresses: tuple[int, int, int],
+        constants: Array,
+        state: Array,
+        inputs: Array,
+        moving: Sequence[tuple[int, int, int]],
+        length: float,
+        *,
+        method: str,
+        rtol: float,
+        atol: Array,
+        max_step: float,
+        max_steps: int,
+        guards: NDArray[np.int32],
+        usual_margins: Array,
+    ) -> None: ...
+    @property
+    def time(self) -> float: ...
+    def begin(self, start: float) -> None: ...
+    def advance(self) -> bool: ...

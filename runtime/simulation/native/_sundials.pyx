@@ -4,6 +4,7 @@
 import numpy as np
 
 from cpython.exc cimport PyErr_CheckSignals
+from libc.math cimport isfinite
 from libc.stdint cimport uintptr_t
 from libc.stdlib cimport calloc, free
 from libc.string cimport memcpy
@@ -84,6 +85,11 @@ cdef extern from "integrate.h" nogil:
     int kt_integrate(const kt_problem *, const kt_options *, const double *, const double *, long,
                      int, kt_result *)
     void kt_free(kt_result *)
+    ctypedef struct kt_motion:
+        pass
+    kt_motion *kt_open_motion(const kt_problem *, const kt_options *, const double *, double, kt_result *)
+    int kt_advance(kt_motion *, const double *, const double *, const double *)
+    void kt_close_motion(kt_motion *)
     const char *kt_version()
 
 OUTCOMES = (
@@ -250,3 +256,124 @@ def integrate(
     finally:
         free(spline_array)
         free(event_array)
+
+
+cdef class Motion:
+    """A motion that is advanced piece by piece; `kintrafo.simulation.stepper` is its face.
+
+    State and inputs are the caller's arrays. Where a piece is done, they are those at its end: inputs that
+    have a rate move by it, and others stay.
+    """
+
+    cdef kt_problem problem
+    cdef kt_options options
+    cdef kt_result result
+    cdef kt_motion *motion
+    cdef kt_spline *splines
+    cdef double *curves  # of each spline 2 breaks and 4 coefficients
+    cdef const double[::1] constants, atol, usual_margins
+    cdef const int[::1] guards
+    cdef double[::1] state, inputs
+    cdef double start, length
+    cdef public long taken
+
+    def __cinit__(
+        self, addresses, const double[::1] constants, double[::1] state, double[::1] inputs, moving,
+        double length, *, method, double rtol, const double[::1] atol, double max_step, long max_steps,
+        const int[::1] guards, const double[::1] usual_margins,
+    ):
+        cdef int i, k
+        self.constants, self.state, self.inputs, self.atol = constants, state, inputs, atol
+        self.start, self.length, self.taken = 0.0, length, 0
+        self.guards, self.usual_margins = guards, usual_margins
+        self.splines = <kt_spline *> calloc(len(moving) + 1, sizeof(kt_spline))
+        self.curves = <double *> calloc(6 * len(moving) + 1, sizeof(double))
+        if self.splines == NULL or self.curves == NULL:
+            raise MemoryError
+        for i, targets in enumerate(moving):
+            self.splines[i].pieces = 1
+            self.splines[i].breaks = self.curves + 6 * i
+            self.splines[i].coefficients = self.curves + 6 * i + 2
+            for k in range(3):
+                self.splines[i].target[k] = targets[k]
+        self.problem.rhs = <kt_function><uintptr_t> addresses[0]
+        self.problem.jacobian = <kt_function><uintptr_t> addresses[1]
+        self.problem.margins = <kt_function><uintptr_t> addresses[2]
+        self.problem.state_count = state.shape[0]
+        self.problem.input_count = inputs.shape[0]
+        self.problem.constants = &constants[0]
+        self.problem.inputs = &inputs[0] if inputs.shape[0] else NULL
+        self.problem.spline_count = len(moving)
+        self.problem.splines = self.splines
+        self.problem.guard_count = usual_margins.shape[0]
+        self.problem.guards = &guards[0] if guards.shape[0] else NULL
+        self.problem.usual_margins = &usual_margins[0] if usual_margins.shape[0] else NULL
+        self.options.method = METHODS[method]
+        self.options.rtol = rtol
+        self.options.atol = &atol[0]
+        self.options.max_step = max_step
+        self.options.max_steps = max_steps
+        self.motion = kt_open_motion(&self.problem, &self.options, &state[0], length, &self.result)
+        if self.motion == NULL:
+            raise MemoryError
+
+    def __dealloc__(self):
+        kt_close_motion(self.motion)
+        kt_free(&self.result)
+        free(self.splines)
+        free(self.curves)
+
+    cdef void _let_inputs_move(self, double start, double end) noexcept nogil:
+        """Make the curves of the inputs that have a rate: by it, and by its own rate, within the piece."""
+        cdef double *curve
+        cdef int i, rate, second
+        for i in range(self.problem.spline_count):
+            curve = self.curves + 6 * i
+            rate, second = self.splines[i].target[1], self.splines[i].target[2]
+            curve[0], curve[1], curve[2] = start, end, 0.0
+            curve[3] = 0.5 * self.inputs[second] if second >= 0 else 0.0
+            curve[4] = self.inputs[rate]
+            curve[5] = self.inputs[self.splines[i].target[0]]
+
+    cdef void _put_inputs_to_the_end(self) noexcept nogil:
+        cdef double *curve
+        cdef double lapse
+        cdef int i
+        for i in range(self.problem.spline_count):
+            curve = self.curves + 6 * i
+            lapse = curve[1] - curve[0]
+            self.inputs[self.splines[i].target[0]] = (curve[3] * lapse + curve[4]) * lapse + curve[5]
+            self.inputs[self.splines[i].target[1]] = 2.0 * curve[3] * lapse + curve[4]
+
+    def begin(self, double start):
+        """Count steps from a time on."""
+        self.start, self.taken = start, 0
+
+    @property
+    def time(self):
+        return self.start + self.taken * self.length
+
+    cpdef bint advance(self):
+        """Advance by one step; return whether that is done, else nothing has changed."""
+        cdef double times[2]
+        cdef int outcome
+        # whole steps from the start, so that times do not drift
+        times[0] = self.start + self.taken * self.length
+        times[1] = self.start + (self.taken + 1) * self.length
+        with nogil:
+            self._let_inputs_move(times[0], times[1])
+            outcome = kt_advance(self.motion, &self.state[0],
+                                 &self.inputs[0] if self.inputs.shape[0] else NULL, times)
+            if outcome == 0 and self._is_finite():
+                memcpy(&self.state[0], self.result.state, self.state.shape[0] * sizeof(double))
+                self._put_inputs_to_the_end()
+                self.taken += 1
+                return True
+        return False
+
+    cdef bint _is_finite(self) noexcept nogil:
+        cdef int i
+        for i in range(self.problem.state_count):
+            if not isfinite(self.result.state[i]):
+                return False
+        return True

@@ -473,18 +473,25 @@ static int advance(worker *w, course *c, int *root)
     return accept(w, c, reached);
 }
 
-static int run(worker *w, const double *times, long count, int every_step)
+/* Look for a dead point at the state from which a motion begins. */
+static int look(worker *w, double lapse)
 {
     kt_result *r = w->result;
-    course c = {times, count, 1, every_step, w->end > w->start ? 1.0 : -1.0, 0};
-    double lapse = KT_SMALLEST_OF_STEP * fabs(w->end - w->start);
-    if (append_state(&r->output, times[0], r->state, w->problem->state_count)) {
-        return KT_MEMORY;
-    }
     evaluate_margins(w, r->time, r->state, w->margins.now);
     look_ahead(w, r->time, r->state, lapse);
     kt_reach(&w->margins);
-    int outcome = limit(w, lapse), root = 0;
+    return limit(w, lapse);
+}
+
+/* `goes_on`: the motion has come to this state before. */
+static int run(worker *w, const double *times, long count, int every_step, int goes_on)
+{
+    kt_result *r = w->result;
+    course c = {times, count, 1, every_step, w->end > w->start ? 1.0 : -1.0, 0};
+    if (append_state(&r->output, times[0], r->state, w->problem->state_count)) {
+        return KT_MEMORY;
+    }
+    int outcome = goes_on ? KT_DONE : look(w, KT_SMALLEST_OF_STEP * fabs(w->end - w->start)), root = 0;
     for (long tried = 0; outcome == KT_DONE && c.sign * (w->end - r->time) > 0.0; ++tried) {
         if (tried >= w->options->max_steps) {
             return KT_TOO_MANY_STEPS;
@@ -503,22 +510,76 @@ static int run(worker *w, const double *times, long count, int every_step)
     return outcome;
 }
 
+static int open(worker *w, const double *state)
+{
+    memset(w->result, 0, sizeof *w->result);
+    w->result->refused_guard = KT_NONE;
+    w->trusted = INFINITY;
+    w->asked = seconds();
+    return set_up(w, state, w->start);
+}
+
 int kt_integrate(const kt_problem *problem, const kt_options *options, const double *state,
                  const double *times, long count, int every_step, kt_result *result)
 {
     worker w = {
         .problem = problem, .options = options, .result = result, .start = times[0],
-        .end = times[count - 1], .trusted = INFINITY, .asked = seconds(),
+        .end = times[count - 1],
     };
-    memset(result, 0, sizeof *result);
-    result->refused_guard = KT_NONE;
-    int outcome = set_up(&w, state, times[0]);
+    int outcome = open(&w, state);
     if (outcome == KT_DONE) {
-        outcome = run(&w, times, count, every_step);
+        outcome = run(&w, times, count, every_step, 0);
         w.solver->count(&w, &result->statistics);
     }
     tear_down(&w);
     return outcome;
+}
+
+kt_motion *kt_open_motion(const kt_problem *problem, const kt_options *options, const double *state,
+                          double length, kt_result *result)
+{
+    worker *w = calloc(1, sizeof *w);
+    if (w) {
+        *w = (worker){.problem = problem, .options = options, .result = result, .end = length};
+        if (open(w, state) != KT_DONE) {
+            kt_close_motion(w);
+            return NULL;
+        }
+    }
+    return w;
+}
+
+int kt_advance(kt_motion *w, const double *state, const double *inputs, const double *times)
+{
+    kt_result *r = w->result;
+    size_t size = (size_t)w->problem->state_count * sizeof *state;
+    int goes_on = r->time == times[0] && r->output.rows && !memcmp(r->state, state, size);
+    memcpy(w->inputs, inputs, (size_t)w->problem->input_count * sizeof *inputs);
+    memcpy(r->state, state, size);
+    r->time = w->start = times[0];
+    w->end = times[1];
+    r->refused_status = r->code = 0;
+    r->refused_guard = KT_NONE;
+    r->output.rows = 0;
+    if (!goes_on) {
+        w->trusted = INFINITY;
+        w->longest_step = 0.0;
+        w->stuck = 0;
+    }
+    int outcome = begin_anew(w, times[0], fabs(times[1] - times[0])) ? KT_FAILED : KT_DONE;
+    outcome = outcome == KT_DONE ? run(w, times, 2, 0, goes_on) : outcome;
+    if (outcome != KT_DONE) {
+        r->output.rows = 0; /* nothing goes on from here */
+    }
+    return outcome;
+}
+
+void kt_close_motion(kt_motion *w)
+{
+    if (w) {
+        tear_down(w);
+        free(w);
+    }
 }
 
 void kt_free(kt_result *result)

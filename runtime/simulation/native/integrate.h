@@ -122,6 +122,24 @@ int kt_integrate(const kt_problem *problem, const kt_options *options, const dou
 
 void kt_free(kt_result *result);
 
+/* A motion that a caller advances piece by piece, with inputs that are steady within each. */
+typedef struct worker kt_motion;
+
+/*
+ * Return a motion, or NULL where there is no memory. Problem, options and result must last as long as it
+ * does; the result is filled by `kt_advance`. Only for methods that need no SUNDIALS.
+ */
+kt_motion *kt_open_motion(const kt_problem *problem, const kt_options *options, const double *state,
+                          double length, kt_result *result);
+
+/*
+ * Advance from a state at one time to another time; allocates nothing. The state reached, and its time, are in
+ * the result, also where the outcome is not KT_DONE.
+ */
+int kt_advance(kt_motion *motion, const double *state, const double *inputs, const double *times);
+
+void kt_close_motion(kt_motion *motion);
+
 /* Version of the SUNDIALS library. */
 const char *kt_version(void);
 

@@ -1,0 +1,247 @@
+"""A simulation that is advanced step by step, its inputs decided on the way."""
+
+from collections.abc import Mapping
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PPoly
+
+from ..core.arguments import Arguments, shown
+from ..core.named_types import ArrayLike
+from ..systems.inputs import derived_inputs, rates_of
+from ..systems.state import inputs_of
+from ..systems.system import System
+from .accuracy import accuracy_of
+from .dead_points import meanings
+from .result import SimulationError
+from .simulate import simulate
+from .solvers import native_available, sundials, why_not_native
+
+Array = NDArray[np.float64]
+Method = Literal["RK4", "DormandPrince"]
+
+_TOLERANCE = (1e-6, 1e-9)
+_MOST_STEPS = 100_000
+
+
+class Stepper:
+    """A simulation that is advanced step by step, for controllers, simulators and learning.
+
+    Parameters
+    ----------
+    model : System or Model
+    step : float
+        Length of a step [s].
+    y0 : array_like, optional
+        State at the start, see `model.state`, `state_at_height` and `equilibrium`; the design
+        position at rest by default.
+    inputs : mapping or array_like, optional
+        Inputs at the start, by name or in the order of ``model.input_names``, SI units. Others
+        are those of `y0` where it comes from `equilibrium` or `state_at_height`, or else zero.
+    method : {'RK4', 'DormandPrince'}, optional
+        The classical Runge-Kutta method, four evaluations a step, as in real time; or steps within
+        each step that keep a tolerance.
+    rtol, atol : float, array_like, optional
+        Tolerances of 'DormandPrince', by default 1e-6 and 1e-9.
+    t0 : float, optional
+        Time at the start [s].
+
+    Attributes
+    ----------
+    model : System
+    length : float
+        Length of a step [s].
+    state : ndarray, shape (number of state elements,)
+        State now. `step` writes into it: copy what is to be kept.
+    inputs : ndarray, shape (number of inputs,)
+        Inputs of the next step, in the order of ``model.input_names``; may be written to.
+
+    Raises
+    ------
+    InputError
+        An argument cannot be used, or the model or this build has no compiled solver.
+
+    Notes
+    -----
+    Inputs are steady within a step. An input whose rate is an input moves by it instead: with
+    ``rack_velocity`` the rack goes on from where it is, in this step and the next ones.
+
+    A step passes the checks of `kintrafo.simulate`, with the same errors: stability of 'RK4',
+    loops that cannot close, dead points. What the model does not describe, such as a strut that is
+    longer than its stops allow, is no error: `kintrafo.Simulation.validity` says it of a motion,
+    and the signals show it here. No memory is allocated by a step.
+
+    Examples
+    --------
+    A damper that a controller sets, 1,000 times a second:
+
+    >>> import kintrafo
+    >>> model = kintrafo.Model("reference_car")
+    >>> stepper = kintrafo.Stepper(model, 1e-3, kintrafo.state_at_height(model, 0.325))
+    >>> force = model.input_names.index("strut_force")
+    >>> rate = model.state_names.index("beta1_rate")
+    >>> for _ in range(1000):
+    ...     stepper.inputs[force] = -200.0 * stepper.state[rate]
+    ...     state = stepper.step()
+    >>> round(stepper.time, 9), round(float(stepper.signals()["wheel_center_z"]), 4)
+    (1.0, 0.3)
+    """
+
+    def __init__(
+        self,
+        model: System,
+        step: float,
+        y0: ArrayLike | None = None,
+        *,
+        inputs: Mapping[str, float] | ArrayLike | None = None,
+        method: Method = "RK4",
+        rtol: float | None = None,
+        atol: ArrayLike | None = None,
+        t0: float = 0.0,
+    ) -> None:
+        with Arguments("Stepper") as given:
+            given.kind("model", model, System, System.NEEDED)
+            given.among("method", method, ("RK4", "DormandPrince"))
+            self.length = given.number("step", step, "s", above=0.0)
+            if not given.refused:
+                _check_solver(given, model)
+            if method == "RK4" and not (rtol is None and atol is None):
+                given.refuse("method 'RK4' has no tolerances: leave out rtol and atol.")
+            if not given.refused:
+                accuracy = accuracy_of(
+                    given,
+                    model.design_state.size,
+                    rtol=_TOLERANCE[0] if rtol is None else rtol,
+                    atol=_TOLERANCE[1] if atol is None else atol,
+                    max_step=self.length,
+                    first_step=None,
+                    max_steps=_MOST_STEPS,
+                )
+        self.model, self._method, self._accuracy = model, method, accuracy
+        self.state, self.inputs = model.design_state.copy(), model.inputs()
+        addresses = model.equations.ADDRESSES
+        self._motion = sundials.Motion(
+            tuple(addresses[name] for name in ("rhs", "rhs_jacobian", "margins")),
+            model.constants,
+            self.state,
+            self.inputs,
+            _moving(model),
+            self.length,
+            method=method,
+            rtol=accuracy.rtol,
+            atol=accuracy.atol,
+            max_step=self.length,
+            max_steps=accuracy.max_steps,
+            guards=meanings(model.equations),
+            usual_margins=model.usual_margins,
+        )
+        self._advance = self._motion.advance
+        self.reset(model.design_state if y0 is None else y0, inputs=inputs, t0=t0)
+
+    @property
+    def time(self) -> float:
+        """Time now [s]: whole steps from the start, so that it does not drift."""
+        now: float = self._motion.time
+        return now
+
+    def step(self, inputs: ArrayLike | None = None) -> Array:
+        """Advance by one step.
+
+        Parameters
+        ----------
+        inputs : array_like, shape (number of inputs,), optional
+            Inputs of this step, instead of those in `inputs`.
+
+        Returns
+        -------
+        ndarray
+            `state`, the same array each time.
+
+        Raises
+        ------
+        SimulationError
+            As `kintrafo.simulate` over this step, with the state reached; that of the stepper, and
+            its time, are as they were before.
+        """
+        if inputs is not None:
+            self.inputs[:] = inputs
+        if not self._advance():
+            self._fail(self.time)
+        return self.state
+
+    def reset(
+        self,
+        y0: ArrayLike,
+        *,
+        inputs: Mapping[str, float] | ArrayLike | None = None,
+        t0: float = 0.0,
+    ) -> None:
+        """Begin anew from another state; arguments as of the class."""
+        with Arguments("Stepper") as given:
+            state = given.array("y0", y0, last=self.state.size)
+            held = inputs_of(y0, self.model.names_of_states)
+            start = given.number("t0", t0, "s")
+            values = self.model.inputs() if held is None else np.array(held)
+            if isinstance(inputs, Mapping):
+                for name, value in inputs.items():
+                    known = given.among("input", name, self.model.input_names)
+                    if known in self.model.input_names:
+                        place = self.model.input_names.index(known)
+                        values[place] = given.number(f"inputs {shown(name)}", value)
+            elif inputs is not None:
+                values = given.array("inputs", inputs, last=values.size, empty=True)
+            if not given.refused and state.shape != self.state.shape:
+                given.refuse(f"y0 has the shape {state.shape}: one state is needed.")
+            if not given.refused and values.shape != self.inputs.shape:
+                given.refuse(f"inputs has the shape {values.shape}: those of one state are needed.")
+        self.state[:], self.inputs[:] = state, values
+        self._motion.begin(start)
+
+    def signals(self) -> dict[str, Any]:
+        """Return all physical signals now by name, SI units; see ``equations.SIGNALS``."""
+        return self.model.signals(self.state, self.inputs)
+
+    def _fail(self, start: float) -> None:
+        """Raise the error of a step that cannot be taken: the one that `simulate` has for it."""
+        span = start, start + self.length
+        how = {"step": self.length} if self._method == "RK4" else vars(self._accuracy)
+        courses = _courses(self.model, self.inputs, span)
+        simulate(self.model, span, self.state, inputs=courses, method=self._method, **how)
+        state = self.state.copy()
+        raise SimulationError("the step could not be taken. Try a shorter one.", start, state, None)
+
+
+def _check_solver(given: Arguments, model: System) -> None:
+    """Refuse equations that no compiled solver can step."""
+    if not native_available():
+        given.refuse(f"no solver was compiled. {why_not_native()}.")
+    elif not (model.equations.ADDRESSES and model.state_names):
+        given.refuse(f"{model.equations.NAME} has no compiled equations with a state to integrate.")
+
+
+def _moving(model: System) -> list[tuple[int, int, int]]:
+    """Return places of inputs that have rates: of the value, its rate, and that of the rate or -1.
+
+    A rate alone, as of a road that has a velocity, has none of its own.
+    """
+    names, derived = model.input_names, derived_inputs(model.equations.INPUTS)
+    found = []
+    for name in names:
+        if name not in derived and (rates := rates_of(name, model.equations.INPUTS)):
+            places = [names.index(one) for one in (name, *rates)]
+            found.append((places[0], places[1], places[2] if len(places) > 2 else -1))
+    return found
+
+
+def _courses(model: System, inputs: Array, span: tuple[float, float]) -> dict[str, Any]:
+    """Return the inputs of a step as `simulate` takes them: rates come from what they are of."""
+    courses: dict[str, Any] = dict(zip(model.input_names, inputs.tolist(), strict=True))
+    for value, rate, second in _moving(model):
+        row = [0.5 * inputs[second] if second >= 0 else 0.0, inputs[rate], inputs[value]]
+        courses[model.input_names[value]] = PPoly(np.array(row)[:, None], np.array(span))
+    return {
+        name: course
+        for name, course in courses.items()
+        if name not in derived_inputs(model.equations.INPUTS)
+    }
