@@ -12,7 +12,13 @@ import following
 import numpy as np
 import own_loops
 import pytest
+import rigid_ways
+import swinging
 from following import FAMILIES, Judged, judged
+from kintrafo import Model, PositionError, characteristics, loads, state_at_height, travel_range
+from kintrafo.suspension.fleet import Fleet
+from kintrafo.suspension.fleet_positions import fleet_angles
+from kintrafo.suspension.positions import design_height
 from placements import Placements
 from scipy.spatial.transform import Rotation
 
@@ -114,3 +120,73 @@ def _around(place: int, holds: Array) -> Array:
     low = max(gaps[gaps < place], default=-1)
     high = min(gaps[gaps > place], default=len(holds))
     return (np.arange(len(holds)) > low) & (np.arange(len(holds)) < high)
+
+
+# -- suspensions: two branches over one range ------------------------------------------------------
+
+# Of this multi-link with its rack at 15.4 mm the path ends 12 mm below design, where the knuckle is
+# turned by 7 degrees. Straight ways from design in arm angle and rack pass the point where branches
+# meet on its other side, and lead to positions from 14 mm down, turned by 55 degrees and more.
+TWO_BRANCHES = {
+    "hardpoints.front_upper_link_outer": (5.8291, -651.5736, 381.7929),
+    "hardpoints.rear_upper_link_inner": (-27.6545, -537.7088, 377.9391),
+    "hardpoints.rear_upper_link_outer": (-106.9648, -766.6553, 407.3238),
+    "hardpoints.rear_lower_link_inner": (-124.8435, -297.8632, 263.9591),
+    "hardpoints.tie_rod_outer": (-14.6524, -720.9270, 276.2209),
+    "hardpoints.tie_rod_inner": (-291.5356, -381.9909, 348.5438),
+    "hardpoints.spring_top": (-195.1493, -539.1526, 647.3372),
+    "hardpoints.spring_seat": (-42.2122, -430.5769, 228.7709),
+    "hardpoints.damper_top": (-96.9884, -640.2860, 716.3436),
+    "hardpoints.wheel_center": (-123.6057, -603.1030, 298.5333),
+}
+RACK = 0.015403
+
+
+def two_branches() -> Model:
+    return Model(swinging.CAR.with_changes(TWO_BRANCHES))
+
+
+def test_a_range_ends_where_its_branch_does() -> None:
+    model = two_branches()
+    ways = swinging.Ways([model.suspension], RACK)
+    reach = travel_range(model, RACK)
+    assert ways.compared(0, model, np.array(reach.arm_angle)).wrong == []
+    swung = abs(reach.arm_angle[0] - model.design_state[0])
+    assert swung == pytest.approx(ways.monotone(0, 1.0), abs=1e-3)
+    assert design_height(model) - reach.height[0] == pytest.approx(0.0119, abs=1e-4)
+
+
+@pytest.mark.parametrize("travel", [-0.012, -0.0135, -0.015, -0.04, -0.08])
+def test_positions_on_another_branch_are_refused(travel: float) -> None:
+    model = two_branches()
+    with pytest.raises(PositionError, match=r"from 286\.59 mm .*that is -11\.9\d mm to"):
+        state_at_height(model, design_height(model) + travel, rack_position=RACK)
+    with pytest.raises(PositionError, match="out of reach"):
+        characteristics.travel(model, [0.0, travel], rack_position=RACK)
+    case = {"travel_mm": 1e3 * travel, "rack_mm": 1e3 * RACK}
+    with pytest.raises(PositionError, match=r"out of reach: from 286\.59 mm"):
+        loads.static(model, {"case": case})
+
+
+def test_positions_on_another_branch_are_no_part_of_a_batch() -> None:
+    model = two_branches()
+    values = {"hardpoints.tie_rod_inner.x": np.array([TWO_BRANCHES["hardpoints.tie_rod_inner"][0]])}
+    fleet = Fleet(model.suspension, values, free_rack=False)
+    for travel, reached in ((-0.01, True), (-0.015, False), (-0.08, False)):
+        assert fleet_angles(fleet, np.array([travel]), np.array([RACK]))[1] == reached
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_multi_links_are_on_the_branch_of_their_path(seed: int) -> None:
+    random = np.random.default_rng([1, seed])
+    found = swinging.judged(swinging.some_cars(random, 12), random.uniform(-0.06, 0.06), random)
+    assert found.positions > 50
+    assert found.in_batches > 3
+    assert found.wrong == []
+
+
+def test_rigid_axles_are_on_the_branch_of_their_path() -> None:
+    random = np.random.default_rng(2)
+    found = rigid_ways.judged(rigid_ways.some_axles(random, 24), random)
+    assert found.wrong == found.short == []
+    assert found.positions > 100

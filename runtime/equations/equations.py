@@ -139,6 +139,7 @@ class Equations:
                 if name in functions
             },
             "HELD_VARIANTS": {k: tuple(v) for k, v in manifest["held_variants"].items()},
+            "ITERATES": self.iterates,
             "MOBILITY": manifest["mobility"],
             "DRAWING": manifest["drawing"],
             "LOOPS": tuple(tuple(t["bodies"]) for t in manifest["transformers"]),

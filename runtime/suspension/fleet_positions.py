@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .attitudes import Attitudes, attitudes, attitudes_at
 from .fleet import Fleet
 from .reach import ARM_STEP, ARM_STEPS, branch, clear_of, margins_at, way_of_rack
 from .reach import at_rest as rest_of
@@ -102,7 +103,7 @@ def _look(fleet: Fleet, angles: Array, rack: float) -> Seen:
     """Return what there is at some angles of each; see `reach`."""
     margins = margins_at(fleet, *rest_of(fleet, angles, rack))
     closes = np.asarray((margins > 0.0).all(axis=-1))
-    signals = _signals_where(fleet, closes, angles, rack)
+    signals, stand = _where_it_closes(fleet, closes, angles, rack)
     allowed = fleet.allowed_lengths()
     left = np.ones((*angles.shape, len(allowed)))
     for column, one in enumerate(allowed):
@@ -111,19 +112,29 @@ def _look(fleet: Fleet, angles: Array, rack: float) -> Seen:
     fine = (margins > 0.0).all(axis=-1)
     slopes = signals["wheel_velocity"]
     nothing = np.zeros(angles.shape, dtype=np.int64)
-    return Seen(fine & (slopes < 0.0), nothing, signals["wheel_center_z"], slopes, margins)
+    heights = signals["wheel_center_z"]
+    return Seen(fine & (slopes < 0.0), nothing, heights, slopes, margins, stand)
 
 
-def _signals_where(fleet: Fleet, closes: Flags, angles: Array, rack: float) -> dict[str, Array]:
-    """Return the signals where loops close; elsewhere those of a place of the same that closes."""
+def _where_it_closes(
+    fleet: Fleet, closes: Flags, angles: Array, rack: float
+) -> tuple[dict[str, Array], Attitudes]:
+    """Return signals and attitudes; where loops do not close, those of a place where they do."""
     at = closes.argmax(axis=1)[:, None]
     some = np.flatnonzero(closes.any(axis=1))
     there = np.where(closes, angles, np.take_along_axis(angles, at, axis=1))[some]
-    found = _signals(fleet.of(some), there, rack) if some.size else {}
     whole = {name: np.zeros(angles.shape) for name in fleet.signal_names}
-    for name, values in found.items():
+    if not some.size:
+        return whole, attitudes(fleet, angles[..., None], None, closes)
+    part = fleet.of(some)
+    rest = rest_of(part, there, rack, arm_rate=1.0)
+    for name, values in part.signals(*rest).items():
         whole[name][some] = values
-    return whole
+    stand = []
+    for values in attitudes_at(part, *rest):
+        stand.append(np.full((*angles.shape, values.shape[-1]), np.nan))
+        stand[-1][some] = values
+    return whole, Attitudes(*stand)
 
 
 def _signals(fleet: Fleet, angles: Array, rack: float) -> dict[str, Array]:

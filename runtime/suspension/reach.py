@@ -16,6 +16,7 @@ from ..core.arguments import Arguments
 from ..core.errors import KintrafoError
 from ..core.named_types import ArrayLike
 from ..systems.system import System
+from .attitudes import attitudes
 from .model import Model
 from .swing import GOAL, UNRESOLVED, Seen, march, margins_stay, resolved
 
@@ -40,7 +41,8 @@ _TURNS_BACK = -1
 _REASONS = {
     _TURNS_BACK: "the wheel centre turns back there",
     GOAL: "the arm has swung by a right angle",
-    UNRESOLVED: "positions beyond it cannot be told apart in double precision",
+    UNRESOLVED: "positions beyond it are not connected with it, or cannot be told apart in double "
+    "precision",
 }
 
 
@@ -344,7 +346,7 @@ def _look(model: Model, angles: Array, racks: Array) -> Seen:
     states, inputs = at_rest(model, angles, racks, arm_rate=1.0)
     margins = margins_at(model, states, inputs)
     # a NaN behind a failed guard must not pass
-    closes = (margins > 0.0).all(axis=-1)
+    closes = np.asarray((margins > 0.0).all(axis=-1))
     heights, slopes = np.zeros(closes.shape), np.zeros(closes.shape)
     signals = model.signals(states[closes], inputs[closes])
     heights[closes], slopes[closes] = signals["wheel_center_z"], signals["wheel_velocity"]
@@ -357,7 +359,8 @@ def _look(model: Model, angles: Array, racks: Array) -> Seen:
     fine = ~failed.any(axis=-1)
     # the arm's angle falls as the wheel rises (Eq. 6)
     limits = np.where(fine, _TURNS_BACK, failed.argmax(axis=-1))
-    return Seen(fine & (slopes < 0.0), limits, heights, slopes, margins)
+    stand = attitudes(model, states, inputs, closes)
+    return Seen(fine & (slopes < 0.0), limits, heights, slopes, margins, stand)
 
 
 def margins_at(model: Model, states: Array, inputs: Array) -> Array:

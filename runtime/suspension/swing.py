@@ -5,6 +5,11 @@ quantities are from zero that must be positive, and a height that should change 
 neighbours that are both fine say nothing about what is between them, unless everything is smooth on
 the scale of their distance. That can be seen: the mean of two slopes and the chord between them
 belong to one smooth curve (the trapezoidal rule), and so do three values of a margin.
+
+Where loops are solved by iteration, neighbours may be on different branches as well, and the bodies
+stand differently there (`attitudes`). Around the point at which branches meet, positions x belong
+to coordinates ``a = x^3 - d x``: between two branches, whose rates differ by a factor of three at
+most, the trapezoidal rule misses the jump by half of it or more.
 """
 
 from collections.abc import Callable
@@ -12,6 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from .attitudes import Attitudes
 
 Array = NDArray[np.float64]
 
@@ -22,6 +29,8 @@ GOAL, UNRESOLVED = -2, -3
 # h^2 s'' / 8 at most: it keeps its sign if the first is less than 2/3 of the flatter slope. A third
 # of that, because s'' is not the same all over.
 _SMOOTH = 0.2
+# What bodies turn by that is little, per coordinate, and how much of its rate may differ.
+_LITTLE, _ALIKE = 1.0, 2.0 / 3.0
 # A parabola dips below its lower neighbour by at most 1/8 of its second difference; twice that.
 _DIP = 0.25
 # More than rounding does to a height of some metres [m].
@@ -47,6 +56,8 @@ class Seen(NamedTuple):
         What should change one way only, and its derivative; mean nothing where not usable.
     margins : ndarray, shape (..., places, margins)
         Must be positive.
+    attitudes : Attitudes
+        How the bodies stand, as far as loops are solved by iteration.
     """
 
     usable: NDArray[np.bool_]
@@ -54,6 +65,7 @@ class Seen(NamedTuple):
     height: Array
     slope: Array
     margins: Array
+    attitudes: Attitudes
 
 
 def resolved(width: Array, seen: Seen) -> NDArray[np.bool_]:
@@ -75,7 +87,25 @@ def resolved(width: Array, seen: Seen) -> NDArray[np.bool_]:
     mean = 0.5 * (seen.slope[..., :-1] + seen.slope[..., 1:])
     missed = np.abs(np.diff(seen.height, axis=-1) - mean * width)
     smooth = missed <= _SMOOTH * np.minimum(low, high) * np.abs(width) + _ROUNDING
-    return both & smooth & margins_stay(seen.margins)
+    together = smooth & margins_stay(seen.margins) & _on_one_branch(width, seen.attitudes)
+    fine: NDArray[np.bool_] = both & together
+    return fine
+
+
+def _on_one_branch(width: Array, attitudes: Attitudes) -> NDArray[np.bool_]:
+    """Tell between which neighbours the bodies turn as their rates say."""
+    turned, rate = attitudes
+    if not turned.shape[-1]:
+        return np.ones((), dtype=bool)
+    width = np.asarray(width)[..., None]
+    low, high = rate[..., :-1, :], rate[..., 1:, :]
+    rates = np.abs(rate).max(axis=-1)
+    most = np.maximum(np.maximum(rates[..., :-1], rates[..., 1:]), _LITTLE)
+    missed = np.abs(np.diff(turned, axis=-2) - 0.5 * (low + high) * width).max(axis=-1)
+    turns = missed <= _SMOOTH * most * np.abs(width[..., 0])
+    alike = np.abs(high - low).max(axis=-1) <= _ALIKE * most
+    found: NDArray[np.bool_] = alike & turns
+    return found
 
 
 def margins_stay(margins: Array) -> NDArray[np.bool_]:

@@ -17,6 +17,7 @@ from ...generated import rigid_axle as equations
 from ...systems.allowed import Allowed
 from ...systems.state import State
 from ...systems.system import System
+from ..attitudes import attitudes
 from ..axle.axle import LEFT, RIGHT
 from ..corner import Array
 from ..reach import PositionError, refuse_beyond
@@ -159,6 +160,14 @@ class RigidAxleModel(System):
         states[..., self.state_names.index(ROLL)] = rolls
         return states
 
+    def _move(self, states: Array, left: Array, right: Array) -> None:
+        """Give states the rates at which the wheels travel so fast [m/s]."""
+        with np.errstate(all="ignore"):  # of an axle that is inclined too far
+            leaning = np.cos(states[..., self.state_names.index(ROLL)])
+            rolling = 0.5 * (left - right) / self.axle.half_track / leaning
+        states[..., self.state_names.index(f"{HEAVE}_rate")] = 0.5 * (left + right)
+        states[..., self.state_names.index(f"{ROLL}_rate")] = rolling
+
     def margins(self, states: Array) -> Array:
         """Return what is positive where the axle can be.
 
@@ -220,9 +229,13 @@ class RigidAxleModel(System):
         senses = np.stack([lefts, rights]) / np.where(longest > 0.0, longest, 1.0)
 
         def look(along: Array, which: NDArray[np.int64]) -> Seen:
-            margins = self.margins(self.placed(*(senses[:, which, None] * along)))
+            states = self.placed(*(senses[:, which, None] * along))
+            self._move(states, *senses[:, which, None])
+            margins = self.margins(states)
             fine = np.asarray((margins > 0.0).all(axis=-1))
-            return Seen(fine, np.zeros(fine.shape, dtype=int), along, np.ones(fine.shape), margins)
+            stand = attitudes(self, states, None, fine)
+            no_limits, even = np.zeros(fine.shape, dtype=int), np.ones(fine.shape)
+            return Seen(fine, no_limits, along, even, margins, stand)
 
         found, limits = march(look, np.zeros(lefts.size), longest, _STEP)
         with np.errstate(invalid="ignore"):
