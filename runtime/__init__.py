@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from .suspension.axle import Axle
     from .suspension.axle.equations import AxleModel
     from .suspension.kinds import Suspension
+    from .suspension.loading import load
     from .suspension.model import Model
     from .suspension.positions import (
         PositionError,
@@ -91,6 +92,7 @@ __all__ = [
     "export_model",
     "gradient",
     "linearise",
+    "load",
     "motion_gradient",
     "motion_sensitivity",
     "proposals",
@@ -117,6 +119,7 @@ _MODULES = {
     ".systems.derivatives": ("derivative", "design_derivative", "gradient"),
     ".systems.linearisation": ("Linearisation", "linearise"),
     ".systems.rest": ("rest",),
+    ".suspension.loading": ("load",),
     ".suspension.model": ("Model",),
     ".systems.modes": ("Mode",),
     ".systems.compile": (

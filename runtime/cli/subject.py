@@ -2,8 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from . import axles, rigid
-from .options import load
+from . import rigid
+from .options import load as load_model
 
 if TYPE_CHECKING:
     from ..suspension.axle import Axle
@@ -14,15 +14,11 @@ if TYPE_CHECKING:
 
 def described_by(file: str) -> "Model | Axle | RigidAxle":
     """Return what the file describes."""
-    if rigid.is_rigid_axle(file):
-        from ..suspension.rigid import RigidAxle
+    from ..suspension.kinds import Suspension
+    from ..suspension.loading import load
 
-        return RigidAxle.load(file)
-    if axles.is_axle(file):
-        from ..suspension.axle import Axle
-
-        return Axle.load(file)
-    return load(file)
+    found = load(file)
+    return load_model(file) if isinstance(found, Suspension) else found
 
 
 def studied(file: str) -> "Suspension | RigidAxle":
