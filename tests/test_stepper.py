@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import runpy
 import tracemalloc
+from pathlib import Path
 from typing import Any
 
 import kintrafo
@@ -16,6 +18,7 @@ pytestmark = pytest.mark.skipif(not native_available(), reason="no compiled solv
 
 MODEL = kintrafo.Model("reference_car")
 STEP = 1e-3
+EXAMPLE = Path(__file__).parent.parent / "examples/active_damping.py"
 
 
 def place(name: str) -> int:
@@ -147,3 +150,20 @@ def test_any_mechanism_is_stepped() -> None:
         stepper.step()
     whole = kintrafo.simulate(system, (0.0, 0.1), start, method="RK4", step=STEP)
     np.testing.assert_array_equal(stepper.state, whole.y[:, -1])
+
+
+@pytest.mark.filterwarnings("ignore:.*WARN")  # no bounds, and nothing to render
+def test_the_learning_environment_keeps_the_rules_of_gymnasium() -> None:
+    checker = pytest.importorskip("gymnasium.utils.env_checker")
+    module = runpy.run_path(str(EXAMPLE))
+    environment = module["ActiveDamping"]()
+    checker.check_env(environment)
+    rewards = []
+    for gain in (0.0, 0.5):
+        observation, _ = environment.reset(seed=1)
+        rewards.append(0.0)
+        for _ in range(200):
+            action = np.array([gain * observation[1]], np.float32)
+            observation, reward, _, _, _ = environment.step(action)
+            rewards[-1] += reward
+    assert rewards[1] > rewards[0], "a damper keeps the wheel on the road"
