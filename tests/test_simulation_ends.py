@@ -2,9 +2,12 @@
 
 import os
 import pickle
+import re
 import signal
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from importlib import import_module
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -18,6 +21,7 @@ from typer.testing import CliRunner
 
 needs_sundials = pytest.mark.skipif(not native_available(), reason="built without SUNDIALS")
 CRANK = System(slider_crank)
+simulation = import_module("kintrafo.simulation.simulate")
 TURNING = CRANK.state(crank_angle_rate=30.0)
 METHODS = tuple(dict.fromkeys([*native_methods(), "Radau", "LSODA", "RK45", "DOP853"]))
 
@@ -96,6 +100,49 @@ def test_a_broken_native_module_is_not_called_missing(monkeypatch):
 
     monkeypatch.setattr(solvers, "import_module", missing)
     assert "built without SUNDIALS" in solvers._load_native()[1]
+
+
+@pytest.mark.parametrize("stop", [False, True])
+@pytest.mark.parametrize("method", [*solvers.NATIVE_METHODS, "Radau", "RK45"])
+@pytest.mark.parametrize("backend", ["auto", "sundials", "scipy"])
+@pytest.mark.parametrize("compiled", [True, False], ids=["compiled", "arrays"])
+@pytest.mark.parametrize("moves", [True, False], ids=["moves", "prescribed"])
+@pytest.mark.parametrize("release", ["7.5.0", "6.4.1", "none"])
+def test_who_follows_the_advice_is_not_refused(
+    monkeypatch, release, moves, compiled, backend, method, stop
+):
+    """Whatever is linked, and whatever is asked for: what the message names instead is there."""
+    linked = None if release == "none" else SimpleNamespace(version=lambda: release)
+    monkeypatch.setattr(solvers, "sundials", linked)
+    monkeypatch.setattr(simulation, "_told", True)
+    model = SimpleNamespace(
+        equations=SimpleNamespace(ADDRESSES={"rhs": 1} if compiled else {}),
+        state_names=("q",) if moves else (),
+    )
+
+    def choose(backend, method, stop):
+        options = SimpleNamespace(method=method, stop_at_outputs=stop)
+        return simulation._choose_backend(model, backend, options)
+
+    try:
+        choose(backend, method, stop)
+    except InputError as error:
+        (told,) = error.problems
+        others = dict(re.findall(r"(method|backend) '(\w+)'", advice(told)))
+        out = re.findall(r"leave out (.*):", advice(told).lower())
+        left = out[0].split(" and ") if out else []
+        other = others.get("method", method)
+        found = choose(
+            others.get("backend", backend), other, stop and "stop_at_outputs" not in left
+        )
+        in_c = found is simulation.solve_native
+        assert in_c == ("in C then" in told) == (compiled and moves and linked is not None)
+        assert other == "RK4" or method != "RK4" or "step" in left
+
+
+def advice(told):
+    """Return the last sentence."""
+    return re.search(r"[.] ([^.]*)[.]$", told)[1]
 
 
 def run(*arguments):

@@ -279,40 +279,66 @@ def _check_count(given: Arguments, span: tuple[float, float], accuracy: Accuracy
 
 def _choose_backend(model: System, backend: Backend, options: Options) -> Callable[..., Piece]:
     """Return the solver for a method, and say once if it is not the one that was meant."""
-    # SUNDIALS has no vectors without elements: those of a model that is prescribed as a whole
-    method, compiled = options.method, bool(model.equations.ADDRESSES and model.state_names)
+    method = options.method
     with Arguments("simulate") as given:
         given.among("backend", backend, ("auto", "sundials", "scipy"))
-    if backend != "scipy" and method in native_methods(fixed_step=True) and compiled:
+    if backend != "scipy" and method in _in_c(model):
         return solve_native
     if backend == "sundials" or options.stop_at_outputs or method not in SCIPY_METHODS:
-        raise InputError(
-            [_missing(method, states=bool(model.state_names), compiled=compiled)], "simulate"
-        )
-    if backend == "auto" and method in NATIVE_METHODS and compiled:
+        told = f"{_why_none(model, backend, method)}. {_what_else(model, backend, options)}"
+        raise InputError([told], "simulate")
+    if backend == "auto" and method in NATIVE_METHODS and _could_be_in_c(model):
         _tell_once()
     return solve_scipy
 
 
-def _missing(method: str, *, states: bool, compiled: bool) -> str:
+def _could_be_in_c(model: System) -> bool:
+    """Tell whether it is compiled, and has a state: SUNDIALS has no vectors without elements."""
+    return bool(model.equations.ADDRESSES and model.state_names)
+
+
+def _in_c(model: System) -> tuple[str, ...]:
+    """Return the methods by which a model can be integrated in C."""
+    return native_methods(fixed_step=True) if _could_be_in_c(model) else ()
+
+
+def _why_none(model: System, backend: Backend, method: str) -> str:
+    """Say why a method is not to be had as it is asked for."""
+    if backend == "scipy":
+        return f"SciPy has {', '.join(SCIPY_METHODS)}, and does not stop at outputs"
     if method not in NATIVE_METHODS:
-        return f"method {method!r} is one of SciPy; SUNDIALS has {', '.join(native_methods())}."
-    if not states:
+        others = f"; in C there are {', '.join(native_methods())}" if _in_c(model) else ""
+        return f"method {method!r} is one of SciPy, which does not stop at outputs{others}"
+    if not model.state_names:
         return (
-            f"method {method!r} needs a state to integrate, and all that moves here is prescribed. "
-            "Use 'BDF' or another method of SciPy, without stop_at_outputs."
+            f"method {method!r} in C needs a state to integrate, and all that moves here is "
+            "prescribed"
         )
-    if not compiled:
+    if not model.equations.ADDRESSES:
         return (
-            f"method {method!r} of SUNDIALS needs compiled equations, and these are functions over "
-            "NumPy arrays. Use a method of SciPy, which 'BDF' is too, without stop_at_outputs."
+            f"method {method!r} in C needs compiled equations, and these are functions over NumPy "
+            "arrays"
         )
     if not native_available():
-        return f"method {method!r} needs SUNDIALS. {why_not_native()}, or use 'BDF'."
+        return f"method {method!r} in C needs SUNDIALS, and {why_not_native()}"
     return (
         f"method {method!r} is not in the installed SUNDIALS {native_version()}, which has "
-        f"{', '.join(native_methods())}."
+        f"{', '.join(native_methods())}"
     )
+
+
+def _what_else(model: System, backend: Backend, options: Options) -> str:
+    """Say with which arguments it can be integrated: in C, or else by SciPy."""
+    in_c, method = _in_c(model), options.method
+    other = [] if method in (in_c or SCIPY_METHODS) else ["method 'BDF'"]
+    other += ["backend 'auto'"] if backend == ("scipy" if in_c else "sundials") else []
+    given = {"step": method == "RK4", "stop_at_outputs": options.stop_at_outputs}
+    out = [] if in_c else [name for name, there in given.items() if there]
+    words = [f"use {' and '.join(other)}"] if other else []
+    words += [f"leave out {' and '.join(out)}"] if out else []
+    advice = ", ".join(words)
+    by = "it is integrated in C" if in_c else "SciPy integrates it"
+    return f"{advice[0].upper()}{advice[1:]}: {by} then."
 
 
 def _tell_once() -> None:
