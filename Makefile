@@ -145,12 +145,13 @@ benchmark-speed: build ## Times of everything, with pytest-benchmark (ARGS=--ben
 	@$(PYTHON) -m pytest -q benchmarks/test_speed.py -p no:xdist --benchmark-only \
 		--benchmark-columns=min,median,ops,rounds --benchmark-sort=name $(ARGS)
 
-# a package is built in a folder of its own
-package wheel: export SUNDIALS_ROOT := $(or $(SUNDIALS_ROOT),$(patsubst %/include,%,$(wildcard $(CURDIR)/build/sundials/include)))
-
+# A package is built in a folder of its own. The shell looks for SUNDIALS, which set-up may have built
+# since make read this file.
 package: .venv/.ready ## Build a source package and a wheel from it, and import that
 	@rm -rf build/package && mkdir -p build
-	@$(PYTHON) -m build --no-isolation --outdir build/package . >build/package.log 2>&1 \
+	@[ -n "$$SUNDIALS_ROOT" ] || [ ! -e build/sundials/include ] || \
+		export SUNDIALS_ROOT="$(CURDIR)/build/sundials"; \
+		$(PYTHON) -m build --no-isolation --outdir build/package . >build/package.log 2>&1 \
 		|| { tail -n 20 build/package.log; exit 1; }
 	@$(PYTHON) -m pip install -q --no-deps --target build/package/site build/package/*.whl
 	@cd build/package/site && ../../../$(PYTHON) -P -c "import sys; sys.path.insert(0, '.'); \

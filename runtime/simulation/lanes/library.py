@@ -92,13 +92,18 @@ def tangents(equations: ModuleType, width: int) -> Mapping[str, int] | None:
     return {what: _address(library, f"{equations.NAME}_{what}") for what in names}
 
 
+def compiled(equations: ModuleType) -> ctypes.CDLL | None:
+    """Return the library of equations that come with the project; None where it was not built."""
+    package = equations.__name__.rpartition(".")[0]
+    return _library(f"{package}._{equations.NAME}_lanes")
+
+
 @cache
 def _of(equations: ModuleType, width: int) -> tuple[ctypes.CDLL, str]:
     """Return the library of equations, and how the names of its functions end."""
     if is_own(equations):
         return _loaded(str(library_of(equations, width))), ""
-    package = equations.__name__.rpartition(".")[0]
-    library = _library(f"{package}._{equations.NAME}_lanes")
+    library = compiled(equations)
     assert library is not None  # built with the solver, as those that do not iterate
     return library, f"_{width}"
 
