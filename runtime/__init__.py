@@ -12,7 +12,6 @@ Examples
 """
 
 from importlib import import_module
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -53,7 +52,7 @@ if TYPE_CHECKING:
     from .systems.system import System
     from .targets.export import export_model
 
-__version__ = version("kintrafo")
+__version__: str
 
 __all__ = [
     "Axle",
@@ -185,6 +184,10 @@ _INTERFACES = {
 def __getattr__(name: str) -> Any:
     if name in _INTERFACES:
         return import_module(_INTERFACES[name], __name__)
+    if name == "__version__":
+        from importlib.metadata import version  # noqa: PLC0415 (slow to import)
+
+        return version(__name__)
     at_home = _OTHER_NAMES.get(name, name)
     if at_home not in _HOMES:
         message = f"module {__name__!r} has no attribute {name!r}"

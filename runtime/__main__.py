@@ -10,9 +10,15 @@ INTERRUPTED = 130
 def run() -> None:
     """Run the command line."""
     try:
-        from .cli import run as run_command_line  # noqa: PLC0415 (inside, to be guarded)
+        from .core import interrupts  # noqa: PLC0415 (inside, to be guarded)
 
-        run_command_line()
+        interrupts.heed()
+        try:
+            from .cli import run as run_command_line  # noqa: PLC0415 (the same)
+
+            run_command_line()
+        finally:
+            interrupts.end()
     except KeyboardInterrupt:
         raise SystemExit(INTERRUPTED) from None
 

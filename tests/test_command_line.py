@@ -73,6 +73,7 @@ def test_an_interrupt_while_python_imports_ends_quietly(tmp_path, way):
     assert (done.returncode, done.stdout, done.stderr) == (130, b"", b"")
 
 
+@pytest.mark.usefixtures("interruptible")
 def test_an_interrupt_of_a_command_ends_quietly(monkeypatch, capfd):
     def interrupted(*_, **__):
         raise KeyboardInterrupt

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from . import written
+from . import interrupts, written
 from .errors import InputError
 
 Paths = Iterable[str | Path]
@@ -71,18 +71,24 @@ def replacing(path: str | Path, *, force: bool = False, inputs: Paths = ()) -> I
         target = _resolved(Path(path))
         target.parent.mkdir(parents=True, exist_ok=True)
         # a name that nobody can foresee, made by us and open to us alone
-        folder = Path(tempfile.mkdtemp(prefix=".kintrafo-", dir=target.parent))
+        folder = None
         try:
+            with interrupts.held():
+                folder = Path(tempfile.mkdtemp(prefix=".kintrafo-", dir=target.parent))
             temporary = folder / target.name
             yield temporary
             # what has appeared in the meantime is not replaced either
             refuse([path], force=force, inputs=read)
-            if target.exists():
-                shutil.copymode(target, temporary)
-            written.note(target, temporary)
-            temporary.replace(target)
+            interrupts.check()
+            with interrupts.held():
+                if target.exists():
+                    shutil.copymode(target, temporary)
+                written.note(target, temporary)
+                temporary.replace(target)
         finally:
-            shutil.rmtree(folder, ignore_errors=True)
+            with interrupts.held():
+                if folder:
+                    shutil.rmtree(folder, ignore_errors=True)
 
 
 def refuse(

@@ -1,10 +1,11 @@
-"""One thread for matrices that are small.
+"""Work in several threads, and matrices in one.
 
 Libraries of linear algebra share the work on a matrix out to threads. Where it has some tens of
 rows these only wait for each other, on a busy machine a hundred times as long as one of them needs.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from functools import cache, wraps
 from importlib import import_module
 from typing import ParamSpec, TypeVar
@@ -13,6 +14,36 @@ from threadpoolctl import ThreadpoolController
 
 Given = ParamSpec("Given")
 Found = TypeVar("Found")
+Part = TypeVar("Part")
+
+
+def shared_out(
+    do: Callable[[Part, Callable[[], bool]], Found],
+    parts: Iterable[Part],
+    take: Callable[[Found], None],
+    threads: int | None = None,
+) -> None:
+    """Work on parts in threads; an interruption, or an error of one of them, ends all.
+
+    Parameters
+    ----------
+    do : callable
+        Called with a part, and what tells whether its result is wanted no more.
+    parts : iterable
+    take : callable
+        Called with each result as it comes, in the thread of the caller.
+    threads : int, optional
+        By default some more than there are cores.
+    """
+    unwanted = False
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            for done in as_completed([pool.submit(do, part, lambda: unwanted) for part in parts]):
+                take(done.result())
+        except BaseException:
+            unwanted = True
+            pool.shutdown(cancel_futures=True)
+            raise
 
 
 def in_one_thread(function: Callable[Given, Found]) -> Callable[Given, Found]:

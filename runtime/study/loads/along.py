@@ -1,7 +1,6 @@
 """The loads on every part of a suspension that moves: Newton and Euler along a simulation."""
 
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
 import numpy as np
@@ -10,6 +9,7 @@ from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
 from ...core.quantities import variable
+from ...core.threads import shared_out
 from ...simulation.result import Simulation
 from ...suspension.corner import RoadWheel
 from ...suspension.model import Model
@@ -83,8 +83,13 @@ def over_time(find: Callable[[Array, Array], xr.Dataset], result: Simulation) ->
     """
     size = result.t.size
     parts = [slice(begin, begin + _TOGETHER) for begin in range(0, size, _TOGETHER)]
-    with ThreadPoolExecutor() as pool:
-        found = list(pool.map(lambda rows: find(result.y.T[rows], result.inputs[rows]), parts))
+    by_part: dict[int, xr.Dataset] = {}
+    shared_out(
+        lambda rows, _: (rows.start, find(result.y.T[rows], result.inputs[rows])),
+        parts,
+        lambda some: by_part.update([some]),
+    )
+    found = [by_part[rows.start] for rows in parts]
     data = {
         str(name): _one_after_another([each[name].variable for each in found]) for name in found[0]
     }

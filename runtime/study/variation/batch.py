@@ -8,13 +8,13 @@ equation refuses a position: so reasons are those of one by one.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import KintrafoError
+from ...core.threads import shared_out
 from ...equations.errors import ClosureError
 from ...simulation.lanes.run import usual_threads
 from ...suspension.corner import Corner
@@ -87,26 +87,27 @@ def curves_of_many(
     count = next(iter(values.values())).size
     parts = [slice(a, min(a + _TOGETHER, count)) for a in range(0, count, _TOGETHER)]
 
-    def found_in(part: slice) -> tuple[slice, list[Array], list[str]]:
+    def found_in(part: slice, unwanted: Callable[[], bool]) -> tuple[slice, list[Array], list[str]]:
         own = {place: column[part] for place, column in values.items()}
-        return part, *_some(suspension, own, looks)
+        return part, *_some(suspension, own, looks, unwanted)
 
     done = 0
-    with ThreadPoolExecutor(min(threads or usual_threads(), len(parts))) as pool:
-        try:
-            for future in as_completed([pool.submit(found_in, part) for part in parts]):
-                part, found, reasons = future.result()
-                finish(part, found, reasons)
-                done += part.stop - part.start
-                if progress is not None:
-                    progress(done / count)
-        except BaseException:
-            pool.shutdown(cancel_futures=True)
-            raise
+
+    def take(some: tuple[slice, list[Array], list[str]]) -> None:
+        nonlocal done
+        finish(*some)
+        done += some[0].stop - some[0].start
+        if progress is not None:
+            progress(done / count)
+
+    shared_out(found_in, parts, take, min(threads or usual_threads(), len(parts)))
 
 
 def _some(
-    suspension: Subject, values: Mapping[str, Array], looks: Sequence[Curves]
+    suspension: Subject,
+    values: Mapping[str, Array],
+    looks: Sequence[Curves],
+    unwanted: Callable[[], bool],
 ) -> tuple[list[Array], list[str]]:
     """Return the values of each look and the reasons, of some suspensions."""
     count = next(iter(values.values())).size
@@ -117,6 +118,8 @@ def _some(
     if isinstance(suspension, Suspension) and count >= _FEWEST and not alone:
         there = _together(suspension, values, looks, found)
     for car in np.flatnonzero(~there).tolist():
+        if unwanted():
+            break
         changes = {place: float(column[car]) for place, column in values.items()}
         try:
             model = model_of(changed(suspension, changes))

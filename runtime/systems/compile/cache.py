@@ -30,6 +30,7 @@ from ...core.folders import (
     refuse_shared,
     shared,
 )
+from ...core.interrupts import held
 
 __all__ = [
     "MANIFEST",
@@ -219,16 +220,21 @@ def appearing(target: Path) -> Iterator[Path]:
         make_folder(target.parent)
         refuse_shared(target.parent)
         _remove_leftovers(target.parent)
-        temporary = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
+        temporary = None
         try:
-            (temporary / _MARK).write_bytes(_MARKED)
+            with held():
+                temporary = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
+                (temporary / _MARK).write_bytes(_MARKED)
             yield temporary
-            temporary.chmod(0o755)  # mkdtemp lets only its owner in
-            for path in temporary.iterdir():
-                keep_to_owner(path)
-            _move(temporary, target)
+            with held():
+                temporary.chmod(0o755)  # mkdtemp lets only its owner in
+                for path in temporary.iterdir():
+                    keep_to_owner(path)
+                _move(temporary, target)
         finally:
-            _remove(temporary)
+            with held():
+                if temporary:
+                    _remove(temporary)
     except OSError as error:
         problem = f"cannot be written: {reason(error)} Or name another folder in {VARIABLE}."
         raise InputError([problem], str(error.filename or target.parent)) from error

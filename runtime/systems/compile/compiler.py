@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import IO
 
 from ...core.errors import KintrafoError
+from ...core.interrupts import held
 
 # As of the models that come with the project: no errno, so that roots become single instructions;
 # no contraction into fused operations, so that every machine computes the same bits. No vectors
@@ -98,7 +99,9 @@ class Compiler:
         try:
             while waiting or running:
                 while waiting and len(running) < (os.cpu_count() or 1):
-                    running.append(_Running.of([*self.command, *map(str, waiting.pop())], folder))
+                    words = [*self.command, *map(str, waiting.pop())]
+                    with held():
+                        running.append(_Running.of(words, folder))
                 with suppress(subprocess.TimeoutExpired):  # another one may end before
                     running[0].process.wait(_LOOKED_AT_S)
                 for ended in [one for one in running if one.process.poll() is not None]:
