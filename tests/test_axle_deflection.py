@@ -273,7 +273,7 @@ def test_curves_of_wheels_that_share_nothing_are_those_of_one_side(car: Suspensi
         np.testing.assert_allclose(both[f"{name}_left"], alone[name], rtol=0.0, atol=1e-10)
         still = both[f"{name}_right"] - alone[name].sel(wheel_travel=0.0)
         np.testing.assert_allclose(still, 0.0, atol=1e-10)
-    for name in ("wheel_load", "wheel_rate"):
+    for name in ("wheel_load", "contact_rate"):
         np.testing.assert_allclose(both[f"{name}_left"], alone[name], rtol=1e-7)
 
 
@@ -329,7 +329,7 @@ def test_rates_are_slopes_of_the_loads() -> None:
         for row, side in enumerate(SIDES):
             stiffness[:, row, column] = found[f"wheel_load_{side}"].values @ by / rise
         for which in range(2):
-            own = float(found[f"wheel_rate_{moved}"][which, 2])
+            own = float(found[f"contact_rate_{moved}"][which, 2])
             assert own == pytest.approx(stiffness[which, column, column], rel=1e-6)
     np.testing.assert_allclose(stiffness[:, 0, 1], stiffness[:, 1, 0], rtol=1e-6)
     assert (stiffness[:, 0, 1] < -1e3).all()  # the bar
@@ -338,7 +338,7 @@ def test_rates_are_slopes_of_the_loads() -> None:
     y = np.array([_contact(pair.corners[side])[1] for side in SIDES])
     # springs are relaxed, so that on the bushes the contacts are where they are with rigid joints
     expected = np.einsum("i,kij,j->k", y, stiffness, y)
-    np.testing.assert_allclose(roll["roll_stiffness"][:, 0], expected, rtol=1e-6)
+    np.testing.assert_allclose(roll["roll_stiffness_at_contacts"][:, 0], expected, rtol=1e-6)
 
 
 def _contact(corner: Any) -> np.ndarray:
@@ -464,7 +464,7 @@ def test_tables_have_each_wheel_and_both() -> None:
     ]  # fmt: skip
     toe = np.rad2deg(found["toe_right"].values[1, 1])
     assert right.rows[1][2] == f"{toe:.4f}"
-    stiffness = found["roll_stiffness"].values[0, 1] * np.pi / 180.0
+    stiffness = found["roll_stiffness_at_contacts"].values[0, 1] * np.pi / 180.0
     assert both.rows[1][1] == f"{stiffness:.4f}"
     words = "Curves over roll angle with rigid joints and on the bushes"
     assert [picture.words for picture in chapter.pictures] == [f"{words}, {i} of 2" for i in (1, 2)]

@@ -1,5 +1,7 @@
 """Bushes that give way by any amount: equilibrium in maximal coordinates, limits, refusals."""
 
+import re
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,10 +13,13 @@ from kintrafo import (
     InputError,
     Model,
     PositionError,
+    RigidAxle,
     Suspension,
     arm_angles,
+    axles,
     characteristics,
     loads,
+    rigid_axles,
 )
 from kintrafo.core.arguments import Arguments
 from kintrafo.core.vectors import unit_vector
@@ -260,7 +265,7 @@ def test_torsion_of_the_arm_adds_to_the_wheel_rate(travel: float) -> None:
     assert (soft - rigid)[2] == pytest.approx((moment[2] * lever), rel=1e-8, abs=1e-8)
     heights = by @ poses.points["contact"][:, 2]
     for which, force in enumerate((rigid, soft)):
-        rate = float(found["wheel_rate"][which, 2])
+        rate = float(found["contact_rate"][which, 2])
         assert rate == pytest.approx((by @ force) / heights, rel=1e-7)
 
 
@@ -296,7 +301,7 @@ def test_other_travels_change_nothing(car: Suspension, hardpoints: Any, camber: 
         found = loads.elastokinematics(model, bushes, travels[order], hardpoints=hardpoints)
         for name in whole:
             # forces of 1e4 N in the last step of Newton's method, 1e-9 m or rad
-            atol = 1e-2 if name in ("wheel_load", "wheel_rate") else 1e-9
+            atol = 1e-2 if name in ("wheel_load", "contact_rate") else 1e-9
             np.testing.assert_allclose(found[name], whole[name][:, order], rtol=0.0, atol=atol)
 
 
@@ -589,3 +594,83 @@ def test_how_bearings_share_matters_to_the_toe() -> None:
     found = loads.deflection(model, bushes, "lateral", [4000.0])["toe_change"][0, 0]
     assert float(found) == pytest.approx(float(toes[0][0, 0]), rel=1e-9)
     assert abs(float(found) / float(toes[1][0, 0]) - 1.0) > 1e-5
+
+
+# -- what no rubber can do -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("subject", ["suspension", "axle", "rigid axle"])
+@pytest.mark.parametrize("what", ["bush", "tyre"])
+def test_loads_that_no_rubber_carries_are_refused(subject: str, what: str) -> None:
+    """They are what a slip of the hand makes, and used to give metres without a word."""
+    bushes: dict[str, Any] = {"arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0}}
+    tyre = {"tyre.lateral_rate_N_per_m": 55e3} if what == "tyre" else {}
+    car = Suspension.load("reference_car").with_changes(tyre)
+    rods = {"panhard_rod_chassis": {"axial_N_per_mm": 500.0}}
+    doors: dict[str, Any] = {
+        "suspension": lambda most: loads.deflection(Model(car), bushes, "lateral", [most]),
+        "axle": lambda most: axles.deflection(
+            Axle.from_dict({"axle": "front", "side": car}), bushes, "lateral", [most]
+        ),
+        "rigid axle": lambda most: rigid_axles.deflection(
+            RigidAxle.load("rigid_axle").with_changes(tyre), rods, "lateral", [most]
+        ),
+    }
+    words = {
+        "bush": r"bush at \w+ gives way by .* no bush does by more than 100 mm|that lasts",
+        "tyre": r"the standing tyre gives way by [\d.]+ mm, and none does by more than 200",
+    }
+    most = {"bush": 1e5, "tyre": 12e3}[what]
+    with pytest.raises(PositionError, match=words[what]):
+        doors[subject](most)
+    assert doors[subject](4e3).sizes["load"] == 1
+
+
+def test_wheels_that_lie_in_their_bushes_at_rest_are_refused() -> None:
+    of, soft = "upper_arm_front", {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}
+    bushes = {of: soft | {"axis": [0.0, 0.0, 1.0]}}
+    with pytest.raises(PositionError, match=f"without another load the bush at {of} gives way by"):
+        loads.elastokinematics(Model("double_wishbone_car"), bushes, [0.0], hardpoints="relaxed")
+
+
+def test_the_two_rates_of_a_wheel_have_two_names() -> None:
+    found = loads.elastokinematics(
+        Model("reference_car"), {"arm_rear": {"axial_N_per_mm": 500.0}}, [0.0]
+    )
+    rate = found["contact_rate"]
+    of_wheel = characteristics.travel(Model("reference_car"), [0.0])["wheel_rate"]
+    assert "wheel_rate" not in found
+    assert rate.attrs["long_name"] != of_wheel.attrs["long_name"]
+    assert "height of the contact" in rate.attrs["definition"]
+    assert "height of the wheel centre" in rate.attrs["definition"]
+    # with rigid joints they differ by the path of the contact alone
+    assert float(rate[0, 0]) == pytest.approx(float(of_wheel[0]), rel=2e-2)
+    assert float(rate[0, 0]) != pytest.approx(float(of_wheel[0]), rel=1e-3)
+
+
+def _of_page(page: str, name: str) -> dict[str, Any]:
+    """Return the bushes that a page of the documentation has."""
+    text = (Path(__file__).parent.parent / "docs" / page).read_text(encoding="utf-8")
+    block = re.search(rf"```toml\n# {name}\n(.*?)```", text, re.DOTALL)
+    bushings: dict[str, Any] = tomllib.loads(block[1])["bushings"]
+    return bushings
+
+
+def test_what_the_pages_say_of_small_loads_under_a_static_one() -> None:
+    """Preloaded parts turn, which first order leaves out."""
+    car = loads.deflection(
+        Model("reference_car"), _of_page("loads.md", "bushes.toml"), "lateral", [10.0],
+        held="spring",
+    )["toe_change"]  # fmt: skip
+    assert float(car[0, 0] / car[1, 0]) == pytest.approx(1.29, abs=5e-3)
+    bushes = _of_page("rigid-axle.md", "axle_bushes.toml")
+    rigid = {
+        under: rigid_axles.deflection(
+            RigidAxle.load("rigid_axle"), bushes, under, [10.0], held="spring"
+        )
+        for under in ("lateral", "aligning")
+    }
+    steer = rigid["lateral"]["axle_steer_change"]
+    assert float(steer[0, 0] / steer[1, 0]) == pytest.approx(1.19, abs=5e-3)
+    shift = rigid["aligning"]["axle_lateral_change"]
+    assert float(shift[0, 0] / shift[1, 0]) == pytest.approx(0.68, abs=5e-3)

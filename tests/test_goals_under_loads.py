@@ -106,6 +106,96 @@ def test_cars_of_a_tolerance_are_within_limits_of_compliance() -> None:
     assert 0 < sum(expected) < len(expected)
 
 
+def test_stiffnesses_have_tolerances() -> None:
+    """Beside a limit of compliance, or where compliance is what is looked at."""
+    bounds = {"toe_by_lateral": {"at_mm": [0.0], "most": 0.13}}
+    found = variation.tolerance(
+        CAR, {REAR: "20 %"}, limits=bounds, count=8, names=["toe"], positions=[0.0, 0.01]
+    )
+    rates = found["value_of"].values[:, 0] * 1e-3
+    cars = [CAR.with_changes({REAR: float(rate)}) for rate in rates]
+    softness = np.array([float(under(car, "toe_by_lateral", [0.0])[0]) for car in cars])
+    assert found["within_limits"].values.tolist() == (softness <= 0.13).tolist()
+    assert 0 < int(found["within_limits"].sum()) < 8
+    # with rigid joints they do nothing
+    assert float(abs(found["toe"] - found["toe_nominal"]).max()) == 0.0
+    held = variation.tolerance(
+        CAR, {REAR: "20 %"}, count=8, held="spring", names=["toe_by_lateral"], positions=[0.0]
+    )
+    softness = [float(under(car, "toe_by_lateral", [0.0], "spring")[0]) for car in cars]
+    band = np.rad2deg(held["toe_by_lateral"].sel(quantile=[0.0, 1.0]).values[:, 0]) * 1e3
+    np.testing.assert_allclose(band, [min(softness), max(softness)], rtol=1e-12)
+    assert float(held["toe_by_lateral_share"][0, 0]) == pytest.approx(1.0)
+
+
+def test_sensitivities_by_stiffnesses_are_slopes_of_the_compliance() -> None:
+    found = variation.sensitivity(
+        CAR, ["bushings"], held="tyre", names=["toe_by_lateral", "camber_by_braking"],
+        positions=[0.0, 0.01],
+    )  # fmt: skip
+    assert found.sizes["place"] == 4
+    for name in ("toe_by_lateral", "camber_by_braking"):
+        low, high = (
+            under(CAR.with_changes({REAR: 900.0 + by}), name, [0.0, 0.01], "tyre")
+            for by in (-0.5, 0.5)
+        )
+        slope = np.rad2deg(found[name].sel(place=REAR).values) * 1e6  # deg/kN per N/mm
+        np.testing.assert_allclose(slope, high - low, rtol=1e-5)
+    effect = next(iter(variation.effects(found, "toe_by_lateral")))
+    assert (effect.place, effect.unit) == (REAR, "deg/kN per N/mm")
+
+
+@pytest.mark.parametrize("subject", ["car", "rigid axle"])
+def test_many_cars_have_curves_of_compliance(subject: str) -> None:
+    if subject == "car":
+        of, place, name = CAR, REAR, "toe_by_lateral"
+    else:
+        of = RigidAxle.load("rigid_axle").with_changes({"bushings": RODS})
+        place = "bushings.panhard_rod_chassis.axial_N_per_mm"
+        name = "axle_lateral_by_lateral_parallel"
+    rates = [800.0, 900.0, 1200.0]
+    found = variation.cars(of, {place: rates}, names=[name], held="height", positions=[0.0, 0.02])
+    for i, rate in enumerate(rates):
+        changed = of.with_changes({place: rate})
+        study: Any = loads if subject == "car" else rigid_axles
+        model: Any = Model(changed) if subject == "car" else changed
+        expected = study.compliance(model, None, [0.0, 0.02])[name]
+        np.testing.assert_allclose(found[name][i], expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: variation.tolerance(CAR, {REAR: "20 %"}, count=4), "on bushes, joints are rigid"),
+        (lambda: variation.sensitivity(CAR, [REAR]), "look at compliance: by what holds"),
+        (lambda: variation.cars(CAR, {REAR: [1.0, 2.0]}, over="rack"), "joints are rigid"),
+        (lambda: variation.sensitivity(CAR, [REAR], held="road"), "held"),
+        (lambda: variation.sensitivity(CAR, [REAR], held="tyre", over="rack"), "Leave over ="),
+        (
+            lambda: variation.sensitivity(Suspension.load("reference_car"), held="tyre"),
+            r"a file with \[bushings\]",
+        ),
+    ],
+)
+def test_stiffnesses_of_what_is_rigid_are_refused(call: Any, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        call()
+
+
+def test_commands_vary_stiffnesses(soft_car: str, tmp_path: Path) -> None:
+    values = tmp_path / "t.toml"
+    values.write_text('[tolerances]\n"bushings" = "30 %"\n[limits.toe_by_lateral]\nmost = 0.13\n')
+    done = called("tolerance", soft_car, str(values), "--cars", "6", "--of", "toe")
+    assert "within all limits" in done.output, done.output
+    done = called("tolerance", soft_car, str(values), "--cars", "4", "--held", "spring")
+    assert "deg/kN" in done.output, done.output
+    done = called("sensitivity", soft_car, "--held", "height", "--place", "bushings")
+    assert "arm_rear" in done.output, done.output
+    done = called("sensitivity", soft_car, "--held", "height", "--over", "rack")
+    assert done.exit_code != 0
+    assert "--over beside --held" in str(done.exception)
+
+
 def test_a_front_of_stiffnesses() -> None:
     pytest.importorskip("pymoo")
     asked: dict[str, Any] = {"population": 4, "generations": 2}
@@ -116,7 +206,7 @@ def test_a_front_of_stiffnesses() -> None:
     toe = under(member, "toe_by_recession", [0.0])[0]
     column = next(name for name in found.dataset if "toe_by_recession" in str(name))
     assert np.rad2deg(found.dataset[column].values[0]) * 1e3 == pytest.approx(toe)
-    with pytest.raises(InputError, match="with goals under loads"):
+    with pytest.raises(InputError, match="by limits and targets under loads"):
         variation.pareto(CAR, {REAR: 300.0}, {"toe": {"value": 0.1, "within": 0.01}}, **asked)
 
 

@@ -353,7 +353,10 @@ WRONG = [
     ({"free": {ROD: 0.0}}, "range of hardpoints.tie_rod_inner.z = 0 mm: .* above 0 mm"),
     ({"free": {"hardpoint": 1.0}}, "Did you mean hardpoints"),
     ({"free": [ROD]}, "a dict of places and numbers"),
-    ({"free": {"bushings.arm_rear.axial_N_per_mm": 1.0}}, "nothing here depends on bushes"),
+    (
+        {"free": {"bushings.arm_rear.axial_N_per_mm": 1.0}},
+        "nothing that is looked at depends on bushes",
+    ),
     ({"targets": {}}, "they make 1 objectives, and 2 to 6 are needed"),
     ({"maximise": {"toe": [{"at_mm": at} for at in range(6)]}}, "they make 7 objectives"),
     ({"targets": [1.0]}, "targets = .* a dict of names of characteristics"),

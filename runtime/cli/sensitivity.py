@@ -12,7 +12,18 @@ from .console import console, note, print_json, progress_bar
 from .options import File, Force, Json, Of
 from .outputs import Out, Outputs, name_files, title_of
 from .subject import studied
-from .variation_options import At, Bars, Over, along, chosen, position, positions_with, way_of
+from .variation_options import (
+    At,
+    Bars,
+    Held,
+    Over,
+    along,
+    asked_of,
+    chosen,
+    position,
+    positions_with,
+    way_of,
+)
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -42,6 +53,7 @@ def command(
     ] = None,
     of: Of = None,
     over: Over = None,
+    held: Held = None,
     at: At = 0.0,
     out: Out = None,
     plot: Bars = None,
@@ -57,13 +69,13 @@ def command(
 
     outputs = Outputs.of(out, plot, force=force, inputs=[file])
     suspension = studied(file)
-    way = way_of(suspension, over)
+    way = way_of(suspension, over, held)
     names = chosen(suspension, of, way)
     with progress_bar("sensitivity") as progress:
         dataset = variation.sensitivity(
             suspension,
             place or ("hardpoints",),
-            over=way,
+            **asked_of(way),
             positions=positions_with(suspension, way, at),
             names=None if out else names,
             progress=progress,

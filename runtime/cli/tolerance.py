@@ -12,7 +12,18 @@ from .console import console, print_json, progress_bar, say
 from .options import File, Force, Json, Of
 from .outputs import Out, Outputs, name_files, title_of
 from .subject import studied
-from .variation_options import At, Bars, Over, along, chosen, position, positions_with, way_of
+from .variation_options import (
+    At,
+    Bars,
+    Held,
+    Over,
+    along,
+    asked_of,
+    chosen,
+    position,
+    positions_with,
+    way_of,
+)
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -41,6 +52,7 @@ def command(
     seed: Annotated[int, typer.Option(metavar="N", help="Other cars for another seed.")] = 1,
     of: Of = None,
     over: Over = None,
+    held: Held = None,
     at: At = 0.0,
     out: Out = None,
     plot: Bars = None,
@@ -57,7 +69,7 @@ def command(
     inputs: list[str | Path] = [file, tolerances]
     outputs = Outputs.of(out, plot, force=force, inputs=inputs)
     suspension = studied(file)
-    way = way_of(suspension, over)
+    way = way_of(suspension, over, held)
     asked = variation.read(tolerances)
     names = chosen(suspension, of, way)
     with progress_bar("cars") as progress:
@@ -68,7 +80,7 @@ def command(
             limits=asked.get("limits"),
             count=cars,
             seed=seed,
-            over=way,
+            **asked_of(way),
             positions=positions_with(suspension, way, at),
             names=None if out else names,
             progress=progress,

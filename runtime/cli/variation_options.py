@@ -20,6 +20,14 @@ Over = Annotated[
         show_default=False,
     ),
 ]
+Held = Annotated[
+    Literal["height", "tyre", "spring", "locked"] | None,
+    typer.Option(
+        help="Instead of characteristics, the compliance of a file with [bushings] over wheel "
+        "travel, with this to hold the wheels.",
+        show_default=False,
+    ),
+]
 At = Annotated[
     float, typer.Option(metavar="MM", help="Position that the table is about; of roll in deg.")
 ]
@@ -60,24 +68,33 @@ _USUAL_OF_AXLES = (
 )
 
 
-def way_of(of: "Subject", over: str | None) -> str:
-    """Return what curves are over: what was asked for, or the usual."""
+def way_of(of: "Subject", over: str | None, held: str | None = None) -> str:
+    """Return what curves are over: what was asked for, or the usual; or what holds the wheels."""
     from ..study.variation.ways import ways_of
 
     known = ways_of(of)
-    if over is None:
-        return known[0]
-    return among([over], known, "--over")[0]
+    if held is not None:
+        among([over or known[0]], known[:1], "--over beside --held")
+        return held
+    return among([over or known[0]], known, "--over")[0]
+
+
+def asked_of(over: str) -> dict[str, Any]:
+    """Return what tells a study what curves are over, or what holds the wheels."""
+    from ..study.variation.ways import UNDER_LOADS
+
+    return {"held" if over in UNDER_LOADS else "over": over}
 
 
 def chosen(of: "Subject", wanted: list[str] | None, over: str) -> list[str]:
     """Return the characteristics that are shown, those that were asked for or the usual ones."""
-    from ..study.variation.ways import model_of, refuse_of_steering, there
+    from ..study.variation.ways import UNDER_LOADS, model_of, refuse_of_steering, there
 
     refuse_of_steering(of, wanted or ())
     known = there(model_of(of), over)
     if wanted is None:
-        return [name for name in _USUAL.get(over, _USUAL_OF_AXLES) if name in known]
+        usual = known if over in UNDER_LOADS else _USUAL.get(over, _USUAL_OF_AXLES)
+        return [name for name in usual if name in known]
     return among(wanted, known)
 
 
@@ -93,23 +110,23 @@ def with_position(usual: "NDArray[Any]", at: float, over: str = "travel") -> "ND
     import numpy as np
 
     from ..core.errors import InputError
-    from ..study.variation.ways import WAYS
+    from ..study.variation.ways import way
 
     if not np.isfinite(at):
-        problem = f"--at {at}: a finite number of {WAYS[over].unit} is needed."
+        problem = f"--at {at}: a finite number of {way(over).unit} is needed."
         raise InputError([problem], "positions")
     return np.union1d(usual, [position(over, at)])
 
 
 def position(over: str, at: float) -> float:
     """Return a position that was given in mm or deg [m] or [rad]."""
-    from ..study.variation.ways import WAYS
+    from ..study.variation.ways import way
 
-    return at / WAYS[over].factor
+    return at / way(over).factor
 
 
 def along(over: str, at: float) -> str:
     """Say where something is: 'at 20 mm of wheel travel'."""
-    from ..study.variation.ways import WAYS
+    from ..study.variation.ways import way
 
-    return f"at {at:g} {WAYS[over].unit} of {WAYS[over].words}"
+    return f"at {at:g} {way(over).unit} of {way(over).words}"

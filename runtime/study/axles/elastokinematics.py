@@ -8,14 +8,14 @@ import xarray as xr
 
 from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
-from ...core.quantities import variable
+from ...core.quantities import Display, variable
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array, RoadWheel
 from ..characteristics import wheel
 from ..characteristics.catalogue import Quantity
 from ..characteristics.datasets import DATA_SET, KNOWN, RACK, TRAVEL
-from ..loads.elastic.elastokinematics import CURVES
+from ..loads.elastic.elastokinematics import CONTACT_RATE, CURVES
 from ..loads.elastic.equilibrium import LOADS, Equilibrium, State
 from ..loads.elastic.held import HARDPOINTS, Hardpoints, at_height, on_bushes
 from . import motions
@@ -26,6 +26,16 @@ from .motions import MOTIONS, Extent
 from .on_bushes import RIGID, axle_on, levers, softs_of
 from .pair import Pair
 
+_IN_ROLL = Quantity(
+    "roll_stiffness_at_contacts",
+    "N m/rad",
+    "roll stiffness at the contacts",
+    "y' K y: levers y of the contacts, held, and rates K at the contacts of bushes, springs, stops "
+    "and bar, weights included; the roll stiffness of the characteristics has those of springs, "
+    "stops and bar by the heights of the wheel centres",
+    "positive when it resists roll",
+    display=Display("N m/deg", np.pi / 180.0),
+)
 # So many positions at a time: their matrices take 50 MB.
 _TOGETHER = 50
 _KINDS = ("kinematic", "elastokinematic")
@@ -73,9 +83,9 @@ def elastokinematics(
         Over ``data_set`` ('kinematic', 'elastokinematic') and ``wheel_travel``, ``roll_angle``,
         ``steering_wheel_angle`` or ``rack_position``: what
         `kintrafo.loads.elastokinematics` tells of a wheel, with ``_left`` and ``_right`` at the
-        end, the wheel rate with the other wheel held; ``steer`` of both for 'steer';
-        ``roll_stiffness`` [N m/rad], the derivative of the moment of the wheel loads by roll,
-        levers held; and ``bar_torque`` [N m]. ``over`` among the attributes is the motion.
+        end, the rate at the contact with the other wheel held; ``steer`` of both for 'steer';
+        ``roll_stiffness_at_contacts`` [N m/rad], y' K y with the levers y of the contacts and the
+        rates K at them; and ``bar_torque`` [N m]. ``over`` among the attributes is the motion.
 
     Raises
     ------
@@ -86,8 +96,9 @@ def elastokinematics(
 
     Notes
     -----
-    As of `deflection`, without a load. The roll stiffness is y' K y as of `roll`, with the
-    stiffness K of bushes, springs, stops and bar at the contacts, and with unsprung weights.
+    As of `deflection`, without a load. ``roll_stiffness`` of `roll` is y' K y, too, with the
+    stiffness K of springs, stops and bar by the heights of the wheel centres; here that is by the
+    heights of the contacts, of bushes besides, and with unsprung weights.
 
     Examples
     --------
@@ -95,7 +106,7 @@ def elastokinematics(
     >>> bushes = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
     >>> axle = Axle.load("reference_axle")
     >>> found = elastokinematics(axle, bushes, "roll", np.deg2rad([0.0, 2.0]))
-    >>> (found["roll_stiffness"].values * np.pi / 180.0).round(1).tolist()  # N m/deg
+    >>> (found["roll_stiffness_at_contacts"].values * np.pi / 180.0).round(1).tolist()  # N m/deg
     [[851.2, 856.2], [850.8, 856.0]]
     """
     with Arguments("elastokinematics") as given:
@@ -233,10 +244,7 @@ def _forces(
         data[f"wheel_load_{side}"] = variable(dims, loads, f"wheel load, {side}", "N")
     for which, side in enumerate(SIDES):
         own = np.stack([rate[:, which] for rate in rates])
-        words = f"wheel rate at the contact, {side}"
-        data[f"wheel_rate_{side}"] = variable(dims, own, words, "N/m")
-    words = "roll stiffness at the contacts, positive when it resists roll"
-    roll = variable(dims, np.stack(stiffness), words, "N m/rad")
-    shown = {"display_units": "N m/deg", "display_factor": np.pi / 180.0}
-    data["roll_stiffness"] = xr.Variable(dims, roll.values, roll.attrs | shown)
+        named = of_side(CONTACT_RATE, side)
+        data[named.name] = xr.Variable(dims, own, named.attributes())
+    data[_IN_ROLL.name] = xr.Variable(dims, np.stack(stiffness), _IN_ROLL.attributes())
     return data

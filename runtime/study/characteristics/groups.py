@@ -34,6 +34,7 @@ _PREFIXES = {
         "damper",
         "strut",
         "wheel_rate",
+        "contact_rate",
         "ride_",
         "tyre",
         "wheel_force",

@@ -12,7 +12,7 @@ from .mounts import ALL, CHASSIS, with_totals
 # What stands in tables of deflections, and what the other curve is called there.
 _IN_TABLES = (
     "toe", "toe_change", "camber", "camber_change", "displacement", "patch_displacement",
-    "wheel_rate", "roll_stiffness", "bar_torque", "axle_steer", "axle_lateral",
+    "contact_rate", "roll_stiffness_at_contacts", "bar_torque", "axle_steer", "axle_lateral",
     "axle_steer_change", "axle_lateral_change", "axle_longitudinal_change",
 )  # fmt: skip
 _WORDS = {"patch_displacement": "contact patch"}

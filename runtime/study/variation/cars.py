@@ -11,9 +11,10 @@ from ...core.arguments import Arguments, shown
 from ...core.named_types import ArrayLike
 from ...core.quantities import variable
 from ...core.suggestions import suggestion
+from ..loads.flexibility import Held
 from .batch import curves_of_many
-from .curves import Curves, curves_of
-from .places import Place, places_of, refuse_bushes
+from .curves import Curves, curves_of, refuse_bushes
+from .places import Place, places_of
 from .ways import Subject, check_subject
 
 Array = NDArray[np.float64]
@@ -40,6 +41,7 @@ def cars(
     over: str | None = None,
     positions: ArrayLike | None = None,
     names: Sequence[str] | None = None,
+    held: Held | None = None,
     reductions: Sequence[str] | None = None,
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
@@ -63,6 +65,9 @@ def cars(
         usual range of `suspension`.
     names : sequence of str, optional
         Characteristics; by default all.
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
+        Instead of characteristics, compliance by the names of `kintrafo.loads.compliance`, over
+        wheel travel, the wheels held like that, see there; bushes of the file may vary, too.
     reductions : sequence of str, optional
         Keep 'min', 'max', 'mean' or 'range' of the curves instead of them, over the positions.
     threads : int, optional
@@ -103,8 +108,8 @@ def cars(
             threads = given.whole("threads", threads, most=1024)
         kept = tuple(given.names("reductions", reductions, _REDUCTIONS)) if reductions else ()
         if not given.refused:
-            curves = curves_of(given, suspension, over, positions, names)
-            columns, frame = _columns(given, suspension, values)
+            curves = curves_of(given, suspension, over, positions, names, held)
+            columns, frame = _columns(given, suspension, values, curves.over)
         if not given.refused:
             numbers = frame.size * len(curves.names) * (len(kept) or curves.positions.size)
             if numbers > _MOST_NUMBERS:
@@ -149,7 +154,7 @@ class _Collected:
 
 
 def _columns(
-    given: Arguments, suspension: Subject, values: Any
+    given: Arguments, suspension: Subject, values: Any, over: str
 ) -> tuple[dict[str, Array], xr.DataArray]:
     """Return the values of each car by place, in the unit of the file, and their dimensions."""
     if not isinstance(values, xr.Dataset):
@@ -164,7 +169,7 @@ def _columns(
     places = _places(given, suspension, rows)
     if given.refused:
         return {}, xr.DataArray(0.0)
-    refuse_bushes(given, places.values())
+    refuse_bushes(given, places.values(), [over])
     try:
         whole = xr.broadcast(*(row.drop_vars(row.coords) for row in rows.values()))
     except ValueError:

@@ -1,6 +1,6 @@
 """The characteristics that are looked at, of a suspension whose values change."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
@@ -11,6 +11,8 @@ from ...core.arguments import Arguments
 from ...suspension.kinds import Suspension
 from ...suspension.rigid import RigidAxle
 from ..characteristics.catalogue import Quantity
+from ..loads.flexibility import HELD
+from .places import Place
 from .ways import (
     Looked,
     Subject,
@@ -103,10 +105,16 @@ def curves_of(
     over: Any,
     positions: Any,
     names: Sequence[str] | None,
+    held: Any = None,
 ) -> Curves:
-    """Check what is to be looked at; by default all characteristics over the usual positions."""
+    """Check what is to be looked at; by default all characteristics over the usual positions.
+
+    With what holds the wheels under loads these are compliances.
+    """
     ways = ways_of(suspension)
     over = ways[0] if over is None else given.among("over", over, ways)
+    if held is not None:
+        over = _held(given, suspension, over, held)
     if positions is not None:
         unit = "m" if given.refused else way(over).along.units
         positions = given.array("positions", positions, unit, dimensions=[1])
@@ -124,3 +132,24 @@ def curves_of(
             f"names is empty: one characteristic or more is needed, of {', '.join(known)}."
         )
     return Curves(over, positions, tuple(dict.fromkeys(chosen)))
+
+
+def _held(given: Arguments, suspension: Subject, over: Any, held: Any) -> Any:
+    """Check what holds the wheels under loads, and return it."""
+    usual = ways_of(suspension)[0]
+    if over != usual:
+        given.refuse(f"held: compliance is over {way(usual).words}. Leave over = {over!r} out.")
+    if not suspension.bushings:
+        given.refuse("held: compliance is that of a file with [bushings]. Add what gives way.")
+    return given.among("held", held, HELD)
+
+
+def refuse_bushes(given: Arguments, places: Iterable[Place], overs: Iterable[str]) -> None:
+    """Refuse bushes where nothing that is looked at is under loads, so that joints are rigid."""
+    soft = [place.name for place in places if place.name.startswith("bushings.")]
+    if soft and not any(over in HELD for over in overs):
+        given.refuse(
+            f"{', '.join(soft[:3])}{' ...' if soft[3:] else ''}: nothing that is looked at depends "
+            "on bushes, joints are rigid. Leave them out, or look at compliance: by what holds the "
+            "wheels (held), or by limits and targets under loads."
+        )

@@ -11,13 +11,13 @@ from scipy.stats import qmc
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
-from ..loads.flexibility import HELD
 from .candidates import Candidates
+from .curves import refuse_bushes
 from .front import compromise, spread, unbeaten
 from .goals import Limit, check_data, limits_of
 from .nsga import check_installed, evolve
 from .objectives import Objective, objectives_of
-from .places import Place, amounts, refuse_bushes
+from .places import Place, amounts
 from .search import in_words
 from .ways import Subject, check_subject, ways_of
 
@@ -208,8 +208,7 @@ def pareto(
             check_data(given, suspension, goals)
             by_pattern = given.mapping("free", free, "places and numbers")
             reach = amounts(given, suspension, by_pattern, "range")
-            if not any(goal.over in HELD for goal in goals):
-                refuse_bushes(given, reach)
+            refuse_bushes(given, reach, [goal.over for goal in goals])
             if not reach:
                 given.refuse("free: one value or more is needed.")
     check_installed()

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import Any
@@ -115,17 +115,6 @@ def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, 
             )
         wanted |= found
     return {name: place for name, place in known.items() if name in wanted}
-
-
-def refuse_bushes(given: Arguments, places: Iterable[Place]) -> None:
-    """Refuse bushes where joints are rigid, so that nothing would depend on them."""
-    soft = [place.name for place in places if place.name.startswith("bushings.")]
-    if soft:
-        given.refuse(
-            f"{', '.join(soft[:3])}{' ...' if soft[3:] else ''}: nothing here depends on bushes, "
-            "joints are rigid. Leave them out; `kintrafo fit` takes them with curves under loads, "
-            "`optimise` and `pareto` with goals under loads."
-        )
 
 
 def amounts(

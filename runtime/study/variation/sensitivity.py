@@ -11,10 +11,11 @@ from ...core.arguments import Arguments
 from ...core.errors import InputError, KintrafoError
 from ...core.named_types import ArrayLike
 from ...core.quantities import Display, display_of
+from ..loads.flexibility import HELD, Held
 from .batch import curves_of_many, moved_by
-from .curves import Curves, changed, curves_of
-from .places import Place, matching, refuse_bushes
-from .ways import WAYS, Subject, check_subject, model_of
+from .curves import Curves, changed, curves_of, refuse_bushes
+from .places import Place, matching
+from .ways import UNDER_LOADS, WAYS, Subject, check_subject, model_of
 
 Array = NDArray[np.float64]
 
@@ -56,6 +57,7 @@ def sensitivity(
     over: str | None = None,
     positions: ArrayLike | None = None,
     names: Sequence[str] | None = None,
+    held: Held | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Return by how much values of the input file move the characteristics.
@@ -73,6 +75,9 @@ def sensitivity(
         Wheel travel, or displacement of the rack [m], or roll [rad]; by default the usual range.
     names : sequence of str, optional
         Characteristics; by default all.
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
+        Instead of characteristics, compliance by the names of `kintrafo.loads.compliance`, over
+        wheel travel, the wheels held like that, see there; bushes of the file may vary, too.
     progress : callable, optional
         Called with the part that is done, up to 1.
 
@@ -109,10 +114,12 @@ def sensitivity(
         check_subject(given, suspension)
         given.function("progress", progress)
         if not given.refused:
-            curves = curves_of(given, suspension, over, positions, names)
+            curves = curves_of(given, suspension, over, positions, names, held)
             wanted = [*matching(given, suspension, places).values()]
-            refuse_bushes(given, [place for place in wanted if _is_asked_for(place, places)])
-    chosen = [place for place in wanted if not place.name.startswith("bushings.")]
+            asked = [place for place in wanted if _is_asked_for(place, places)]
+            refuse_bushes(given, asked, [curves.over])
+    soft = curves.over in HELD
+    chosen = [place for place in wanted if soft or not place.name.startswith("bushings.")]
     left_out = dict.fromkeys([p.name for p in wanted if p not in chosen], _RIGID)
     refused: list[InputError] = []
 
@@ -365,7 +372,8 @@ def _effects(dataset: xr.Dataset, name: str, at: float) -> Iterator[Effect]:
     data = dataset[name]
     along = next(str(d) for d in data.dims if d != PLACE)
     column = data.sel({along: at}, method="nearest").values
-    quantity = next(way.known[name] for way in WAYS.values() if name in way.known)
+    ways = (WAYS | UNDER_LOADS).values()
+    quantity = next(way.known[name] for way in ways if name in way.known)
     shown = display_of(quantity.attributes())
     units = dataset["place_display_unit"].values.tolist()
     sizes = column * shown.factor / dataset["place_display_factor"].values

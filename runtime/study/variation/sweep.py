@@ -17,8 +17,8 @@ from ..ensembles import ensemble
 from ..ensembles.variants import without_mass
 from ..rigid.ride import started
 from ..scenario import Scenario
-from .curves import changed
-from .places import Place, matching, refuse_bushes
+from .curves import changed, refuse_bushes
+from .places import Place, matching
 from .ways import Subject, check_subject, model_of
 
 Array = NDArray[np.float64]
@@ -114,7 +114,7 @@ def _axes(given: Arguments, suspension: Subject, grid: Mapping[Any, Any]) -> dic
     axes: dict[Place, Array] = {}
     for name, along in grid.items():
         places = matching(given, suspension, [name] if isinstance(name, str) else name)
-        refuse_bushes(given, places.values())
+        refuse_bushes(given, places.values(), ())
         if len(places) > 1:
             given.refuse(f"{name} stands for {len(places)} numbers: name one of them.")
             continue

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
 from ...core.quantities import variable
+from ..loads.flexibility import Held
 from .batch import curves_of_many, moved_by
-from .curves import Curves, curves_of
+from .curves import Curves, curves_of, refuse_bushes
 from .goals import Limit, check_data, limits_of
-from .places import Place, amounts, refuse_bushes
+from .places import Place, amounts
 from .sensitivity import PLACE, ROUNDING, slopes
 from .ways import Subject, check_subject, model_of, ways_of
 
@@ -45,6 +46,7 @@ def tolerance(
     over: str | None = None,
     positions: ArrayLike | None = None,
     names: Sequence[str] | None = None,
+    held: Held | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Return what becomes of the characteristics of many cars whose values differ by chance.
@@ -76,6 +78,9 @@ def tolerance(
         Wheel travel, or displacement of the rack [m], or roll [rad]; by default the usual range.
     names : sequence of str, optional
         Characteristics; by default all.
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
+        Instead of characteristics, compliance by the names of `kintrafo.loads.compliance`, over
+        wheel travel, the wheels held like that, see there; bushes of the file may vary, too.
     progress : callable, optional
         Called with the part that is done, up to 1.
 
@@ -115,11 +120,11 @@ def tolerance(
         described = given.mapping("limits", {} if limits is None else limits, "names and limits")
         bounds = limits_of(given, described, ways_of(suspension))
         if not given.refused:
-            curves = curves_of(given, suspension, over, positions, names)
+            curves = curves_of(given, suspension, over, positions, names, held)
             check_data(given, suspension, bounds)
             by_pattern = given.mapping("tolerances", tolerances, "places and numbers")
             spread = amounts(given, suspension, by_pattern, "tolerance")
-            refuse_bushes(given, spread)
+            refuse_bushes(given, spread, [curves.over, *(limit.over for limit in bounds)])
             if not spread:
                 given.refuse("tolerances: one or more are needed.")
             root = _root_of(given, correlation, len(spread), distribution)

@@ -164,6 +164,18 @@ class Connections:
         """Return all that is measured somewhere."""
         return Measured.together([group.at(places) for group in self._groups])
 
+    def given_way(self, places: Places) -> dict[str, Array]:
+        """Return how far bushes are displaced from their hardpoints, the most in any direction [m].
+
+        By their hardpoints; of both sides of an axle the farther.
+        """
+        value, found = self.at(places).value, dict[str, Array]()
+        for which, law in enumerate(self.laws):
+            if isinstance(law, Straight | Bent) and law.bush:
+                far = np.abs(value[:, which] - law.start)
+                found[law.bush] = np.maximum(far, found.get(law.bush, far))
+        return found
+
     def strokes(self, places: Places) -> list[dict[str, Array]]:
         """Return what the stops of each side count by somewhere, by their signals [m]."""
         value = self.at(places).value
@@ -256,7 +268,11 @@ class _Side:
             before = np.broadcast_to(far * carried, (len(rows), _ACROSS))
             arms = (self._arm(part, bush.point) for part in (joint.first, joint.second))
             parts = self._indices(joint.first, joint.second)
-            yield parts, (rows[:, 1], rows[:, 2], *arms, before), Bent(curve)
+            yield (
+                parts,
+                (rows[:, 1], rows[:, 2], *arms, before),
+                Bent(curve, bush=bush.point, start=far * size),
+            )
 
     def angles(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
         poses = self.poses
@@ -337,12 +353,13 @@ class _Side:
         """Return the force of a bush along each of its axes; none where it is rigid."""
         key = joint.first, joint.second, bush.point
         carried = -bush.axes @ self._soft.carried.get(key, np.zeros(6))[:3]
+        name = RACK if joint is _RACK_IN_ITS_GUIDE else bush.point
         found: list[Law | None] = []
         for soft, curve, force in zip(bush.soft, bush.curves, carried.tolist(), strict=True):
             if curve is not None:
-                found.append(Bent(curve, curve.displacement(force)))
+                found.append(Bent(curve, curve.displacement(force), name))
             else:
-                found.append(Straight(1.0 / soft, force) if soft else None)
+                found.append(Straight(1.0 / soft, force, name) if soft else None)
         return found
 
     # -- bodies -----------------------------------------------------------------------------------

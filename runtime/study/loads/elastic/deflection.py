@@ -50,6 +50,8 @@ _MEANINGS = {
 }
 BY_NAME = {load.name: load for load in RIG_LOADS}
 _GREATEST = 1e6
+# A tyre slides before it gives way so far [m].
+_FARTHEST_TYRE = 0.2
 # A part of a load that is a step too small to go on with.
 _LEAST_STEP = 1e-3
 
@@ -100,7 +102,8 @@ def deflection(
         If an argument cannot be used.
     PositionError
         If the travel is out of reach, or there is no equilibrium, or one only with damper or strut
-        beyond a length that the file allows.
+        beyond a length that the file allows, or with a bush that gives way by more than 100 mm, or
+        a tyre by more than 200 mm.
 
     Notes
     -----
@@ -169,6 +172,7 @@ def under_amounts(
     suspension: Equilibrium, base: State, unit: Array, held: Held, load: RigLoad, wanted: Array
 ) -> list[State]:
     """Return the equilibria under some amounts of a load, each found from a smaller one."""
+    _refuse_on_tyres(suspension, load, wanted)
     found: dict[float, State] = {}
     for sense in (1.0, -1.0):
         state, at = base, 0.0
@@ -209,11 +213,30 @@ def _towards(
     return state
 
 
+def _refuse_on_tyres(suspension: Equilibrium, load: RigLoad, wanted: Array) -> None:
+    """Refuse loads under which a standing tyre would give way farther than one can."""
+    soft = max(float(give_of_tyre(load, wheel) or 0.0) for wheel in suspension.wheels)
+    worst = float(wanted[np.abs(wanted).argmax()]) if wanted.size else 0.0
+    if abs(worst) * soft > _FARTHEST_TYRE:
+        problem = (
+            f"under {load.words} of {worst:.4g} {load.unit} the standing tyre gives way by "
+            f"{1e3 * abs(worst) * soft:.4g} mm, and none does by more than "
+            f"{1e3 * _FARTHEST_TYRE:g} mm: it slides before. Leave greater loads out, or correct its rates in [tyre]."
+        )
+        raise PositionError(problem)
+
+
 def _refuse_beyond(
     suspension: Equilibrium, states: list[State], load: RigLoad, wanted: Array
 ) -> None:
-    """Refuse loads that bring damper or strut beyond a length that the file allows."""
+    """Refuse loads that bring a bush, or damper and strut, farther than it goes."""
     for which in np.argsort(np.abs(wanted), kind="stable"):
+        if strained := suspension.overstretched(states[which]):
+            problem = (
+                f"under {load.words} of {wanted[which]:.4g} {load.unit} {strained}. Leave greater "
+                "loads out, or make it stiffer."
+            )
+            raise PositionError(problem)
         if words := suspension.beyond(states[which]):
             problem = (
                 f"under {load.words} of {wanted[which]:.4g} {load.unit} {words[0]}. Leave greater "

@@ -12,6 +12,7 @@ from ....core.named_types import ArrayLike
 from ....core.quantities import variable
 from ....suspension.model import Model
 from ...characteristics import wheel
+from ...characteristics.catalogue import Quantity
 from ...characteristics.datasets import DATA_SET, KNOWN, RACK, TRAVEL
 from ...sweep import usual_travel
 from .connections import Soft
@@ -22,6 +23,15 @@ Array = NDArray[np.float64]
 
 # So many positions at a time: their matrices take 50 MB.
 _TOGETHER = 200
+CONTACT_RATE = Quantity(
+    "contact_rate",
+    "N/m",
+    "rate at the contact",
+    "derivative of the vertical force of the road by the height of the contact, other wheels held: "
+    "of springs, stops, bar and bushes, weights included; the wheel rate of the characteristics is "
+    "that of spring and stops by the height of the wheel centre",
+    "positive when the force grows with the height",
+)
 CURVES = {
     "toe": wheel.toe,
     "camber": wheel.camber,
@@ -60,7 +70,8 @@ def elastokinematics(
     xarray.Dataset
         Over ``data_set`` ('kinematic', 'elastokinematic') and ``wheel_travel``: toe and camber
         [rad], half-track and wheelbase change [m], ``wheel_load``, the vertical force of the road
-        [N], and ``wheel_rate``, its derivative by the height of the contact [N/m]. ``over``
+        [N], and ``contact_rate``, its derivative by the height of the contact [N/m]. That is not
+        the ``wheel_rate`` of the characteristics, of spring and stops by the wheel centre. ``over``
         among the attributes is what `kintrafo.variation.goals` calls these curves' way: 'travel'.
 
     Raises
@@ -126,7 +137,7 @@ def _over_travel(suspension: Equilibrium, base: State, travels: Array) -> xr.Dat
         [one.rate(state, nothing)[:, 0, 0] for one, state in zip(suspensions, both, strict=True)]
     )
     data["wheel_load"] = variable(dims, loads, "wheel load", "N")
-    data["wheel_rate"] = variable(dims, rates, "wheel rate at the contact", "N/m")
+    data[CONTACT_RATE.name] = xr.Variable(dims, rates, CONTACT_RATE.attributes())
     coordinates = {
         DATA_SET: ["kinematic", "elastokinematic"],
         TRAVEL.name: xr.Variable(TRAVEL.name, travels, TRAVEL.attributes()),

@@ -119,4 +119,7 @@ def at_height(suspension: Equilibrium, along: Array, over: Quantity = TRAVEL) ->
             "hold the linkage there. Make them stiffer, or leave that out."
         )
         raise PositionError(problem)
+    if words := suspension.overstretched(base):
+        problem = f"without another load {words}. Make it stiffer, or correct loads and springs."
+        raise PositionError(problem)
     return base

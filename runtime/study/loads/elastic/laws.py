@@ -29,10 +29,16 @@ class Straight:
         [N/m]; of an angle [N m/rad].
     carried : float
         What it carries where the displacement is zero [N], [N m].
+    bush : str
+        The hardpoint of the bush that is displaced; empty for a spring, or an angle.
+    start : float
+        The displacement where its parts are at the hardpoint [m].
     """
 
     rate: float
     carried: float = 0.0
+    bush: str = ""
+    start: float = 0.0
 
     def __call__(self, displacement: Array) -> tuple[Array, Array]:
         """Return force and rate."""
@@ -49,10 +55,16 @@ class Bent:
     curve : Curve
     before : float
         The displacement that the bush has where this one is zero [m].
+    bush : str
+        Its hardpoint.
+    start : float
+        The displacement where its parts are there [m].
     """
 
     curve: Curve
     before: float = 0.0
+    bush: str = ""
+    start: float = 0.0
 
     def __call__(self, displacement: Array) -> tuple[Array, Array]:
         """Return force and rate."""
