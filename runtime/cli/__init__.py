@@ -37,6 +37,7 @@ from . import (
     topology,
 )
 from .exits import guarded, standing_streams
+from .numbers import explained
 
 __all__ = ["app", "run"]
 
@@ -72,6 +73,14 @@ class _Command(TyperCommand):
             if told:
                 parameter.help = escape(told)  # type: ignore[attr-defined]
 
+    def parse_args(self, *given: Any) -> Any:
+        """Say what is wrong with an argument without the words of what checks it."""
+        try:
+            return super().parse_args(*given)
+        except typer.BadParameter as error:
+            error.message = error.message.removeprefix("Value error, ")
+            raise
+
 
 # In the order in which an engineer needs them.
 _PANELS = {
@@ -106,7 +115,7 @@ for panel, modules in _PANELS.items():
         made = app.command(
             name, cls=_Command, help=words, epilog=escape(examples), rich_help_panel=panel
         )
-        made(module.command)
+        made(explained(module.command))
 
 
 def _show_version(*, wanted: bool) -> None:

@@ -64,7 +64,10 @@ def _values(given: list[str]) -> dict[str, float]:
         try:
             found[name] = float(value)
         except ValueError:
-            problem = f"{text!r}: NAME=VALUE is needed, such as crank_angle_rate=6."
+            problem = (
+                f"{text!r}: NAME=VALUE is needed, such as crank_angle_rate=6: a number in SI "
+                "units, without the unit."
+            )
             raise InputError([problem], "--start") from None
     return found
 

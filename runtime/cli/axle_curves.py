@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from . import goals as wanted
 from .console import console, curve_table, print_json, print_table
-from .outputs import Outputs, name_files, named, of_both, title_of
+from .outputs import Outputs, name_files, named, of_both, only, title_of
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -63,11 +63,14 @@ def tell(
         return
     for motion, dataset in curves.items():
         if motion == "bump":
-            for table in at_design(dataset, f"{file}: "):
-                print_table(table)
+            for table in at_design(only(of, dataset), f"{file}: "):
+                if table.rows:
+                    print_table(table)
             continue
-        told = [name for name in shown[motion] if name in dataset]
-        console.print(curve_table(dataset, told, f"{file}: {words[motion]}"))
+        told = [str(name) for name in (only(of, dataset) if of else shown[motion])]
+        told = [name for name in told if name in dataset]
+        if told:
+            console.print(curve_table(dataset, told, f"{file}: {words[motion]}"))
     if judged:
         console.print(wanted.table(judged, f"{file}: targets and limits of {goals}"))
     name_files(written)

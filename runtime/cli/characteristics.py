@@ -12,7 +12,7 @@ from . import axles, rigid
 from . import goals as wanted
 from .console import console, print_json
 from .options import Bump, File, Force, Json, Of, RackExtent, Rebound, Step, among, load, metres
-from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, named, title_of
+from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, named, only, title_of
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -134,8 +134,9 @@ def command(
         found = {f"over_{over}": export.as_dict(curves[over]) for over in curves}
         print_json(found | ({"goals": judged} if aims else {}))
         return
-    for over, dataset in curves.items():
-        console.print(_at_design(dataset, f"{file}: characteristics over {over}, at design"))
+    told = {over: only(of, dataset) for over, dataset in curves.items()}
+    for over in filter(told.get, told):
+        console.print(_at_design(told[over], f"{file}: characteristics over {over}, at design"))
     if aims:
         console.print(wanted.table(judged, f"{file}: targets and limits of {goals}"))
     name_files(written)
@@ -143,7 +144,7 @@ def command(
 
 def _at_design(dataset: "Dataset", title: str) -> Table:
     """Return the table of all variables at zero of the dataset's dimension."""
-    from ..core.quantities import display_of, displayed, long_name
+    from ..core.quantities import displayed, long_name, unit_or_stroke
 
     (along,) = dataset.sizes
     index = int(abs(dataset[along].values).argmin())
@@ -153,7 +154,7 @@ def _at_design(dataset: "Dataset", title: str) -> Table:
     table.add_column("unit")
     table.add_column("sign")
     for data in dataset.values():
-        unit = display_of(data.attrs).units.replace("1", "-")
+        unit = unit_or_stroke(data.attrs)
         value = significant(float(displayed(data)[index]))
         table.add_row(long_name(data), value, unit, str(data.attrs.get("sign", "")))
     return table

@@ -10,7 +10,7 @@ from . import goals as wanted
 from .axles import refuse_options
 from .console import console, note, print_json, print_table, say
 from .options import Bump, File, Force, Json, Of, Rebound, metres
-from .outputs import Out, Outputs, Plot, name_files, named, of_both, title_of
+from .outputs import Out, Outputs, Plot, name_files, named, of_both, only, title_of
 from .subject import described_by
 from .variation_options import At, with_position
 
@@ -111,9 +111,11 @@ def command(
         print_json(export.as_dict(found) | ({"goals": judged} if aims else {}))
         return
     title = f"{file}: compliance, at {at:g} mm of wheel travel"
-    print_table(compliances(curves, title, at / 1e3))
-    for table in compliances_of_axle(curves, f"{title}, the axle", at / 1e3):
-        print_table(table)
+    told = only(of, curves)
+    of_wheels = compliances(told, title, at / 1e3)
+    for table in (of_wheels, *compliances_of_axle(told, f"{title}, the axle", at / 1e3)):
+        if table.rows:
+            print_table(table)
     if aims:
         console.print(wanted.table(judged, f"{file}: targets and limits of {goals}"))
     without = found.attrs["left_out"]

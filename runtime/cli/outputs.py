@@ -221,6 +221,15 @@ def of_both(of: list[str] | None) -> list[str]:
     return [name.removesuffix("_left").removesuffix("_right") for name in of or ()]
 
 
+def only(of: list[str] | None, dataset: "Dataset") -> "Dataset":
+    """Return what of a dataset is shown: the curves that are named, of both wheels; else all."""
+    if not of:
+        return dataset
+    stems = {*of, *of_both(of)}
+    names = map(str, dataset.data_vars)
+    return dataset[[n for n in names if not stems.isdisjoint((n, *of_both([n])))]]
+
+
 def title_of(file: str) -> str:
     """Return what a figure calls a file: its name, without folder and ending."""
     return Path(file).stem if Path(file).suffix else file

@@ -149,7 +149,7 @@ def _numbers(text: str) -> tuple[str, list[float]]:
         pass
     raise typer.BadParameter(
         f"{text!r}: write PLACE=FROM:TO:COUNT with 2 to {_MOST_VALUES} values, or "
-        "PLACE=VALUE,VALUE,..."
+        "PLACE=VALUE,VALUE,...: numbers in the unit of the file, written without it"
     )
 
 

@@ -85,6 +85,18 @@ def display_of(attrs: Mapping[str, Any]) -> Display:
     return Display(str(given[0]), float(given[1]))
 
 
+def unit_or_stroke(attrs: Mapping[str, Any]) -> str:
+    """Return the unit in which a person reads a variable, for a table; a stroke where it has none.
+
+    Examples
+    --------
+    >>> unit_or_stroke({"units": "1"}), unit_or_stroke({"units": "1/s"})
+    ('-', '1/s')
+    """
+    units = display_of(attrs).units
+    return "-" if units in ("", "1") else units
+
+
 def displayed(data: xr.DataArray) -> Array:
     """Return the values of a variable in the unit for people."""
     values: Array = np.asarray(data.values, dtype=np.float64) * display_of(data.attrs).factor

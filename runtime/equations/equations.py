@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..core.physical import inertia_of_no_body, out_of_range
 from .directions import ADJOINTS, TANGENTS, Behind, Directions
-from .errors import HEAVIER, WEIGHTLESS, ClosureError, ModelError, ParameterError, place_of
+from .errors import HEAVIER, WEIGHTLESS, ClosureError, ModelError, ParameterError, located, place_of
 from .residuals import Residuals
 from .status import LAST_GUARD_BIT, NOT_FINITE, bit_of, mask_of
 
@@ -375,6 +375,7 @@ class Equations:
         where = f"{self.name}.{function}"
         names = (*self.state_names, *self.input_names)
         coordinates = dict(zip(names, map(float, (*state, *inputs)), strict=True))
+        described = {**self.manifest["state"], **self.manifest["inputs"]}
         bad = [n for n, v in coordinates.items() if not np.isfinite(v)]
         bad += [
             n for n, v in zip(self.constant_names, constants, strict=True) if not np.isfinite(v)
@@ -392,7 +393,7 @@ class Equations:
         if not hit and not status & NOT_FINITE:
             return
         if not hit:
-            shown = ", ".join(f"{name} = {value:.6g}" for name, value in coordinates.items())
+            shown = located(coordinates, described)
             message = f"{where}: the result overflows double precision, at {shown}{place_of(index)}"
             raise ModelError(message)
         raise ClosureError(
@@ -402,6 +403,7 @@ class Equations:
             coordinates,
             index,
             {guard["name"]: guard["unit"] for guard in self.guards},
+            described,
         )
 
 

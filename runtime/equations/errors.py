@@ -1,11 +1,21 @@
 """The errors of compiled equations."""
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..core.errors import KintrafoError
 
-__all__ = ["HEAVIER", "WEIGHTLESS", "ClosureError", "ModelError", "ParameterError", "place_of"]
+__all__ = [
+    "HEAVIER",
+    "WEIGHTLESS",
+    "ClosureError",
+    "ModelError",
+    "ParameterError",
+    "located",
+    "named",
+    "place_of",
+]
 
 WEIGHTLESS = (
     "{!r} can change, alone or with other coordinates, without any mass or inertia being moved, so "
@@ -51,6 +61,7 @@ class ClosureError(ModelError):
         coordinates: Mapping[str, float],
         index: tuple[int, ...],
         units: Mapping[str, str],
+        described: Mapping[str, Mapping[str, Any]] | None = None,
     ) -> None:
         self.reasons = tuple(reasons)
         self.margins = dict(margins)
@@ -63,17 +74,46 @@ class ClosureError(ModelError):
             self.coordinates,
             index,
             dict(units),
+            described,
         )
-        shown = ", ".join(f"{name} = {value:.6g}" for name, value in self.coordinates.items())
         wrong = "; ".join(
             f"{reason} ({name} = {_with_unit(value, units.get(name, '1'))}, "
             f"must {'stay' if value > 0.0 else 'be'} positive)"  # it does at the end of a motion
             for reason, (name, value) in zip(self.reasons, self.margins.items(), strict=True)
         )
+        shown = located(self.coordinates, described or {})
         super().__init__(f"{function}: {wrong}, at {shown}{place_of(index)}")
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
+
+
+def located(values: Mapping[str, float], described: Mapping[str, Mapping[str, Any]]) -> str:
+    """Return where something is: names with values, and units as far as they are known.
+
+    A name that is a symbol has its meaning, too.
+
+    Examples
+    --------
+    >>> located({"beta1": 1.5}, {"beta1": {"unit": "rad", "meaning": "arm angle (Eq. 6)"}})
+    'beta1 = 1.5 rad (arm angle)'
+    """
+    return ", ".join(f"{n} = {v:.6g}{_said(n, described.get(n, {}))}" for n, v in values.items())
+
+
+def named(name: str, described: Mapping[str, Mapping[str, Any]]) -> str:
+    """Return a name; one that is a symbol has its meaning: ``beta1 (arm angle)``."""
+    meaning = re.split(r"[;,(]| from | of | relative ", described.get(name, {}).get("meaning", ""))[
+        0
+    ]
+    symbol = re.fullmatch(r"(?:\w+_)?[a-z]+\d+", name)
+    return f"{name} ({meaning.strip()})" if symbol and meaning.strip() else name
+
+
+def _said(name: str, entry: Mapping[str, Any]) -> str:
+    """Return the unit of a value, and what its name means where that is a symbol."""
+    unit = entry.get("unit", "1")
+    return ("" if unit == "1" else f" {unit}") + named(name, {name: entry}).removeprefix(name)
 
 
 def place_of(index: tuple[int, ...]) -> str:

@@ -1,6 +1,5 @@
 """What the page's script reads: samples on the grid, and how to show them."""
 
-import json
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -8,6 +7,7 @@ from numpy.typing import NDArray
 
 from ..suspension.kinds import Suspension
 from .curves import Curve
+from .embedded import embedded
 from .encode import packed
 from .grid import Axis, Grid
 from .marks import Marks
@@ -93,8 +93,7 @@ def page_data(
         "motion": _motion(motion) if isinstance(motion, Motion) else None,
         **_drawing(suspension, grid, sampled),
     }
-    # "</" inside of a string would end the element that holds the data
-    return json.dumps(data, ensure_ascii=False, allow_nan=False).replace("</", "<\\/")
+    return embedded(data)
 
 
 def _stored_under(drawn: list[Curve]) -> dict[str, str]:

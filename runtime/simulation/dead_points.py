@@ -49,7 +49,8 @@ def refuse(model: System, guard: int, state: Array, inputs: Array) -> NoReturn:
     values |= zip(model.input_names, map(float, inputs), strict=True)
     where = f"{model.equations.NAME}.rhs"
     units = model.equations.GUARD_UNITS
-    raise ClosureError(where, [meaning], {name: margin}, values, (), units)
+    described = {**model.equations.STATE, **model.equations.INPUTS}
+    raise ClosureError(where, [meaning], {name: margin}, values, (), units, described)
 
 
 class DeadPoint(Exception):  # noqa: N818 (it ends an integration, and is told as another error)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.optimize.elementwise import find_root
 
 from ..core.errors import InputError
+from ..equations.errors import named
 from ..systems.system import System
 from .result import Simulation
 from .retraced import Steps
@@ -131,8 +132,9 @@ def _refuse_jumps(system: System, steps: Steps, step: Indices, root: Array) -> N
         return
     place, element = np.argwhere(jumps)[0]
     time = float(steps.time(step[place], root[place]))
+    name = named(system.state_names[element], system.equations.STATE)
     words = (
-        f"at t = {time:.6g} s the rate of {system.state_names[element]} jumps, as where a tyre "
+        f"at t = {time:.6g} s the rate of {name} jumps, as where a tyre "
         "with damping meets the road. That moment moves with the parameters, and there is no "
         "gradient over it. End the motion before, or leave the damping out."
     )

@@ -165,8 +165,8 @@ def _write_excel(sheets: Mapping[str, xr.Dataset], path: Path) -> None:
 
 def _harmless(text: str) -> str:
     """Return a text that no spreadsheet takes for a formula: such a one gets an apostrophe."""
-    if not text.startswith(_FORMULAS):
-        return text
+    if not text.startswith(_FORMULAS) or not re.search(r"[\w(]", text):
+        return text  # a stroke that stands for nothing is no formula
     try:
         float(text)
     except ValueError:

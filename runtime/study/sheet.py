@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from ..core.arguments import Arguments
-from ..core.quantities import attributes, display_of, displayed, long_name
+from ..core.quantities import attributes, displayed, long_name, unit_or_stroke
 from ..core.tabulated import Tabulated, significant
 from ..suspension.axle import Axle
 from ..suspension.model import Model
@@ -199,12 +199,11 @@ def _dataset(rows: Mapping[str, tuple[str, xr.DataArray]], held: Held) -> xr.Dat
     iso = np.array([displayed(data).item() for _, data in rows.values()])
     signs = [str(data.attrs.get("sign", "")) for _, data in rows.values()]
     flipped = [sign.replace(_LEFTWARD, _RIGHTWARD) for sign in signs]
-    units = [display_of(data.attrs).units for _, data in rows.values()]
     # a zero has no sign
     sae = np.where([a != b for a, b in zip(signs, flipped, strict=True)], 0.0 - iso, iso)
     texts = {
         "part": [part for part, _ in rows.values()],
-        "unit": ["-" if unit == "1" else unit for unit in units],
+        "unit": [unit_or_stroke(data.attrs) for _, data in rows.values()],
         "meaning": [long_name(data) for _, data in rows.values()],
         "definition": [str(data.attrs.get("definition", "")) for _, data in rows.values()],
         "iso_8855_sign": signs,

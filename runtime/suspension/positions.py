@@ -36,6 +36,7 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
+_ELSE = "; where an axle or a mechanism is at rest, kintrafo.rest says"
 # Newton's method needs five steps where the height is smooth; where it takes longer, every other
 # step halves the bracket, which is two degrees at first.
 _NEWTON_STEPS = 10
@@ -205,7 +206,7 @@ def equilibrium(
     0.2665
     """
     with Arguments("equilibrium") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+        given.kind("model", model, Model, f"{Model.NEEDED}{_ELSE}")
         rack_position = given.number("rack_position", rack_position, "m")
         road_height = given.number("road_height", road_height, "m")
         strut_force = given.number("strut_force", strut_force, "N")

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.named_types import ArrayLike
-from ..equations.errors import ModelError
+from ..equations.errors import ModelError, located
 from .state import State, inputs_of
 from .system import System
 
@@ -125,12 +125,14 @@ class _Search:
         return slopes[position.size :, : position.size]
 
     def _refuse(self, position: Array, left: Array) -> None:
-        names = self._system.state_names
+        described = self._system.equations.STATE
+        values = dict(zip(self._system.state_names, position.tolist(), strict=False))
         worst = int(np.abs(left).argmax())
-        where = ", ".join(f"{n} = {v:.6g}" for n, v in zip(names, position, strict=False))
+        name = self._system.state_names[worst]
+        unit = described[name]["unit"]
         words = (
-            f"no rest was found: at {where}, {names[worst]} is still accelerated by "
-            f"{left[worst]:.3g} rad/s^2 or m/s^2. Begin nearer to it, with other inputs, or see "
+            f"no rest was found: at {located(values, described)}, {name} is still accelerated by "
+            f"{left[worst]:.3g} {unit}/s^2. Begin nearer to it, with other inputs, or see "
             "whether there is one."
         )
         raise InputError([words], "rest")

@@ -1,6 +1,5 @@
 """Pages of a mechanism: self-contained HTML that draws, moves and plays it."""
 
-import json
 from collections.abc import Sequence
 from importlib import resources
 from importlib.metadata import version
@@ -19,6 +18,7 @@ from ...systems.modes import Mode
 from ...systems.rest import rest
 from ...systems.skeleton import Skeleton
 from ...systems.system import System
+from ..embedded import embedded
 from .scenes import Scene, by_hand, extent, of_motion
 
 # Of eigenvalues that are zero twice, the root of that of doubles is left, and some powers of ten.
@@ -162,7 +162,7 @@ def _data(skeleton: Skeleton, scenes: Sequence[Scene]) -> str:
             for s in scenes
         ],
     }
-    return json.dumps(data, ensure_ascii=False, allow_nan=False).replace("</", "<\\/")
+    return embedded(data)
 
 
 def _digits(size: float) -> int:

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 import xarray as xr
 
-from ...core.quantities import display_of, displayed, long_name
+from ...core.quantities import displayed, long_name, unit_or_stroke
 from ...core.tabulated import Tabulated, significant
 from ...suspension.axle.axle import LEFT, RIGHT
 
@@ -52,7 +52,7 @@ def _rows(lines: Iterable[list[xr.DataArray]]) -> tuple[tuple[str, ...], ...]:
         (
             long_name(first).removesuffix(f", {LEFT}"),
             *(_value(data) for data in (first, *others)),
-            display_of(first.attrs).units.replace("1", "-"),
+            unit_or_stroke(first.attrs),
             str(first.attrs.get("sign", "")),
         )
         for first, *others in lines

@@ -1,6 +1,6 @@
 """Loads and compliance as tables that a person reads."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import xarray as xr
@@ -21,6 +21,11 @@ _COMPLIANCES = {
     "camber": "camber [deg]",
     "displacement": "inward, rearward [mm]",
     "patch_displacement": "contact patch [mm]",
+}
+_OF_AXLES = {
+    "axle_steer": "steer [deg]",
+    "axle_lateral": "to the left [mm]",
+    "axle_longitudinal": "forward [mm]",
 }
 _BESIDE = {"elastokinematic": "on bushes", "linear": "linear"}
 
@@ -117,24 +122,36 @@ def compliances(found: xr.Dataset, title: str, at: float = 0.0) -> Tabulated:
         Wheel travel [m].
     """
     here = found.sel(wheel_travel=at, method="nearest")
-    on_axle = "toe_by_lateral" not in here
-    told = [
-        kind
-        for kind in _COMPLIANCES
-        if any(name.startswith(f"{kind}_by_") for name in map(str, here))
-    ]
+    names = [str(name) for name in here.data_vars]
+    on_axle = any(without_side(name) != name for name in names)
+    told = [kind for kind in _COMPLIANCES if _by(names, [kind])]
     rows = []
-    for name in (n for n in map(str, here) if n.startswith("toe_by_")):
-        load = name.removeprefix("toe_by_")
-        keys = [f"{kind}_by_{load}" for kind in told]
-        cells = [significant(float(displayed(here[k]))) if k in here else "-" for k in keys]
-        per = display_of(here[name].attrs).units.partition("/")[2]
+    for load in _by(names, told):
+        cells, name = _cells(here, told, load)
         words = long_name(here[name]).partition(" by ")[2].removeprefix("a ")
         by, wheel = words.rsplit(", ", 1) if on_axle else (words, "")
-        rows.append((by, *[wheel][: int(on_axle)], per, *cells))
+        rows.append((by, *[wheel][: int(on_axle)], _per(here[name]), *cells))
     first = ("by", "wheel", "per") if on_axle else ("by", "per")
     columns = (*first, *(_COMPLIANCES[kind] for kind in told))
     return Tabulated(title, columns, tuple(rows), frozenset(range(len(first))))
+
+
+def _by(names: Sequence[str], kinds: Iterable[str]) -> list[str]:
+    """Return the loads of which some kinds of compliance are there, each once."""
+    heads = [f"{kind}_by_" for kind in kinds]
+    loads = (n.removeprefix(head) for n in names for head in heads if n.startswith(head))
+    return list(dict.fromkeys(loads))
+
+
+def _cells(here: xr.Dataset, kinds: Sequence[str], load: str) -> tuple[list[str], str]:
+    """Return the compliances of some kinds under a load, and the name of one that is there."""
+    keys = [f"{kind}_by_{load}" for kind in kinds]
+    cells = [significant(float(displayed(here[k]))) if k in here else "-" for k in keys]
+    return cells, next(key for key in keys if key in here)
+
+
+def _per(data: xr.DataArray) -> str:
+    return display_of(data.attrs).units.partition("/")[2]
 
 
 def compliances_of_axle(found: xr.Dataset, title: str, at: float = 0.0) -> list[Tabulated]:
@@ -149,14 +166,13 @@ def compliances_of_axle(found: xr.Dataset, title: str, at: float = 0.0) -> list[
         Wheel travel [m].
     """
     here = found.sel(wheel_travel=at, method="nearest")
-    kinds = ("axle_steer", "axle_lateral", "axle_longitudinal")
+    names = [str(name) for name in here.data_vars]
+    told = [kind for kind in _OF_AXLES if _by(names, [kind])]
     rows = []
-    for name in (n for n in map(str, here) if n.startswith(f"{kinds[0]}_by_")):
-        load = name.removeprefix(f"{kinds[0]}_by_")
-        cells = [significant(float(displayed(here[f"{kind}_by_{load}"]))) for kind in kinds]
-        per = display_of(here[name].attrs).units.partition("/")[2]
-        rows.append((long_name(here[name]).partition(" by ")[2], per, *cells))
-    columns = ("by", "per, each wheel", "steer [deg]", "to the left [mm]", "forward [mm]")
+    for load in _by(names, told):
+        cells, name = _cells(here, told, load)
+        rows.append((long_name(here[name]).partition(" by ")[2], _per(here[name]), *cells))
+    columns = ("by", "per, each wheel", *(_OF_AXLES[kind] for kind in told))
     return [Tabulated(title, columns, tuple(rows), frozenset({0, 1}))] if rows else []
 
 

@@ -13,7 +13,7 @@ from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.quantities import display_of
 from ..loads.flexibility import HELD, Held
-from .goals import Target, check_data
+from .goals import GREATEST, LEAST, Target, check_data
 from .places import Place, amounts
 from .search import Search, in_words, least
 from .tolerance import SIGMAS
@@ -249,7 +249,9 @@ def _target(given: Arguments, curve: xr.DataArray, over: str, accuracy: Any) -> 
     quantity = (WAYS | UNDER_LOADS)[over].known[name]
     shown = display_of(quantity.attributes())
     if accuracy is not None:
-        number = given.number(f"accuracy of {name}", accuracy, shown.units, above=0.0)
+        number = given.number(
+            f"accuracy of {name}", accuracy, shown.units, least=LEAST, below=GREATEST
+        )
         within = number / shown.factor
     else:
         within = _USUAL_ACCURACY * float(np.ptp(values))

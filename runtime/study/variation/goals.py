@@ -45,7 +45,7 @@ _SECTIONS = (
 )
 _NEEDED = "a kintrafo.Suspension, kintrafo.Axle or kintrafo.RigidAxle is needed"
 # No characteristic is as great as this in any unit, and no deviation as small matters.
-_GREATEST, _LEAST = 1e9, 1e-9
+GREATEST, LEAST = 1e9, 1e-9
 
 
 @dataclass(frozen=True)
@@ -369,7 +369,7 @@ def targets_of(
     found = []
     for name, table in _tables(given, described, ("targets", ways), {"value", "within"}):
         left_out = not weighed and "within" not in table.entries
-        within = np.nan if left_out else table.number("within", least=_LEAST)
+        within = np.nan if left_out else table.number("within", least=LEAST)
         found.append(Target(name, table.over, table.at, table.numbers("value"), within))
     return found
 
@@ -410,11 +410,11 @@ class _Table:
     unit: str
     factor: float
 
-    def number(self, key: str, *, least: float = -_GREATEST) -> float:
+    def number(self, key: str, *, least: float = -GREATEST) -> float:
         """Return a number in SI units."""
         value = self._given(key)
         name = f"{self.title} {key}"
-        number = self.given.number(name, value, self.unit, least=least, below=_GREATEST)
+        number = self.given.number(name, value, self.unit, least=least, below=GREATEST)
         return number / self.factor
 
     def numbers(self, key: str) -> Array:
@@ -427,8 +427,8 @@ class _Table:
                 "one for each position is needed, or one for all."
             )
             return np.zeros_like(self.at)
-        if (np.abs(values) > _GREATEST).any():
-            self.given.refuse(f"{name}: numbers of {_GREATEST:g} {self.unit} or less are needed.")
+        if (np.abs(values) > GREATEST).any():
+            self.given.refuse(f"{name}: numbers of {GREATEST:g} {self.unit} or less are needed.")
         return np.broadcast_to(values / self.factor, self.at.shape).copy()
 
     def _given(self, key: str) -> Any:

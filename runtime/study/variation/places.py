@@ -18,6 +18,8 @@ from .ways import Subject
 
 _SPACES = str.maketrans("._", "  ")
 _DEG = math.pi / 180.0
+# of an amount by which a value of a file may move, in the unit of the file
+_LEAST, _GREATEST = 1e-12, 1e12
 _TO_SI = {"mm": 1e-3, "deg": _DEG, "N/mm^3": 1e9, "N/mm": 1e3, "N m/deg": 1.0 / _DEG}
 _SI = {"mm": "m", "deg": "rad", "N/mm^3": "N/m^3", "N/mm": "N/m", "N m/deg": "N m/rad", "": "1"}
 
@@ -130,7 +132,10 @@ def amounts(
         for name, place in matching(given, suspension, [str(pattern)]).items():
             title = f"{what} of {pattern}"
             number = _part_of(given, title, amount, place) if isinstance(amount, str) else amount
-            checked = given.number(title, number, place.unit, above=0.0)
+            checked = given.number(title, number, place.unit, above=0.0, below=_GREATEST)
+            if checked < _LEAST:
+                unit = f"{place.unit and ' '}{place.unit}"
+                given.refuse(f"{title} = {checked:g}{unit}: {_LEAST:g}{unit} or more is needed.")
             found[name] = place, checked * place.to_si
     return dict(found[name] for name in places_of(suspension) if name in found)
 
