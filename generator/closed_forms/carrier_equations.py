@@ -34,6 +34,7 @@ from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
+    from ..kinematics.hinge_angles import DrivenCoordinate
     from ..program.function import Block, Estimate
     from ..program.program import Program
 
@@ -119,7 +120,7 @@ def block(
     body: str,
     rods: Mapping[str, RodEquation],
     size: sp.Expr,
-    driven: Iterable[tuple[sp.Symbol, sp.Expr, bool]],
+    driven: Iterable[DrivenCoordinate],
 ) -> Block:
     """Return the iteration that finds the pose of a body held by some rods (`Derivation`).
 
@@ -133,7 +134,8 @@ def block(
     name = f"pose_of_{body}"
     if name in program.constants.blocks:
         return program.constants.blocks[name]
-    derivation = Derivation(program, driven, size)
+    along = ((d.symbol, d.start, d.unit(size), d.turns) for d in driven)
+    derivation = Derivation(program, along)
     pinned = all(rod.size is None for rod in rods.values())
 
     def derive(own: Program, estimate: Estimate) -> Found:

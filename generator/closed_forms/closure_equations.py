@@ -33,6 +33,7 @@ from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
+    from ..kinematics.hinge_angles import DrivenCoordinate
     from ..program.function import Block, Estimate
     from ..program.program import Program
     from .tree import CutJoint, Tree
@@ -398,13 +399,15 @@ def block(
     program: Program,
     tree: Tree,
     geometry: Geometry,
-    driven: Iterable[tuple[sp.Symbol, sp.Expr, bool]],
+    driven: Iterable[DrivenCoordinate],
 ) -> Block:
     """Return the iteration that finds the unknowns (`Derivation`)."""
     name = f"loops_through_{tree.body}"
     if name in program.constants.blocks:
         return program.constants.blocks[name]
-    derivation = Derivation(program, driven, geometry["size"].x)
+    size = geometry["size"].x
+    along = ((d.symbol, d.start, d.unit(size), d.turns) for d in driven)
+    derivation = Derivation(program, along)
 
     def derive(own: Program, estimate: Estimate) -> Found:
         own.section("what is placed before, at this stage")

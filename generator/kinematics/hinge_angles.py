@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..declare.joints import Revolute
+from ..declare.joints import Prismatic, Revolute
 from ..program.functions import SignOf
 from ..program.vectors import UNIT_X, ZERO, Vector
 from .motion import BodyMotion, from_axes, to_axes
@@ -103,18 +103,52 @@ def is_first_axis(kin: Kinematics, joint: Revolute) -> bool:
     return kin.placed[joint.second.name].hinge == joint.name
 
 
-def driven_coordinates(kin: Kinematics) -> Iterator[tuple[sp.Symbol, sp.Expr, bool]]:
-    """Yield symbol, value at design, and whether it is an angle alone, of each driven coordinate.
+@dataclass(frozen=True)
+class DrivenCoordinate:
+    """A driven coordinate, on the way from the design position.
 
-    A turn of one that others follow through gears leads nowhere back to.
+    Attributes
+    ----------
+    symbol, start
+        Where it is, and where it is at design.
+    turns
+        Whether it is an angle alone. A turn of one that others follow through gears leads nowhere
+        back to.
+    moves
+        What goes with it, itself first: by how much for one unit of it, and whether that slides.
     """
+
+    symbol: sp.Symbol
+    start: sp.Expr
+    turns: bool
+    moves: tuple[tuple[sp.Expr, bool], ...]
+
+    def unit(self, size: sp.Expr) -> sp.Expr:
+        """Return what of it is as much as a radian, given what of a slide is.
+
+        Of a wheel that turns several times as fast, it is as much less.
+        """
+        (_, slides), *others = self.moves
+        if not others:
+            return size if slides else sp.Integer(1)
+        paces = (ratio / size if slides else ratio for ratio, slides in self.moves)
+        return 1 / sp.sqrt(sp.Add(*(pace**2 for pace in paces)))
+
+
+def driven_coordinates(kin: Kinematics) -> Iterator[DrivenCoordinate]:
+    """Yield each driven coordinate that moves something of a part."""
     inside = [j for j in kin.coordinates.given if j.second.name in kin.bodies]
     for joint in dict.fromkeys(j.first_followed for j in inside):
         start = sp.Integer(0)
         if isinstance(joint, Revolute) and joint.angle_to is not None:
             start = HingeDesign.of(kin, joint).angle(kin.program, joint.name)
-        alone = all(j == joint or j.first_followed != joint for j in inside)
-        yield kin.given(joint), start, isinstance(joint, Revolute) and alone
+        others = [j for j in inside if j != joint and j.first_followed == joint]
+        yield DrivenCoordinate(
+            kin.given(joint),
+            start,
+            isinstance(joint, Revolute) and not others,
+            tuple((kin.coordinates.ratio(j), isinstance(j, Prismatic)) for j in (joint, *others)),
+        )
 
 
 def _axis_on(kin: Kinematics, joint: Revolute, placed: BodyMotion) -> Vector:

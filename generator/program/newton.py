@@ -81,25 +81,22 @@ class Derivation:
     around
         The program that the block is called from.
     driven
-        Of every coordinate that moves anything: the symbol, the value at design, and whether it is
-        an angle.
-    unit
-        What of a slide is as much as a radian.
+        Of every coordinate that moves anything: the symbol, the value at design, what of it is as
+        much as a radian, and whether a full turn of it changes nothing.
     """
 
     def __init__(
         self,
         around: Program,
-        driven: Iterable[tuple[sp.Symbol, sp.Expr, bool]],
-        unit: sp.Expr,
+        driven: Iterable[tuple[sp.Symbol, sp.Expr, sp.Expr, bool]],
     ) -> None:
         self._around = around
         self.program = Program(around.constants)
         self._driven = {
             end: Driven(
-                self._own(f"{end}_now"), start, end, sp.Integer(1) if turns else unit, turns
+                self._own(f"{end}_now"), start, end, around.define(f"{end}_unit", unit), turns
             )
-            for end, start, turns in driven
+            for end, start, unit, turns in driven
         }
         self._copies: dict[sp.Symbol, sp.Expr] = {end: d.now for end, d in self._driven.items()}
         self._needed: set[sp.Symbol] = set()
