@@ -105,8 +105,8 @@ def travel_range(model: Model, rack_position: float = 0.0) -> Range:
 def _range(model: Model, rack_position: float) -> Range:
     """Look for the ends once: whoever asks for one position at rest asks for the next."""
     racks = np.array([rack_position], dtype=np.float64)
-    low, low_limits = _ends(model, racks, +1.0)
-    high, high_limits = _ends(model, racks, -1.0)
+    low, low_limits = _ends(model, racks.tobytes(), +1.0)
+    high, high_limits = _ends(model, racks.tobytes(), -1.0)
     heights, _ = height_and_slope(model, np.append(low, high), rack_position)
     return Range(
         (float(low[0]), float(high[0])),
@@ -200,7 +200,7 @@ def _tabulate(model: Model, racks: Array, steps: tuple[int, int], *, to_the_end:
     _refuse_racks(model, racks, seen, design)
     columns = np.arange(grid.size)
     if to_the_end:
-        low, high = (_ends(model, racks, direction)[0] for direction in (+1.0, -1.0))
+        low, high = (_ends(model, racks.tobytes(), direction)[0] for direction in (+1.0, -1.0))
         angles = np.clip(grid, high[:, None], low[:, None])
         inside = (grid < low[:, None]) & (grid > high[:, None])
         heights = np.where(
@@ -272,8 +272,9 @@ def height_and_slope(
     return signals["wheel_center_z"], signals["wheel_velocity"]
 
 
-def _ends(model: Model, racks: Array, direction: float) -> tuple[Array, list[int]]:
-    """Swing the arm as far as it goes, for each rack position.
+@lru_cache(maxsize=2 * _KEPT)
+def _ends(model: Model, places: bytes, direction: float) -> tuple[Array, list[int]]:
+    """Swing the arm as far as it goes, for each rack position, of which there are the bytes.
 
     Returns
     -------
@@ -282,6 +283,7 @@ def _ends(model: Model, racks: Array, direction: float) -> tuple[Array, list[int
     limits : list of int
         What ends the reach, as in `_look`.
     """
+    racks = np.frombuffer(places)
     angles = model.design_state[0] + direction * ARM_STEP * np.arange(ARM_STEPS + 1)
     seen = _look(model, angles, racks[:, None])
     _refuse_racks(model, racks, seen, 0)

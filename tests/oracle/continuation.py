@@ -12,6 +12,7 @@ SI units, chassis axes (z up).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -201,9 +202,24 @@ class Followed:
         nearest = np.abs(table - places).argmin(axis=0)
         center = np.array([self._poses[i].center[k] for i, k in zip(nearest, some, strict=True)])
         turned = np.array([self._poses[i].rotation[k] for i, k in zip(nearest, some, strict=True)])
-        found, _, fine = self._rods.solved(some, places, Poses(center, turned))
-        assert fine.all()
-        return found
+        begin = table[nearest, np.arange(some.size)]
+        for parts in (1, 8, 64):
+            ways = np.linspace(begin, places, parts + 1)
+            found, fine = self._along(some, ways, Poses(center, turned))
+            if fine:
+                return found
+        message = f"bodies {some} are not found at {places}"
+        raise AssertionError(message)
+
+    def _along(self, some: Indices, ways: Array, poses: Poses) -> tuple[Poses, bool]:
+        """Return poses at the end of some places, and whether they are found at each."""
+        fine = np.ones(some.size, dtype=bool)
+        for at, to in pairwise(ways):
+            _, rows = self._rods.equations(some, at, poses)
+            way = self._rods.tangent(some, at, poses, rows) * (to - at)[:, None]
+            poses, _, found = self._rods.solved(some, to, poses.moved(way))
+            fine &= found
+        return poses, bool(fine.all())
 
     def heights(self, some: int, point: Array) -> tuple[Array, Array]:
         """Return where a body has been followed to, and the heights of a point of it there [m]."""

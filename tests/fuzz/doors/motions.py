@@ -1,13 +1,14 @@
-"""Drops and kicks around dead points, by every method, against a tight reference.
+"""Drops and kicks around dead points, and springs without length, against a tight reference.
 
 A motion is drawn whose start lies somewhere between the design position and a dead point, with
 rates that may carry it there. The reference is SciPy's DOP853 at 1e-11 with short steps around
 the bare right-hand side: it shares no code with what watches the margins in an integration. It
-ends where a height, the root of a margin, goes through zero, which it sees in a straight line
-of the height over time. What a result says has to agree: it ends there with an error, or it
-goes on and its states are those of the reference, and its signals can be had at all of its
-outputs. At some of its states the mechanism in maximal coordinates, which shares nothing with the
-equations, says whether hardpoints keep their distances and what the accelerations are.
+ends where a height, the root of a margin, goes through zero, which it sees in a straight line of
+the height over time; so does the distance of a spring's ends where they meet. What a result says
+has to agree: it ends there with an error, or it goes on and its states are those of the reference,
+and its signals can be had at all of its outputs. At some of its states the mechanism in maximal
+coordinates, which shares nothing with the equations, says whether hardpoints keep their distances
+and what the accelerations are.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
+import own_springs
 from kintrafo import Model, SimulationError, System, simulate
 from kintrafo.equations.errors import ModelError
 from kintrafo.generated import (
@@ -30,7 +32,7 @@ from kintrafo.generated import (
 )
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.simulation.solvers import native_methods
-from own_models import Built
+from own_models import Built, own
 from scipy.integrate import DOP853
 
 from ..attempts import UnjudgedError, WrongError
@@ -59,7 +61,11 @@ METHODS = tuple(dict.fromkeys([*native_methods(), "Radau", "LSODA", "RK45", "DOP
 @cache
 def systems() -> tuple[System, ...]:
     """Return what is moved."""
-    return (*(System(module) for module in _MODULES), *(Model(name) for name in _CARS))
+    return (
+        *(System(module) for module in _MODULES),
+        *(Model(name) for name in _CARS),
+        *(System(own(model)) for model in own_springs.MODELS),
+    )
 
 
 @dataclass(frozen=True)
@@ -212,9 +218,10 @@ def _begun(motion: Motion, time: float, state: Array, step: float) -> Any:
 
 
 def _heights(system: System, state: Array, lapse: float) -> tuple[Array, Array]:
-    """Return the roots of the margins that choose where bodies are, and their rates."""
+    """Return the roots of the margins that positions and forces need, and their rates."""
     acting = system.equations.ACTING_GUARDS
-    chosen = sorted(set(acting["rhs"]) & set(acting["positions"]))
+    needed = set(acting["positions"]) | set(acting["forces"])
+    chosen = sorted(set(acting["rhs"]) & needed)
     half = state.size // 2
     move = np.concatenate([lapse * state[half:], np.zeros(half)])
     # to both sides: the motion is no straight line, and a height is a small root of what changes
@@ -364,5 +371,6 @@ def _judge_states(motion: Motion, result: Any) -> None:
 
 @cache
 def _built(system: System) -> Built:
-    model = {model.name: model for model in MODELS}[system.equations.NAME]
+    known = {model.name: model for model in (*MODELS, *own_springs.MODELS)}
+    model = known[system.equations.NAME]
     return Built.of(model, system.equations, system.parameters)
