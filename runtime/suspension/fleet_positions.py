@@ -178,7 +178,7 @@ def _end(fleet: Fleet, last: _Table, short: Flags, direction: float, rack: float
         design + direction * ARM_STEP * ARM_STEPS,
         ARM_STEP,
     )
-    ends = clear_of(ends, limits, design, direction)[:, None]
+    ends = clear_of(fleet, ends, limits, design, direction)[:, None]
     seen = _look(fleet.of(rows), ends, rack)
     found = _Table(*(values.copy() for values in last))
     for values, there in zip(found, (ends, seen.height, seen.slope), strict=True):

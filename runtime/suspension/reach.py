@@ -16,7 +16,7 @@ from ..core.arguments import Arguments
 from ..core.errors import KintrafoError
 from ..core.named_types import ArrayLike
 from ..systems.system import System
-from .attitudes import attitudes
+from .attitudes import attitudes, iterates
 from .model import Model
 from .swing import GOAL, UNRESOLVED, Seen, march, margins_stay, resolved
 
@@ -28,6 +28,9 @@ ARM_STEPS = 45
 # By how much the reach ends before that [rad]. What has to be positive is then some 1e-13 m^2,
 # clear of its rounding, and the wheel is less than a nanometre from its last position.
 _CLEARANCE = 1e-12
+# Where the straight way of an iteration passes a point at which branches meet, by less than some
+# 1e-10 rad, roundings decide whether it gets by.
+_CLEARANCE_OF_ITERATION = 1e-9
 # Lengths are read from the same numbers [m].
 _LENGTH = 1e-12
 _CHUNK = 500  # racks that are looked at together, to bound the memory
@@ -82,7 +85,8 @@ def travel_range(model: Model, rack_position: float = 0.0) -> Range:
     Returns
     -------
     Range
-        Its ends are the last positions before the limit, to 1e-12 rad of the arm angle.
+        Its ends are the last positions before the limit, to 1e-12 rad of the arm angle, or to 1e-9
+        rad where loops are solved by iteration.
 
     Raises
     ------
@@ -298,16 +302,21 @@ def _ends(model: Model, places: bytes, direction: float) -> tuple[Array, list[in
         goals,
         ARM_STEP,
     )
-    return clear_of(ends, limits, angles[0], direction), limits.tolist()
+    return clear_of(model, ends, limits, angles[0], direction), limits.tolist()
 
 
 def clear_of(
-    ends: Array, limits: NDArray[np.int64], design: Array | float, direction: float
+    model: System,
+    ends: Array,
+    limits: NDArray[np.int64],
+    design: Array | float,
+    direction: float,
 ) -> Array:
     """Return the last angles within reach, clear of what ends it there.
 
     Parameters
     ----------
+    model : System
     ends : ndarray
         From `march` [rad].
     limits : ndarray of int
@@ -318,8 +327,9 @@ def clear_of(
         Which way the arm has swung: 1 or -1.
     """
     # not past the design position, where a wheel that turns back at once has its end
-    clear = direction * (ends - design) > _CLEARANCE
-    return np.where(clear & (limits != GOAL), ends - direction * _CLEARANCE, ends)
+    clearance = _CLEARANCE_OF_ITERATION if iterates(model.equations) else _CLEARANCE
+    clear = direction * (ends - design) > clearance
+    return np.where(clear & (limits != GOAL), ends - direction * clearance, ends)
 
 
 def refuse_beyond(model: System, state: Array, inputs: Array) -> None:
