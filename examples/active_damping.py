@@ -26,9 +26,9 @@ class ActiveDamping(gymnasium.Env[Array, Array]):
     """The wheel of the reference car over a road that is a random walk.
 
     The action is the force in the strut as a part of its greatest, positive when it pushes the
-    wheel down. The observation is height and velocity of the wheel centre and the tyre's force, minus
-    those at rest, in units of `SCALES`. The reward of a decision is minus the square of the tyre's
-    force minus that at rest, as a part of the latter.
+    wheel down. The observation is height and velocity of the wheel centre and the tyre's force,
+    minus those at rest, in units of `SCALES`. The reward of a decision is minus the square of the
+    tyre's force minus that at rest, as a part of the latter.
     """
 
     def __init__(self) -> None:
