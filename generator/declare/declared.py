@@ -117,6 +117,7 @@ def _checked(function: Callable[..., Any], name: str, annotated: Any) -> Callabl
     function.__annotations__ = known
     valid = validate_call(config={"strict": True, "arbitrary_types_allowed": True})(function)
     names = list(signature.parameters)
+    is_method = names[:1] == ["self"]
 
     @wraps(function)
     def call(*given: Any, **named: Any) -> Any:
@@ -124,13 +125,14 @@ def _checked(function: Callable[..., Any], name: str, annotated: Any) -> Callabl
         keywords = {key: _with_tuples(value) for key, value in named.items()}
         arguments = dict(zip(names, values, strict=False)) | keywords
         problems = [f"{key}: {told}" for key, item in arguments.items() if (told := strange(item))]
+        what = type(given[0]).__name__ if is_method else name
         if problems:
-            raise DeclarationError(name, problems)
+            raise DeclarationError(what, problems)
         try:
             return valid(*values, **keywords)
         except ValidationError as error:
             problems = _problems(error, names, arguments)
-            raise DeclarationError(_title(name, arguments.get("name")), problems) from None
+            raise DeclarationError(_title(what, arguments.get("name")), problems) from None
 
     call.__annotations__ = known
     return call

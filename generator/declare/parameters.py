@@ -133,198 +133,115 @@ class Parameter(Owner):
 
 @declared
 @dataclass(frozen=True)
-class Mass(Parameter):
+class Quantity(Parameter):
+    """A parameter whose class says its unit and its range.
+
+    Parameters
+    ----------
+    name, default, meaning
+        As of a `Parameter`.
+    least, above, most
+        Bounds instead of those of the class.
+    """
+
+    unit: str = field(default="", init=False)
+
+    _bounds: ClassVar[dict[str, float]] = {}
+
+    def __init_subclass__(cls, *, unit: str, of_angle: bool = False, **bounds: float) -> None:
+        super().__init_subclass__()
+        cls.unit, cls.of_angle, cls._bounds = unit, of_angle, bounds
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for bound, value in self._bounds.items():
+            if getattr(self, bound) is None:
+                object.__setattr__(self, bound, value)
+
+
+class Mass(Quantity, unit="kg", least=0.0):
     """A mass [kg], not negative."""
 
-    unit: str = field(default="kg", init=False)
-    least: Number | None = 0.0
 
-
-@declared
-@dataclass(frozen=True)
-class MomentOfInertia(Parameter):
+class MomentOfInertia(Quantity, unit="kg m^2", least=0.0):
     """A moment of inertia [kg m^2], not negative."""
 
-    unit: str = field(default="kg m^2", init=False)
-    least: Number | None = 0.0
 
-
-@declared
-@dataclass(frozen=True)
-class ProductOfInertia(Parameter):
+class ProductOfInertia(Quantity, unit="kg m^2"):
     """A product of inertia [kg m^2]."""
 
-    unit: str = field(default="kg m^2", init=False)
 
-
-@declared
-@dataclass(frozen=True)
-class Displacement(Parameter):
+class Displacement(Quantity, unit="m"):
     """A coordinate or a height [m], of any sign."""
 
-    unit: str = field(default="m", init=False)
 
-
-@declared
-@dataclass(frozen=True)
-class Length(Parameter):
+class Length(Quantity, unit="m", least=0.0):
     """A length [m], not negative."""
 
-    unit: str = field(default="m", init=False)
-    least: Number | None = 0.0
 
-
-@declared
-@dataclass(frozen=True)
-class Distance(Parameter):
+class Distance(Quantity, unit="m", above=0.0):
     """A distance [m], more than zero."""
 
-    unit: str = field(default="m", init=False)
-    above: Number | None = 0.0
 
-
-@declared
-@dataclass(frozen=True)
-class Angle(Parameter):
+class Angle(Quantity, unit="rad", of_angle=True):
     """An angle [rad], of any sign."""
 
-    of_angle: ClassVar[bool] = True
-    unit: str = field(default="rad", init=False)
 
-
-@declared
-@dataclass(frozen=True)
-class Speed(Parameter):
+class Speed(Quantity, unit="m/s", above=0.0):
     """A speed [m/s], more than zero."""
 
-    unit: str = field(default="m/s", init=False)
-    above: Number | None = 0.0
 
-
-@declared
-@dataclass(frozen=True)
-class AngularSpeed(Parameter):
+class AngularSpeed(Quantity, unit="rad/s", above=0.0, of_angle=True):
     """An angular speed [rad/s], more than zero."""
 
-    of_angle: ClassVar[bool] = True
-    unit: str = field(default="rad/s", init=False)
-    above: Number | None = 0.0
 
-
-@declared
-@dataclass(frozen=True)
-class Gravity(Parameter):
+class Gravity(Quantity, unit="m/s^2", least=0.0):
     """The acceleration of gravity [m/s^2], not negative."""
 
-    unit: str = field(default="m/s^2", init=False)
-    least: Number | None = 0.0
 
-
-@declared
-@dataclass(frozen=True)
-class ForceLevel(Parameter):
+class ForceLevel(Quantity, unit="N", least=0.0):
     """The amount of a force [N], not negative."""
 
-    unit: str = field(default="N", init=False)
-    least: Number | None = 0.0
 
-
-@declared
-@dataclass(frozen=True)
-class MomentLevel(Parameter):
+class MomentLevel(Quantity, unit="N m", least=0.0, of_angle=True):
     """The amount of a moment [N m], not negative."""
 
-    of_angle: ClassVar[bool] = True
-    unit: str = field(default="N m", init=False)
-    least: Number | None = 0.0
 
-
-@declared
-@dataclass(frozen=True)
-class SpringRate(Parameter):
+class SpringRate(Quantity, unit="N/m", least=0.0):
     """The rate of a spring [N/m], not negative."""
 
-    unit: str = field(default="N/m", init=False)
-    least: Number | None = 0.0
 
-
-@declared
-@dataclass(frozen=True)
-class TorsionRate(Parameter):
+class TorsionRate(Quantity, unit="N m/rad", least=0.0, of_angle=True):
     """The rate of a torsion spring [N m/rad], not negative."""
 
-    of_angle: ClassVar[bool] = True
-    unit: str = field(default="N m/rad", init=False)
-    least: Number | None = 0.0
 
-
-@declared
-@dataclass(frozen=True)
-class DamperRate(Parameter):
+class DamperRate(Quantity, unit="N s/m", least=0.0):
     """The rate of a damper [N s/m], not negative."""
 
-    unit: str = field(default="N s/m", init=False)
-    least: Number | None = 0.0
 
-
-@declared
-@dataclass(frozen=True)
-class TorsionDamperRate(Parameter):
+class TorsionDamperRate(Quantity, unit="N m s/rad", least=0.0, of_angle=True):
     """The rate of a damper of rotation [N m s/rad], not negative."""
 
-    of_angle: ClassVar[bool] = True
-    unit: str = field(default="N m s/rad", init=False)
-    least: Number | None = 0.0
 
-
-@declared
-@dataclass(frozen=True)
-class Progression(Parameter):
+class Progression(Quantity, unit="N/m^3", least=0.0):
     """The cubic term of a stop [N/m^3], not negative."""
 
-    unit: str = field(default="N/m^3", init=False)
-    least: Number | None = 0.0
 
-
-@declared
-@dataclass(frozen=True)
-class TorsionProgression(Parameter):
+class TorsionProgression(Quantity, unit="N m/rad^3", least=0.0, of_angle=True):
     """The cubic term of a stop of rotation [N m/rad^3], not negative."""
 
-    of_angle: ClassVar[bool] = True
-    unit: str = field(default="N m/rad^3", init=False)
-    least: Number | None = 0.0
 
-
-@declared
-@dataclass(frozen=True)
-class Ratio(Parameter):
+class Ratio(Quantity, unit="1"):
     """A ratio of two angles, or of two lengths, of any sign."""
 
-    unit: str = field(default="1", init=False)
 
-
-@declared
-@dataclass(frozen=True)
-class Lead(Parameter):
+class Lead(Quantity, unit="m/rad"):
     """What a thread, a rack or a rope moves for each radian of a turn [m/rad], of any sign."""
 
-    unit: str = field(default="m/rad", init=False)
 
-
-@declared
-@dataclass(frozen=True)
-class TurnPerTravel(Parameter):
+class TurnPerTravel(Quantity, unit="rad/m"):
     """By how much something turns for each metre of a slide [rad/m], of any sign."""
 
-    unit: str = field(default="rad/m", init=False)
 
-
-@declared
-@dataclass(frozen=True)
-class Share(Parameter):
+class Share(Quantity, unit="1", least=0.0, most=1.0):
     """A number between 0 and 1."""
-
-    unit: str = field(default="1", init=False)
-    least: Number | None = 0.0
-    most: Number | None = 1.0
