@@ -221,7 +221,8 @@ def _refuse_on_tyres(suspension: Equilibrium, load: RigLoad, wanted: Array) -> N
         problem = (
             f"under {load.words} of {worst:.4g} {load.unit} the standing tyre gives way by "
             f"{1e3 * abs(worst) * soft:.4g} mm, and none does by more than "
-            f"{1e3 * _FARTHEST_TYRE:g} mm: it slides before. Leave greater loads out, or correct its rates in [tyre]."
+            f"{1e3 * _FARTHEST_TYRE:g} mm: it slides before. Leave greater loads out, or correct "
+            "its rates in [tyre]."
         )
         raise PositionError(problem)
 
