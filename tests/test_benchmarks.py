@@ -160,6 +160,17 @@ def test_what_is_kept_of_stiff_cars_is_measured(tmp_path):
     assert keep in page.read_text()
 
 
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
+def test_exports_are_measured(tmp_path):
+    page = tmp_path / "export.md"
+    blocks = (f"<!-- begin {n} -->\n<!-- end {n} -->\n" for n in ("export", "instances"))
+    page.write_text("".join(blocks))
+    run_module("benchmarks.export", "--quick", "--page", page)
+    assert page.read_text().count("| 3.0 |") == 1
+    instances = float(re.findall(r"instances take ([\d.]+) MB", page.read_text())[0])
+    assert instances < 50.0
+
+
 @NEEDS_SUNDIALS
 def test_steps_of_one_length_are_measured(tmp_path):
     page = tmp_path / "real-time.md"

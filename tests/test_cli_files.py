@@ -93,6 +93,7 @@ WRITING = {
     "derivation": (["derivation", "slider_crank", "-o", "a.tex"], "a.tex"),
     "derivation with figures": (["derivation", "slider_crank", "-o", "a.tex"], "a_bodies.pdf"),
     "export": (["export", "four_bar", "--to", "c", "-o", "."], "four_bar.h"),
+    "export --to fmu": (["export", "four_bar", "--to", "fmu"], "four_bar.fmu"),
     "paper": (["paper", "."], "figure_6_wheel_motion.svg"),
 }
 

@@ -1,7 +1,7 @@
 """``kintrafo export``: a model for other programs."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -13,7 +13,8 @@ if TYPE_CHECKING:
 
 EXAMPLES = (
     "kintrafo export my_car.toml --to c -o my_car_c",
-    "kintrafo export my_axle.toml --to c",
+    "kintrafo export my_axle.toml --to fmu",
+    "kintrafo export my_car.toml --to fmu --fmi 3 --platform linux --platform windows",
     "kintrafo export my_mechanism.py --model crane --to c",
 )
 
@@ -29,10 +30,25 @@ def command(
         ),
     ],
     *,
-    to: Annotated[str, typer.Option(metavar="KIND", help="c: a folder with plain C.")],
+    to: Annotated[
+        str,
+        typer.Option(
+            metavar="KIND", help="c: a folder with plain C. fmu: a functional mock-up unit."
+        ),
+    ],
     out: Annotated[
         Path | None,
         typer.Option("--out", "-o", metavar="PATH", help="What to write. Default: by FILE."),
+    ] = None,
+    fmi: Annotated[
+        int | None, typer.Option(metavar="VERSION", help="2 or 3: of a unit. Default: 2.")
+    ] = None,
+    platform: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME",
+            help="linux, windows: what a unit has a library for. May be repeated. Default: this.",
+        ),
     ] = None,
     model: Which = None,
     force: Force = False,
@@ -40,8 +56,9 @@ def command(
 ) -> None:
     """Write a model for other programs, with the numbers of this file, starting at design.
 
-    c: the emitted C99, which needs nothing else, with constants, a CMake file and an example. In
-    Python any state can be the start: kintrafo.export_model(model, "car_c", "c", state=rest).
+    c: the emitted C99, which needs nothing else, with constants, a CMake file and an example. fmu:
+    Model Exchange and Co-Simulation of FMI 2.0 or 3.0 in one file. In Python any state can be the
+    start: kintrafo.export_model(model, "car.fmu", "fmu", state=rest).
     """
     from ..core.arguments import Arguments
     from ..targets.export import ENDINGS, export_model
@@ -53,7 +70,9 @@ def command(
     path = Path(f"{stem}{ENDINGS[to]}") if out is None else out
     with problems.status("export"):
         system = _described_by(file, model)
-        written = export_model(system, path, to, force=force, read=[file])
+        given_options = {"fmi": fmi, "platforms": platform}
+        options: dict[str, Any] = {n: v for n, v in given_options.items() if v is not None}
+        written = export_model(system, path, to, force=force, read=[file], **options)
     if json:
         print_json({"path": str(written), "to": to, "equations": system.equations.NAME})
     else:

@@ -126,12 +126,12 @@ def impossible(
         value = np.asarray(values[name])
         found |= ~(value >= entry.get("least", -np.inf)) | ~(value > entry.get("above", -np.inf))
         found |= ~(value <= entry.get("most", np.inf))
-    for _, elements in _tensors(values):
+    for _, elements in tensors(values):
         found |= _of_no_body(_moments(elements))
     return found
 
 
-def _tensors(values: Mapping[str, Any]) -> Iterator[tuple[str, list[Any]]]:
+def tensors(values: Mapping[str, Any]) -> Iterator[tuple[str, list[Any]]]:
     """Yield the bodies whose inertia is given as a whole, with the elements."""
     for name in values:
         body = name.removesuffix("_inertia_xx")
@@ -164,7 +164,7 @@ def _rotors(values: Mapping[str, float]) -> Iterator[tuple[str, float, float]]:
 
 
 def _impossible_tensors(values: Mapping[str, float]) -> Iterator[str]:
-    for body, elements in _tensors(values):
+    for body, elements in tensors(values):
         moments = _moments(elements)
         if _of_no_body(moments):
             small, middle, large = moments.tolist()

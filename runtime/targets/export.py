@@ -9,13 +9,13 @@ from ..core.files import Paths
 from ..core.named_types import ArrayLike
 from ..systems.state import inputs_of
 from ..systems.system import System
-from . import c_folder
+from . import c_folder, fmu
 from .emitted import Emitted
 
 Write = Callable[..., Path]
-TARGETS: Mapping[str, Write] = {"c": c_folder.write}
+TARGETS: Mapping[str, Write] = {"c": c_folder.write, "fmu": fmu.write}
 """What writes each kind of export: of an `Emitted` and a path, with options of its own."""
-ENDINGS: Mapping[str, str] = {"c": "_c"}
+ENDINGS: Mapping[str, str] = {"c": "_c", "fmu": fmu.ENDING}
 """What is added to a name where no path is given."""
 
 
@@ -37,9 +37,10 @@ def export_model(
     system : System, Model, AxleModel or RigidAxleModel
         With compiled equations.
     path : str or pathlib.Path
-        What to write: a folder for 'c'.
-    to : {'c'}
-        'c': plain C99 without dependencies, with a CMake file and an example.
+        What to write: a folder for 'c', a file that ends in ``.fmu`` for 'fmu'.
+    to : {'c', 'fmu'}
+        'c': plain C99 without dependencies, with a CMake file and an example. 'fmu': a functional
+        mock-up unit for Model Exchange and Co-Simulation.
     state : array_like, optional
         Where it starts; the design position at rest by default. The inputs of a state of
         `equilibrium` come with it.
@@ -50,7 +51,8 @@ def export_model(
     read : iterable of str or pathlib.Path, optional
         Files that are never replaced, such as that of the suspension.
     **options
-        None of 'c'.
+        Of 'fmu': ``fmi``, 2 or 3, the version of the standard, 2 by default; ``platforms``, names
+        from 'linux' and 'windows', for which there is a compiled library, by default this one.
 
     Returns
     -------
@@ -60,8 +62,9 @@ def export_model(
     Raises
     ------
     InputError
-        If an argument cannot be used; if the equations have no C code; if what is there must not
-        be replaced.
+        If an argument cannot be used, or what is there must not be replaced.
+    CompilerError
+        If a library is to be compiled, and there is no compiler for it, or it fails.
 
     Examples
     --------

@@ -1,14 +1,11 @@
 /* What comes of the steps of a solver: outputs, events, dead points, and the end. */
 #include "pieces.h"
-#include "versions.h"
 #include "worker.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-
-const char *kt_version(void) { return SUNDIALS_VERSION; }
 
 /* -- tables ----------------------------------------------------------------------------------- */
 
@@ -113,11 +110,6 @@ int kt_roots(worker *w, double time, const double *state, double *out)
 
 /* -- setting up ------------------------------------------------------------------------------- */
 
-static const kt_solver *const SOLVERS[] = {
-    [KT_BDF] = &kt_cvode, [KT_ADAMS] = &kt_cvode, [KT_DORMAND_PRINCE] = &kt_dormand_prince,
-    [KT_RK4] = &kt_rk4, [KT_RUNGE_KUTTA] = &kt_erk,
-};
-
 static int set_up(worker *w, const double *state, double start)
 {
     const kt_problem *p = w->problem;
@@ -144,7 +136,7 @@ static int set_up(worker *w, const double *state, double start)
     memcpy(w->y, state, n * sizeof *state);
     memcpy(r->state, state, n * sizeof *state);
     r->time = w->reached = start;
-    w->solver = SOLVERS[w->options->method];
+    w->solver = kt_solver_of(w->options->method);
     return w->solver->open(w, start);
 }
 
@@ -566,13 +558,16 @@ int kt_advance(kt_motion *w, const double *state, const double *inputs, const do
         w->longest_step = 0.0;
         w->stuck = 0;
     }
-    int outcome = begin_anew(w, times[0], fabs(times[1] - times[0])) ? KT_FAILED : KT_DONE;
+    double first = w->options->first_step > 0.0 ? w->options->first_step : fabs(times[1] - times[0]);
+    int outcome = begin_anew(w, times[0], first) ? KT_FAILED : KT_DONE;
     outcome = outcome == KT_DONE ? run(w, times, 2, 0, goes_on) : outcome;
     if (outcome != KT_DONE) {
         r->output.rows = 0; /* nothing goes on from here */
     }
     return outcome;
 }
+
+double kt_next_step(kt_motion *w) { return w->solver->next_step(w); }
 
 void kt_close_motion(kt_motion *w)
 {

@@ -133,10 +133,14 @@ kt_motion *kt_open_motion(const kt_problem *problem, const kt_options *options, 
                           double length, kt_result *result);
 
 /*
- * Advance from a state at one time to another time; allocates nothing. The state reached, and its time, are in
+ * Advance from a state at one time to another time, with the first step of the options, or one over all of
+ * the time if there is none; allocates nothing. The state reached, and its time, are in
  * the result, also where the outcome is not KT_DONE.
  */
 int kt_advance(kt_motion *motion, const double *state, const double *inputs, const double *times);
+
+/* Return the length of the step that would come next, a first step for the next piece. */
+double kt_next_step(kt_motion *motion);
 
 void kt_close_motion(kt_motion *motion);
 

@@ -35,6 +35,9 @@ typedef struct {
 
 extern const kt_solver kt_cvode, kt_erk, kt_dormand_prince, kt_rk4;
 
+/* Return the solver of a method; what has no SUNDIALS has a function of its own in place of `solvers.c`. */
+const kt_solver *kt_solver_of(int method);
+
 struct worker {
     const kt_problem *problem;
     const kt_options *options;

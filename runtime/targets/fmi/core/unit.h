@@ -1,0 +1,148 @@
+/*
+ * An instance of a model, for both versions of FMI: values by their references, derivatives, events, steps.
+ *
+ * fmi2.c and fmi3.c are the two fronts. Statuses have the same numbers in both.
+ */
+#ifndef KINTRAFO_FMU_UNIT_H
+#define KINTRAFO_FMU_UNIT_H
+
+#include "integrate.h"
+#include "model.h"
+
+enum { KU_OK, KU_WARNING, KU_DISCARD, KU_ERROR, KU_FATAL };
+
+/* What an instance may be asked depends on where it is; bits, so that a call names several. */
+enum {
+    KU_INSTANTIATED = 1, KU_INITIALISING = 2, KU_EVENTS = 4, KU_CONTINUOUS = 8, KU_STEPPING = 16,
+    KU_TERMINATED = 32, KU_FAILED = 64,
+    KU_SET_UP = KU_INSTANTIATED | KU_INITIALISING,
+    KU_RUNNING = KU_EVENTS | KU_CONTINUOUS | KU_STEPPING,
+    KU_ANY = KU_SET_UP | KU_RUNNING | KU_TERMINATED | KU_FAILED
+};
+
+/* Derivatives of an input that are known at the begin of a step: itself, and up to the third. */
+enum { KU_ORDERS = 4 };
+
+/* An input that is the derivative of no other: the places of it and its derivatives, and where they are kept. */
+typedef struct {
+    int targets[3];
+    double *at[KU_ORDERS];
+} ku_course;
+
+typedef struct unit unit;
+typedef void (*ku_report)(const unit *u, int status, const char *category, const char *message);
+
+/* Numbers that a saved instance has, each of them a double, so that they can be sent anywhere. */
+typedef struct {
+    double *all; /* what follows, behind each other */
+    int count;
+    double *time, *mode, *ready, *tolerance, *next;
+    double *parameters, *state, *inputs, *slopes, *step;
+} ku_numbers;
+
+struct unit {
+    ku_report report;
+    void *front; /* of fmi2.c or fmi3.c */
+    char *label;
+    int co_simulation, logging;
+    ku_numbers now;
+    double *memory;
+    double *constants, *rates, *signals, *margins, *jacobian, *linearised, *before;
+    int rates_known, signals_known, margins_known, jacobian_known, linearised_known, before_known;
+    char *message;
+    double last_time; /* of the last step that came to its end */
+    int stopped;      /* a step came to a dead point */
+    /* Co-Simulation */
+    kt_problem problem;
+    kt_options options;
+    kt_result result;
+    ku_course *courses;
+    int course_count;
+    kt_spline *splines;
+    double *breaks, *coefficients, *usual, *tolerances;
+    kt_motion *motion;
+};
+
+/* Value references: blocks behind each other, in this order. */
+enum ku_block {
+    KU_TIME, KU_STATE, KU_RATE, KU_INPUT, KU_SIGNAL, KU_EVENT, KU_PARAMETER, KU_STEP, KU_NOTHING
+};
+
+/* -- life ------------------------------------------------------------------------------------- */
+
+/* NULL where there is no memory or the token is that of another model; the latter is reported to `front`. */
+unit *ku_open(const char *label, const char *token, int co_simulation, int logging,
+              ku_report report, void *front);
+void ku_close(unit *u);
+void ku_reset(unit *u);
+
+/* Report a message, made as by printf, and return the status. */
+int ku_say(const unit *u, int status, const char *format, ...);
+
+/* Return whether a function may be called now; an error is reported if not. */
+int ku_may(const unit *u, const char *function, int modes);
+
+/* Return whether the instance is one for Co-Simulation, or for Model Exchange, likewise. */
+int ku_is(const unit *u, const char *function, int co_simulation);
+
+int ku_mode(const unit *u);
+void ku_enter(unit *u, int mode);
+
+int ku_start(unit *u, double time, int tolerance_defined, double tolerance);
+int ku_begin(unit *u); /* behind initialisation */
+
+/* -- values ----------------------------------------------------------------------------------- */
+
+int ku_get(unit *u, const unsigned *references, size_t count, double *values);
+int ku_set(unit *u, const unsigned *references, size_t count, const double *values);
+int ku_set_time(unit *u, double time);
+int ku_set_states(unit *u, const double *states, size_t count);
+int ku_get_states(unit *u, double *states, size_t count);
+int ku_get_rates(unit *u, double *rates, size_t count);
+int ku_get_nominals(unit *u, double *nominals, size_t count);
+int ku_get_events(unit *u, double *values, size_t count);
+int ku_set_slopes(unit *u, const unsigned *references, size_t count, const int *orders,
+                  const double *values);
+
+/* Which block a reference belongs to, and its place there. */
+enum ku_block ku_find(unsigned reference, int *place);
+
+/* Make constants of the parameters, if they were changed; an error is reported. */
+int ku_ready(unit *u);
+
+/* Evaluate what is not known at the present values. */
+int ku_know_rates(unit *u);
+int ku_know_signals(unit *u);
+int ku_know_margins(unit *u);
+void ku_forget(unit *u);
+
+/* Say which guards refuse the present values: a status word of a function of the model. */
+int ku_refused(unit *u, const char *what, int word);
+
+/* -- derivatives ------------------------------------------------------------------------------ */
+
+/* Along a direction of the knowns; or, transposed, of a weighted sum of the unknowns. */
+int ku_derivative(unit *u, const unsigned *unknowns, size_t rows, const unsigned *knowns,
+                  size_t columns, const double *seed, double *found, int transposed);
+
+/* -- events ----------------------------------------------------------------------------------- */
+
+/* Report which events have happened; `over` tells whether the model ends here. */
+int ku_update(unit *u, int *over);
+
+/* -- saved instances -------------------------------------------------------------------------- */
+
+void *ku_save(unit *u, void *into);
+int ku_restore(unit *u, const void *saved);
+size_t ku_size(void);
+int ku_serialise(unit *u, const void *saved, unsigned char *bytes, size_t size);
+void *ku_deserialise(unit *u, const unsigned char *bytes, size_t size);
+
+/* -- Co-Simulation ---------------------------------------------------------------------------- */
+
+int ku_open_steps(unit *u);
+void ku_close_steps(unit *u);
+void ku_begin_anew(unit *u);
+int ku_step(unit *u, double time, double length);
+
+#endif

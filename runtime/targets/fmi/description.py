@@ -1,0 +1,269 @@
+"""The variables of a unit, and what else its description says, whatever the version of FMI."""
+
+import hashlib
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from ..emitted import Emitted
+
+STEP = "solver.step"
+"""The length of all steps in Co-Simulation; zero for steps whose error is controlled."""
+
+_STEP_MEANING = (
+    "length of all steps of the classical method of Runge and Kutta in Co-Simulation; zero for the "
+    "method of Dormand and Prince, whose steps follow the tolerance"
+)
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One variable.
+
+    Attributes
+    ----------
+    reference : int
+        Its value reference; they count from zero, in order.
+    name, meaning, unit : str
+    causality, variability : str
+        As FMI has them.
+    initial : str
+        As FMI has it; empty for none.
+    start : float or None
+    derivative_of : int or None
+        Reference of the variable that this is the derivative of.
+    least, most : float
+        Infinite for no bound.
+    """
+
+    reference: int
+    name: str
+    meaning: str
+    unit: str
+    causality: str
+    variability: str = "continuous"
+    initial: str = ""
+    start: float | None = None
+    derivative_of: int | None = None
+    least: float = -math.inf
+    most: float = math.inf
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """A zero crossing that is told as an event.
+
+    Attributes
+    ----------
+    name, meaning : str
+    signal, guard : int
+        Place of the signal, or -1 and that of the guard.
+    level : float
+        What is taken away from the signal.
+    parameter : int
+        Place of a parameter that is taken away, with `sign`; -1 for none.
+    sign : float
+    needs : int
+        Place of a parameter without which it cannot happen; -1 for none.
+    """
+
+    name: str
+    meaning: str
+    signal: int
+    guard: int
+    level: float = 0.0
+    parameter: int = -1
+    sign: float = 1.0
+    needs: int = -1
+
+
+@dataclass(frozen=True)
+class Description:
+    """What a unit is.
+
+    Attributes
+    ----------
+    emitted : Emitted
+    """
+
+    emitted: Emitted
+
+    @property
+    def identifier(self) -> str:
+        """Of the model, as C has it: its libraries have this name."""
+        return self.emitted.name
+
+    @property
+    def manifest(self) -> dict[str, Any]:
+        """What the equations are."""
+        return self.emitted.manifest
+
+    @cached_property
+    def crossings(self) -> tuple[Crossing, ...]:
+        """Events that the signals have, and the guards beyond which there is no motion."""
+        return (*self._of_signals(), *self._of_guards())
+
+    def _of_signals(self) -> Iterator[Crossing]:
+        parameters = list(self.manifest["parameters"])
+        for place, signal in enumerate(self.manifest["signals"].values()):
+            seen = set()
+            for name, entry in signal.get("events", {}).items():
+                level = entry["level"]
+                if level in seen:  # the same, from the other side
+                    continue
+                seen.add(level)
+                needs = entry.get("needs")
+                named = isinstance(level, str)
+                yield Crossing(
+                    f"events.{name}",
+                    entry["meaning"],
+                    place,
+                    -1,
+                    0.0 if named else float(level),
+                    parameters.index(level.removeprefix("-")) if named else -1,
+                    -1.0 if named and level.startswith("-") else 1.0,
+                    -1 if needs is None else parameters.index(needs.removeprefix("-")),
+                )
+
+    def _of_guards(self) -> Iterator[Crossing]:
+        functions = self.manifest["functions"]
+        acting = {g for n in ("rhs", "signals") if n in functions for g in functions[n]["guards"]}
+        for place in sorted(acting):
+            guard = self.manifest["guards"][place]
+            yield Crossing(f"margins.{guard['name']}", guard["meaning"], -1, place)
+
+    # -- variables ------------------------------------------------------------------------------
+
+    @cached_property
+    def variables(self) -> tuple[Variable, ...]:
+        """All variables, in the order of their references."""
+        groups = (
+            self._time, self._states, self._rates, self._inputs, self._outputs, self._events,
+            self._parameters, self._step,
+        )  # fmt: skip
+        found: list[Variable] = []
+        for group in groups:
+            found += group(len(found))
+        return tuple(found)
+
+    @property
+    def states(self) -> Sequence[Variable]:
+        """The continuous states."""
+        return self.variables[1 : 1 + self._state_count]
+
+    @property
+    def rates(self) -> Sequence[Variable]:
+        """Their derivatives."""
+        return self.variables[1 + self._state_count : 1 + 2 * self._state_count]
+
+    @property
+    def outputs(self) -> Sequence[Variable]:
+        """The signals."""
+        return [v for v in self.variables if v.causality == "output"]
+
+    @property
+    def events(self) -> Sequence[Variable]:
+        """The event indicators."""
+        start = 1 + 2 * self._state_count + len(self.manifest["inputs"]) + len(self.outputs)
+        return self.variables[start : start + len(self.crossings)]
+
+    @property
+    def _state_count(self) -> int:
+        return len(self.manifest["state"])
+
+    def _time(self, first: int) -> list[Variable]:
+        return [Variable(first, "time", "simulated time", "s", "independent")]
+
+    def _states(self, first: int) -> list[Variable]:
+        entries = self.manifest["state"].items()
+        return [
+            Variable(
+                first + k, name, entry["meaning"], entry["unit"], "local", initial="exact",
+                start=float(self.emitted.state[k]),
+            )
+            for k, (name, entry) in enumerate(entries)
+        ]  # fmt: skip
+
+    def _rates(self, first: int) -> list[Variable]:
+        count = self._state_count
+        return [
+            Variable(
+                first + k, f"der({name})", f"derivative of {name}", _over_time(entry["unit"]),
+                "local", initial="calculated", derivative_of=first + k - count,
+            )
+            for k, (name, entry) in enumerate(self.manifest["state"].items())
+        ]  # fmt: skip
+
+    def _inputs(self, first: int) -> list[Variable]:
+        inputs = self.manifest["inputs"]
+        references = {name: first + k for k, name in enumerate(inputs)}
+        return [
+            Variable(
+                first + k, name, entry["meaning"], entry["unit"], "input",
+                start=float(self.emitted.inputs[k]),
+                derivative_of=references.get(entry["derivative_of"]),
+            )
+            for k, (name, entry) in enumerate(inputs.items())
+        ]  # fmt: skip
+
+    def _outputs(self, first: int) -> list[Variable]:
+        taken = {*self.manifest["state"], *self.manifest["inputs"], "time"}
+        return [
+            Variable(
+                first + k, f"signals.{name}" if name in taken else name, entry["meaning"],
+                entry["unit"], "output", initial="calculated",
+            )
+            for k, (name, entry) in enumerate(self.manifest["signals"].items())
+        ]  # fmt: skip
+
+    def _events(self, first: int) -> list[Variable]:
+        units = [entry["unit"] for entry in self.manifest["signals"].values()]
+        guards = [entry["unit"] for entry in self.manifest["guards"]]
+        return [
+            Variable(
+                first + k, c.name, f"zero crossing: {c.meaning}",
+                guards[c.guard] if c.signal < 0 else units[c.signal], "local", initial="calculated",
+            )
+            for k, c in enumerate(self.crossings)
+        ]  # fmt: skip
+
+    def _parameters(self, first: int) -> list[Variable]:
+        return [
+            Variable(
+                first + k, f"parameters.{name}", entry["meaning"], entry["unit"], "parameter",
+                "fixed", "exact", float(self.emitted.system.parameters[name]),
+                least=max(entry.get("least", -math.inf), entry.get("above", -math.inf)),
+                most=entry.get("most", math.inf),
+            )
+            for k, (name, entry) in enumerate(self.manifest["parameters"].items())
+        ]  # fmt: skip
+
+    def _step(self, first: int) -> list[Variable]:
+        return [
+            Variable(first, STEP, _STEP_MEANING, "s", "parameter", "fixed", "exact", 0.0, least=0.0)
+        ]
+
+    # -- numbers --------------------------------------------------------------------------------
+
+    @property
+    def values(self) -> list[float]:
+        """Parameters, start and inputs, as the library has them."""
+        emitted = self.emitted
+        return [*emitted.system.parameters.values(), *map(float, (*emitted.state, *emitted.inputs))]
+
+    def token(self, version: int) -> str:
+        """Return what the description and the library of one export have in common."""
+        told = repr((version, self.variables, self.crossings, self.manifest["mechanism"]))
+        digits = hashlib.sha256(told.encode()).hexdigest()
+        parts = (digits[a:b] for a, b in ((0, 8), (8, 12), (12, 16), (16, 20), (20, 32)))
+        return f"{{{'-'.join(parts)}}}"
+
+
+def _over_time(unit: str) -> str:
+    """Return the unit of a derivative."""
+    if "/s^" in unit:
+        head, _, power = unit.rpartition("/s^")
+        return f"{head}/s^{int(power) + 1}"
+    return f"{unit}^2" if unit.endswith("/s") else f"{unit}/s"

@@ -1,0 +1,93 @@
+"""The model description and the build description of FMI 3.0."""
+
+import math
+from collections.abc import Sequence
+from importlib.metadata import version
+from xml.etree import ElementTree as ET
+
+from .description import Description, Variable
+from .xml import element, log_categories, number, text_of, unit_definitions, units_of
+
+VERSION = 3
+FRONT = "fmi3.c"
+FOLDERS = {"linux": "x86_64-linux", "windows": "x86_64-windows"}
+"""Folders of libraries."""
+
+
+def model_description(known: Description, sources: Sequence[str]) -> str:
+    """Return ``modelDescription.xml``; `sources` are told by the build description."""
+    del sources
+    root = ET.Element(
+        "fmiModelDescription",
+        {
+            "fmiVersion": "3.0",
+            "modelName": known.identifier,
+            "instantiationToken": known.token(VERSION),
+            "description": known.emitted.title,
+            "generationTool": f"kintrafo {version('kintrafo')}",
+            "variableNamingConvention": "structured",
+        },
+    )
+    both = {
+        "modelIdentifier": known.identifier,
+        "canGetAndSetFMUState": "true",
+        "canSerializeFMUState": "true",
+        "providesDirectionalDerivatives": "true",
+        "providesAdjointDerivatives": "true",
+    }
+    element(root, "ModelExchange", both)
+    element(root, "CoSimulation", both | {"canHandleVariableCommunicationStepSize": "true"})
+    unit_definitions(root, known.variables)
+    log_categories(root)
+    element(root, "DefaultExperiment", {"startTime": "0.0", "stopTime": "1.0", "tolerance": "1e-6"})
+    variables = ET.SubElement(root, "ModelVariables")
+    for variable in known.variables:
+        _variable(variables, variable)
+    structure = ET.SubElement(root, "ModelStructure")
+    for tag, listed in (
+        ("Output", known.outputs),
+        ("ContinuousStateDerivative", known.rates),
+        ("InitialUnknown", [*known.outputs, *known.rates]),
+        ("EventIndicator", known.events),
+    ):
+        for variable in listed:
+            element(structure, tag, {"valueReference": variable.reference})
+    return text_of(root)
+
+
+def _variable(parent: ET.Element, variable: Variable) -> None:
+    element(
+        parent,
+        "Float64",
+        {
+            "name": variable.name,
+            "valueReference": variable.reference,
+            "description": variable.meaning,
+            "causality": variable.causality,
+            "variability": variable.variability,
+            "initial": variable.initial,
+            **units_of(variable),
+            "min": number(variable.least) if math.isfinite(variable.least) else None,
+            "max": number(variable.most) if math.isfinite(variable.most) else None,
+            "start": None if variable.start is None else number(variable.start),
+            "derivative": variable.derivative_of,
+        },
+    )
+
+
+def build_description(known: Description, sources: Sequence[str]) -> str:
+    """Return ``sources/buildDescription.xml``.
+
+    Parameters
+    ----------
+    known : Description
+    sources : sequence of str
+        The C files.
+    """
+    root = ET.Element("fmiBuildDescription", {"fmiVersion": "3.0"})
+    made = element(root, "BuildConfiguration", {"modelIdentifier": known.identifier})
+    files = element(made, "SourceFileSet", {"language": "C11"})
+    for name in sources:
+        element(files, "SourceFile", {"name": name})
+    element(made, "Library", {"name": "m"})
+    return text_of(root)

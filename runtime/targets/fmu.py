@@ -1,0 +1,102 @@
+"""A functional mock-up unit of FMI 2.0 or 3.0: Model Exchange and Co-Simulation in one file."""
+
+import sys
+import zipfile
+from collections.abc import Mapping, Sequence
+from importlib.resources import files
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from ..core.arguments import Arguments
+from ..core.files import Paths, replacing
+from .emitted import Emitted
+from .fmi import binaries, fmi2, fmi3
+from .fmi.description import Description
+from .fmi.sources import HEADERS, source_files
+
+ENDING = ".fmu"
+VERSIONS: Mapping[int, ModuleType] = {2: fmi2, 3: fmi3}
+
+# Files have no date: what is exported again has the same bytes.
+_NO_DATE = (1980, 1, 1, 0, 0, 0)
+
+
+def write(
+    emitted: Emitted,
+    path: Path,
+    *,
+    force: bool,
+    read: Paths,
+    fmi: int = 2,
+    platforms: Sequence[str] = ("linux",) if sys.platform == "linux" else (),
+) -> Path:
+    """Write a unit.
+
+    Parameters
+    ----------
+    emitted : Emitted
+    path : Path
+        Ends in ``.fmu``.
+    force : bool
+        Whether a file that somebody else wrote is replaced.
+    read : iterable of str or pathlib.Path
+        Files that are never replaced.
+    fmi : {2, 3}, optional
+        Version of the standard.
+    platforms : sequence of str, optional
+        'linux', 'windows': what there is a compiled library for. The sources are there in any case.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used, or the file cannot be written.
+    CompilerError
+        If there is no compiler for a platform, or it fails.
+    """
+    with Arguments("export") as given:
+        given.among("fmi", str(fmi), map(str, VERSIONS))
+        chosen = given.names("platforms", platforms, binaries.PLATFORMS)
+        if path.suffix.lower() != ENDING:
+            shown = path.with_suffix(ENDING) if path.name else f"model{ENDING}"
+            given.refuse(f"{path}: the name of this file must end in {ENDING}. Write {shown}.")
+    with replacing(path, force=force, inputs=read) as temporary:
+        _pack(temporary, contents(emitted, int(fmi), tuple(dict.fromkeys(chosen))))
+    return path
+
+
+def contents(emitted: Emitted, fmi: int, platforms: Sequence[str]) -> dict[str, bytes]:
+    """Return what is in a unit, by path."""
+    version: Any = VERSIONS[fmi]
+    known = Description(emitted)
+    token = known.token(fmi)
+    sources = source_files(known, [version.FRONT], token, known.values)
+    # the library of a model is compiled once, for both versions and whatever its numbers
+    any_numbers = source_files(known, HEADERS, "", [0.0] * len(known.values))
+    compiled = [name for name in sources if name.endswith(".c")]
+    found = {"modelDescription.xml": version.model_description(known, compiled).encode()}
+    for platform in platforms:
+        ending = ".dll" if platform == "windows" else ".so"
+        place = f"binaries/{version.FOLDERS[platform]}/{known.identifier}{ending}"
+        found[place] = binaries.library(
+            any_numbers, known.identifier, platform, token, known.values
+        )
+    found |= {f"sources/{name}": text.encode() for name, text in sources.items()}
+    if fmi == 3:
+        found["sources/buildDescription.xml"] = fmi3.build_description(known, compiled).encode()
+    licence = files(fmi2.__package__ or "") / "headers" / "LICENSE.txt"
+    found["documentation/licenses/FMI.txt"] = licence.read_bytes()
+    return found
+
+
+def _pack(path: Path, found: Mapping[str, bytes]) -> None:
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name, content in found.items():
+            entry = zipfile.ZipInfo(name, _NO_DATE)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.external_attr = 0o644 << 16
+            archive.writestr(entry, content)
