@@ -7,6 +7,7 @@ error of either shows, as does one of B, which does no work of its own.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from kintrafo.generated import macpherson_general
 from oracle import laws
 from oracle.constraints import BODIES, KNUCKLE, WHEEL, Array, Pose, unit
 from oracle.newton import Z_AXIS, Mechanism, observe
-from oracle.reference import Parameters
+from oracle.reference import SPRING_SEGMENTS, Parameters
 from scipy.integrate import solve_ivp
 
 MODEL = macpherson_general
@@ -85,7 +86,7 @@ class Bench:
         return Instantaneous(
             kinetic=self.kinetic(pose, twist),
             potential=float(given["gravity"] * car.masses @ pose.position[:, 2])
-            + 0.5 * given["spring_rate"] * (given["spring_free_length"] - seen.spring_length) ** 2
+            + laws.spring_energy(given, seen.spring_length)
             + sum(laws.stop_energy(given, side, seen.strut_length) for side in ("bump", "rebound")),
             dissipated=slide_rate
             * (laws.damper_force(given, slide_rate) + laws.friction_force(given, slide_rate)),
@@ -149,7 +150,7 @@ class Bench:
         return [smooth, solve(derivative, smooth.t[-2], end, smooth.y[:, -2])]
 
     def switches(self) -> list[Callable[[float, Array], float]]:
-        """Return events for the stops, for the tyre's load and for its clearance."""
+        """Return events for the stops, the spring's knots, the tyre's load and its clearance."""
         given = self.given
 
         def signal(name: str, time: float, state: Array) -> float:
@@ -172,7 +173,12 @@ class Bench:
         def rebound(time: float, state: Array) -> float:
             return signal("strut_length", time, state) - given["rebound_stop_length"]
 
-        events = [bump, rebound]
+        def knot(i: int, time: float, state: Array) -> float:
+            return signal("spring_length", time, state) - given[f"spring_table_knot_{i}"]
+
+        # partials, to which an attribute can be given as to functions
+        knots = [partial(knot, i) for i in range(SPRING_SEGMENTS + 1)]
+        events = [bump, rebound, *knots]
         if given["tyre_rate"]:
             events += [deflection, load]
         for event in events:
@@ -221,5 +227,6 @@ def test_nothing_is_lost_without_dissipation() -> None:
     assert {(now.dissipated, now.tyre) for now in instants} == {(0.0, 0.0)}
     kinetic = np.array([now.kinetic for now in instants])
     assert np.ptp(kinetic) > 50.0
-    # errors of the integration again, of stops that are hit hard: some thousand steps
-    assert np.ptp(energy) < 1e-9 * np.ptp(kinetic)
+    # errors of the integration again, of stops that are hit hard: some thousand steps. A knot of
+    # the spring that is passed and passed back within a step is not seen: an order or two more.
+    assert np.ptp(energy) < 2e-8 * np.ptp(kinetic)

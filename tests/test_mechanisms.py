@@ -31,7 +31,12 @@ from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import Plan
 from oracle.constraints import Array
 from oracle.maximal import Jet, Motion, Oracle, Reduced
-from oracle.reference import completed, further_parameters, general_parameters
+from oracle.reference import (
+    completed,
+    further_parameters,
+    general_parameters,
+    spring_parameters,
+)
 from own_models import Built, needs_gcc, own, shipped
 from scipy.integrate import solve_ivp
 from symbolic import constants_of, derivatives_of, python
@@ -177,6 +182,13 @@ def other_values(model: Formulation, rng: np.random.Generator) -> dict[str, floa
     if model.name == "double_wishbone_general":
         ends = (np.array([new[f"spring_{end}_{a}"] for a in "xyz"]) for end in ("top", "seat"))
         new |= further_parameters(rng, "damper", float(np.linalg.norm(np.subtract(*ends))))
+    for name in [name for name in new if name.endswith("spring_table_first_force")]:
+        prefix = name.removesuffix("spring_table_first_force")
+        ends = (
+            np.array([new[f"{prefix}spring_{end}_{a}"] for a in "xyz"]) for end in ("top", "seat")
+        )
+        length = float(np.linalg.norm(np.subtract(*ends)))
+        new |= spring_parameters(rng, length, prefix)
     return new
 
 

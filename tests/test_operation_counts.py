@@ -75,15 +75,16 @@ def test_counts_are_those_of_the_baseline(request: pytest.FixtureRequest) -> Non
     [
         ("macpherson", "rhs_rack_held", 550),
         ("macpherson", "rhs", 700),
-        ("macpherson_general", "rhs_rack_held", 700),
-        ("macpherson_general", "rhs", 900),
-        ("double_wishbone_general", "rhs", 850),
+        ("macpherson_general", "rhs_rack_held", 800),
+        ("macpherson_general", "rhs", 1000),
+        ("double_wishbone_general", "rhs", 950),
     ],
 )
 def test_limits_that_no_baseline_may_pass(model: str, function: str, limit: int) -> None:
     """The limit with the rack held is what a careful derivation by hand came to (569), beaten.
 
-    All that cars have beyond the paper costs twice as much; a damper curve is a third of that.
+    All that cars have beyond the paper costs twice as much; the curves of spring and damper are
+    half of that.
     """
     assert count(functions(model)[function]).total() <= limit
 

@@ -26,7 +26,15 @@ from .joints import (
     Universal,
     Weld,
 )
-from .laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
+from .laws import (
+    Actuator,
+    DamperTable,
+    Friction,
+    LinearDamper,
+    LinearSpring,
+    SpringTable,
+    Stop,
+)
 from .mechanism import Mechanism
 from .outputs import (
     AccelerationOf,
@@ -127,6 +135,7 @@ __all__ = [
     "Speed",
     "Spherical",
     "SpringRate",
+    "SpringTable",
     "Stop",
     "Surroundings",
     "TorsionDamperRate",

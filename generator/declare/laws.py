@@ -88,6 +88,10 @@ class AnyLaw(ABC):
         """Return where it knows its force, by the rate of the length."""
         return ()
 
+    def ranges_of_length(self) -> tuple[Range, ...]:
+        """Return where it knows its force, by the length."""
+        return ()
+
     def events_of_length(self, element: str) -> tuple[Event, ...]:
         """Return what happens at certain lengths of an element of this name."""
         del element
@@ -182,27 +186,26 @@ class LinearDamper(AnyLaw):
         return -self.rate.symbol * at.velocity
 
 
-@declared
 @dataclass(frozen=True, kw_only=True)
-class DamperTable(AnyLaw, Owner):
-    r"""A curve of force over velocity, smooth, with its own shape in bump and in rebound.
+class AnyTable(AnyLaw, Owner):
+    r"""A curve of force over what an element is pressed by, smooth but for what its data say.
 
-    Let x be the compression velocity, k_0 < ... < k_n the knots, and p_i = max(x - k_i, 0). With
-    t_i the part of segment i that x has passed, 0 before and 1 behind it,
+    Let p_i be how far knot i is passed, 0 before it, of knots 0 to n. With t_i the part of segment
+    i that is passed, 0 before and 1 behind it, and x_0 what is left to the first knot,
 
-        force = F_0 + s_0 min(x - k_0, 0) + sum_i t_i (a_i + t_i (b_i + t_i c_i)) + s_n p_n,
-        t_i = (p_i - p_{i+1}) / (k_{i+1} - k_i),    min(x - k_0, 0) = x - k_0 - p_0.
+        force = F_0 + s_0 min(x_0, 0) + sum_i t_i (a_i + t_i (b_i + t_i c_i)) + s_n p_n,
+        t_i = (p_i - p_{i+1}) / (width of segment i),    min(x_0, 0) = x_0 - p_0.
 
     That is a cubic in each segment and a straight line at both ends, without a branch. With the
-    coefficients of a C1 interpolation the curve is C1 too. Written in p_i, its derivative is right
-    at the knots as well: a velocity belongs to one segment, and rest is often a knot.
+    coefficients of a C1 interpolation the curve is C1 too; with b_i = c_i = 0 it has straight lines
+    between its knots. Written in p_i, its derivative is right at the knots as well.
 
     Parameters
     ----------
     name
         Begins the names of the parameters: ``<name>_first_force`` [N], ``<name>_first_slope`` and
-        ``<name>_last_slope`` [N s/m], ``<name>_knot_<i>`` [m/s], and for each segment
-        ``<name>_inverse_width_<i>`` [s/m], ``_linear``, ``_quadratic``, ``_cubic`` [N].
+        ``<name>_last_slope``, ``<name>_knot_<i>``, and for each segment
+        ``<name>_inverse_width_<i>``, ``_linear``, ``_quadratic``, ``_cubic`` [N].
     segments
         Number of segments; those that are not needed have width and coefficients zero (but any
         inverse width).
@@ -211,8 +214,16 @@ class DamperTable(AnyLaw, Owner):
     name: Name
     segments: Count
 
-    signal = "damper_force"
-    meaning = "damper force"
+    units: ClassVar[tuple[str, str, str]]
+    """Of a slope, a knot and an inverse width."""
+    knots: ClassVar[str]
+    """What the knots are of."""
+    ends: ClassVar[tuple[str, str]]
+    """Where the slopes of the first and the last knot hold."""
+
+    @abstractmethod
+    def beyond(self, at: Stretch, knot: sp.Symbol) -> sp.Expr:
+        """Return how far the element is pressed beyond a knot."""
 
     @cached_property
     def numbers(self) -> tuple[Parameter, ...]:
@@ -223,33 +234,31 @@ class DamperTable(AnyLaw, Owner):
         )
 
     def _entries(self) -> Iterator[tuple[str, float, str, str]]:
+        of_slope, of_knot, of_inverse = self.units
+        first, last = self.ends
         yield "first_force", 0.0, "N", "force at the first knot"
-        yield "first_slope", 0.0, "N s/m", "slope below the first knot"
-        yield "last_slope", 0.0, "N s/m", "slope above the last knot"
+        yield "first_slope", 0.0, of_slope, f"slope {first} the first knot"
+        yield "last_slope", 0.0, of_slope, f"slope {last} the last knot"
         for i in range(self.segments + 1):
-            yield f"knot_{i}", 0.0, "m/s", f"knot {i} of compression velocity"
+            yield f"knot_{i}", 0.0, of_knot, f"knot {i} of {self.knots}"
         for i in range(self.segments):
-            yield f"inverse_width_{i}", 1.0, "s/m", f"inverse width of segment {i}"
+            yield f"inverse_width_{i}", 1.0, of_inverse, f"inverse width of segment {i}"
             for power in ("linear", "quadratic", "cubic"):
                 yield f"{power}_{i}", 0.0, "N", f"{power} coefficient of segment {i}"
 
-    def ranges_of_rate(self) -> tuple[Range, ...]:
-        """Return the ends of the table; the knots of segments without need are the last one."""
-        first, last = (sp.Symbol(f"{self.name}_knot_{i}") for i in (0, self.segments))
-        words = "the damper is faster in {} than its table goes, and is taken to go on straight"
-        below, above = words.format("bump"), words.format("rebound")
-        return (Range(-last, -first, below, above, possible=True),)
+    def _symbol(self, what: str) -> sp.Symbol:
+        return sp.Symbol(f"{self.name}_{what}")
+
+    def _end_knots(self) -> tuple[sp.Symbol, sp.Symbol]:
+        """Return both ends; the knots of segments without need are the last one."""
+        return self._symbol("knot_0"), self._symbol(f"knot_{self.segments}")
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
-        program, x = at.program, -at.velocity
-
-        def symbol(what: str) -> sp.Symbol:
-            return sp.Symbol(f"{self.name}_{what}")
-
+        program, symbol = at.program, self._symbol
         passed = []
         for i in range(self.segments + 1):
-            beyond = program.define(f"{self.name}_beyond_{i}", x - symbol(f"knot_{i}"))
+            beyond = program.define(f"{self.name}_beyond_{i}", self.beyond(at, symbol(f"knot_{i}")))
             passed.append((beyond, program.define(f"{self.name}_passed_{i}", Positive(beyond))))
         (first, first_passed), (_, last_passed) = passed[0], passed[-1]
         total = symbol("first_force") + symbol("first_slope") * (first - first_passed)
@@ -262,6 +271,75 @@ class DamperTable(AnyLaw, Owner):
             a, b, c = (symbol(f"{power}_{i}") for power in ("linear", "quadratic", "cubic"))
             total += t * (a + t * (b + t * c))
         return total
+
+
+@declared
+@dataclass(frozen=True, kw_only=True)
+class DamperTable(AnyTable):
+    """A curve of force over velocity, with its own shape in bump and in rebound; see `AnyTable`.
+
+    Parameters
+    ----------
+    name
+        Begins the names of the parameters. Knots are compression velocities that rise [m/s].
+    segments
+        Number of segments.
+    """
+
+    signal = "damper_force"
+    meaning = "damper force"
+    units = "N s/m", "m/s", "s/m"
+    knots = "compression velocity"
+    ends = "below", "above"
+
+    def beyond(self, at: Stretch, knot: sp.Symbol) -> sp.Expr:
+        """Return how much faster than at a knot it is compressed."""
+        return -at.velocity - knot
+
+    def ranges_of_rate(self) -> tuple[Range, ...]:
+        """Return the ends of the table."""
+        first, last = self._end_knots()
+        words = "the damper is faster in {} than its table goes, and is taken to go on straight"
+        below, above = words.format("bump"), words.format("rebound")
+        return (Range(-last, -first, below, above, possible=True),)
+
+
+@declared
+@dataclass(frozen=True, kw_only=True)
+class SpringTable(AnyTable):
+    """A curve of force over length, of a spring whose rate changes; see `AnyTable`.
+
+    Parameters
+    ----------
+    name
+        Begins the names of the parameters. Knots are lengths that fall [m]: the first is the
+        longest, where the spring is pressed least.
+    segments
+        Number of segments.
+    """
+
+    signal = "spring_force"
+    meaning = "spring force"
+    units = "N/m", "m", "1/m"
+    knots = "length, falling"
+    ends = "by compression before", "by compression behind"
+
+    def problems(self, path: AnyPath) -> list[str]:
+        """See that the path has a length."""
+        if path.words.force == "moment":
+            return [f"the lengths of {self.name!r} are in m, and a twist has none"]
+        return []
+
+    def beyond(self, at: Stretch, knot: sp.Symbol) -> sp.Expr:
+        """Return how much shorter than at a knot it is."""
+        return knot - at.length
+
+    def ranges_of_length(self) -> tuple[Range, ...]:
+        """Return the ends of the table."""
+        longest, shortest = self._end_knots()
+        words = "the spring is {} than its table goes, and is taken to go on straight"
+        below, above = words.format("shorter"), words.format("longer")
+        return (Range(shortest, longest, below, above, possible=True),)
 
 
 @declared
@@ -366,4 +444,4 @@ class Actuator(AnyLaw):
         return sp.Symbol(self.input.name)
 
 
-Law = LinearSpring | LinearDamper | DamperTable | Friction | Stop | Actuator
+Law = LinearSpring | SpringTable | LinearDamper | DamperTable | Friction | Stop | Actuator

@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .. import declare as d
-from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT, further_laws, of_rubber
+from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT, further_laws, of_rubber, spring_table
 
 if TYPE_CHECKING:
     from ..declare.laws import Law
@@ -129,7 +129,7 @@ GENERAL = replace(
     name="double_wishbone_general",
     title="Double wishbone suspension with stops",
     forces=_forces(
-        (SPRING, DAMPER, *further_laws("damper", 1.0), ACTUATOR),
+        (SPRING, spring_table(), DAMPER, *further_laws("damper", 1.0), ACTUATOR),
         of_rubber(TYRE),
     ),
 )
@@ -151,6 +151,6 @@ MODELS = (
     _model(DOUBLE_WISHBONE, "Double wishbone suspension, rack prescribed"),
     _model(
         GENERAL,
-        "Double wishbone suspension with a damper curve, friction, stops; rack prescribed",
+        "Double wishbone suspension with curves, friction, stops; rack prescribed",
     ),
 )

@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from .. import declare as d
-from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT, further_laws, of_rubber
+from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT, further_laws, of_rubber, spring_table
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -144,7 +144,9 @@ SEATED_SPRING = d.LinearSpring(
 GENERAL_FORCES = (
     WEIGHT,
     d.ForceElement(
-        "spring", d.AlongLine((CHASSIS, SPRING_TOP), (KNUCKLE, SPRING_SEAT)), (SEATED_SPRING,)
+        "spring",
+        d.AlongLine((CHASSIS, SPRING_TOP), (KNUCKLE, SPRING_SEAT)),
+        (SEATED_SPRING, spring_table()),
     ),
     d.ForceElement(
         "strut",

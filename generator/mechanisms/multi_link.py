@@ -11,7 +11,7 @@ at z = 0.
 from __future__ import annotations
 
 from .. import declare as d
-from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT, further_laws, of_rubber
+from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT, further_laws, of_rubber, spring_table
 
 Place = tuple[float, float, float]
 
@@ -105,7 +105,9 @@ ACTUATOR = d.Actuator(
     )
 )
 COIL = d.ForceElement(
-    "spring", d.AlongLine((CHASSIS, SPRING_TOP), (REAR_LOWER, SPRING_SEAT)), (SPRING, ACTUATOR)
+    "spring",
+    d.AlongLine((CHASSIS, SPRING_TOP), (REAR_LOWER, SPRING_SEAT)),
+    (SPRING, spring_table(), ACTUATOR),
 )
 SHOCK = d.ForceElement(
     "damper",

@@ -11,7 +11,7 @@ from dataclasses import replace
 from .. import declare as d
 from . import double_wishbone as wishbones
 from .double_wishbone import ACTUATOR, CHASSIS, DAMPER, DOUBLE_WISHBONE, RACK_GUIDE, TYRE, WEIGHT
-from .suspension import RACK_FORCE, RACK_MOTION, further_laws, of_rubber
+from .suspension import RACK_FORCE, RACK_MOTION, further_laws, of_rubber, spring_table
 
 ROD_OUTER = d.Point("pull_rod_outer", (-0.01, -0.62, 0.49), "pull rod at the upper arm")
 ROD_INNER = d.Point("pull_rod_inner", (-0.01, -0.363, 0.233), "pull rod at the rocker")
@@ -42,7 +42,7 @@ SPRING = d.LinearSpring(
 COIL = d.ForceElement(
     "spring",
     d.AlongLine((CHASSIS, SPRING_TOP), (ROCKER, SPRING_SEAT)),
-    (SPRING, DAMPER, *further_laws("damper", 1.0), ACTUATOR),
+    (SPRING, spring_table(), DAMPER, *further_laws("damper", 1.0), ACTUATOR),
 )
 
 PULL_ROD_SUSPENSION = replace(

@@ -19,7 +19,7 @@ from .double_wishbone import (
     TYRE,
     WEIGHT,
 )
-from .suspension import RACK_FORCE, RACK_MOTION, further_laws, of_rubber
+from .suspension import RACK_FORCE, RACK_MOTION, further_laws, of_rubber, spring_table
 
 ROD_OUTER = d.Point("push_rod_outer", (0.0, -0.65, 0.21), "push rod at the lower arm")
 ROD_INNER = d.Point("push_rod_inner", (-0.01, -0.37, 0.53), "push rod at the rocker")
@@ -51,7 +51,7 @@ SPRING = d.LinearSpring(
 COIL = d.ForceElement(
     "spring",
     d.AlongLine((CHASSIS, SPRING_TOP), (ROCKER, SPRING_SEAT)),
-    (SPRING, DAMPER, *further_laws("damper", 1.0), ACTUATOR),
+    (SPRING, spring_table(), DAMPER, *further_laws("damper", 1.0), ACTUATOR),
 )
 
 PUSH_ROD_SUSPENSION = d.Mechanism(

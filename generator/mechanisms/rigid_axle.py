@@ -18,7 +18,7 @@ from .. import declare as d
 from ..declare.declared import parts
 from ..declare.parameters import Owner
 from ..program.vectors import UNIT_Y
-from .suspension import ROAD_HEIGHT, further_laws, of_rubber
+from .suspension import ROAD_HEIGHT, further_laws, of_rubber, spring_table
 
 Place = tuple[float, float, float]
 
@@ -101,7 +101,9 @@ TYRE = d.LinearTyre(
 )
 OF_A_SIDE = (
     d.ForceElement(
-        "spring", d.AlongLine((CHASSIS, SPRING_TOP), (BEAM, SPRING_SEAT)), (SPRING, ACTUATOR)
+        "spring",
+        d.AlongLine((CHASSIS, SPRING_TOP), (BEAM, SPRING_SEAT)),
+        (SPRING, spring_table(), ACTUATOR),
     ),
     d.ForceElement(
         "damper",

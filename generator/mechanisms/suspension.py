@@ -1,8 +1,8 @@
 """What the declarations of suspensions share: inputs, and what cars have beyond plain springs.
 
-The latter costs a fifth of an evaluation, so that it is in variants of its own: a damper with a
-curve, friction, stops, and a tyre that damps and lifts off. With the defaults of all these a
-variant is the plain suspension.
+The latter costs a third of an evaluation, so that it is in variants of its own: a spring and a
+damper with a curve, friction, stops, and a tyre that damps and lifts off. With the defaults of all
+these a variant is the plain suspension.
 """
 
 from __future__ import annotations
@@ -27,6 +27,14 @@ ROAD_HEIGHT = d.Input("road_height", "m", "height of the road under the tyre, po
 ROAD_VELOCITY = d.Input("road_velocity", "m/s", "rate of the road's height", ROAD_HEIGHT)
 
 
+_SEGMENTS = 10
+
+
+def spring_table() -> d.SpringTable:
+    """Return what acts along a spring besides its linear part: a curve."""
+    return d.SpringTable(name="spring_table", segments=_SEGMENTS)
+
+
 def further_laws(damper: str, longest: float) -> tuple[Law, ...]:
     """Return what acts along a damper besides its linear part: a curve, friction, two stops.
 
@@ -37,7 +45,7 @@ def further_laws(damper: str, longest: float) -> tuple[Law, ...]:
     longest
         A length that it does not exceed [m].
     """
-    table = d.DamperTable(name="damper_table", segments=10)
+    table = d.DamperTable(name="damper_table", segments=_SEGMENTS)
     friction = d.Friction(
         level=d.ForceLevel(f"{damper}_friction", 0.0, f"friction of the {damper} in full sliding"),
         speed=d.Speed(

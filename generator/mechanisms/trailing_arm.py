@@ -9,7 +9,7 @@ ground at z = 0.
 from __future__ import annotations
 
 from .. import declare as d
-from .suspension import ROAD_HEIGHT, further_laws, of_rubber
+from .suspension import ROAD_HEIGHT, further_laws, of_rubber, spring_table
 
 ARM_INNER = d.Point("arm_inner", (0.40, -0.27, 0.28), "inner bearing of the arm on the chassis")
 ARM_OUTER = d.Point("arm_outer", (0.52, -0.63, 0.28), "outer bearing of the arm on the chassis")
@@ -44,7 +44,9 @@ DAMPER = d.LinearDamper(
     rate=d.DamperRate("damper_rate", 2000.0, "rate of the damper along its axis")
 )
 COIL = d.ForceElement(
-    "spring", d.AlongLine((CHASSIS, SPRING_TOP), (ARM, SPRING_SEAT)), (SPRING, ACTUATOR)
+    "spring",
+    d.AlongLine((CHASSIS, SPRING_TOP), (ARM, SPRING_SEAT)),
+    (SPRING, spring_table(), ACTUATOR),
 )
 SHOCK = d.ForceElement(
     "damper",

@@ -151,7 +151,7 @@ def _first_column(values: Iterable[Any]) -> Column | None:
     return next((value for value in values if isinstance(value, Column)), None)
 
 
-def _each(function: Callable[..., float], *values: Any) -> Any:
+def each(function: Callable[..., float], *values: Any) -> Any:
     """Return a function of floats, of every one of many where one of its arguments is a column."""
     column = _first_column(values)
     if column is None:
@@ -178,27 +178,27 @@ def number(value: Any) -> Any:
 
 def hypot(*values: Any) -> Any:
     """Return the length of a vector of these components."""
-    return _each(math.hypot, *values)
+    return each(math.hypot, *values)
 
 
 def atan2(y: Any, x: Any) -> Any:
     """Return the angle of a direction in a plane [rad]."""
-    return _each(math.atan2, y, x)
+    return each(math.atan2, y, x)
 
 
 def tan(angle: Any) -> Any:
     """Return the tangent of an angle [rad]."""
-    return _each(math.tan, angle)
+    return each(math.tan, angle)
 
 
 def radians(angle: Any) -> Any:
     """Return an angle in radians."""
-    return _each(math.radians, angle)
+    return each(math.radians, angle)
 
 
 def degrees(angle: Any) -> Any:
     """Return an angle in degrees."""
-    return _each(math.degrees, angle)
+    return each(math.degrees, angle)
 
 
 def length(vector: Any) -> Any:

@@ -34,6 +34,7 @@ from .input.damper import NO_CURVE, Damper
 from .input.hardpoints import Hardpoints
 from .input.messages import messages_of
 from .input.section import Section
+from .input.spring import rate_key
 from .input.stop import NO_STOP, Stop
 from .input.toml_file import read_toml
 from .input.units import in_metres
@@ -55,8 +56,6 @@ _AN_AXLE = (
 
 # A wheel centre lower than this above z = 0 says that z = 0 is not the ground, in m.
 _SMALLEST_WHEEL_RADIUS = 0.1
-# How the names of their keys end.
-_RATE_UNITS = {"spring": "N_per_m", "damper": "N_s_per_m"}
 
 
 class Suspension(Section):
@@ -460,7 +459,7 @@ class Suspension(Section):
 
     def rate_key(self, part: str) -> str:
         """Return where the rate of a part, "spring" or "damper", stands in the file."""
-        return f"[{part}] rate_{_RATE_UNITS[part]}"
+        return rate_key(part, getattr(self, "spring", None))
 
     @abstractmethod
     def parameters(self) -> dict[str, float]:

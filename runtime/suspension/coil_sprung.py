@@ -12,66 +12,13 @@ from ..systems.allowed import Allowed
 from .base import Suspension
 from .corner import Spring as SpringStroke
 from .corner import Stroke
-from .input.damper import Damper, Numbers, curve_problems
+from .input.curve import WAYS, Interpolation, Numbers
+from .input.damper import Damper, curve_problems
 from .input.hardpoints import Pair
-from .input.section import NonNegative, Number, Positive, Section
+from .input.section import NonNegative, Positive, Section
+from .input.spring import SEATS, Spring
 from .input.units import in_metres
 from .strokes import Strokes
-
-_SPRING = ("spring_seat", "spring_top")
-
-
-class Spring(Section):
-    """The spring.
-
-    Its force, positive when it pushes its ends apart, is ``rate (free_length - length)``. Where it
-    is free of force is said in one of two ways.
-    """
-
-    rate_N_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
-        description="rate of the spring"
-    )
-    free_length_mm: Positive | None = Field(
-        default=None,
-        description="distance of spring_seat and spring_top with the spring force-free",
-    )
-    force_at_design_N: Number | None = Field(  # noqa: N815
-        default=None, description="force of the spring at the design position"
-    )
-
-    def problems(self) -> list[str]:
-        """See that the spring's free state is given once, and can be found."""
-        given = [
-            key for key in ("free_length_mm", "force_at_design_N") if getattr(self, key) is not None
-        ]
-        if len(given) != 1:
-            found = "both are given" if given else "neither is given"
-            problem = (
-                "where the spring is free of force is said by one of free_length_mm and "
-                f"force_at_design_N; {found}. Keep one."
-            )
-            return [problem]
-        if self.force_at_design_N is not None and self.rate_N_per_m == 0.0:
-            problem = (
-                f"force_at_design_N = {self.force_at_design_N} N needs a spring, but rate_N_per_m "
-                "= 0.0 N/m; more than 0 N/m is needed. Enter the rate, or a free length."
-            )
-            return [problem]
-        return []
-
-    def free_length(self, at_design: float) -> float:
-        """Return the length at which the spring is free of force [m].
-
-        Parameters
-        ----------
-        at_design : float
-            Its length at the design position [m].
-        """
-        if self.force_at_design_N is not None:
-            return at_design + self.force_at_design_N / self.rate_N_per_m
-        if self.free_length_mm is None:  # refused with the section
-            return at_design
-        return in_metres(self.free_length_mm, "mm")
 
 
 class CoilDamper(Section):
@@ -87,7 +34,7 @@ class CoilDamper(Section):
         The hardpoints between which it acts.
     """
 
-    ENDS: ClassVar[Pair] = _SPRING
+    ENDS: ClassVar[Pair] = SEATS
 
     rate_N_s_per_m: NonNegative | None = Field(  # noqa: N815 (N is the newton)
         default=None,
@@ -99,6 +46,9 @@ class CoilDamper(Section):
     force_N: Numbers | None = Field(  # noqa: N815
         default=None,
         description="forces at these velocities; positive where they resist bump",
+    )
+    interpolation: Interpolation | None = Field(
+        default=None, description=f"{WAYS}; left out: cubic"
     )
     friction_N: NonNegative = Field(  # noqa: N815
         default=0.0, description="friction of the damper in full sliding"
@@ -120,13 +70,16 @@ class CoilDamper(Section):
         """The curve; None where the damper has a rate."""
         if self.velocity_m_per_s is None or self.force_N is None:
             return None
-        return Damper(velocity_m_per_s=self.velocity_m_per_s, force_N=self.force_N)
+        return Damper(
+            velocity_m_per_s=self.velocity_m_per_s,
+            force_N=self.force_N,
+            interpolation=self.interpolation or "cubic",
+        )
 
     def problems(self) -> list[str]:
         """See that the damper is given once, and as a curve by both of its keys."""
-        by_curve = [
-            key for key in ("velocity_m_per_s", "force_N") if getattr(self, key) is not None
-        ]
+        keys = ("velocity_m_per_s", "force_N", "interpolation")
+        by_curve = [key for key in keys if getattr(self, key) is not None]
         if self.rate_N_s_per_m is not None and by_curve:
             problem = (
                 f"rate_N_s_per_m = {self.rate_N_s_per_m} N s/m and {by_curve[0]} both describe the "
@@ -204,6 +157,7 @@ class CoilSprung(Suspension):
         own = {
             "[damper] friction_N": self.damper.friction_N > 0.0,
             "[damper] velocity_m_per_s": self.damper.curve is not None,
+            "[spring] force_N": self.spring.by_curve,
         }
         return [name for name, is_present in own.items() if is_present] + self.extras()
 
@@ -218,12 +172,13 @@ class CoilSprung(Suspension):
             ``generated.double_wishbone_general`` lists besides.
         """
         damper, points = self.damper, self.hardpoints
-        values = self.shared_parameters() | {
-            "spring_rate": self.spring.rate_N_per_m,
-            "spring_free_length": self.spring.free_length(points.distance(*_SPRING)),
+        general = bool(self.beyond_the_plain())
+        values = {
+            **self.shared_parameters(),
+            **self.spring.parameters(points.distance(*SEATS), general=general),
             "damper_rate": damper.rate_N_s_per_m or 0.0,
         }
-        if not self.beyond_the_plain():
+        if not general:
             return values
         friction = {
             "damper_friction": damper.friction_N,

@@ -84,6 +84,7 @@ def _by_force(text: str, suspension: Suspension) -> str:
     if not isinstance(suspension, MacPherson):
         return text
     points, strut = suspension.hardpoints, suspension.strut
+    assert strut.spring_rate_N_per_m is not None  # no packaged file has a curve
     seats = points.distance("spring_seat", "spring_top")
     force = _rounded(strut.spring_rate_N_per_m * (strut.free_length(seats) - seats))
     return _FREE_SLIDE.sub(f"spring_force_at_design_N = {force}\n", text)

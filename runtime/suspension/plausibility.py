@@ -15,8 +15,10 @@ from numpy.typing import NDArray
 
 from ..core.vectors import angle_between_lines
 from .input.bodies import RigidBody, WheelBody
+from .input.spring import SEATS
 from .input.vehicle import Tyre, Wheel
 from .kinds import Suspension
+from .spring_table import ends_of_table, rate_at
 from .typical import typical_ranges
 
 Array = NDArray[np.float64]
@@ -58,6 +60,8 @@ _HOOPS = 1e3
 _SHORTEST_WHEELBASE, _LOWEST_CENTER = 0.05, 0.01
 # Wheels of cars stand within some degrees of upright and straight ahead [deg].
 _MOST_ALIGNMENT = 10.0
+# Of lengths [m].
+_ROUNDING = 1e-9
 
 
 class WholeVehicle(Protocol):
@@ -122,6 +126,7 @@ def plausibility(suspension: Suspension) -> Plausibility:
         *_wheel_place(suspension),
         *_steering_axis(suspension),
         *unusual_alignment(suspension.wheel),
+        *beyond_the_table(suspension.parameters(), suspension.hardpoints.distance(*SEATS)),
     )
     return Plausibility(problems, notes)
 
@@ -214,11 +219,12 @@ def _rack(suspension: Suspension) -> Iterator[str]:
 def _rates(suspension: Suspension) -> Iterator[str]:
     bodies = suspension.bodies
     mass = bodies.wheel.mass_kg + sum(body.mass_kg for body in bodies.rigid().values())
-    yield from unlikely_rates(suspension.parameters(), mass, suspension.rate_key)
+    length = suspension.hardpoints.distance(*SEATS)
+    yield from unlikely_rates(suspension.parameters(), length, mass, suspension.rate_key)
 
 
 def unlikely_rates(
-    values: Mapping[str, float], mass: float, key: Callable[[str], str]
+    values: Mapping[str, float], length: float, mass: float, key: Callable[[str], str]
 ) -> Iterator[str]:
     """Compare tyre and masses, the tyre with the spring, and the damper with both.
 
@@ -226,12 +232,15 @@ def unlikely_rates(
     ----------
     values : mapping
         Rates by their names in the equations.
+    length : float
+        Of the spring at design [m].
     mass : float
         Of all bodies of a wheel [kg].
     key : callable
         Returns where the rate of a part, "spring" or "damper", stands in the file.
     """
-    tyre, spring, damper = (values[f"{part}_rate"] for part in ("tyre", "spring", "damper"))
+    tyre, damper = (values[f"{part}_rate"] for part in ("tyre", "damper"))
+    spring = float(rate_at(values, np.array(length)))
     if tyre == 0.0:
         return
     hop = float(np.sqrt(tyre / mass)) / (2.0 * np.pi)
@@ -255,6 +264,17 @@ def unlikely_rates(
         yield (
             f"{key('damper')} = {damper:g} N s/m: the wheel on its tyre has a "
             f"damping ratio of {ratio:.2g} by it, on cars some 0.1 to 0.6. Is it in N s/mm?"
+        )
+
+
+def beyond_the_table(values: Mapping[str, float], length: float) -> Iterator[str]:
+    """Find a spring that is as long at design [m] as its curve does not go."""
+    ends = ends_of_table(values)
+    if ends is not None and not ends[0] - _ROUNDING <= length <= ends[1] + _ROUNDING:
+        shortest, longest = (1e3 * end for end in ends)
+        yield (
+            f"[spring] force_N: at design the spring is {1e3 * length:.1f} mm long, and its curve "
+            f"goes from {shortest:.1f} to {longest:.1f} mm; beyond it goes on straight. Add points."
         )
 
 

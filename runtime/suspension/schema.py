@@ -144,8 +144,15 @@ def _with_units(made: dict[str, Any]) -> dict[str, Any]:
 
 
 def _in_json_schema(part: Any) -> Any:
-    """Return a schema with pydantic's names of limits in those of JSON Schema."""
+    """Return a schema with pydantic's names of limits in those of JSON Schema.
+
+    What may be left out is None there, which no file has.
+    """
     if isinstance(part, dict):
+        options = part.get("anyOf", ())
+        if len(options) == 2 and {"type": "null"} in options:
+            (option,) = (one for one in options if one != {"type": "null"})
+            part = option | {key: value for key, value in part.items() if key != "anyOf"}
         return {_LIMITS.get(key, key): _in_json_schema(value) for key, value in part.items()}
     return [_in_json_schema(item) for item in part] if isinstance(part, list) else part
 

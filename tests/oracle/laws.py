@@ -5,6 +5,7 @@ how fast they approach, in m/s, positive in bump.
 """
 
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 from scipy.interpolate import PPoly
@@ -25,12 +26,41 @@ def damper_curve(parameters: Parameters) -> Callable[[float], float]:
     callable
         From m/s to N: cubics between the knots, straight lines outside.
     """
+    return _curve(parameters, "damper_table", 1.0)
+
+
+def spring_force(parameters: Parameters, length: float) -> float:
+    """Return the force of the spring at a length (m), by its rate and its curve together."""
+    straight = parameters["spring_rate"] * (parameters["spring_free_length"] - length)
+    return straight + _curve(parameters, "spring_table", -1.0)(-length)
+
+
+def spring_energy(parameters: Parameters, length: float) -> float:
+    """Return what the spring has stored, J: zero at its free length."""
+    # both are integrated from there, over the pieces of the curve, by a rule exact for cubics
+    free = parameters["spring_free_length"]
+    knots = [parameters[f"spring_table_knot_{i}"] for i in range(DAMPER_SEGMENTS + 1)]
+    low, high = sorted((free, length))
+    ends = np.unique(np.clip([low, *knots, high], low, high))
+    at, weights = np.polynomial.legendre.leggauss(3)
+    pieces = [
+        0.5
+        * (b - a)
+        * weights
+        @ [spring_force(parameters, 0.5 * (a + b + (b - a) * x)) for x in at]
+        for a, b in pairwise(ends)
+    ]
+    return float(np.sign(free - length) * np.sum(pieces))
+
+
+def _curve(parameters: Parameters, name: str, sense: float) -> Callable[[float], float]:
+    """Return force over what presses; a table has its knots with a sign."""
     table = {
-        name.removeprefix("damper_table_"): value
-        for name, value in parameters.items()
-        if name.startswith("damper_table_")
+        what.removeprefix(f"{name}_"): value
+        for what, value in parameters.items()
+        if what.startswith(f"{name}_")
     }
-    knots = np.array([table[f"knot_{i}"] for i in range(DAMPER_SEGMENTS + 1)])
+    knots = sense * np.array([table[f"knot_{i}"] for i in range(DAMPER_SEGMENTS + 1)])
     used = np.flatnonzero(np.diff(knots) > 0.0)
     first, force = table["first_slope"], table["first_force"]
     last, origin = table["last_slope"], knots[0]

@@ -21,6 +21,7 @@ velocity), and body 0 is the ground, which does not move.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -43,6 +44,7 @@ from kintrafo.generator import (
     Prismatic,
     Revolute,
     Spherical,
+    SpringTable,
     Stop,
     Universal,
     Weight,
@@ -513,8 +515,9 @@ class Oracle:
             return sense * np.polyval(
                 [given[law.progression.name], 0.0, given[law.rate.name], 0.0], depth
             )
-        if isinstance(law, DamperTable):
-            return self._damper(law, -velocity)
+        if isinstance(law, DamperTable | SpringTable):
+            of_spring = isinstance(law, SpringTable)
+            return self._of_table(law, *((-length, -1.0) if of_spring else (-velocity, 1.0)))
         assert isinstance(law, Actuator)
         return inputs[law.input.name]
 
@@ -524,13 +527,15 @@ class Oracle:
         full = self.parameters[element.path.joint.length_at_zero_slide.name]
         return full - self.parameters[spring.free_slide.name]
 
-    def _damper(self, table: DamperTable, compression: float) -> float:
-        """Return the force of a damper's curve: segment by segment as far as it is passed."""
+    def _of_table(
+        self, table: DamperTable | SpringTable, compression: float, sense: float
+    ) -> float:
+        """Return the force of a curve: segment by segment as far as it is passed."""
 
         def given(what: str) -> float:
             return self.parameters[f"{table.name}_{what}"]
 
-        knots = np.array([given(f"knot_{i}") for i in range(table.segments + 1)])
+        knots = sense * np.array([given(f"knot_{i}") for i in range(table.segments + 1)])
         force = given("first_force")
         if compression <= knots[0]:
             return force + given("first_slope") * (compression - knots[0])
@@ -640,6 +645,18 @@ class Oracle:
             return (
                 0.5 * given[law.rate.name] * depth**2
                 + 0.25 * given[law.progression.name] * depth**4
+            )
+        if isinstance(law, SpringTable):
+            # from a length that is no spring's, by a rule exact for the cubics of its pieces
+            knots = [self.parameters[f"{law.name}_knot_{i}"] for i in range(law.segments + 1)]
+            ends = np.unique(np.clip([0.0, *knots, length], 0.0, length))
+            at, weights = np.polynomial.legendre.leggauss(3)
+            return -sum(
+                0.5
+                * (b - a)
+                * weights
+                @ [self._of_table(law, -0.5 * (a + b + (b - a) * x), -1.0) for x in at]
+                for a, b in pairwise(ends)
             )
         return 0.0
 

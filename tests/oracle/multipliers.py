@@ -23,7 +23,15 @@ import numpy.typing as npt
 from scipy.integrate import solve_ivp
 
 from oracle.constraints import ARM, KNUCKLE, RACK, UPPER_STRUT, WHEEL, Array, Pose
-from oracle.laws import damper_force, friction_force, stop_energy, stop_force, tyre_load
+from oracle.laws import (
+    damper_force,
+    friction_force,
+    spring_energy,
+    spring_force,
+    stop_energy,
+    stop_force,
+    tyre_load,
+)
 from oracle.newton import Z_AXIS, Mechanism, observe, solve_pose
 
 CAUSES = (
@@ -319,9 +327,8 @@ def applied_wrenches(
 
     # The spring's upper seat is on the chassis, which does not move.
     seat = mechanism.point(pose, "spring_seat", KNUCKLE)
-    compression = given["spring_free_length"] - seen.spring_length
     along = (seat - mechanism.points["spring_top"]) / seen.spring_length
-    push = given["spring_rate"] * compression * along
+    push = spring_force(given, seen.spring_length) * along
     wrenches["spring"][KNUCKLE - 1] = _wrench(pose, KNUCKLE, seat, push)
 
     deflection = given["tyre_free_height"] + road_height - pose.position[WHEEL - 1, 2]
@@ -601,7 +608,6 @@ def _solve(
 
     given = mechanism.parameters
     seen = observe(mechanism, pose)
-    compression = given["spring_free_length"] - seen.spring_length
     height = pose.position[WHEEL - 1, 2] - road_height
     return Solution(
         coordinate_accelerations=coordinate_accelerations,
@@ -613,7 +619,7 @@ def _solve(
         kinetic_energy=float(0.5 * twist.ravel() @ mass @ twist.ravel()),
         potential_energy={
             "gravity": float(given["gravity"] * mechanism.masses @ pose.position[:, 2]),
-            "spring": 0.5 * given["spring_rate"] * compression**2,
+            "spring": spring_energy(given, seen.spring_length),
             "bump_stop": stop_energy(given, "bump", seen.strut_length),
             "rebound_stop": stop_energy(given, "rebound", seen.strut_length),
             "tyre": 0.5 * given["tyre_rate"] * float(height - given["tyre_free_height"]) ** 2,

@@ -12,7 +12,7 @@ the diagonal are those of the tensor, thus minus the products of inertia).
 
 import numpy as np
 import numpy.typing as npt
-from scipy.interpolate import PchipInterpolator
+from scipy.interpolate import PchipInterpolator, PPoly
 
 Array = npt.NDArray[np.float64]
 Parameters = dict[str, float]
@@ -34,7 +34,7 @@ GENERAL_BODIES = ("control_arm", "knuckle", "tie_rod", "rack", "upper_strut")
 STAND_INS = {"strut_lower": "ball_joint", "spring_top": "strut_top", "spring_seat": "ball_joint"}
 """The points that the paper's suspension does not have, and those that take their place there."""
 
-DAMPER_SEGMENTS = 10
+DAMPER_SEGMENTS = SPRING_SEGMENTS = 10
 """Segments of the damper's curve; those that are not used have no width."""
 
 INERTIA_ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
@@ -380,8 +380,9 @@ def completed(parameters: Parameters) -> Parameters:
     ----------
     parameters : dict of float
         Flat parameter dict; all that goes beyond the paper's suspension may be missing: the points
-        of `STAND_INS`, ``spring_free_length``, ``damper_table_*``, ``strut_friction*``,
-        ``bump_stop_*``, ``rebound_stop_*``, ``tyre_damper_rate`` and ``tyre_lifts_off``.
+        of `STAND_INS`, ``spring_free_length``, ``spring_table_*``, ``damper_table_*``,
+        ``strut_friction*``, ``bump_stop_*``, ``rebound_stop_*``, ``tyre_damper_rate`` and
+        ``tyre_lifts_off``.
 
     Returns
     -------
@@ -393,19 +394,18 @@ def completed(parameters: Parameters) -> Parameters:
         "strut_friction_speed": 0.01,
         "tyre_damper_rate": 0.0,
         "tyre_lifts_off": 0.0,
-        "damper_table_first_force": 0.0,
-        "damper_table_first_slope": 0.0,
-        "damper_table_last_slope": 0.0,
     }
+    for table in ("damper_table", "spring_table"):
+        absent |= {f"{table}_{what}": 0.0 for what in ("first_force", "first_slope", "last_slope")}
+        absent |= {f"{table}_knot_{i}": 0.0 for i in range(DAMPER_SEGMENTS + 1)}
+        for i in range(DAMPER_SEGMENTS):
+            absent[f"{table}_inverse_width_{i}"] = 1.0
+            absent |= {f"{table}_{p}_{i}": 0.0 for p in ("linear", "quadratic", "cubic")}
     for name, stand_in in STAND_INS.items():
         set_vector(absent, name, vector(parameters, stand_in))
     for side, length in (("bump", 0.0), ("rebound", parameters["strut_length_max"])):
         absent |= {f"{side}_stop_length": length}
         absent |= {f"{side}_stop_{name}": 0.0 for name in ("rate", "progression")}
-    absent |= {f"damper_table_knot_{i}": 0.0 for i in range(DAMPER_SEGMENTS + 1)}
-    for i in range(DAMPER_SEGMENTS):
-        absent[f"damper_table_inverse_width_{i}"] = 1.0
-        absent |= {f"damper_table_{p}_{i}": 0.0 for p in ("linear", "quadratic", "cubic")}
     free_slide = parameters.get("spring_free_slide", 0.0)
     absent["spring_free_length"] = parameters["strut_length_max"] - free_slide
     return absent | parameters
@@ -422,19 +422,51 @@ def set_damper_curve(parameters: Parameters, curve: PchipInterpolator) -> None:
     curve : PchipInterpolator
         Outside its knots it goes on as a straight line.
     """
-    knots, widths = curve.x, np.diff(curve.x)
-    slope = curve.derivative()
-    parameters["damper_table_first_force"] = float(curve(knots[0]))
-    parameters["damper_table_first_slope"] = float(slope(knots[0]))
-    parameters["damper_table_last_slope"] = float(slope(knots[-1]))
+    _set_curve(parameters, "damper_table", curve, curve.x)
+
+
+def set_spring_curve(
+    parameters: Parameters, curve: PPoly, longest: float, prefix: str = ""
+) -> None:
+    """Store a curve of force (N) over compression (m) from a length (m), of up to ten segments."""
+    _set_curve(parameters, f"{prefix}spring_table", curve, longest - curve.x)
+
+
+def _set_curve(parameters: Parameters, table: str, curve: PPoly, knots: Array) -> None:
+    widths, slope = np.diff(curve.x), curve.derivative()
+    first, last = curve.x[[0, -1]]
+    parameters[f"{table}_first_force"] = float(curve(first))
+    parameters[f"{table}_first_slope"] = float(slope(first))
+    parameters[f"{table}_last_slope"] = float(slope(last))
     for i in range(DAMPER_SEGMENTS + 1):
-        parameters[f"damper_table_knot_{i}"] = float(knots[min(i, len(widths))])
+        parameters[f"{table}_knot_{i}"] = float(knots[min(i, len(widths))])
     for i in range(DAMPER_SEGMENTS):
         width = widths[i] if i < len(widths) else 0.0
-        parameters[f"damper_table_inverse_width_{i}"] = float(1.0 / width) if width else 1.0
+        parameters[f"{table}_inverse_width_{i}"] = float(1.0 / width) if width else 1.0
         for power, name in enumerate(("linear", "quadratic", "cubic"), 1):
             coefficient = curve.c[3 - power, i] * width**power if width else 0.0
-            parameters[f"damper_table_{name}_{i}"] = float(coefficient)
+            parameters[f"{table}_{name}_{i}"] = float(coefficient)
+
+
+def spring_parameters(rng: np.random.Generator, length: float, prefix: str = "") -> Parameters:
+    """Return a random curve of a spring.
+
+    Parameters
+    ----------
+    rng : numpy.random.Generator
+        Source of the random numbers; it goes on as if none had been drawn.
+    length : float
+        A length in the middle of the curve, which reaches 60 mm to both sides, m.
+    prefix : str
+        Begins the names of the parameters.
+    """
+    (own,) = rng.spawn(1)
+    at = np.sort(own.uniform(0.005, 0.115, SPRING_SEGMENTS - 1))
+    forces = np.cumsum(own.uniform(50.0, 700.0, SPRING_SEGMENTS + 1)) - 1000.0
+    parameters: Parameters = {}
+    curve = PchipInterpolator(np.concatenate(([0.0], at, [0.12])), forces)
+    set_spring_curve(parameters, curve, length + 0.06, prefix)
+    return parameters
 
 
 def general_parameters(rng: np.random.Generator, offset: float = 0.06) -> Parameters:
@@ -468,6 +500,7 @@ def general_parameters(rng: np.random.Generator, offset: float = 0.06) -> Parame
     length = float(np.linalg.norm(top - lower))
     seats = float(np.linalg.norm(upper_seat - seat))
     parameters["spring_free_length"] = seats + rng.uniform(0.08, 0.16)
+    parameters |= spring_parameters(rng, seats)
     return completed(parameters | further_parameters(rng, "strut", length))
 
 

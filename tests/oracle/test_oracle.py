@@ -301,7 +301,7 @@ def test_generalised_forces_are_virtual_work(other_car: Mechanism) -> None:
         depth = max(sense * (given[f"{side}_stop_length"] - now.strut_length), 0.0)
         rate, cubic = (given[f"{side}_stop_{name}"] for name in ("rate", "progression"))
         push += sense * (rate * depth + cubic * depth**3)
-    coil = given["spring_rate"] * (given["spring_free_length"] - now.spring_length)
+    coil = laws.spring_force(given, now.spring_length)
     squeeze = given["tyre_free_height"] + inputs["road_height"] - now.wheel_center[2]
     closing = inputs["road_velocity"] - float(central_difference(height, 1e-4))
     load = given["tyre_rate"] * squeeze + given["tyre_damper_rate"] * closing

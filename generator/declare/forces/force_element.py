@@ -158,8 +158,10 @@ class ForceElement(Force):
     @property
     def _ranges(self) -> dict[str, tuple[Range, ...]]:
         """Where length and rate mean something."""
+        of_path = self.path.ranges_of_length(self.name)
+        of_length = tuple(r for law in self.laws for r in law.ranges_of_length())
         of_rate = tuple(r for law in self.laws for r in law.ranges_of_rate())
-        return {self._of_length: self.path.ranges_of_length(self.name), self._of_rate: of_rate}
+        return {self._of_length: (*of_path, *of_length), self._of_rate: of_rate}
 
     @property
     def _events(self) -> tuple[Event, ...]:

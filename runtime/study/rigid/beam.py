@@ -6,6 +6,7 @@ Lengths of springs, and their forces, are differentiated by the equations themse
 unit rates are first derivatives, and the derivatives of these are second ones.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,6 +17,7 @@ from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import UP, Array
 from ...suspension.rigid.axle import RigidAxle
 from ...suspension.rigid.model import HEAVE, ROLL, RigidAxleModel
+from ...suspension.spring_table import rate_at
 from ..characteristics.wheel import lowest_point, lowest_point_rate
 
 SIDES = (LEFT, RIGHT)
@@ -180,6 +182,11 @@ class Beam:
         rate: Array = -(changes * growth).sum(-1) / (growth * growth).sum(-1)
         return rate
 
+    def rate_of_spring(self, side: str) -> Array:
+        """Return the rate of a spring, along it, (n,) [N/m]."""
+        of_side = parameters_of(self.model, side)
+        return rate_at(of_side, self._signals[f"{side}_spring_length"])
+
     def _virtual_work(self, path: str, force: str) -> tuple[Array, Array]:
         """Return what a force along a path does in heave and roll, and its derivatives by them."""
         acting, growth = self._signals[force], self.growth(path)
@@ -188,6 +195,14 @@ class Beam:
         work = acting[:, None] * growth
         slopes_of_work = growth[..., :, None] * changes[..., None, :]
         return work, slopes_of_work + acting[:, None, None] * np.stack(bends, -2)
+
+
+def parameters_of(model: RigidAxleModel, side: str) -> Mapping[str, float]:
+    """Return the parameters of a side, by the names that those of the right one have."""
+    values = model.parameters
+    if side == RIGHT:
+        return values
+    return {n.removeprefix("left_"): v for n, v in values.items() if n.startswith("left_")}
 
 
 _SPRINGS = tuple(

@@ -8,7 +8,9 @@ import numpy as np
 
 from ...core.arguments import Arguments
 from ...core.quantities import display_of
+from ...suspension.axle.axle import RIGHT
 from ...suspension.plausibility import (
+    beyond_the_table,
     stray_points,
     unlikely_inertia,
     unlikely_rates,
@@ -23,6 +25,7 @@ from ...suspension.rigid.file import Rod
 from ...suspension.rigid.model import HEAVE, ROLL, RigidAxleModel, equilibrium
 from ...systems.linearisation import linearise
 from ..sweep import USUAL_TRAVEL
+from .beam import SIDES, parameters_of
 from .datasets import bump
 
 # Read at design over parallel travel, and what stands before the value.
@@ -45,8 +48,6 @@ _FAR = 0.4
 _MOST_TRAVEL = 0.5 * USUAL_TRAVEL
 # A rod whose axle's end is so much farther from the axle than the other one is swapped [m].
 _SWAPPED = 0.2
-# Where rates stand in the file.
-_RATES = {"spring": "[spring] rate_N_per_m", "damper": "[damper] rate_N_s_per_m"}
 
 
 @dataclass(frozen=True)
@@ -97,6 +98,8 @@ def checkup(axle: RigidAxle) -> RigidAxleCheckup:
     values, rows = _reach(model)
     problems = [*_unlikely(axle)]
     notes = [*unusual_alignment(axle.wheel)]
+    for side in SIDES:
+        notes += beyond_the_table(parameters_of(model, side), axle.length("spring", side))
     try:
         at_rest, told = _rest(model)
         values |= at_rest
@@ -145,7 +148,8 @@ def _unlikely(axle: RigidAxle) -> Iterator[str]:
     yield from unlikely_inertia({"beam": axle.bodies.beam}, size)
     yield from unlikely_wheel(axle.bodies.wheel, axle.tyre_radius())
     half = 0.5 * axle.bodies.beam.mass_kg + axle.bodies.wheel.mass_kg
-    yield from unlikely_rates(axle.parameters(), half, _RATES.__getitem__)
+    length = axle.length("spring", RIGHT)
+    yield from unlikely_rates(axle.parameters(), length, half, axle.rate_key)
     for name, ends in axle.ends().items():
         chassis, beam = (float(np.hypot(*(end - axle.center)[[0, 2]])) for end in ends)
         if beam > chassis + _SWAPPED:

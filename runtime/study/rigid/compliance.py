@@ -116,13 +116,16 @@ def _lines_by_rates(beam: Beam) -> SoftLines:
 
     Five rods have no motion with which the directions of forces would change.
     """
-    rate = beam.axle.spring.rate_N_per_m
-    if not rate > 0.0:
-        problem = "[spring] rate_N_per_m is 0: nothing holds the axle. Enter a rate."
+    rates = np.stack([beam.rate_of_spring(side) for side in SIDES], axis=1)
+    if not (rates > 0.0).all():
+        problem = (
+            "[spring] has a rate of 0 N/m there: nothing holds the axle. Enter a rate, or a curve "
+            "that rises."
+        )
         raise InputError([problem], "compliance")
     stops = np.stack([beam.rate_of_stops(side) for side in SIDES], axis=1)
     with np.errstate(divide="ignore"):
-        return SoftLines(np.broadcast_to(np.eye(2) / rate, (len(stops), 2, 2)), 1.0 / np.abs(stops))
+        return SoftLines(np.eye(2) / rates[:, None, :], 1.0 / np.abs(stops))
 
 
 def _soft_lines(beam: Beam, travels: Array) -> SoftLines:

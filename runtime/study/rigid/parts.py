@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.vectors import cross
-from ...suspension.axle.axle import RIGHT
 from ...suspension.corner import UP, RoadWheel, Vehicle
 from ...suspension.rigid.axle import RigidAxle
 from ...suspension.rigid.model import RigidAxleModel
@@ -22,7 +21,7 @@ from ...systems.allowed import Allowed
 from ..characteristics.wheel import lowest_point, upward_across
 from ..loads.poses import CENTER, CONTACT, forces_along, road_axes
 from ..loads.reactions import Load, known
-from .beam import SENSE, SIDES
+from .beam import SENSE, SIDES, parameters_of
 
 Array = NDArray[np.float64]
 
@@ -121,10 +120,7 @@ class Parts:
 
     def parameters_of(self, line: Line) -> Mapping[str, float]:
         """Return the parameters of the spring or the stops on a line, as the right side's are."""
-        values = self.model.parameters
-        if line.name.endswith(RIGHT):
-            return values
-        return {n.removeprefix("left_"): v for n, v in values.items() if n.startswith("left_")}
+        return parameters_of(self.model, line.name.rpartition("_")[2])
 
     def signals(self) -> dict[str, Array]:
         """Return the signals of the equations, (n,)."""

@@ -8,7 +8,7 @@ from pydantic import Field
 from scipy.interpolate import PchipInterpolator
 
 from ...core.errors import InputError
-from ..input.damper import Numbers
+from ..input.curve import Numbers
 from ..input.section import Section
 
 Array = NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""Spring and damper of the strut, as a file describes them."""
+"""Spring and damper of the strut, as its section of a file describes them."""
 
 from pydantic import Field
 
@@ -6,6 +6,7 @@ from .damper import Damper
 from .section import NonNegative, Number, Positive, Section
 from .units import in_metres
 
+_RATE = "spring_rate_N_per_m"
 _FREE = (
     "spring_free_slide_mm",
     "spring_free_length_mm",
@@ -31,8 +32,8 @@ class Strut(Section):
         description="the same distance with the strut pressed in as far as it goes; no position "
         "beyond it is returned",
     )
-    spring_rate_N_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
-        description="rate of the spring"
+    spring_rate_N_per_m: NonNegative | None = Field(  # noqa: N815 (N is the newton)
+        default=None, description="rate of the spring; for a curve there is [spring]"
     )
     spring_free_slide_mm: Number | None = Field(
         default=None, description="slide of the strut with the spring force-free"
@@ -59,6 +60,8 @@ class Strut(Section):
     def problems(self) -> list[str]:
         """See that the spring's free state is given once, and can be found."""
         given = [key for key in _FREE if getattr(self, key) is not None]
+        if self.spring_rate_N_per_m is None:
+            return []  # whether there is a [spring] instead is seen with it
         if len(given) != 1:
             found = f"{' and '.join(given)} are given" if given else "none of them is given"
             problem = (
@@ -74,6 +77,11 @@ class Strut(Section):
             )
             return [problem]
         return []
+
+    @property
+    def _rate(self) -> float:
+        assert self.spring_rate_N_per_m is not None  # refused with the section
+        return self.spring_rate_N_per_m
 
     @property
     def length_max(self) -> float:
@@ -103,13 +111,34 @@ class Strut(Section):
         if self.spring_free_length_mm is not None:
             return in_metres(self.spring_free_length_mm, "mm")
         if self.spring_force_at_design_N is not None:
-            return seats + self.spring_force_at_design_N / self.spring_rate_N_per_m
+            return seats + self.spring_force_at_design_N / self._rate
         if self.spring_preload_N is not None:
-            return self.length_max + self.spring_preload_N / self.spring_rate_N_per_m
+            return self.length_max + self.spring_preload_N / self._rate
         return self.length_max - self.free_slide(seats)
 
-    def spring_problems(self, *, own_seats: bool) -> list[str]:
-        """Refuse what a spring with seats of its own cannot be described by."""
+    def spring_problems(self, *, own_seats: bool, described: bool) -> list[str]:
+        """Refuse a spring that is described twice, or not, or not with seats of its own.
+
+        Parameters
+        ----------
+        own_seats : bool
+            Whether it has seats of its own.
+        described : bool
+            Whether a section describes it besides.
+        """
+        keys = [key for key in (_RATE, *_FREE) if getattr(self, key) is not None]
+        if described and keys:
+            problem = (
+                f"[strut] {keys[0]} and [spring] both describe the spring; one is allowed. Remove "
+                "the other."
+            )
+            return [problem]
+        if self.spring_rate_N_per_m is None and not described:
+            problem = (
+                "[strut] spring_rate_N_per_m is missing: rate of the spring, unless a section "
+                "[spring] describes it. Add a line `spring_rate_N_per_m = ...`, in N/m."
+            )
+            return [problem]
         given = self.spring_free_slide_mm if self.spring_preload_N is None else 0.0
         if given is None or not own_seats:
             return []
@@ -121,10 +150,9 @@ class Strut(Section):
         return [problem]
 
     def parameters(self, damper: Damper | None) -> dict[str, float]:
-        """Return what all equations need of the strut but the spring's free state, in SI units."""
+        """Return what all equations need of the strut but the spring, in SI units."""
         linear = self.damper_rate_N_s_per_m
         return {
             "strut_length_max": self.length_max,
-            "spring_rate": self.spring_rate_N_per_m,
             "damper_rate": 0.0 if linear is None or damper is not None else linear,
         }

@@ -15,13 +15,14 @@ from ...core.columns import number
 from ...core.errors import InputError
 from ...core.vectors import Vector, cross, distance_from_line, unit_vector
 from ...generated import double_wishbone, double_wishbone_general
-from ..coil_sprung import CoilDamper, CoilSprung, Spring
+from ..coil_sprung import CoilDamper, CoilSprung
 from ..corner import Array, Motion, Plane
 from ..drawing import Axis, Drawing
 from ..facts import Names
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Triple
+from ..input.spring import Spring
 from ..structure import FORCES_OF_A_DAMPER, Ball, Hinge, Line, Structure, steered
 
 _UP = np.array([0.0, 0.0, 1.0])

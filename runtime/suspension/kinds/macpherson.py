@@ -19,13 +19,15 @@ from ...generated import macpherson, macpherson_free_rack, macpherson_general
 from ...systems.allowed import Allowed
 from ...systems.compile.build import compile_mechanism, require_generator
 from ..base import Suspension
-from ..corner import Array, Motion, Plane, Spring, Stroke
+from ..corner import Array, Motion, Plane, Stroke
+from ..corner import Spring as SpringStroke
 from ..drawing import Axis, Drawing
 from ..facts import Extended, Names
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.damper import Damper
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Number, Triple
+from ..input.spring import NO_CURVE, Spring
 from ..input.strut import Strut
 from ..input.units import in_metres
 from ..strokes import Strokes
@@ -240,6 +242,11 @@ the strut extended (`spring_preload_N`), or by its force at the design position
     hardpoints: MacPhersonHardpoints = Field(description="the points that define the geometry")
     strut: Strut = Field(description="spring and damper")
     bodies: MacPhersonBodies = Field(description="masses and inertia")
+    spring: Spring | None = Field(
+        default=None,
+        description="the spring; in a MacPherson suspension it may be left out, as [strut] can say "
+        "all of it",
+    )
     damper: Damper | None = Field(default=None, description="a damper curve instead of a rate")
 
     # -- its equations --------------------------------------------------------------------------
@@ -275,13 +282,24 @@ the strut extended (`spring_preload_N`), or by its force at the design position
         values = self.shared_parameters(optional_points=general)
         values |= self.strut.parameters(self.damper)
         seats = self.hardpoints.distance("spring_seat", "spring_top")
-        if not general:
-            return values | {"spring_free_slide": self.strut.free_slide(seats)}
-        return (
-            values
-            | self._general_parameters()
-            | {"spring_free_length": self.strut.free_length(seats)}
-        )
+        if general:
+            return values | self._general_parameters() | self._spring_of(seats)
+        if self.spring is None:
+            slide = self.strut.free_slide(seats)
+        else:
+            slide = self.strut.length_max - self.spring.free_length(seats)
+        rate = self._spring_of(seats)["spring_rate"]
+        return values | {"spring_rate": rate, "spring_free_slide": slide}
+
+    def _spring_of(self, seats: float) -> dict[str, Any]:
+        """Return rate, free length and curve of the spring, in SI units."""
+        if self.spring is not None:
+            return self.spring.parameters(seats, general=True)
+        own = {
+            "spring_rate": self.strut.spring_rate_N_per_m,
+            "spring_free_length": self.strut.free_length(seats),
+        }
+        return own | NO_CURVE
 
     def _general_parameters(self) -> dict[str, float]:
         """Return what only the equations of the general suspension take, in SI units."""
@@ -313,7 +331,9 @@ the strut extended (`spring_preload_N`), or by its force at the design position
         return (Allowed("strut_length", in_metres(least, "mm"), "strut", end),)
 
     def rate_key(self, part: str) -> str:
-        """Return where the rate of the spring or the damper stands: with the strut."""
+        """Return where the rate of the spring or the damper stands: with the strut, usually."""
+        if part == "spring" and self.spring is not None:
+            return super().rate_key(part)
         return super().rate_key(part).replace(f"[{part}] ", f"[strut] {part}_")
 
     def drawing(self) -> Drawing:
@@ -366,7 +386,7 @@ the strut extended (`spring_preload_N`), or by its force at the design position
         top, bottom = points["strut_top"], points["strut_lower"]
         return Plane(ball, cross(front - rear, ball - rear)), Plane(top, top - bottom)
 
-    def spring_at(self, strokes: Strokes) -> Spring:
+    def spring_at(self, strokes: Strokes) -> SpringStroke:
         """Return the spring, which may have an axis of its own."""
         return strokes.spring("spring_force", "spring" if "spring_length" in strokes else "strut")
 
@@ -395,6 +415,7 @@ the strut extended (`spring_preload_N`), or by its force at the design position
             **{f"[hardpoints] {name}": True for name in self.hardpoints.given_optional()},
             "[strut] friction_N": self.strut.friction_N > 0.0,
             "[damper]": self.damper is not None,
+            "[spring] force_N": self.spring is not None and self.spring.by_curve,
         }
         return [name for name, is_present in own.items() if is_present] + self.extras()
 
@@ -405,10 +426,11 @@ the strut extended (`spring_preload_N`), or by its force at the design position
         if strut is None:
             return []
         without_curve = "damper" in sections and sections["damper"] is None
+        described = "spring" not in sections or sections["spring"] is not None
         return [
             *_strut_too_long(strut, points),
             *_strut_too_short(strut, points),
-            *strut.spring_problems(own_seats=points.has_spring_seats()),
+            *strut.spring_problems(own_seats=points.has_spring_seats(), described=described),
             *_damper_problems(strut, with_curve=not without_curve),
         ]
 

@@ -15,13 +15,14 @@ from ...core.columns import least_singular_value, stacked
 from ...core.errors import InputError
 from ...core.vectors import Vector, components, cross, unit_vector
 from ...generated import multi_link
-from ..coil_sprung import CoilDamper, CoilSprung, Spring
+from ..coil_sprung import CoilDamper, CoilSprung
 from ..corner import Array, Motion, Plane
 from ..drawing import Axis, Drawing
 from ..facts import Names
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.hardpoints import Hardpoints, Pair
 from ..input.section import Positive, Triple
+from ..input.spring import Spring
 from ..structure import FORCES_OF_A_DAMPER, Ball, Cross, Line, Structure, frame, steered
 
 LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_link")

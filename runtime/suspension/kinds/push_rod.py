@@ -14,11 +14,12 @@ from ...core.columns import number
 from ...core.errors import InputError
 from ...core.vectors import Vector, cross, distance_from_line, unit_vector
 from ...generated import push_rod
-from ..coil_sprung import CoilDamper, Spring
+from ..coil_sprung import CoilDamper
 from ..drawing import Axis, Drawing
 from ..input.bodies import Rack, RigidBody, TieRod
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Triple
+from ..input.spring import Spring
 from ..structure import FORCES_OF_A_DAMPER, Ball, Cross, Hinge, Line, Structure
 from .double_wishbone import DoubleWishbone, DoubleWishboneBodies, DoubleWishboneHardpoints
 

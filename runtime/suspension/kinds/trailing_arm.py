@@ -15,13 +15,14 @@ from ...core.columns import length, number
 from ...core.errors import InputError
 from ...core.vectors import Vector, angle_between_lines, cross, distance_from_line
 from ...generated import trailing_arm
-from ..coil_sprung import CoilDamper, CoilSprung, Spring
+from ..coil_sprung import CoilDamper, CoilSprung
 from ..corner import Array, Motion, Plane
 from ..drawing import Axis, Drawing
 from ..facts import Names
 from ..input.bodies import Bodies, RigidBody
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Positive, Triple
+from ..input.spring import Spring
 from ..structure import FORCES_OF_A_DAMPER, Fixed, Hinge, Line, Structure, frame
 
 _BEARINGS = ("arm_inner", "arm_outer")

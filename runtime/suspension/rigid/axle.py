@@ -15,12 +15,12 @@ from ...core.vectors import components, unit_vector
 from ..axle.axle import LEFT, RIGHT
 from ..axle.file import Brakes, End
 from ..bushes import Bush, Bushings, bushes_of
-from ..coil_sprung import Spring
 from ..corner import Array
 from ..data import data_sets, find
 from ..input.damper import NO_CURVE
 from ..input.messages import messages_of
 from ..input.section import Section
+from ..input.spring import Spring, rate_key
 from ..input.stop import NO_STOP, Stop
 from ..input.toml_file import read_toml
 from ..input.units import in_metres
@@ -341,6 +341,20 @@ class RigidAxle(Section):
             values |= {f"{prefix}{name}": value for name, value in of_side.items()}
         return values
 
+    def length(self, part: str, side: str) -> float:
+        """Return the length of a spring or a damper at design [m].
+
+        Parameters
+        ----------
+        part : {'spring', 'damper'}
+        side : {'left', 'right'}
+        """
+        return _length(self.points(side), part)
+
+    def rate_key(self, part: str) -> str:
+        """Return where the rate of the springs or the dampers stands, or the springs' curve."""
+        return rate_key(part, self.spring)
+
     def _of_side(self, side: str, sign: float) -> dict[str, float]:
         """Return the parameters of spring, damper, stops and tyre of a side, without its name."""
         points, damper = self.points(side), self.damper
@@ -352,8 +366,7 @@ class RigidAxle(Section):
             **curve,
             **(self.bump_stop or NO_STOP).parameters("bump", length),
             **(self.rebound_stop or NO_STOP).parameters("rebound", length),
-            "spring_rate": self.spring.rate_N_per_m,
-            "spring_free_length": self.spring.free_length(_length(points, "spring")),
+            **self.spring.parameters(_length(points, "spring"), general=True),
             "damper_rate": damper.rate_N_s_per_m or 0.0,
             "damper_friction": damper.friction_N,
             "damper_friction_speed": damper.friction_velocity_m_per_s,

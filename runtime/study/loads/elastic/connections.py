@@ -322,7 +322,7 @@ class _Side:
         force, parameters = poses.forces_along_lines()[line.name], poses.parameters_of(line)
         law: Law
         if line.is_spring:
-            law = Coil(length, force, parameters["spring_rate"])
+            law = Coil(length, force, parameters)
         else:
             law = Stops(length, force, poses.signals()[poses.counted_by(line)], parameters)
         ends = self._arm(line.first, line.at[0]), self._arm(line.second, line.at[1])

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....suspension.bush_curve import Curve
+from ....suspension.spring_table import force_and_rate
 
 Array = NDArray[np.float64]
 
@@ -80,18 +81,21 @@ class Coil:
     ----------
     length, force : ndarray, shape (n,)
         A length, and the force that pushes its ends apart there [m], [N].
-    rate : float
-        [N/m].
+    parameters : mapping
+        Of the equations.
     """
 
     length: Array
     force: Array
-    rate: float
+    parameters: Mapping[str, float]
 
     def __call__(self, displacement: Array) -> tuple[Array, Array]:
         """Return what resists a greater length."""
-        force = self.rate * (displacement - self.length) - self.force
-        return force, np.full_like(displacement, self.rate)
+        before, _ = force_and_rate(self.parameters, self.length)
+        now, of_curve = force_and_rate(self.parameters, displacement)
+        rate = self.parameters["spring_rate"]
+        force = rate * (displacement - self.length) + (before - now) - self.force
+        return force, rate + of_curve
 
 
 @dataclass(frozen=True)

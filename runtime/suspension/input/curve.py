@@ -1,0 +1,161 @@
+"""A force by a table: smooth between its points, or straight."""
+
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BeforeValidator
+from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, PPoly
+from scipy.optimize import brentq
+
+from ...core.columns import number
+from .section import Number
+
+Array = NDArray[np.float64]
+
+# As many segments as the generated equations have.
+SEGMENTS = 10
+
+Interpolation = Literal["cubic", "linear"]
+
+WAYS = (
+    'between the points of a curve: "cubic", monotone and smooth (Fritsch and Carlson), or '
+    '"linear", straight lines'
+)
+"""What a file says of the ways."""
+
+
+def _numbers(value: Any) -> Any:
+    return value.tolist() if isinstance(value, np.ndarray) else value
+
+
+Numbers = Annotated[tuple[Number, ...], BeforeValidator(_numbers)]
+
+
+def count_problems(key: str, places: tuple[float, ...], forces: tuple[float, ...]) -> list[str]:
+    """Say why so many points are no curve.
+
+    Parameters
+    ----------
+    key : str
+        What a file calls the places; the forces are ``force_N``.
+    places, forces : tuple of float
+    """
+    if len(places) != len(forces):
+        problem = (
+            f"{key} has {len(places)} values and force_N {len(forces)}; as many are needed. Give "
+            "one force for each of the others."
+        )
+        return [problem]
+    if not 2 <= len(places) <= SEGMENTS + 1:
+        problem = (
+            f"{key} has {len(places)} values; allowed are 2 to {SEGMENTS + 1}. Leave out points "
+            "where the curve is nearly straight."
+        )
+        return [problem]
+    return []
+
+
+class Curve:
+    """A force over what causes it, through points.
+
+    Between its points it is a monotone cubic (Fritsch and Carlson), or straight lines; outside them
+    it goes on straight.
+
+    Parameters
+    ----------
+    places, forces : ndarray, shape (n,)
+        Two or more; the places rise.
+    interpolation : {'cubic', 'linear'}
+    as_secants : bool
+        Whether a cubic goes on outside as its last two points rise, so that it carries any force;
+        else as it ends.
+    """
+
+    def __init__(
+        self, places: Array, forces: Array, interpolation: Interpolation, *, as_secants: bool
+    ) -> None:
+        self._places, self._forces = places, forces
+        self._width, self._rise = np.diff(places), np.diff(forces)
+        secants = self._rise / self._width
+        self._is_straight = interpolation == "linear"
+        if self._is_straight:
+            none = np.zeros_like(secants)
+            self._force = PPoly(np.stack([none, none, secants, forces[:-1]]), places)
+            self._slopes = np.append(secants, secants[-1])
+        else:
+            self._slopes = PchipInterpolator(places, forces).derivative()(places)
+            if as_secants:
+                self._slopes[[0, -1]] = secants[[0, -1]]
+            self._force = CubicHermiteSpline(places, forces, self._slopes)
+        self._slope = self._force.derivative()
+
+    def force(self, place: Array) -> Array:
+        """Return the force."""
+        inside = np.clip(place, *self._places[[0, -1]])
+        found: Array = self._force(inside) + self._slope(inside) * (place - inside)
+        return found
+
+    def rate(self, place: Array) -> Array:
+        """Return its derivative; where lines meet, that of the line before."""
+        inside = np.clip(place, *self._places[[0, -1]])
+        if self._is_straight:
+            inside = np.nextafter(inside, -np.inf)
+        found: Array = self._slope(inside)
+        return found
+
+    def place(self, force: float) -> float:
+        """Return where it has a force, if it rises without an end."""
+
+        def left(far: float) -> float:
+            return float(self.force(np.array(far))) - force
+
+        far = float(np.abs(self._places[[0, -1]]).max())
+        while not left(-far) <= 0.0 <= left(far):
+            far *= 2.0
+        return float(brentq(left, -far, far, xtol=1e-15))
+
+    def parameters(self, name: str, knots: Any = None) -> dict[str, Any]:
+        """Return the coefficients by the names in the equations.
+
+        Parameters
+        ----------
+        name : str
+            Of the table there.
+        knots : sequence, optional
+            What stands there for the places.
+
+        Returns
+        -------
+        dict of str to float
+            For each segment knot, inverse width and the three coefficients of its cubic in the part
+            of the segment that is passed; segments without need have no force.
+        """
+        knots = self._places if knots is None else knots
+        rise, none = self._rise, np.zeros_like(self._rise)
+        first, last = self._width * self._slopes[:-1], self._width * self._slopes[1:]
+        straight = self._is_straight
+        table = {
+            "knot": knots,
+            "inverse_width": 1.0 / self._width,
+            "linear": rise if straight else first,
+            "quadratic": none if straight else 3.0 * rise - 2.0 * first - last,
+            "cubic": none if straight else first + last - 2.0 * rise,
+        }
+        values = {
+            "first_force": self._forces[0],
+            "first_slope": self._slopes[0],
+            "last_slope": self._slopes[-1],
+        }
+        values |= {f"{key}_{i}": x for key, row in table.items() for i, x in enumerate(row)}
+        for i in range(rise.size, SEGMENTS):  # segments that nothing is left for
+            values |= dict.fromkeys((f"{key}_{i}" for key in table if key != "knot"), 0.0)
+            values[f"knot_{i + 1}"] = knots[-1]
+        return {f"{name}_{key}": number(x) for key, x in values.items()}
+
+
+def no_curve(name: str) -> dict[str, float]:
+    """Return the coefficients of none: no force, and knots between which nothing lies."""
+    points = np.array([0.0, 1.0])
+    of_one = Curve(points, points, "linear", as_secants=True).parameters(name)
+    return dict.fromkeys(of_one, 0.0)

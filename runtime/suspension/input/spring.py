@@ -1,0 +1,247 @@
+"""A coil spring, by a rate or by a curve of force over length."""
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from pydantic import Field
+
+from ...core.columns import each
+from .curve import WAYS, Curve, Interpolation, Numbers, count_problems, no_curve
+from .section import NonNegative, Number, Positive, Section
+from .units import in_metres
+
+TABLE = "spring_table"
+"""What the equations call the curve."""
+
+SEATS = ("spring_seat", "spring_top")
+"""The hardpoints that it acts between."""
+
+_FREE = ("free_length_mm", "force_at_design_N")
+_BY_CURVE = ("length_mm", "compression_mm", "force_N", "interpolation")
+
+
+class Spring(Section):
+    """The spring.
+
+    Its force, positive when it pushes its ends apart, is ``rate (free_length - length)``, and where
+    it is free of force is said in one of two ways. Or it has a curve through measured points: over
+    the distance of its ends, ``length_mm``, or over ``compression_mm``. The latter counts from
+    ``free_length_mm``, or so that ``force_at_design_N`` is its force at the design position.
+    """
+
+    rate_N_per_m: NonNegative | None = Field(  # noqa: N815 (N is the newton)
+        default=None, description="rate of the spring; or else a curve"
+    )
+    free_length_mm: Positive | None = Field(
+        default=None,
+        description="distance of spring_seat and spring_top with the spring force-free; of a curve "
+        "over compression_mm, where that is 0",
+    )
+    force_at_design_N: Number | None = Field(  # noqa: N815
+        default=None, description="force of the spring at the design position"
+    )
+    length_mm: Numbers | None = Field(
+        default=None,
+        description="of a curve instead of a rate: distances of spring_seat and spring_top, rising",
+    )
+    compression_mm: Numbers | None = Field(
+        default=None, description="of a curve, instead of length_mm: compressions, rising"
+    )
+    force_N: Numbers | None = Field(  # noqa: N815
+        default=None,
+        description="forces at these lengths or compressions, positive when the spring pushes; "
+        "they rise with the compression",
+    )
+    interpolation: Interpolation | None = Field(
+        default=None, description=f"{WAYS}; left out: cubic"
+    )
+
+    @property
+    def by_curve(self) -> bool:
+        """Whether it has a curve."""
+        return self.force_N is not None
+
+    def problems(self) -> list[str]:
+        """See that the spring is described once, and that where it is free can be found."""
+        by_curve = [key for key in _BY_CURVE if getattr(self, key) is not None]
+        if self.rate_N_per_m is None and by_curve:
+            return self._problems_of_curve()
+        if self.rate_N_per_m is None:
+            problem = (
+                "rate_N_per_m is missing: rate of the spring, unless force_N and length_mm or "
+                "compression_mm give its curve. Add a line `rate_N_per_m = ...`, in N/m."
+            )
+            return [problem]
+        if by_curve:
+            problem = (
+                f"rate_N_per_m = {self.rate_N_per_m} N/m and {by_curve[0]} both describe the "
+                "spring; one is allowed. Remove the other."
+            )
+            return [problem]
+        problems = self._problems_of_free(" and ".join(_FREE))
+        if not problems and self.force_at_design_N is not None and self.rate_N_per_m == 0.0:
+            problem = (
+                f"force_at_design_N = {self.force_at_design_N} N needs a spring, but rate_N_per_m "
+                "= 0.0 N/m; more than 0 N/m is needed. Enter the rate, or a free length."
+            )
+            return [problem]
+        return problems
+
+    def _problems_of_free(self, ways: str) -> list[str]:
+        """See that where the spring is free is said once."""
+        given = [key for key in _FREE if getattr(self, key) is not None]
+        if len(given) == 1:
+            return []
+        found = "both are given" if given else "neither is given"
+        return [f"where the spring is free of force is said by one of {ways}; {found}. Keep one."]
+
+    def _problems_of_curve(self) -> list[str]:
+        """See that the points are a curve, and that its lengths are known."""
+        over = [key for key in _BY_CURVE[:2] if getattr(self, key) is not None]
+        if len(over) != 1 or self.force_N is None:
+            found = ", ".join(key for key in _BY_CURVE if getattr(self, key) is not None)
+            problem = (
+                "a curve needs force_N, and either length_mm or compression_mm; given are "
+                f"{found}. Enter what is missing, or remove what is too much."
+            )
+            return [problem]
+        (key,) = over
+        places, force = getattr(self, key), self.force_N
+        problems = count_problems(key, places, force) or _problems_of_points(key, places, force)
+        if problems:
+            return problems
+        if key == "length_mm":
+            return [
+                f"{free} = {getattr(self, free)}: a curve over length_mm says what the force is at "
+                f"every length. Leave {free} out, or give the curve over compression_mm."
+                for free in _FREE
+                if getattr(self, free) is not None
+            ]
+        problems = self._problems_of_free(
+            "free_length_mm and force_at_design_N, from where compression_mm counts"
+        )
+        return problems or self._problems_of_force(places, force)
+
+    def _problems_of_force(self, places: tuple[float, ...], force: tuple[float, ...]) -> list[str]:
+        """See that the curve has the force at design at one compression alone, and free length."""
+        wanted = self.force_at_design_N
+        if wanted is None:
+            if self.free_length_mm is not None and self.free_length_mm <= places[-1]:
+                problem = (
+                    f"compression_mm goes to {places[-1]} mm and free_length_mm = "
+                    f"{self.free_length_mm} mm: nothing is left of the spring. Correct one of them."
+                )
+                return [problem]
+            return []
+        if not force[0] <= wanted <= force[-1]:
+            problem = (
+                f"force_at_design_N = {wanted} N is not on the curve, whose force_N goes from "
+                f"{force[0]} to {force[-1]} N. Enter a force of the curve, or free_length_mm."
+            )
+            return [problem]
+        if any(a == b == wanted for a, b in pairwise(force)):
+            problem = (
+                f"force_at_design_N = {wanted} N: the curve has that force at many compressions. "
+                "Enter free_length_mm."
+            )
+            return [problem]
+        return []
+
+    def parameters(self, at_design: float, *, general: bool) -> dict[str, Any]:
+        """Return rate, free length and curve by the names in the equations, in SI units.
+
+        Parameters
+        ----------
+        at_design : float
+            Its length at the design position [m].
+        general : bool
+            Whether the equations have a curve.
+        """
+        values = {
+            "spring_rate": self.rate_N_per_m or 0.0,
+            "spring_free_length": self.free_length(at_design),
+        }
+        return values | (self.table(at_design) if general else {})
+
+    def table(self, at_design: float) -> dict[str, Any]:
+        """Return the coefficients of its curve by the names in the equations, in SI units."""
+        found = self._curve()
+        if found is None:
+            return dict(NO_CURVE)
+        longest, curve, compressions = self.free_length(at_design), *found
+        return curve.parameters(TABLE, [longest - compression for compression in compressions])
+
+    def _curve(self) -> tuple[Curve, list[float]] | None:
+        """Return force over compression [m], and the compressions; None where it has a rate."""
+        if self.force_N is None:
+            return None
+        force = np.array(self.force_N)
+        if self.compression_mm is not None:
+            places = 1e-3 * np.array(self.compression_mm)
+        else:
+            assert self.length_mm is not None  # refused with the section
+            places = 1e-3 * (self.length_mm[-1] - np.array(self.length_mm[::-1]))
+            force = force[::-1]
+        curve = Curve(places, force, self.interpolation or "cubic", as_secants=True)
+        return curve, places.tolist()
+
+    def free_length(self, at_design: float) -> float:
+        """Return the length at which the spring is free of force [m].
+
+        Of a curve, that from which compressions count: the longest of a curve over lengths.
+
+        Parameters
+        ----------
+        at_design : float
+            Its length at the design position [m].
+        """
+        if self.length_mm is not None:
+            return in_metres(self.length_mm[-1], "mm")
+        if self.free_length_mm is not None:
+            return in_metres(self.free_length_mm, "mm")
+        if self.force_at_design_N is None:  # refused with the section
+            return at_design
+        found = self._curve()
+        if found is None:
+            assert self.rate_N_per_m is not None  # as there is no curve
+            return at_design + self.force_at_design_N / self.rate_N_per_m
+        curve, _ = found
+        compression: float = each(curve.place, self.force_at_design_N)
+        return at_design + compression
+
+
+def rate_key(part: str, spring: Spring | None) -> str:
+    """Return where the rate of a part, "spring" or "damper", stands in a file, or its curve."""
+    if part == "spring" and spring is not None and spring.by_curve:
+        return "[spring] force_N: the rate at design"
+    return {"spring": "[spring] rate_N_per_m", "damper": "[damper] rate_N_s_per_m"}[part]
+
+
+def _problems_of_points(key: str, places: tuple[float, ...], force: tuple[float, ...]) -> list[str]:
+    """Say why lengths or compressions [mm] and forces [N] are no curve of a spring."""
+    for a, b in pairwise(places):
+        if not b > a:
+            problem = (
+                f"{key}: {b} mm follows {a} mm; the values must rise. Sort the points and keep one "
+                "force for each."
+            )
+            return [problem]
+    if key == "length_mm" and not places[0] > 0.0:
+        return [f"length_mm begins with {places[0]} mm; more than 0 mm is needed. Correct it."]
+    sense, words = (-1.0, "longer") if key == "length_mm" else (1.0, "more compressed")
+    for (a, f), (b, g) in pairwise(zip(places, force, strict=True)):
+        if sense * (g - f) < 0.0:
+            problem = (
+                f"force_N = {f} N at {a} mm and {g} N at {b} mm: a spring that is {words} does not "
+                f"push {'more' if sense < 0.0 else 'less'}. Correct the forces; they are positive "
+                "when the spring pushes."
+            )
+            return [problem]
+    if force[0] == force[-1]:
+        return [f"force_N = {force[0]} N everywhere: this is no spring. Enter its forces."]
+    return []
+
+
+NO_CURVE = no_curve(TABLE)
+"""The coefficients of a spring without a curve."""

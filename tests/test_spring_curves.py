@@ -1,0 +1,296 @@
+"""Springs by a curve of force over length, in every kind of suspension and in a rigid axle."""
+
+from functools import partial
+
+import kintrafo
+import numpy as np
+import pytest
+from kintrafo import InputError, Model, RigidAxle, Suspension, characteristics
+from kintrafo.suspension.plausibility import plausibility
+from kintrafo.suspension.rigid.model import RigidAxleModel
+from kintrafo.suspension.rigid.model import equilibrium as equilibrium_of_axle
+from kintrafo.suspension.spring_table import force_and_rate, rate_at
+from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, interp1d
+from scipy.optimize import brentq
+
+KINDS = (
+    "reference_car",
+    "double_wishbone_car",
+    "push_rod_car",
+    "pull_rod_car",
+    "multi_link_car",
+    "trailing_arm_car",
+)
+# twice as stiff pressed by 70 mm as free of force: nearly flat at first, as a coil that goes solid
+COMPRESSIONS = (-20.0, 0.0, 20.0, 45.0, 70.0, 110.0, 160.0)
+FORCES = (-900.0, 0.0, 1100.0, 2900.0, 5200.0, 9800.0, 18500.0)
+WAYS = ("cubic", "linear")
+
+
+def with_spring(name, **spring):
+    """Return a car with another spring."""
+    data = Suspension.load(name).to_dict()
+    if "strut" in data:
+        data["strut"] = {k: v for k, v in data["strut"].items() if not k.startswith("spring_")}
+    return Suspension.from_dict(data | {"spring": spring})
+
+
+def curved(name, interpolation="cubic", force=4000.0):
+    """Return a car whose spring has a curve over compressions and a force at design."""
+    return with_spring(
+        name,
+        compression_mm=list(COMPRESSIONS),
+        force_N=list(FORCES),
+        force_at_design_N=force,
+        interpolation=interpolation,
+    )
+
+
+def expected_curve(interpolation):
+    """Return force [N] and rate [N/m] over compression [m] by SciPy alone."""
+    x, y = 1e-3 * np.array(COMPRESSIONS), np.array(FORCES)
+    if interpolation == "linear":
+        straight = interp1d(x, y, fill_value="extrapolate")
+        return (
+            straight,
+            lambda c: np.diff(y)[i := np.clip(np.searchsorted(x, c) - 1, 0, 5)] / (np.diff(x)[i]),
+        )
+    slopes = PchipInterpolator(x, y).derivative()(x)
+    # as the last two points rise it goes on
+    slopes[[0, -1]] = np.diff(y)[[0, -1]] / np.diff(x)[[0, -1]]
+    cubic = CubicHermiteSpline(x, y, slopes)
+
+    def force(c):
+        inside = np.clip(c, x[0], x[-1])
+        return cubic(inside) + cubic.derivative()(inside) * (c - inside)
+
+    return force, lambda c: cubic.derivative()(np.clip(c, x[0], x[-1]))
+
+
+def compression_of(interpolation, force):
+    """Return where the curve has a force [m]."""
+    curve, _ = expected_curve(interpolation)
+    return brentq(lambda c: float(curve(c)) - force, -0.1, 0.3, xtol=1e-15)
+
+
+@pytest.mark.parametrize("interpolation", WAYS)
+@pytest.mark.parametrize("name", KINDS)
+def test_the_force_is_that_of_the_points(name, interpolation):
+    """Over the travel and far beyond the table, beside SciPy's interpolation."""
+    model = Model(curved(name, interpolation))
+    free = float(model.signal("spring_length", model.design_state)) + compression_of(
+        interpolation, 4000.0
+    )
+    curve, _ = expected_curve(interpolation)
+    at = np.linspace(-0.06, 0.06, 13)
+    found = characteristics.travel(model, at)["spring_length"].values
+    for travel, length in zip(at, found, strict=True):
+        state = kintrafo.state_at_height(model, float(travel) + kintrafo_height(model))
+        signals = model.signals(state)
+        assert float(signals["spring_length"]) == pytest.approx(length, abs=1e-12)
+        # rounding of a length of half a metre, times a rate of 2e5 N/m
+        expected = float(curve(free - length))
+        assert float(signals["spring_force"]) == pytest.approx(expected, rel=1e-11, abs=1e-9)
+
+
+def kintrafo_height(model):
+    """Return the height of the wheel centre at design [m]."""
+    return float(model.signal("wheel_center_z", model.design_state))
+
+
+@pytest.mark.parametrize("interpolation", WAYS)
+@pytest.mark.parametrize("name", KINDS)
+def test_what_is_computed_uses_the_rate_where_it_is(name, interpolation):
+    """Wheel rate, ride frequency and eigenvalues beside those of a straight spring there."""
+    model = Model(curved(name, interpolation))
+    _, rate = expected_curve(interpolation)
+    found = characteristics.travel(model, [0.0]).isel(wheel_travel=0)
+    there = float(rate(compression_of(interpolation, 4000.0)))
+    tangent = Model(with_spring(name, rate_N_per_m=there, force_at_design_N=4000.0))
+    beside = characteristics.travel(tangent, [0.0]).isel(wheel_travel=0)
+    for what in ("wheel_rate", "ride_rate", "motion_ratio"):
+        assert float(found[what]) == pytest.approx(float(beside[what]), rel=1e-9)
+    assert float(found["wheel_rate"]) > 1000.0
+    # the linearised motion about design is that of the tangent, whatever else is the same
+    eigenvalues = [np.sort_complex(m.eigenvalues(m.design_state)) for m in (model, tangent)]
+    np.testing.assert_allclose(*eigenvalues, rtol=1e-7, atol=1e-7)
+    length = np.array(float(model.signal("spring_length", model.design_state)))
+    assert float(rate_at(model.parameters, length)) == pytest.approx(there, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_it_rests_where_the_curve_carries_the_wheel(name):
+    """Newton's equilibrium beside one by the curve of SciPy: virtual work at the wheel."""
+    model = Model(curved(name, force=4200.0))
+    rest = kintrafo.equilibrium(model)
+    signals = {key: float(value) for key, value in model.signals(rest).items()}
+    free = float(model.signal("spring_length", model.design_state)) + compression_of(
+        "cubic", 4200.0
+    )
+    curve, _ = expected_curve("cubic")
+    force = float(curve(free - signals["spring_length"]))
+    assert signals["spring_force"] == pytest.approx(force, rel=1e-10)
+    assert np.abs(model.evaluate("rhs", rest)).max() < 1e-6
+
+
+@pytest.mark.parametrize("interpolation", WAYS)
+def test_the_derivative_is_that_of_the_force(interpolation):
+    """The law in NumPy, that of the equations and their derivative agree at every length."""
+    model = Model(curved("double_wishbone_car", interpolation))
+    assert "spring_table_knot_0" in model.parameters
+    lengths = np.linspace(0.2, 0.6, 4001)
+    force, rate = force_and_rate(model.parameters, lengths)
+    middle = -np.gradient(force, lengths)
+    kinks = [model.parameters[f"spring_table_knot_{i}"] for i in range(11)]
+    away = np.abs(lengths[:, None] - kinks).min(1) > 2e-4
+    # central differences over 0.2 mm of a cubic whose third derivative is below 1e9 N/m^3
+    np.testing.assert_allclose(rate[away], middle[away], rtol=1e-3, atol=5.0)
+    by_state = model.evaluate("signals_jacobian", model.design_state)
+    names = list(model.signal_names)
+    by_arm = by_state[:, 0]
+    length = by_arm[names.index("spring_length")]
+    there = np.array(float(model.signal("spring_length", model.design_state)))
+    assert by_arm[names.index("spring_force")] == pytest.approx(
+        -float(rate_at(model.parameters, there)) * length, rel=1e-12
+    )
+
+
+def test_the_three_ways_to_say_it_are_one():
+    """Over lengths, from a free length, and from a force at design."""
+    name = "double_wishbone_car"
+    by_force = curved(name)
+    design = 1e3 * by_force.hardpoints.distance("spring_seat", "spring_top")
+    free = design + 1e3 * compression_of("cubic", 4000.0)
+    points = {"force_N": list(FORCES), "compression_mm": list(COMPRESSIONS)}
+    by_free = with_spring(name, free_length_mm=free, **points)
+    lengths = [free - c for c in reversed(COMPRESSIONS)]
+    by_length = with_spring(name, length_mm=lengths, force_N=list(reversed(FORCES)))
+    one, *others = (Model(car) for car in (by_force, by_free, by_length))
+    for other in others:
+        for height in (0.26, 0.3, 0.34):
+            states = (kintrafo.state_at_height(m, height) for m in (one, other))
+            first, second = (
+                float(m.signal("spring_force", s))
+                for m, s in zip((one, other), states, strict=True)
+            )
+            assert first == pytest.approx(second, rel=1e-11)
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_a_straight_curve_is_a_rate(name):
+    """Two points make the spring that a rate makes, in whatever equations."""
+    points = {"compression_mm": [0.0, 100.0], "force_N": [0.0, 6000.0]}
+    curve = Model(with_spring(name, force_at_design_N=3000.0, **points))
+    rate = Model(with_spring(name, force_at_design_N=3000.0, rate_N_per_m=60e3))
+    for height in (-0.04, 0.0, 0.03):
+        states = [kintrafo.state_at_height(m, kintrafo_height(m) + height) for m in (curve, rate)]
+        found, expected = (m.evaluate("rhs", s) for m, s in zip((curve, rate), states, strict=True))
+        np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-8)
+
+
+def test_a_macpherson_spring_stands_in_one_place():
+    car = Suspension.load("reference_car")
+    length = 1e3 * car.hardpoints.distance("ball_joint", "strut_top")
+    rate = with_spring("reference_car", rate_N_per_m=25e3, free_length_mm=length + 100.0)
+    assert not rate.beyond_the_paper()
+    slide = car.strut.length_max_mm - length - 100.0
+    assert rate.parameters()["spring_free_slide"] == pytest.approx(1e-3 * slide, abs=1e-12)
+    assert curved("reference_car").beyond_the_paper() == ["[spring] force_N"]
+    both = car.to_dict() | {"spring": {"rate_N_per_m": 25e3, "free_length_mm": 700.0}}
+    with pytest.raises(InputError, match=r"\[strut\] spring_rate_N_per_m and \[spring\] both"):
+        Suspension.from_dict(both)
+    strut = {k: v for k, v in car.to_dict()["strut"].items() if not k.startswith("spring_")}
+    with pytest.raises(InputError, match="spring_rate_N_per_m is missing"):
+        Suspension.from_dict(car.to_dict() | {"strut": strut})
+
+
+GOOD = {"compression_mm": [0.0, 50.0, 100.0], "force_N": [0.0, 2000.0, 6000.0]}
+
+
+@pytest.mark.parametrize(
+    ("spring", "words"),
+    [
+        ({**GOOD}, "neither is given"),
+        ({**GOOD, "free_length_mm": 500.0, "force_at_design_N": 10.0}, "both are given"),
+        ({**GOOD, "free_length_mm": 500.0, "rate_N_per_m": 1e4}, "both describe the spring"),
+        ({**GOOD, "free_length_mm": 500.0, "length_mm": [1.0, 2.0, 3.0]}, "either length_mm or"),
+        ({"force_N": [0.0, 1.0], "free_length_mm": 500.0}, "either length_mm or compression_mm"),
+        ({"length_mm": [300.0, 400.0]}, "a curve needs force_N"),
+        ({"interpolation": "linear"}, "a curve needs force_N"),
+        ({"free_length_mm": 500.0}, "rate_N_per_m is missing"),
+        (
+            {"length_mm": [300.0, 400.0], "force_N": [900.0, 0.0], "force_at_design_N": 100.0},
+            "Leave force_at_design_N out",
+        ),
+        (
+            {"length_mm": [300.0, 400.0], "force_N": [900.0, 0.0], "free_length_mm": 100.0},
+            "Leave free_length_mm out",
+        ),
+        ({"length_mm": [400.0, 300.0], "force_N": [0.0, 900.0]}, "the values must rise"),
+        ({"length_mm": [300.0, 400.0], "force_N": [0.0, 900.0]}, "does not push more"),
+        ({"length_mm": [0.0, 400.0], "force_N": [900.0, 0.0]}, "more than 0 mm"),
+        ({"length_mm": [300.0, 400.0], "force_N": [900.0]}, "2 values and force_N 1"),
+        ({"length_mm": [300.0], "force_N": [900.0]}, "allowed are 2 to 11"),
+        ({"length_mm": [300.0, 400.0], "force_N": [900.0, 900.0]}, "this is no spring"),
+        (
+            {"compression_mm": [0.0, 50.0], "force_N": [10.0, 0.0], "free_length_mm": 500.0},
+            "does not push less",
+        ),
+        ({**GOOD, "force_at_design_N": 7000.0}, "is not on the curve"),
+        ({**GOOD, "free_length_mm": 90.0}, "nothing is left of the spring"),
+        (
+            {
+                "compression_mm": [0.0, 50.0, 60.0, 100.0],
+                "force_N": [0.0, 2000.0, 2000.0, 4000.0],
+                "force_at_design_N": 2000.0,
+            },
+            "at many compressions",
+        ),
+        ({**GOOD, "free_length_mm": 500.0, "interpolation": "spline"}, "'cubic' or 'linear'"),
+    ],
+)
+@pytest.mark.parametrize("kind", ["double_wishbone_car", "reference_car", "rigid_axle"])
+def test_refused_springs(kind, spring, words):
+    make = axle if kind == "rigid_axle" else partial(with_spring, kind)
+    with pytest.raises(InputError, match=words):
+        make(**spring)
+
+
+def test_a_spring_in_a_wrong_unit_or_beyond_its_table_is_told():
+    name = "double_wishbone_car"
+    weak = with_spring(name, compression_mm=[0.0, 150.0], force_N=[0.0, 6.0], force_at_design_N=5.0)
+    assert "[spring] force_N: the rate at design = 40 N/m" in plausibility(weak).problems[0]
+    beyond = with_spring(name, length_mm=[300.0, 400.0], force_N=[6000.0, 0.0])
+    assert "goes from 300.0 to 400.0 mm" in plausibility(beyond).notes[-1]
+    assert not plausibility(curved(name)).problems
+
+
+def test_the_file_is_written_and_read_back(tmp_path):
+    for name in KINDS:
+        car = curved(name, "linear")
+        assert Suspension.load(car.save(tmp_path / f"{name}.toml")) == car
+
+
+def axle(**spring):
+    return RigidAxle.from_dict(RigidAxle.load("rigid_axle").to_dict() | {"spring": spring})
+
+
+def test_springs_of_a_rigid_axle():
+    """Force, rest and rates: those of a straight spring that touches the curve at design."""
+    points = {"compression_mm": list(COMPRESSIONS), "force_N": list(FORCES)}
+    force = RigidAxle.load("rigid_axle").spring.force_at_design_N
+    curve, rate = expected_curve("cubic")
+    there = float(rate(compression_of("cubic", force)))
+    bent = axle(**points, force_at_design_N=force)
+    straight = axle(rate_N_per_m=there, force_at_design_N=force)
+    models = [RigidAxleModel(one) for one in (bent, straight)]
+    found, expected = (np.sort_complex(m.eigenvalues(m.design_state)) for m in models)
+    np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-6)
+    rest = equilibrium_of_axle(models[0])
+    signals = models[0].signals(rest)
+    for side in ("left", "right"):
+        free = bent.length("spring", side) + compression_of("cubic", force)
+        length = float(signals[f"{side}_spring_length"])
+        assert float(signals[f"{side}_spring_spring_force"]) == pytest.approx(
+            float(curve(free - length)), rel=1e-10
+        )
