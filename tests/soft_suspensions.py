@@ -38,7 +38,8 @@ BUSHES: dict[str, dict[str, Any]] = {
     "arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": [1200.0, 2500.0],
                  "axis": [1.0, 0.2, 0.1], "radial_axis": [0.0, 1.0, 1.0]},
     "tie_rod_inner": {"axial_N_per_mm": 9000.0, "radial_N_per_mm": 4000.0},
-    "wheel_center": {"axial_N_per_mm": 50e3, "radial_N_per_mm": 80e3, "tilt_Nm_per_deg": 4000.0},
+    "wheel_center": {"axial_N_per_mm": 50e3, "radial_N_per_mm": 80e3,
+                     "tilt_Nm_per_deg": [4000.0, 6500.0], "radial_axis": [0.3, 0.0, 1.0]},
 }  # fmt: skip
 BUSHES_OF = {
     STRUT: BUSHES
@@ -148,8 +149,9 @@ class Stiffness:
         stiff = np.zeros((self.size, self.size))
         joints, rigid, spring, stop = self.parts(bushes)
         if "wheel_center" in bushes:
-            turning = self.tilting()
-            stiff += turning.T @ turning * bushes["wheel_center"]["tilt_Nm_per_deg"] * 180.0 / np.pi
+            rates = np.degrees(np.broadcast_to(bushes["wheel_center"]["tilt_Nm_per_deg"], 2))
+            turning = self.tilting(bushes["wheel_center"].get("radial_axis", Z))
+            stiff += turning.T @ np.diag(rates) @ turning
         for name, first, second in joints:
             rows = self.point(name, first, second)
             if name not in bushes:
@@ -176,12 +178,14 @@ class Stiffness:
         rotation: np.ndarray = self.pose.rotation[self.index(body) - 1]
         return np.eye(3) if body in (0, "rack") else rotation
 
-    def tilting(self) -> np.ndarray:
-        """Return how the wheel tilts against the knuckle, (2, size)."""
-        knuckle, wheel, spin, across, other = self.bearing()
-        return self.rows(
-            lambda a: [a.perpendicular(knuckle, wheel, spin, v) for v in (across, other)]
-        )
+    def tilting(self, about: Any = Z) -> np.ndarray:
+        """Return how the wheel tilts about a direction across its axis, and another, (2, size)."""
+        knuckle, wheel, spin, *_ = self.bearing()
+        other = np.cross(spin, about)
+        other /= np.linalg.norm(other)
+        # the axis leaves each direction as it turns about the other
+        ways = (other, np.cross(other, spin))
+        return self.rows(lambda a: [a.perpendicular(knuckle, wheel, spin, v) for v in ways])
 
     def bearing(self) -> tuple[int, int, np.ndarray, np.ndarray, np.ndarray]:
         spin = self.car.wheel.spin_axis(self.car.vehicle.sign)
@@ -241,6 +245,13 @@ class Stiffness:
 
     def matrix(self, name: str, bush: dict[str, Any]) -> np.ndarray:
         """Return a bush's stiffness in chassis axes at design, (3, 3) [N/m]."""
+        rows = self.axes_of(name, bush)
+        radial = np.broadcast_to(bush["radial_N_per_mm"], 2)
+        rates = 1e3 * np.array([bush["axial_N_per_mm"], *radial])
+        return rows.T @ np.diag(rates) @ rows
+
+    def axes_of(self, name: str, bush: dict[str, Any]) -> np.ndarray:
+        """Return the axes of a bush, and the two across it, as rows in chassis axes at design."""
         ends = {"strut_top": ("strut_lower", "strut_top"),
                 "tie_rod_inner": ("tie_rod_inner", "tie_rod_outer")}  # fmt: skip
         if "axis" in bush:
@@ -258,10 +269,7 @@ class Stiffness:
         first = np.array(bush.get("radial_axis", [0.0, 0.0, 1.0]))
         first = first - (first @ axis) * axis
         first /= np.linalg.norm(first)
-        radial = np.broadcast_to(bush["radial_N_per_mm"], 2)
-        rates = 1e3 * np.array([bush["axial_N_per_mm"], *radial])
-        rows = np.stack([axis, first, np.cross(axis, first)])
-        return rows.T @ np.diag(rates) @ rows
+        return np.stack([axis, first, np.cross(axis, first)])
 
     def contact(self) -> np.ndarray:
         spin = self.car.wheel.spin_axis(self.car.vehicle.sign)

@@ -156,6 +156,18 @@ WRONG: list[tuple[Any, dict[str, Any], str]] = [
     ({"arm_rear": {"radial_N_per_mm": 0.0}}, {}, "of 0.001 N/mm or more"),
     ({"arm_rear": {"radial_N_per_mm": [1.0, 2.0, 3.0]}}, {}, "a number is needed, or two"),
     ({"arm_rear": {"radial_N_per_mm": [[1.0, 2.0], [3.0]]}}, {}, "a finite number"),
+    ({"wheel_center": {"tilt_Nm_per_deg": [1.0, 2.0, 3.0]}}, {}, "a number is needed, or two"),
+    (
+        {"arm_rear": {"torsion_Nm_per_deg": [1.0, 2.0]}},
+        {},
+        "torsion_Nm_per_deg: a number is needed",
+    ),
+    ({"wheel_center": {"tilt_Nm_per_deg": 9.0, "radial_axis": [0.0, 1.0, 0.0]}}, {}, "lies along"),
+    (
+        {"arm_rear": {"radial_curve": {"mm": [0, 1], "N": [0, 1], "interpolation": "none"}}},
+        {},
+        "interpolation",
+    ),
     ({"arm_rear": {"axis": [1.0, 0.0, 0.0]}}, {}, "is needed, or it is rigid"),
     ({"arm_rear": {"axial_N_per_mm": 1.0, "axis": [0.0, 0.0, 0.0]}}, {}, "three numbers"),
     ({"arm_rear": {"axial_N_per_mm": 1.0, "axis": [1e300, 0.0, 0.0]}}, {}, "three numbers"),

@@ -31,10 +31,11 @@ from kintrafo.study.loads.elastic.equilibrium import Equilibrium, State
 from kintrafo.study.loads.elastic.held import at_height, on_bushes, soft_of, suspension_on
 from kintrafo.study.loads.elastic.places import Angles, Distances, Lengths, Places, Radii, Twists
 from kintrafo.study.loads.poses import Poses
-from kintrafo.suspension.bush_curve import Curve
+from kintrafo.suspension.input.curve import Curve
 from kintrafo.suspension.positions import design_height
 from kintrafo.suspension.reach import at_rest
 from oracle.constraints import Pose
+from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 from soft_suspensions import BUSHES, BUSHES_OF, LINKED, STRUT, TRAILING, WISHBONES, Stiffness
@@ -46,11 +47,28 @@ UNDER = ["lateral", "braking", "recession", "aligning"]
 SOFTER = {
     car: {
         point: {k: 0.1 * np.array(v) if k.endswith("mm") else v for k, v in bush.items()}
+        | ({"tilt_Nm_per_deg": [3.0, 10.0]} if "axis" in bush else {})
         for point, bush in bushes.items()
         if point != "wheel_center"
     }
     for car, bushes in BUSHES_OF.items()
 }
+
+# a spring that has nothing to do at design, and twice its rate in bump
+PRESSED, PUSHING = (
+    np.array([-60.0, -15.0, 0.0, 20.0, 60.0]),
+    np.array([-3e3, -800.0, 0.0, 1300.0, 5500.0]),
+)
+CURVED = WISHBONES.with_changes(
+    {
+        "spring.rate_N_per_m": None,
+        "spring.compression_mm": PRESSED.tolist(),
+        "spring.force_N": PUSHING.tolist(),
+    }
+)
+_SLOPES = PchipInterpolator(PRESSED, PUSHING).derivative()(PRESSED)
+_SLOPES[[0, -1]] = np.diff(PUSHING)[[0, -1]] / np.diff(PRESSED)[[0, -1]]
+BY_CURVE = CubicHermiteSpline(1e-3 * PRESSED, PUSHING, 1e3 * _SLOPES)
 
 
 def without_stops(car: Suspension) -> Suspension:
@@ -130,14 +148,29 @@ class Energy(Stiffness):
                 gap = self.placed(name, second) - self.placed(name, first)
                 gap = self.turned(first).T @ gap
                 total += 0.5 * gap @ self.matrix(name, self.bushes[name]) @ gap
+                total += self.of_tilt(name, first, second)
         spring, stop = (
             self.length(line) - free for line, free in zip(self.lines, self.free, strict=True)
         )
-        car = self.car
-        rate = car.strut.spring_rate_N_per_m if self.like is STRUT else car.spring.rate_N_per_m
         pressed = max(-stop, 0.0)
         total += 0.5 * 5e4 * pressed**2 + 0.25 * 0.05e9 * pressed**4
-        return float(total + 0.5 * rate * spring**2)
+        return float(total + self.of_spring(spring))
+
+    def of_tilt(self, name: str, first: Any, second: Any) -> float:
+        """Return what a bush has stored whose axis has left that of the other part."""
+        rates = np.degrees(self.bushes[name].get("tilt_Nm_per_deg", [0.0, 0.0]))
+        axis, *across = self.axes_of(name, self.bushes[name])
+        away = self.turned(first).T @ self.turned(second) @ axis
+        # the axis goes along the one as it turns about the other
+        return 0.5 * float(rates[0] * (across[1] @ away) ** 2 + rates[1] * (across[0] @ away) ** 2)
+
+    def of_spring(self, stretch: float) -> float:
+        """Return what the spring has stored by how much longer than at design it is."""
+        car = self.car
+        if self.like is not STRUT and car.spring.by_curve:
+            return float(BY_CURVE.antiderivative()(-stretch) - BY_CURVE.antiderivative()(0.0))
+        rate = car.strut.spring_rate_N_per_m if self.like is STRUT else car.spring.rate_N_per_m
+        return 0.5 * float(rate) * stretch**2
 
     def slopes(self, force: np.ndarray, road: float) -> np.ndarray:
         """Return the derivatives of the potential by all displacements and rotations."""
@@ -160,21 +193,25 @@ class Energy(Stiffness):
         return found
 
 
-@pytest.mark.parametrize("car", CARS, ids=lambda car: car.suspension)
+@pytest.mark.parametrize(
+    ("car", "like"),
+    [*((car, car) for car in CARS), (CURVED, WISHBONES)],
+    ids=[*(car.suspension for car in CARS), "spring by a curve"],
+)
 @pytest.mark.parametrize(
     ("travel", "force"), [(0.03, [-4000.0, 0.0, 0.0]), (-0.03, [1000.0, -5000.0, 300.0])]
 )
 def test_nothing_is_left_of_the_potential(
-    car: Suspension, travel: float, force: list[float]
+    car: Suspension, like: Suspension, travel: float, force: list[float]
 ) -> None:
     """Joints hold, and what is left of the potential's slopes is what they can carry.
 
     Differences over 1e-6 are off by 1e-16 of 100 J by that, 1e-8 N, and by 1e-12 of third ones;
     positions are found to 1e-10 of a metre at 1e7 N/m, 1e-3 N; loads are some thousand newtons.
     """
-    suspension, state = pushed(car, SOFTER[car], travel, force)
+    suspension, state = pushed(car, SOFTER[like], travel, force)
     assert state.found.all()
-    energy = Energy(car, SOFTER[car])
+    energy = Energy(car, SOFTER[like], like)
     bodies = energy.bodies[1:]
     order = [suspension._connections.index(0, body) for body in bodies]
     position, rotation = energy.pose.position.copy(), energy.pose.rotation.copy()
@@ -285,6 +322,25 @@ def test_what_resists_tilting_stiffens() -> None:
     assert moved[0] > 1.02 * moved[1] > 1.02 * moved[2] > 0.0
 
 
+def test_two_rates_against_tilting_have_axes() -> None:
+    """Exchanged with their axes they are the same; two that are equal are one; others are not."""
+    model = Model("reference_car")
+
+    def moved(tilt: Any, radial_axis: list[float]) -> float:
+        bush = {"axial_N_per_mm": 100.0, "radial_N_per_mm": 300.0, "axis": [1.0, 0.0, 0.0],
+                "tilt_Nm_per_deg": tilt, "radial_axis": radial_axis}  # fmt: skip
+        found = loads.deflection(model, dict.fromkeys(("arm_front", "arm_rear"), bush), "braking",
+                                 [2000.0])  # fmt: skip
+        return float(found["displacement"][0, 0])
+
+    upright, sideways = [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]
+    one, same = moved([20.0, 4000.0], upright), moved([4000.0, 20.0], sideways)
+    assert one == pytest.approx(same, rel=1e-9)
+    assert moved([20.0, 20.0], upright) == pytest.approx(moved(20.0, sideways), rel=1e-9)
+    # a force from the front turns the arm about the vertical
+    assert moved([4000.0, 20.0], upright) < 0.98 * one
+
+
 @pytest.mark.parametrize("camber", [-2.0, 1.5])
 @pytest.mark.parametrize("hardpoints", ["loaded", "relaxed"])
 @pytest.mark.parametrize("car", CARS, ids=lambda car: car.suspension)
@@ -339,16 +395,41 @@ def test_a_radial_curve_is_the_same_to_all_sides(hardpoints: Any) -> None:
 
 def test_a_curve_goes_on_as_its_last_points_rise() -> None:
     """Where a monotone cubic would end flat, which would carry nothing more."""
-    curve = Curve(1e-3 * np.array([-2.0, -1.0, 0.0, 1.0, 2.0]), np.array([-9, -8, 0.0, 8, 9.0]))
+    places, forces = 1e-3 * np.arange(-2.0, 2.5), np.array([-9, -8, 0.0, 8, 9.0])
+    curve = Curve(places, forces, "cubic", as_secants=True)
     outside = np.array([-5e-3, 3e-3])
     np.testing.assert_allclose(curve.force(outside), [-12.0, 10.0], rtol=1e-12)
     np.testing.assert_allclose(curve.rate(outside), 1e3, rtol=1e-12)
     inside = np.linspace(-2e-3, 2e-3, 401)
     assert (np.diff(curve.force(inside)) > 0.0).all()
-    assert curve.force(np.array([curve.displacement(500.0)]))[0] == pytest.approx(500.0)
+    assert curve.force(np.array([curve.place(500.0)]))[0] == pytest.approx(500.0)
     flat = {"arm_rear": {"radial_curve": {"mm": [0.0, 1.0, 2.0], "N": [0.0, 9.0, 10.0]}}}
     found = loads.elastokinematics(Model("reference_car"), flat, [0.0])
     np.testing.assert_allclose(*found["toe"].values, rtol=0.0, atol=1e-9)
+
+
+def test_a_curve_of_straight_lines() -> None:
+    """Between its points, and in what a load does: as the cubic through points on these lines."""
+    lines = {"mm": [0.0, 1.0, 4.0], "N": [0.0, 600.0, 9000.0], "interpolation": "linear"}
+    places = np.array([0.0, 1.0, 4.0])
+    curve = Curve(1e-3 * places, np.array([0.0, 600.0, 9000.0]), "linear", as_secants=True)
+    at = np.linspace(-1.0, 6.0, 15)
+    expected = np.where(at < 1.0, 600.0 * at, 600.0 + 2800.0 * (at - 1.0))
+    np.testing.assert_allclose(curve.force(1e-3 * at), expected, rtol=1e-12, atol=1e-9)
+    rates = np.where(at <= 1.0, 600e3, 2800e3)  # where lines meet, that of the line before
+    np.testing.assert_allclose(curve.rate(1e-3 * at), rates, rtol=1e-12)
+    fine = np.unique(np.concatenate([np.linspace(0.0, 4.0, 401), [0.999, 1.001]]))
+    forces = np.where(fine < 1.0, 600.0 * fine, 600.0 + 2800.0 * (fine - 1.0))
+    model = Model("reference_car")
+    one, other = (
+        loads.deflection(
+            model, {"arm_rear": {"axial_N_per_mm": 500.0, "radial_curve": described}}, "lateral",
+            [-5000.0, 2000.0, 6000.0],
+        )["toe_change"].values[0]
+        for described in (lines, {"mm": fine.tolist(), "N": forces.tolist()})
+    )  # fmt: skip
+    # the cubic rounds the corner off over 2 um
+    np.testing.assert_allclose(one, other, rtol=1e-4)
 
 
 def test_torsion_alone_has_no_linear_deflection() -> None:

@@ -5,7 +5,16 @@ from functools import partial
 import kintrafo
 import numpy as np
 import pytest
-from kintrafo import InputError, Model, RigidAxle, Suspension, characteristics
+from kintrafo import (
+    InputError,
+    Model,
+    RigidAxle,
+    Suspension,
+    characteristics,
+    loads,
+    rigid_axles,
+    variation,
+)
 from kintrafo.suspension.plausibility import plausibility
 from kintrafo.suspension.rigid.model import RigidAxleModel
 from kintrafo.suspension.rigid.model import equilibrium as equilibrium_of_axle
@@ -131,6 +140,79 @@ def test_it_rests_where_the_curve_carries_the_wheel(name):
     force = float(curve(free - signals["spring_length"]))
     assert signals["spring_force"] == pytest.approx(force, rel=1e-10)
     assert np.abs(model.evaluate("rhs", rest)).max() < 1e-6
+
+
+BUSH = {"lower_arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0}}
+
+
+@pytest.mark.parametrize("held", ["tyre", "spring"])
+def test_compliance_is_that_of_the_rate_where_it_is(held):
+    name = "double_wishbone_car"
+    model = Model(curved(name))
+    there = float(expected_curve("cubic")[1](compression_of("cubic", 4000.0)))
+    tangent = Model(with_spring(name, rate_N_per_m=there, force_at_design_N=4000.0))
+    one, other = (
+        loads.compliance(m, BUSH, [0.0], held=held)["flexibility"] for m in (model, tangent)
+    )
+    np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-15)
+
+
+def test_a_flat_piece_has_no_rate():
+    """What is left of the wheel rate there is what the force does as it turns."""
+    name = "double_wishbone_car"
+    points = {"compression_mm": [0.0, 20.0, 120.0, 160.0], "force_N": [0.0, 4e3, 4e3, 9e3]}
+    length = 1e3 * Suspension.load(name).hardpoints.distance("spring_seat", "spring_top")
+    model = Model(with_spring(name, free_length_mm=length + 70.0, **points))
+    assert float(model.signal("spring_force", model.design_state)) == pytest.approx(4e3, rel=1e-12)
+    length = np.array(float(model.signal("spring_length", model.design_state)))
+    assert float(rate_at(model.parameters, length)) == 0.0
+    step = 1e-3
+    found = characteristics.travel(model, [-step, 0.0, step])
+    turning = 4e3 * np.diff(found["motion_ratio"].values[[0, 2]])[0] / (2.0 * step)
+    assert float(found["wheel_rate"][1]) == pytest.approx(turning, rel=1e-4)
+    assert abs(turning) < 3e3
+
+
+def test_many_cars_have_the_numbers_of_each():
+    """A free length and hardpoints that vary: together, and one by one."""
+    car = curved("double_wishbone_car")
+    values = {
+        "spring.force_at_design_N": np.array([4000.0, 3800.0, 4300.0, 5000.0]),
+        "hardpoints.spring_top.z": np.array([620.0, 622.0, 617.0, 625.0]),
+    }
+    found = variation.cars(car, values, positions=[-0.03, 0.0, 0.03], names=["wheel_rate"])
+    for which in range(4):
+        changes = {place: float(column[which]) for place, column in values.items()}
+        alone = characteristics.travel(Model(car.with_changes(changes)), [-0.03, 0.0, 0.03])
+        # as a rate of 1e5 N/m is found alone: lengths to 1e-14 m, times how fast rates change
+        np.testing.assert_allclose(
+            found["wheel_rate"].values[which], alone["wheel_rate"], rtol=1e-9
+        )
+    assert not found["reason"].values.astype(bool).any()
+
+
+def test_a_motion_over_the_kinks_of_straight_lines():
+    """Methods of high order and stiff ones, at a usual tolerance, beside one at a small one."""
+    model = Model(curved("double_wishbone_car", "linear"))
+    start = kintrafo.state_at_height(model, kintrafo_height(model) + 0.05)
+    span, at = (0.0, 0.5), np.linspace(0.0, 0.5, 26)
+    exact = kintrafo.simulate(
+        model, span, start, t_eval=at, rtol=1e-12, atol=1e-13, max_step=1e-3, method="DOP853"
+    )
+    for method in ("DOP853", "BDF"):
+        found = kintrafo.simulate(
+            model, span, start, t_eval=at, method=method, rtol=1e-7, atol=1e-9
+        )
+        assert found.success
+        # some hundred steps of at most 1e-7 each, of heights of 0.3 m and turns of 1 rad
+        for name, size in (("wheel_center_z", 1.0), ("wheel_velocity", 10.0)):
+            np.testing.assert_allclose(
+                found.signals[name], exact.signals[name], rtol=0.0, atol=2e-6 * size
+            )
+    # knots were passed
+    lengths = exact.signals["spring_length"]
+    knots = {model.parameters[f"spring_table_knot_{i}"] for i in range(11)}
+    assert any(lengths.min() < knot < lengths.max() for knot in knots)
 
 
 @pytest.mark.parametrize("interpolation", WAYS)
@@ -273,6 +355,28 @@ def test_the_file_is_written_and_read_back(tmp_path):
 
 def axle(**spring):
     return RigidAxle.from_dict(RigidAxle.load("rigid_axle").to_dict() | {"spring": spring})
+
+
+def five_rods(**spring):
+    """Return an axle whose spring's rate alone holds it: five rods, one on soft bushes."""
+    data = RigidAxle.load("rigid_axle").to_dict()
+    data["rods"]["fifth_link"] = {"chassis": [500.0, -60.0, 540.0], "axle": [-20.0, -60.0, 520.0]}
+    bushings = {"fifth_link_chassis": {"axial_N_per_mm": 900.0, "radial_N_per_mm": 900.0}}
+    return RigidAxle.from_dict(data | {"spring": spring, "bushings": bushings})
+
+
+@pytest.mark.parametrize("make", [axle, five_rods])
+def test_compliance_of_a_rigid_axle_is_that_of_the_rate_where_it_is(make):
+    points = {"compression_mm": list(COMPRESSIONS), "force_N": list(FORCES)}
+    there = float(expected_curve("cubic")[1](compression_of("cubic", 4000.0)))
+    bushings = {"panhard_rod_chassis": {"axial_N_per_mm": 5000.0}}
+    both = bushings | ({} if make is axle else make(**points, force_at_design_N=4e3).bushings)
+    one, other = (
+        rigid_axles.compliance(make(**spring, force_at_design_N=4000.0), both, [0.0], held="spring")
+        for spring in (points, {"rate_N_per_m": there})
+    )
+    for name in one:
+        np.testing.assert_allclose(one[name], other[name], rtol=1e-8, atol=1e-14)
 
 
 def test_springs_of_a_rigid_axle():

@@ -1,68 +1,25 @@
 """The force of a bush over its displacement, where that is no straight line."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
-from scipy.optimize import brentq
 
 from ..core.arguments import Arguments
+from .input.curve import Curve, Interpolation
 
 Array = NDArray[np.float64]
 
-_KEYS = ("mm", "N")
+_KEYS, _WAY = ("mm", "N"), "interpolation"
 # No bush moves or carries more.
 _MOST_MM, _MOST_N = 1e3, 1e9
 
 
-class Curve:
-    """A force that rises with the displacement.
-
-    Between its points it is a monotone cubic (Fritsch and Carlson), outside them it goes on as the
-    last two points rise.
-
-    Parameters
-    ----------
-    displacement, force : ndarray, shape (n,)
-        Both rising, zero at the same point [m], [N].
-    """
-
-    def __init__(self, displacement: Array, force: Array) -> None:
-        self._ends = displacement[[0, -1]]
-        slopes = PchipInterpolator(displacement, force).derivative()(displacement)
-        secants = np.diff(force) / np.diff(displacement)
-        # as the last points rise it goes on, so that it carries any force
-        slopes[[0, -1]] = secants[[0, -1]]
-        self._force = CubicHermiteSpline(displacement, force, slopes)
-        self._slope = self._force.derivative()
-
-    def force(self, displacement: Array) -> Array:
-        """Return the force [N]."""
-        inside = np.clip(displacement, *self._ends)
-        found: Array = self._force(inside) + self._slope(inside) * (displacement - inside)
-        return found
-
-    def displacement(self, force: float) -> float:
-        """Return the displacement at which a force is carried [m]."""
-
-        def left(far: float) -> float:
-            return float(self.force(np.array([far]))[0]) - force
-
-        far = float(np.abs(self._ends).max())
-        while not left(-far) <= 0.0 <= left(far):
-            far *= 2.0
-        return float(brentq(left, -far, far, xtol=1e-15))
-
-    def rate(self, displacement: Array) -> Array:
-        """Return its derivative [N/m]."""
-        found: Array = self._slope(np.clip(displacement, *self._ends))
-        return found
-
-
 def curve_of(given: Arguments, title: str, described: Any, *, odd: bool) -> Curve | None:
     """Read a curve, ``{mm = [...], N = [...]}``; None where it cannot be one.
+
+    It rises, and goes on as its last two points do, so that it carries any force.
 
     Parameters
     ----------
@@ -73,9 +30,13 @@ def curve_of(given: Arguments, title: str, described: Any, *, odd: bool) -> Curv
     odd : bool
         Whether it begins at zero and is the same to both sides: across an axis, none is told apart.
     """
-    if not isinstance(described, Mapping) or set(described) != set(_KEYS):
-        given.refuse(f"{title} must be a table of two lists, {{mm = [...], N = [...]}}.")
+    if not isinstance(described, Mapping) or {*described} - {_WAY} != {*_KEYS}:
+        given.refuse(
+            f"{title} must be a table of two lists, {{mm = [...], N = [...]}}, and if need be "
+            f'{_WAY} = "linear".'
+        )
         return None
+    way = given.among(f"{title} {_WAY}", described.get(_WAY, "cubic"), get_args(Interpolation))
     places, forces = (
         given.array(f"{title} {key}", described[key], key, dimensions=[1]) for key in _KEYS
     )
@@ -85,7 +46,7 @@ def curve_of(given: Arguments, title: str, described: Any, *, odd: bool) -> Curv
         return None
     if odd:
         places, forces = (np.concatenate([-v[:0:-1], v]) for v in (places, forces))
-    return Curve(1e-3 * places, forces)
+    return Curve(1e-3 * places, forces, "linear" if way == "linear" else "cubic", as_secants=True)
 
 
 def _problem(places: Array, forces: Array, *, odd: bool) -> str:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,8 @@ from pydantic import BeforeValidator, WithJsonSchema
 from ..core.arguments import Arguments
 from ..core.suggestions import suggestion
 from ..core.vectors import cross, unit_vector
-from .bush_curve import Curve, curve_of
+from .bush_curve import curve_of
+from .input.curve import Curve, Interpolation
 from .input.toml_file import read_sections
 from .input.units import unit_of
 from .structure import Fixed, Joint, Points, Structure, Telescope
@@ -22,16 +23,22 @@ Array = NDArray[np.float64]
 _STIFFNESSES = {
     "axial_N_per_mm": "stiffness along its axis",
     "radial_N_per_mm": "stiffness across its axis; or two, along `radial_axis` and across that",
-    "tilt_Nm_per_deg": "stiffness against tilting about axes across its own",
+    "tilt_Nm_per_deg": "stiffness against tilting about axes across its own; or two, about "
+    "`radial_axis` and about the axis across that",
     "torsion_Nm_per_deg": "stiffness against turning about its axis",
-    "axial_curve": "in place of a stiffness, lists `mm` and `N`, both rising",
-    "radial_curve": "in place of a stiffness, lists `mm` and `N`, both rising from 0",
+    "axial_curve": "in place of a stiffness, lists `mm` and `N`, both rising; see [spring] for "
+    "`interpolation`",
+    "radial_curve": "in place of a stiffness, lists `mm` and `N`, both rising from 0; see [spring] "
+    "for `interpolation`",
 }
 _DIRECTIONS = {
     "axis": "its axis, chassis axes at design; by default that of the arm, the rod, the strut or "
     "the wheel",
-    "radial_axis": "direction of the first of two radial stiffnesses; by default upward",
+    "radial_axis": "direction of the first of two radial stiffnesses, and the axis of the first of "
+    "two against tilting; by default upward",
 }
+_PAIRS = ("radial_N_per_mm", "tilt_Nm_per_deg")
+"""What can differ between the two directions across the axis."""
 _KEYS = (*_STIFFNESSES, *_DIRECTIONS)
 RACK = "rack"
 """In the place of a hardpoint: how stiff the steering holds the rack along its axis."""
@@ -59,14 +66,14 @@ class Bush:
         Its own axis and two across it, as rows in the chassis axes at design.
     soft : ndarray, shape (3,)
         Displacement of the joint's second part along each by a unit force on it [m/N].
-    tilt : float
-        Of a bearing, its rotation about any axis across that of the wheel by a unit moment
+    tilt : ndarray, shape (2,)
+        Of a bearing, its rotation about each of two axes across that of the wheel by a unit moment
         [rad/(N m)].
+    tilts_about : ndarray, shape (2, 3)
+        These axes, as rows in the chassis axes at design.
     turning : tuple of float
         Of what turns freely without a bush: the moment by which it resists a unit of torsion about
-        its axis, and of tilting about others [N m/rad].
-    spin : ndarray, shape (3,)
-        The axis of the wheel at design.
+        its axis, and of tilting about each of the two across it [N m/rad].
     curves : tuple of Curve or None
         Along each axis the force over the displacement, where that is no straight line; its slope
         at zero is then what is soft there.
@@ -75,27 +82,28 @@ class Bush:
     point: str
     axes: Array
     soft: Array
-    tilt: float
-    turning: tuple[float, float]
-    spin: Array
+    tilt: Array
+    tilts_about: Array
+    turning: tuple[float, float, float]
     curves: tuple[Curve | None, Curve | None, Curve | None]
 
     @property
     def gives_way(self) -> bool:
         """Whether anything moves in it that a rigid joint holds."""
-        return bool(self.soft.any() or self.tilt)
+        return bool(self.soft.any() or self.tilt.any())
 
     def mirrored(self, point: str) -> "Bush":
         """Return its image in the plane y = 0, at another hardpoint."""
         image = np.array([1.0, -1.0, 1.0])
-        return replace(self, point=point, axes=self.axes * image, spin=self.spin * image)
+        axes, tilts_about = self.axes * image, self.tilts_about * image
+        return replace(self, point=point, axes=axes, tilts_about=tilts_about)
 
     @property
     def compliance(self) -> Array:
         """Displacement and rotation by force and moment, (6, 6), chassis axes at design."""
         whole = np.zeros((6, 6))
         whole[:3, :3] = self.axes.T @ np.diag(self.soft) @ self.axes
-        whole[3:, 3:] = self.tilt * (np.eye(3) - np.outer(self.spin, self.spin))
+        whole[3:, 3:] = self.tilts_about.T @ np.diag(self.tilt) @ self.tilts_about
         return whole
 
     def give(self, wrench: Array) -> tuple[Array, Array]:
@@ -205,9 +213,10 @@ def _schema_of(key: str, words: str) -> dict[str, Any]:
     if key in _DIRECTIONS:
         return found | numbers | {"minItems": 3, "maxItems": 3}
     if key.endswith("_curve"):
-        properties = {name: {**numbers, "minItems": 2} for name in ("mm", "N")}
-        return found | {"type": "object", "properties": properties, "required": [*properties]}
-    if key == "radial_N_per_mm":
+        lists = {name: {**numbers, "minItems": 2} for name in ("mm", "N")}
+        properties = {**lists, "interpolation": {"enum": [*get_args(Interpolation)]}}
+        return found | {"type": "object", "properties": properties, "required": [*lists]}
+    if key in _PAIRS:
         return found | {"anyOf": [number, {**numbers, "minItems": 2, "maxItems": 2}]}
     return found | number
 
@@ -268,27 +277,36 @@ def bushes_of(
         is_bearing = isinstance(joints[point], Fixed)
         if "torsion_Nm_per_deg" in table and is_bearing:
             given.refuse(f"{title} torsion_Nm_per_deg: the brake holds the wheel about its axis.")
-        torsion, tilt = (_turning(given, title, table, which) for which in ("torsion", "tilt"))
+        torsion, _ = _turning(given, title, table, "torsion_Nm_per_deg")
+        tilt = _turning(given, title, table, "tilt_Nm_per_deg")
         soft = _translations(given, title, table)
         axial, radial = (_curve(given, title, table, which) for which in ("axial", "radial"))
         curves = (axial, radial, radial)
+        axes = _axes(given, title, table, joints[point], design, spin)
         bush = Bush(
             point=str(point),
-            axes=_axes(given, title, table, joints[point], design, spin),
+            axes=axes,
             soft=np.array([_at_rest(c) if c else s for s, c in zip(soft, curves, strict=True)]),
-            tilt=1.0 / tilt if is_bearing and tilt else 0.0,
-            turning=(0.0, 0.0) if is_bearing else (torsion, tilt),
-            spin=spin,
+            tilt=np.array([1.0 / rate if is_bearing and rate else 0.0 for rate in tilt]),
+            # a bearing tilts across the axis of the wheel, whatever its own is
+            tilts_about=_across(given, title, table, spin)
+            if is_bearing and "axis" in table
+            else axes[1:],
+            turning=(0.0, 0.0, 0.0) if is_bearing else (torsion, *tilt),
             curves=curves,
         )
         found.append(bush)
     return found
 
 
-def _turning(given: Arguments, title: str, table: Mapping[str, Any], which: str) -> float:
-    """Return a stiffness against rotation [N m/rad]; zero where there is none."""
-    key = f"{which}_Nm_per_deg"
-    return _stiffness(given, title, table, key) * _PER_DEG if key in table else 0.0
+def _turning(
+    given: Arguments, title: str, table: Mapping[str, Any], key: str
+) -> tuple[float, float]:
+    """Return stiffnesses against rotation about two axes [N m/rad]; zero where there are none."""
+    if key not in table:
+        return 0.0, 0.0
+    first, second = _pair(given, title, table, key)
+    return first * _PER_DEG, second * _PER_DEG
 
 
 def _curve(given: Arguments, title: str, table: Mapping[str, Any], which: str) -> Curve | None:
@@ -334,15 +352,22 @@ def softness_of_rack(given: Arguments, described: Mapping[str, Any]) -> float:
 def _translations(given: Arguments, title: str, table: Mapping[str, Any]) -> list[float]:
     """Return the compliances along the axis and in both directions across it [m/N]."""
     axial = _stiffness(given, title, table, "axial_N_per_mm")
-    radial = table.get("radial_N_per_mm", np.inf)
-    if isinstance(radial, list | tuple) or (isinstance(radial, np.ndarray) and radial.ndim):
-        if len(radial) != 2:
-            given.refuse(f"{title} radial_N_per_mm: a number is needed, or two.")
-            return [0.0, 0.0, 0.0]
-        both = [_stiffness(given, title, {"radial_N_per_mm": r}, "radial_N_per_mm") for r in radial]
-    else:
-        both = 2 * [_stiffness(given, title, table, "radial_N_per_mm")]
+    both = _pair(given, title, table, "radial_N_per_mm")
     return [1.0 / (value * _PER_MM) for value in (axial, *both)]
+
+
+def _pair(given: Arguments, title: str, table: Mapping[str, Any], key: str) -> tuple[float, float]:
+    """Return both of what may be one stiffness or two."""
+    value = table.get(key)
+    if not (isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.ndim)):
+        both = _stiffness(given, title, table, key)
+        return both, both
+    if key not in _PAIRS or len(value) != 2:
+        words = "a number is needed, or two." if key in _PAIRS else "a number is needed."
+        given.refuse(f"{title} {key}: {words}")
+        return np.inf, np.inf
+    first, second = (_stiffness(given, title, {key: each}, key) for each in value)
+    return first, second
 
 
 def _stiffness(given: Arguments, title: str, table: Mapping[str, Any], key: str) -> float:
@@ -373,15 +398,19 @@ def _axes(
             given.refuse(f"{title} {key}: a telescope carries nothing along its axis.")
         if "axis" in table:
             given.refuse(f"{title} axis: that of a telescope is its own. Leave it out.")
-    # the first of the radial directions, for two stiffnesses: as upright as it can be
+    return np.stack([along, *_across(given, title, table, along)])
+
+
+def _across(given: Arguments, title: str, table: Mapping[str, Any], along: Array) -> Array:
+    """Return the radial directions, (2, 3): the first as upright as it can be, unless told."""
     usual = np.eye(3)[0 if abs(along[2]) > np.cos(_LEAST_ANGLE) else 2]
     aside = _direction(given, title, table, "radial_axis", usual)
     across = cross(along, aside)
     if np.linalg.norm(across) < np.sin(_LEAST_ANGLE):
         given.refuse(f"{title} radial_axis lies along the axis: a direction across it is needed.")
-        return np.eye(3)
+        return np.eye(3)[1:]
     across /= np.linalg.norm(across)
-    return np.stack([along, cross(across, along), across])
+    return np.stack([cross(across, along), across])
 
 
 def _direction(

@@ -62,6 +62,38 @@ out is rigid. One stiffness or curve is needed. `[bushings.rack]` has `axial_N_p
 stiff the steering holds the rack. All else that is computed takes joints as rigid.
 """
 
+_CURVES = """\
+### Curves
+
+Springs and dampers have a rate, or a curve by its points; bushes, too. Between its points a curve
+is a monotone cubic (Fritsch and Carlson): smooth, and within the forces of both neighbours.
+`interpolation = "linear"` draws straight lines instead, as some other programs do. Both go through
+the points, and differ between them: the damper curve that the first of the annotated files proposes
+has -2177 N at -0.7 m/s, straight lines have -1986 N there.
+
+Outside of its points a curve goes on straight: of a damper as it ends, of springs and bushes as the
+last two points rise, so that they carry any force. A simulation says where it went there, and
+`kintrafo check` where the spring is there at design. Where lines meet, a rate is that of the line
+on the side that is pressed less; a motion over such a kink is as accurate as its tolerances say,
+with more steps.
+
+The force of a spring must not fall as it is compressed. Over `length_mm` a curve says what the
+force is at every distance of the seats, and neither `free_length_mm` nor `force_at_design_N` is
+needed. Over `compression_mm` one of them is: `free_length_mm` is the distance of the seats where
+the compression is 0, and `force_at_design_N` puts the design position where the curve has that
+force.
+
+```toml
+[spring]
+compression_mm = [0.0, 40.0, 80.0, 120.0, 160.0]
+force_N = [0.0, 2000.0, 4400.0, 7600.0, 12000.0]
+force_at_design_N = 5360.268
+```
+
+All that needs a rate takes that of the curve where the spring is: wheel rate, ride frequency,
+compliance, what a suspension does about its rest. Where a curve is flat, that is zero.
+"""
+
 _EVERY_BODY = """\
 ### Every body
 
@@ -169,7 +201,7 @@ def page_text() -> str:
     parts = [_HEAD, "## Every suspension\n"]
     parts += _described(sections, first, [name for name in first.model_fields if name in shared])
     parts += [_BUSHINGS, *_table(BUSH_SCHEMA)]
-    parts.append(_EVERY_BODY)
+    parts += [_CURVES, _EVERY_BODY]
     parts += _table(_with_units(RigidBody.model_json_schema()))
     for name, kind in KINDS.items():
         own = [section for section in kind.model_fields if section not in shared]

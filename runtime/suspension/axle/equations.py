@@ -98,7 +98,7 @@ def _corner_of(axle: Axle) -> str:
     if len(names) != 1:
         problem = (
             f"the sides have different equations, {' and '.join(names)}: what one has and the "
-            "other has not, such as a stop or a damper curve, must be in both files. Add it there."
+            "other has not, such as a stop or a curve, must be in both files. Add it there."
         )
         raise InputError([problem], "AxleModel")
     return next(iter(names))

@@ -234,7 +234,8 @@ class MacPherson(Suspension):
 Where the spring is free of force is said in one of four ways: by the slide of the strut
 (`spring_free_slide_mm`), by the distance of its seats (`spring_free_length_mm`), by its force with
 the strut extended (`spring_preload_N`), or by its force at the design position
-(`spring_force_at_design_N`). The damper has a rate in `[strut]`, or a curve in `[damper]`."""
+(`spring_force_at_design_N`). The damper has a rate in `[strut]`, or a curve in `[damper]`; so has
+the spring, with a curve in `[spring]`."""
 
     suspension: Literal["macpherson"] = Field(
         default="macpherson", description="the kind of suspension"

@@ -264,7 +264,7 @@ class _Side:
             key = joint.first, joint.second, bush.point
             carried = -bush.axes[1:] @ self._soft.carried.get(key, np.zeros(6))[:3]
             size = float(np.linalg.norm(carried))
-            far = curve.displacement(size) / size if size else 0.0
+            far = curve.place(size) / size if size else 0.0
             before = np.broadcast_to(far * carried, (len(rows), _ACROSS))
             arms = (self._arm(part, bush.point) for part in (joint.first, joint.second))
             parts = self._indices(joint.first, joint.second)
@@ -283,20 +283,24 @@ class _Side:
         bush = self._bush(joint, joint.at[0])
         carried = self._soft.carried.get((joint.first, joint.second, joint.at[0]), np.zeros(6))
         for which, (first, second) in enumerate(pairs):
-            law = None
-            if bush is not None and bush.tilt and which < _TILTING:
-                # in axes that turn with the bush, where it stands; they are those of design
-                back = poses.turned[joint.first][0].T
-                moment = carried[3:] @ cross(back @ second[0], back @ first[0])
-                law = Straight(1.0 / bush.tilt, -float(moment))
-            yield self._indices(joint.first, joint.second), (first, second), law
+            law, ways = None, (first, second)
+            if bush is not None and bush.tilt.any() and which < _TILTING:
+                # what is across the wheel's axis turns with the bush, and measures the rotation
+                # about the other direction across it
+                turned, across = poses.turned[joint.first], bush.tilts_about[which]
+                ways = np.broadcast_to(turned @ across, first.shape), first
+                # where the bush stands, in axes that are those of design
+                moment = carried[3:] @ cross(turned[0].T @ first[0], across)
+                law = Straight(1.0 / bush.tilt[1 - which], -float(moment))
+            yield self._indices(joint.first, joint.second), ways, law
 
     def tilts(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
         """Yield what of its axis leaves that of a bush which resists tilting."""
         for bush in self._bushes(joint):
-            if stiffness := bush.turning[1]:
+            if any(bush.turning[1:]):
                 rows, axis = self._axes(bush, joint.first), self._axes(bush, joint.second)[:, 0]
-                for across in (1, 2):
+                # each direction across the axis measures the rotation about the other one
+                for across, stiffness in zip((2, 1), bush.turning[1:], strict=True):
                     yield (
                         self._indices(joint.first, joint.second),
                         (rows[:, across], axis),
@@ -337,7 +341,9 @@ class _Side:
         axis = self.poses.rack_axis
         assert axis is not None  # where there is a rack
         soft = np.array([self._soft.rack, 0.0, 0.0])
-        return Bush(point, np.stack(frame(axis)), soft, 0.0, (0.0, 0.0), axis, (None, None, None))
+        axes = np.stack(frame(axis))
+        none = np.zeros(2), axes[1:], (0.0, 0.0, 0.0), (None, None, None)
+        return Bush(point, axes, soft, *none)
 
     def _bushes(self, joint: Joint) -> list[Bush]:
         found = (self._bush(joint, point) for point in joint.at)
@@ -357,7 +363,7 @@ class _Side:
         found: list[Law | None] = []
         for soft, curve, force in zip(bush.soft, bush.curves, carried.tolist(), strict=True):
             if curve is not None:
-                found.append(Bent(curve, curve.displacement(force), name))
+                found.append(Bent(curve, curve.place(force), name))
             else:
                 found.append(Straight(1.0 / soft, force, name) if soft else None)
         return found

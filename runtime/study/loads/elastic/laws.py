@@ -7,7 +7,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ....suspension.bush_curve import Curve
+from ....suspension.input.curve import Curve
 from ....suspension.spring_table import force_and_rate
 
 Array = NDArray[np.float64]
