@@ -129,11 +129,11 @@ class Bush:
         force = self.axes @ wrench[:3]
         shift, by = self.soft * force, np.diag(self.soft)
         if axial is not None:
-            shift[0] = axial.displacement(float(force[0]))
+            shift[0] = axial.place(float(force[0]))
             by[0, 0] = 1.0 / float(axial.rate(shift[:1])[0])
         size = float(np.linalg.norm(force[1:]))
         if radial is not None and size:
-            far, along = radial.displacement(size), force[1:] / size
+            far, along = radial.place(size), force[1:] / size
             outer = np.outer(along, along)
             shift[1:] = far * along
             rate = float(radial.rate(np.array([far]))[0])
