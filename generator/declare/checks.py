@@ -5,17 +5,22 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
+import sympy as sp
+
+from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z
 from .bodies import Body, Ground
 from .declared import DeclarationError
 from .default_values import value_problems
+from .forces.weight import Weight
+from .geometry import Direction
 from .inputs import input_problems
-from .joints import Free, Joint, Weld
+from .joints import Free, Joint, Prismatic, Revolute, Weld
 from .known import repeated
 from .names import name_problems, text_problems
 from .world import WORLD
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable
+    from collections.abc import Collection, Iterable, Iterator
 
     from .assembly import Assembly
 
@@ -30,6 +35,7 @@ def check_mechanism(mechanism: Assembly) -> None:
         *_repeated_problems(mechanism),
         *_stranger_problems(mechanism),
         *_weld_problems(mechanism),
+        *_weight_problems(mechanism),
         *input_problems(mechanism.inputs),
         *name_problems(mechanism),
         *text_problems(mechanism),
@@ -145,12 +151,57 @@ def _weld_problems(mechanism: Assembly) -> list[str]:
     ]
 
 
-def check_symbols(name: str, used: Iterable[str], declared: Collection[str]) -> None:
-    """Raise `DeclarationError` if equations read what nobody declares."""
-    problems = [
-        f"the equations read {n!r}, which is not declared"
-        for n in sorted(used)
-        if n not in declared
+def _weight_problems(mechanism: Assembly) -> list[str]:
+    """See that gravity is not along the normal of a plane in which all that is joined moves."""
+    return [
+        f"Weight pulls against {force.upward.name!r}, along the normal of the plane in which "
+        "everything moves, so that it does nothing: give it a direction in the plane, such as "
+        "Weight(upward=Direction('upward', fixed=(0, 1, 0))), make the points by "
+        "flat(..., normal='y'), which moves them in the plane of x and z, or leave it out"
+        for force in mechanism.forces
+        if isinstance(force, Weight) and all(_is_across(j, force.upward) for j in mechanism.joints)
     ]
+
+
+def _is_across(joint: Joint, normal: Direction) -> bool:
+    """Tell whether a joint moves across a direction only, whatever the parameters are."""
+    if isinstance(joint, Revolute):
+        return joint.axis.vector.cross(normal.components).is_zero
+    if isinstance(joint, Prismatic):
+        return bool(sp.expand(joint.direction.components.dot(normal.components)) == 0)
+    return isinstance(joint, Weld)
+
+
+def check_symbols(
+    name: str, used: Iterable[str], declared: Collection[str], mechanism: Assembly
+) -> None:
+    """Raise `DeclarationError` if equations read what nobody declares."""
+    unknown = [n for n in sorted(used) if n not in declared]
+    problems = list(_leaving_problems(mechanism, unknown))
+    problems = problems or [f"the equations read {n!r}, which is not declared" for n in unknown]
     if problems:
         raise DeclarationError(name, problems)
+
+
+def _leaving_problems(mechanism: Assembly, unknown: Collection[str]) -> Iterator[str]:
+    """Yield planar bodies of which equations read more inertia, with what leaves their planes."""
+    for body in mechanism.moving:
+        axis, read = body.center.flat, any(n.startswith(f"{body.name}_inertia_") for n in unknown)
+        normal = _NORMALS.get(axis)
+        if not read or normal is None:
+            continue
+        joints = ", ".join(repr(j.name) for j in mechanism.joints if not _is_across(j, normal))
+        if joints:
+            yield (
+                f"body {body.name!r} is one of a plane across {axis}, with a single moment of "
+                f"inertia, and may leave it by joint {joints}: give a guide a direction that "
+                "stays in the plane, Direction(name, between=two points of it) or "
+                "Direction(name, fixed=...), and a hinge one along its normal; or give the body "
+                "a centre of three coordinates and three moments of inertia"
+            )
+
+
+_NORMALS = {
+    axis: Direction(f"along_{axis}", fixed=unit)
+    for axis, unit in zip("xyz", (UNIT_X, UNIT_Y, UNIT_Z), strict=True)
+}

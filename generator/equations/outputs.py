@@ -334,6 +334,7 @@ class _Builder:
             self.mechanism.name,
             {s.name for s in prepare.free_symbols},
             [p.name for p in self.mechanism.parameters],
+            self.mechanism,
         )
         varying = {s.name for f in self.functions.values() for s in f.free_symbols}
         varying -= set(prepare.labels)
@@ -343,6 +344,7 @@ class _Builder:
             self.formulation.name,
             varying - given - states - {e.name for e in self._inputs()},
             [p.name for p in self.mechanism.parameters],
+            self.mechanism,
         )
 
     def _varying_names(self) -> frozenset[str]:

@@ -64,6 +64,12 @@ class Mobility:
         vectors = (v for joint in self._topology.mechanism.joints for v in _vectors(joint))
         return all(math.isfinite(value(component)) for v in vectors for component in v)
 
+    @property
+    def freedoms(self) -> int:
+        """How many motions there are; a joint that follows another one has none of its own."""
+        columns = len(self._coordinates) - len(self._topology.mechanism.geared)
+        return columns - _rank(self._closure)
+
     def driven_move(self) -> bool:
         """Tell whether every driven coordinate can move, whatever the others do."""
         return _rank(self._closure) == _rank(self._closure[:, ~self._driven])

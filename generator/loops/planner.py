@@ -22,6 +22,7 @@ from .cut import PairCandidate, pair_candidates, views
 from .errors import NoClosedFormError
 from .graph import Cycle, MinimalBasis, Topology
 from .known import Known, coordinates_of
+from .redundant import redundant
 from .tilted import tilted
 
 if TYPE_CHECKING:
@@ -326,6 +327,9 @@ class Plan:
         mobility = self.topology.mobility - len(self._mechanism.passive_links)
         if driven == mobility:
             return ""
+        spare = redundant(self._mechanism, [joint.name for joint in self.formulation.driven])
+        if driven > mobility and spare:
+            return f" {spare}."
         if mobility < 0:
             return (
                 f" Counting the freedoms of the joints, the mechanism has {mobility} of its own: "

@@ -18,6 +18,7 @@ from ..declare.formulation import Formulation
 from ..declare.joints import Free, Prismatic, Revolute
 from ..loops.errors import NoClosedFormError
 from ..loops.graph import Topology
+from ..loops.redundant import redundant
 from ..loops.tilted import tilted
 from .plan import Plan
 
@@ -139,7 +140,7 @@ class Search:
             )
             return (
                 f"{what}: counting the freedoms of its joints leaves nothing to move. "
-                f"{tilted(mechanism) or special}"
+                f"{tilted(mechanism) or redundant(mechanism) or special}"
             )
         if len(self.candidates) < self.count:
             return (
