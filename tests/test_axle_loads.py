@@ -80,6 +80,20 @@ def test_even_loads_are_those_of_each_side(axle: Axle) -> None:
 
 
 @pytest.mark.parametrize("axle", [PLAIN, AXLE, BENT, LINKED], ids=lambda axle: axle.heading())
+def test_mounts_carry_together_what_the_chassis_does(axle: Axle) -> None:
+    """Both tie rods at the rack, and the spring of a strut at its top, on either side."""
+    found = axles.static_loads(axle, PUSHED)
+    arms = found["total_at"].values
+    force, moment = (found[f"total_{name}"].values[0] for name in ("force", "moment"))
+    together = np.concatenate([force.sum(0), (moment + np.cross(arms[0], force)).sum(0)])
+    np.testing.assert_allclose(together, wrench(of(found, "chassis")), atol=1e-7)
+    by = dict(zip(found["mount"].values, found["total_by"].values, strict=True))
+    assert by["rack_middle"] == "steering, rack"
+    if "strut_top_left" in by:
+        assert by["strut_top_left"] == "upper_strut_left, spring_left"
+
+
+@pytest.mark.parametrize("axle", [PLAIN, AXLE, BENT, LINKED], ids=lambda axle: axle.heading())
 def test_the_chassis_carries_what_acts_on_the_axle(axle: Axle) -> None:
     """Forces and moments of road, drive and weight are those on the chassis."""
     found = axles.static_loads(axle, PUSHED)

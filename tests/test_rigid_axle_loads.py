@@ -623,3 +623,19 @@ def test_a_ride_has_its_loads() -> None:
     np.testing.assert_allclose(
         found["rod_force"].isel(time=-1), still["rod_force"].isel(case=0), atol=0.3
     )
+
+
+def test_mounts_carry_together_what_the_chassis_does() -> None:
+    """But for the couple of the bar, which has no place on the body."""
+    corner = {"right": {"contact_g": [-0.4, 1.0, 1.5]}, "left": {"contact_g": [0.1, 0.3, 0.5]}}
+    found = rigid_axles.static_loads(AXLE, {"corner": corner})
+    own = found.isel(load=((found["part"] == "chassis") & (found["by"] != "bar")).values)
+    assert "axle_middle" not in found["mount"].values
+    np.testing.assert_allclose(
+        found["total_force"].sum("mount"), own["force"].sum("load"), atol=1e-8
+    )
+    for mount in map(str, found["mount"].values):
+        here = own.isel(load=(own["point"] == mount).values)
+        np.testing.assert_allclose(
+            found["total_force"].sel(mount=mount), here["force"].sum("load"), atol=1e-9
+        )
