@@ -6,7 +6,7 @@ the left one.
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple, TypeVar
@@ -23,8 +23,15 @@ ANGLES = {"camber_angle": "camber_deg", "toe_angle": "toe_deg"}
 
 _SYMMETRIES = ("left/right", "left", "right", "single")
 _SPRINGS = ("nspring_assembly", "spring_assembly")
-# What says nothing of the car.
-_FORMAL = ("mdi_header", "subsystem_header", "units", "plugins", "solver_settings", "hardpoint")
+# What is read elsewhere, or says nothing of the car: keys by block. Rows of the last two are read.
+_FORMAL: Mapping[str, tuple[str, ...]] = {
+    "mdi_header": ("file_type", "file_version", "file_format"),
+    "subsystem_header": ("template_name", "major_role", "minor_role", "timestamp", "header_size"),
+    "units": ("length", "force", "angle", "mass", "time"),
+    "hardpoint": (),
+    "parameter": (),
+}
+_SILENT = ("plugins", "solver_settings")
 
 
 @dataclass(frozen=True)
@@ -238,11 +245,16 @@ def _put(rows: dict[str, dict[str, _Value]], row: _Row, value: _Value, problems:
 
 
 def _others(blocks: Iterable[Block]) -> list[str]:
-    """Return the blocks that are not read, each with its keys, its rows and their values."""
+    """Return what of blocks is not read, each with its keys, its rows and their values."""
     found = []
     for block in blocks:
-        if block.name not in (*_FORMAL, *_SPRINGS, "parameter"):
-            keys = [f"{shown(key.upper())} = {shown(value)}" for key, value in block.values()]
-            rows = [shown(" ".join(cells or [text])) for _, text, cells in block.rows()]
-            found.append(f"[{shown(block.name.upper())}] {', '.join([*keys, *rows])}".strip())
+        if block.name in (*_SILENT, *_SPRINGS):
+            continue
+        known = _FORMAL.get(block.name)
+        unread = [pair for pair in block.values() if pair[0] not in (known or ())]
+        words = [f"{shown(key.upper())} = {shown(value)}" for key, value in unread]
+        if known is None:
+            words += [shown(" ".join(cells or [text])) for _, text, cells in block.rows()]
+        if words or known is None:
+            found.append(f"[{shown(block.name.upper())}] {', '.join(words)}".strip())
     return found

@@ -1,4 +1,4 @@
-"""Subsystems of Adams/Car: slips of the hand in blocks and rows, broken bytes, other units."""
+"""Subsystems of Adams/Car: slips of the hand, keys that are more, broken bytes, other units."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from kintrafo.suspension.adams_car import imported, read
 from kintrafo.suspension.kinds import KINDS
 from kintrafo.suspension.point_table import write_merged
 
-from .. import mutations
+from .. import keys, mutations
 from ..attempts import RawError, WrongError
 
 if TYPE_CHECKING:
@@ -43,10 +43,92 @@ SPRING = """
 -50.0  -2250.0
 100.0  4500.0
 """
+# Lines that a subsystem may have besides, by the block that they stand in; "" for its end. What
+# stands in them is what must be listed.
+LINES = (
+    ("PARAMETER", " 'zeta_7'  'single'  'real'  7.25"),
+    ("HARDPOINT", " 'nowhere'  'left/right'  7.25  -300.5  200.0"),
+    ("UNITS", " PRESSURE  =  'bar'"),
+    ("NSPRING_ASSEMBLY", " INSTALLED_LENGTH  =  251.5"),
+    ("SUBSYSTEM_HEADER", " OWNER  =  'nobody'"),
+    ("", "[DAMPER_ASSEMBLY]\n USAGE  =  'ride_damper'\n PROPERTY_FILE  =  'own.dpr'"),
+    ("", "[OWN_TABLE]\n{own_name  own_value}\n 'first_row'  7.25"),
+)
+COMMENTS = "(COMMENTS)\n{comment_string}\n'zeta_8 of nobody'\n"
 NAMES = (None, None, None, {"wheel_center": "lca_outer"}, {"x": "y"}, {"spring_top": "x"})
 
 
 def attempt(random: Generator) -> None:
+    """Import a subsystem that was changed, or one with a line more, or misspelt."""
+    if random.random() < 0.4:
+        _attempt_keys(random)
+    else:
+        _attempt_values(random)
+
+
+def _attempt_keys(random: Generator) -> None:
+    """Add a line, or spell a name otherwise: it is used, listed with its value, or refused."""
+    kind = str(random.choice(list(CARS)))
+    wheel = {"wheel.camber_deg": -1.25, "wheel.toe_deg": 0.75}
+    text = subsystem(CARS[kind].with_changes(wheel), more=MORE)
+    spring = random.random() < 0.5
+    if random.random() < 0.5:
+        block, line = LINES[random.integers(len(LINES))]
+        bare, text = text, _with_line(text, block, line)
+        if block and random.random() < 0.3:
+            text = _with_line(text, block, COMMENTS.rstrip())
+        words = [word for word in re.split(r"[\s'=\[\]{}]+", line) if word[:4] not in ("", "own_")]
+    else:
+        lines = text.splitlines()
+        rows = [i for i, row in enumerate(lines) if re.match(r" ('?)\w+", row)]
+        at = rows[random.integers(len(rows))]
+        name = re.findall(r"\w+", lines[at])[0]
+        # no blank at the end, which pads
+        other = keys.respelt(random, name).rstrip().replace(":", "_")
+        row = lines.pop(at)
+        bare = "\n".join(lines) + "\n"
+        lines.insert(at, row.replace(name, other, 1))
+        text = "\n".join(lines) + "\n"
+        words = [other, *re.findall(r"[-\w.]+", lines[at].partition(other)[2])[-1:]]
+        if other.lower() == name.lower():  # the same to Adams/Car, be it read or of no use
+            words = []
+    after, left_out = _result(text, kind, spring=spring)
+    lost = [word for word in words if word.lower().removesuffix(".0") not in left_out.lower()]
+    if lost and not _does_more(bare, after, kind, spring=spring):
+        raise WrongError(f"{lost} of {words} are lost: {left_out}")
+
+
+def _does_more(bare: str, after: Any, kind: str, *, spring: bool) -> bool:
+    """Return whether without a line something else came of a file, or nothing."""
+    try:
+        return bool(_result(bare, kind, spring=spring)[0] != after)
+    except InputError:
+        return True
+
+
+def _with_line(text: str, block: str, line: str) -> str:
+    """Return a file with a line more at the end of a block; at its own end without one."""
+    if not block:
+        return f"{text}{line}\n"
+    begin = text.index(f"[{block}]\n")
+    end = text.find("\n[", begin + 1)
+    end = text.rfind("\n$", begin, end) if text.rfind("\n$", begin, end) > 0 else end
+    end = len(text) - 1 if end < 0 else end
+    return f"{text[:end]}\n{line}{text[end:]}"
+
+
+def _result(text: str, kind: str, *, spring: bool) -> tuple[Any, str]:
+    """Return what an import gives, and what it lists as left out."""
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "front.sub").write_text(text, encoding="utf-8")
+        if spring:
+            Path(folder, "own.spr").write_text(SPRING, encoding="utf-8")
+        found = imported(read(Path(folder, "front.sub")), kind=kind)
+        new = Suspension.load(write_merged(found, Path(folder, "new.toml")))
+    return new.to_dict(), "\n".join(found.left_out)
+
+
+def _attempt_values(random: Generator) -> None:
     """Import a subsystem that was changed, and look at what came of each of its hardpoints."""
     kind = str(random.choice(list(CARS)))
     car = CARS[kind] if random.random() < 0.5 else CARS[kind].mirrored()

@@ -1,4 +1,4 @@
-"""Files of Project Chrono: JSON with comments, broken, deep, and with values of no car."""
+"""Files of Project Chrono: JSON with comments, broken, deep, keys that are more, or misspelt."""
 
 from __future__ import annotations
 
@@ -11,10 +11,12 @@ import numpy as np
 from kintrafo.core.errors import InputError
 from kintrafo.suspension.chrono import read
 
-from .. import mutations
+from .. import keys, mutations
 from ..attempts import RawError, WrongError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.random import Generator
 
 DATA = Path(__file__).parents[2] / "data/chrono"
@@ -29,7 +31,39 @@ def _uncommented(name: str) -> dict[str, Any]:
 
 FILES = tuple(_uncommented(f"{name}.json") for name in ("MacPhersonStrut", "DoubleWishbone"))
 TIRE = _uncommented("RigidTire.json")
-SHORT = 100
+SHORT = 150
+BUSH = {"Stiffness Linear": 7e7, "Damping Linear": 3.5e4, "DOF": {"Stiffness Linear": 0.5}}
+CURVE = [[-1.0, -4000.0], [0.0, 0.0], [1.0, 4000.0]]
+OF_ELEMENTS = {
+    "Preload": 25.0, "Minimum Length": 0.2, "Maximum Length": 0.6, "Free Length": 0.4,
+    "Spring Coefficient": 5e4, "Damping Coefficient": 50.0, "Spring Curve Data": CURVE,
+    "Damping Curve Data": CURVE, "Curve Data": CURVE, "Map Data": [[-1.0, 1.0], [1.0, 2.0]],
+    "Deformation": [0.3], "Degressivity Compression": 0.1, "Degressivity Expansion": 0.1,
+}  # fmt: skip
+OF_BODIES = {
+    "Bushing Data": BUSH, "Inertia": [0.03, 0.02, 0.04], "Moments of Inertia": [0.03, 0.02, 0.04],
+    "Products of Inertia": [1e-4, 2e-4, 3e-4], "Radius": 0.03, "Width": 0.04, "Mass": 2.5,
+}  # fmt: skip
+OF_FILES = {"Vehicle-Frame Inertia": True, "Camber Angle (deg)": 1.5, "Toe Angle (deg)": 0.5,
+            "Output": True, "Camber Angle": 2.0, "Visualization": {"Mesh": "x.obj"}}  # fmt: skip
+# what else a key may be called: of no template
+UNKNOWN = {"Wishes": [1, 2], "Remark": "none", "Own": {"Deep": {"Deeper": 1.25}}, "Rate": 7.5}
+OWN_MASS = {"Mass": 11.5, "Inertia": [0.4, 0.7, 0.4]}
+OF_A_TIRE = {"Unloaded Radius": 0.33, "Vertical Stiffness": 2.5e5, "Width": 0.2}
+DESIGN = {"Unloaded Radius [m]": 0.33, "Mass [kg]": 11.5, "Inertia [kg.m2]": [0.4, 0.7, 0.4],
+          "Rim Radius [m]": 0.2}  # fmt: skip
+TIRES = {
+    "RigidTire": OWN_MASS | {"Radius": 0.33, "Width": 0.2},
+    "TMeasyTire": {"Design": DESIGN, "Load Index": 94},
+    "TMsimpleTire": {"Design": DESIGN,
+                     "Parameters": {"Vertical": {"Vertical Tire Stiffness [N/m]": 2e5}}},
+    "FialaTire": OWN_MASS | {"Fiala Parameters": OF_A_TIRE},
+    "Pac89Tire": OWN_MASS | {"Design Parameters": OF_A_TIRE, "Lateral Coefficients": {"a0": 1.65}},
+    "Pac02Tire": OWN_MASS | {"Dimension": {"Unloaded Radius": 0.33}, "Scaling": {"LFZO": 1.0}},
+    "MFTire": OWN_MASS | {"UNITS": {"LENGTH": "meter"}, "DIMENSION": {"UNLOADED_RADIUS": 0.33}},
+    "ReissnerTire": {"Tire Radius": 0.33, "Rim Radius": 0.2},
+}  # fmt: skip
+MORE_OF_TIRES = OF_A_TIRE | OWN_MASS | {"Vertical Curve Data": CURVE, "Radius": 0.3}
 COMMENTS = ('// a comment with "quotes"\n', "/* of\nlines */", "/**/", "//\n", "/* // */", "")
 # What of the file has a place of its own in ours, by template: hardpoint, path to it.
 BOTH = {"tie_rod_inner": ("Tierod", "Location Chassis"), "wheel_center": ("Spindle", "COM")}
@@ -50,6 +84,14 @@ POINTS = {
 
 
 def attempt(random: Generator) -> None:
+    """Read a file that was changed, or one with a key more, or misspelt."""
+    if random.random() < 0.5:
+        _attempt_keys(random)
+    else:
+        _attempt_values(random)
+
+
+def _attempt_values(random: Generator) -> None:
     """Read a file that was changed, with comments between its lines."""
     strut, tire = FILES[random.integers(len(FILES))], TIRE
     if random.random() < 0.8:
@@ -64,13 +106,83 @@ def attempt(random: Generator) -> None:
         path, other = Path(folder, "strut.json"), Path(folder, "tire.json")
         path.write_bytes(text)
         other.write_text(json.dumps(tire), encoding="utf-8")
+        how = random.random()
         try:
-            found = read(path, tire=other if random.random() < 0.5 else None)
+            if how < 0.3:
+                found = read(path, points_only=True)
+            else:
+                found = read(path, tire=other if how < 0.7 else None)
         except InputError as error:
             _judge(error)
             raise
     if not broken:
-        check(found.suspension, strut)
+        check(found.suspension, strut, points_only=how < 0.3)
+
+
+def _attempt_keys(random: Generator) -> None:
+    """Add a key, or spell one otherwise: it is used, listed with its value, or refused."""
+    of_tire = random.random() < 0.3
+    points_only = not of_tire and random.random() < 0.4
+    if of_tire:
+        template = str(random.choice(list(TIRES)))
+        data = {"Name": "own", "Type": "Tire", "Template": template} | TIRES[template]
+    else:
+        data = FILES[random.integers(len(FILES))]
+
+    def result(changed: dict[str, Any]) -> tuple[Any, str]:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "file.json")
+            path.write_text(json.dumps(changed), encoding="utf-8")
+            if of_tire:
+                found = read(DATA / "MacPhersonStrut.json", tire=path)
+            else:
+                found = read(path, points_only=points_only)
+        return found.suspension.to_dict(), "\n".join(found.left_out)
+
+    before, _ = result(data)
+    every = list(keys.places(data))
+    place = every[random.integers(len(every))]
+    if random.random() < 0.5:
+        less, value = keys.without(data, place)
+        _judge_respelt(result, before, less, (*place[:-1], keys.respelt(random, place[-1])), value)
+        return
+    changed = json.loads(json.dumps(data))
+    known = MORE_OF_TIRES if of_tire else OF_ELEMENTS | OF_BODIES | OF_FILES
+    offered = known if random.random() < 0.7 else UNKNOWN
+    key = str(random.choice(list(offered)))
+    holder = keys.holder_of(changed, place)
+    if key not in holder:
+        holder[key] = offered[key]
+        after, left_out = result(changed)
+        if after == before and not _is_listed(key, offered[key], left_out):
+            raise WrongError(f"{(*place[:-1], key)} = {offered[key]} is lost")
+
+
+def _judge_respelt(
+    result: Callable[[dict[str, Any]], tuple[Any, str]],
+    before: Any,
+    less: dict[str, Any],
+    place: keys.Place,
+    value: Any,
+) -> None:
+    """A key that does something is refused in another spelling, any other is listed."""
+    try:
+        matters = result(less)[0] != before
+    except InputError:
+        matters = True
+    keys.holder_of(less, place)[place[-1]] = value
+    after, left_out = result(less)
+    if matters and after != before:
+        raise WrongError(f"{place} is another spelling, and its value is lost: {left_out}")
+    if after == before and not matters and not _is_listed(place[-1], value, left_out):
+        raise WrongError(f"{place} = {value} is lost")
+
+
+def _is_listed(key: str, value: Any, left_out: str) -> bool:
+    """Return whether a key and its value stand there, or those within it."""
+    if isinstance(value, dict):
+        return all(_is_listed(inner, one, left_out) for inner, one in value.items())
+    return f"{key} = {json.dumps(value)}"[:80] in left_out
 
 
 def _commented(random: Generator, data: Any) -> str:
@@ -87,14 +199,14 @@ def _judge(error: InputError) -> None:
         raise RawError(f"{len(said)} characters: {said[:300]}") from error
 
 
-def check(suspension: Any, given: dict[str, Any]) -> None:
+def check(suspension: Any, given: dict[str, Any], *, points_only: bool = False) -> None:
     """Points and masses are those of the file."""
     for name, (part, key) in POINTS[given["Template"]].items():
-        found = np.array(getattr(suspension.hardpoints, name))
+        found = suspension.hardpoints.metres(name)
         if not np.allclose(found, given[part][key], rtol=1e-12, atol=1e-12):
             raise WrongError(f"{name} = {found} m, in the file {given[part][key]}")
     mass = suspension.bodies.knuckle.mass_kg
-    if mass != given["Upright"]["Mass"]:
+    if not points_only and mass != given["Upright"]["Mass"]:
         raise WrongError(f"upright {mass} kg, in the file {given['Upright']['Mass']}")
     for name, value in suspension.parameters().items():
         if not np.isfinite(value):
