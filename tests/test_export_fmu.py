@@ -10,6 +10,7 @@ from pathlib import Path
 import kintrafo
 import numpy as np
 import pytest
+from c_text import EMITTED
 from exported import system_named
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.targets.fmi.units import powers
@@ -564,3 +565,35 @@ def test_the_command(command, tmp_path):  # noqa: F811
     code, _, err = command("export", "four_bar", "--to", "fmu", "--platform", "amiga")
     assert code == 2
     assert "'amiga' is not known" in err
+
+
+@pytest.mark.parametrize("name", sorted(EMITTED))
+def test_every_shipped_model_can_be_exported(tmp_path, name):
+    """Its tables compile silently, and FMPy finds nothing wrong with its description."""
+    validation = pytest.importorskip("fmpy.validation")
+    path, folder = tmp_path / "a.fmu", tmp_path / "unpacked"
+    version = VERSIONS[len(name) % 2]
+    kintrafo.export_model(kintrafo.System(EMITTED[name]), path, "fmu", fmi=version, platforms=())
+    assert validation.validate_fmu(str(path)) == []
+    with zipfile.ZipFile(path) as archive:
+        archive.extractall(folder)
+    tables = [str(folder / "sources" / file) for file in ("model.c", "numbers.c")]
+    flags = ["-std=c11", UNOPTIMISED, *STRICT, "-fsyntax-only"]
+    subprocess.run(["cc", *flags, *tables], check=True, cwd=tmp_path)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_casadi_has_the_equations_with_their_derivatives(unit, version):
+    casadi = pytest.importorskip("casadi")
+    system, at, torque = system_named("four_bar"), [0.3, 0.2], [2.0]
+    dae = casadi.DaeBuilder("bar", str(unit("four_bar", version).folder))
+    assert dae.x() == list(system.state_names)
+    assert dae.u() == list(system.input_names)
+    assert dae.y() == list(system.signal_names)
+    function = dae.create("f", ["x", "u"], ["ode", "y"])
+    rates, signals = (np.array(part).ravel() for part in function(at, torque))
+    np.testing.assert_array_equal(rates, system.evaluate("rhs", at, torque))
+    np.testing.assert_array_equal(signals, system.evaluate("signals", at, torque))
+    found, linear = function.jacobian()(x=at, u=torque), kintrafo.linearise(system, at, torque)
+    for name, matrix in (("ode_x", linear.A), ("ode_u", linear.B), ("y_x", linear.C)):
+        np.testing.assert_array_equal(np.array(found[f"jac_{name}"]), matrix)

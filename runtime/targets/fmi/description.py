@@ -159,6 +159,16 @@ class Description:
         return self.variables[1 + self._state_count : 1 + 2 * self._state_count]
 
     @property
+    def inputs(self) -> Sequence[Variable]:
+        """The inputs."""
+        return [v for v in self.variables if v.causality == "input"]
+
+    @property
+    def parameters(self) -> Sequence[Variable]:
+        """The parameters of the model."""
+        return [v for v in self.variables if v.causality == "parameter" and v.name != STEP]
+
+    @property
     def outputs(self) -> Sequence[Variable]:
         """The signals."""
         return [v for v in self.variables if v.causality == "output"]
@@ -166,7 +176,7 @@ class Description:
     @property
     def events(self) -> Sequence[Variable]:
         """The event indicators."""
-        start = 1 + 2 * self._state_count + len(self.manifest["inputs"]) + len(self.outputs)
+        start = 1 + 2 * self._state_count + len(self.inputs) + len(self.outputs)
         return self.variables[start : start + len(self.crossings)]
 
     @property

@@ -43,15 +43,7 @@ def model_description(known: Description, sources: Sequence[str]) -> str:
     variables = ET.SubElement(root, "ModelVariables")
     for variable in known.variables:
         _variable(variables, variable)
-    structure = ET.SubElement(root, "ModelStructure")
-    for tag, listed in (
-        ("Output", known.outputs),
-        ("ContinuousStateDerivative", known.rates),
-        ("InitialUnknown", [*known.outputs, *known.rates]),
-        ("EventIndicator", known.events),
-    ):
-        for variable in listed:
-            element(structure, tag, {"valueReference": variable.reference})
+    _structure(root, known)
     return text_of(root)
 
 
@@ -73,6 +65,23 @@ def _variable(parent: ET.Element, variable: Variable) -> None:
             "derivative": variable.derivative_of,
         },
     )
+
+
+def _structure(root: ET.Element, known: Description) -> None:
+    """Add what is computed, and what of: some importers need that to be said though it is all."""
+    structure = ET.SubElement(root, "ModelStructure")
+    moving = " ".join(str(v.reference) for v in (*known.states, *known.inputs))
+    fixed = " ".join(str(v.reference) for v in known.parameters)
+    for tag, listed in (
+        ("Output", known.outputs),
+        ("ContinuousStateDerivative", known.rates),
+        ("InitialUnknown", [*known.outputs, *known.rates]),
+        ("EventIndicator", known.events),
+    ):
+        told = f"{moving} {fixed}" if tag == "InitialUnknown" else moving
+        for variable in listed:
+            row = element(structure, tag, {"valueReference": variable.reference})
+            row.set("dependencies", told.strip())
 
 
 def build_description(known: Description, sources: Sequence[str]) -> str:
