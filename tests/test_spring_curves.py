@@ -1,6 +1,8 @@
 """Springs by a curve of force over length, in every kind of suspension and in a rigid axle."""
 
+import re
 from functools import partial
+from importlib import resources
 
 import kintrafo
 import numpy as np
@@ -15,7 +17,9 @@ from kintrafo import (
     rigid_axles,
     variation,
 )
+from kintrafo.suspension import data
 from kintrafo.suspension.plausibility import plausibility
+from kintrafo.suspension.rigid import data as rigid_data
 from kintrafo.suspension.rigid.model import RigidAxleModel
 from kintrafo.suspension.rigid.model import equilibrium as equilibrium_of_axle
 from kintrafo.suspension.spring_table import force_and_rate, rate_at
@@ -213,6 +217,51 @@ def test_a_motion_over_the_kinks_of_straight_lines():
     lengths = exact.signals["spring_length"]
     knots = {model.parameters[f"spring_table_knot_{i}"] for i in range(11)}
     assert any(lengths.min() < knot < lengths.max() for knot in knots)
+
+
+@pytest.mark.parametrize("name", [*KINDS[1:], "rigid_axle"])
+def test_what_the_annotated_files_propose_can_be_used(name, tmp_path):
+    """Their curve goes with the force at design that stands above it."""
+    text = resources.files(rigid_data if name == "rigid_axle" else data)
+    text = text.joinpath(f"{name}.toml").read_text(encoding="utf-8")
+    begin, end = text.index("[spring]"), text.index("[damper]")
+    section = re.sub(r"^rate_N_per_m.*\n", "", text[begin:end], flags=re.MULTILINE)
+    section = re.sub(r"^# (compression_mm|force_N)", r"\1", section, flags=re.MULTILINE)
+    file = tmp_path / "car.toml"
+    file.write_text(text[:begin] + section + text[end:], encoding="utf-8")
+    found = (RigidAxle if name == "rigid_axle" else Suspension).load(file)
+    assert found.spring.by_curve
+    assert found.spring.force_at_design_N > 0.0
+
+
+def test_a_simulation_says_where_a_curve_ends():
+    name = "double_wishbone_car"
+    length = 1e3 * Suspension.load(name).hardpoints.distance("spring_seat", "spring_top")
+    lengths = {"length_mm": [length - 15.0, length + 10.0], "force_N": [6400.0, 4900.0]}
+    model = Model(with_spring(name, **lengths))
+    start = kintrafo.state_at_height(model, kintrafo_height(model) + 0.05)
+    found = kintrafo.simulate(model, (0.0, 0.1), start)
+    assert any("shorter than its table goes" in words for words in map(str, found.validity))
+    inside = kintrafo.simulate(model, (0.0, 0.1), kintrafo.equilibrium(model))
+    assert not inside.validity
+
+
+def test_a_rate_beside_a_curve_is_no_variable():
+    """What a curve has in its place is refused by name, in studies, too."""
+    car = curved("double_wishbone_car")
+    with pytest.raises(InputError, match="both describe the spring"):
+        car.with_changes({"spring.rate_N_per_m": 60e3})
+    found = variation.sensitivity(car, ["spring.force_at_design_N"], positions=[0.0])
+    step = 1.0
+    up, down = (
+        characteristics.travel(
+            Model(car.with_changes({"spring.force_at_design_N": 4000.0 + s})), [0.0]
+        )["wheel_rate"][0]
+        for s in (step, -step)
+    )
+    slope = float(up - down) / (2.0 * step)
+    there = found["wheel_rate"]
+    assert float(np.squeeze(there)) == pytest.approx(slope, rel=1e-4)
 
 
 @pytest.mark.parametrize("interpolation", WAYS)

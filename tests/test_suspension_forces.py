@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, Suspension
 from kintrafo.suspension import data
+from kintrafo.suspension.schema import page_text
 from scipy.interpolate import PchipInterpolator
 
 CAR = Suspension.load("reference_car")
@@ -77,6 +78,38 @@ def test_damper_curve_is_the_monotone_cubic(curve, at):
         # up to 9e4 N s/m
         expected = expected_curve(velocities, forces, velocity)
         assert damper_force(model, velocity) == pytest.approx(expected, rel=1e-12, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["reference_car", "double_wishbone_car", "trailing_arm_car"])
+def test_straight_lines_between_the_points_of_a_damper(name):
+    """As NumPy's interpolation, and on as the last lines go; the page has both of its figures."""
+    data = Suspension.load(name).to_dict()
+    if "strut" in data:
+        del data["strut"]["damper_rate_N_s_per_m"]
+    curve = {"velocity_m_per_s": list(VELOCITIES), "force_N": list(FORCES)}
+    models = {
+        way: Model(Suspension.from_dict(data | {"damper": curve | {"interpolation": way}}))
+        for way in ("linear", "cubic")
+    }
+
+    def force_of(way, velocity):
+        model = models[way]
+        element = "strut" if "strut" in data else model.suspension.STOPPED
+        by_state = model.evaluate("signals_jacobian", model.design_state)
+        slope = by_state[list(model.signal_names).index(f"{element}_velocity"), 2]
+        state = model.state(**{f"{model.names.arm}_rate": -velocity / slope})
+        return float(model.signal("damper_force", state))
+
+    for velocity in np.linspace(-0.99, 0.99, 23):
+        expected = np.interp(velocity, VELOCITIES, FORCES)
+        assert force_of("linear", velocity) == pytest.approx(expected, rel=1e-12, abs=1e-9)
+    for velocity, force, slope in ((1.5, 1100.0, 500.0 / 0.7), (-1.5, -2500.0, 1200.0 / 0.7)):
+        beyond = force + slope * (abs(velocity) - 1.0) * np.sign(velocity)
+        assert force_of("linear", velocity) == pytest.approx(beyond, rel=1e-12)
+    told = [f"{force_of(way, -0.7):.0f} N" for way in ("cubic", "linear")]
+    assert told == ["-2177 N", "-1986 N"]
+    page = re.sub(r"\s+", " ", page_text())
+    assert "has {} at -0.7 m/s, straight lines have {} there".format(*told) in page
 
 
 def test_damping_at_rest_is_the_slope_of_the_curve():
@@ -244,6 +277,8 @@ BLOCKS = re.findall(r"^(?:# .*\n)*?(# \[\w+\].*\n(?:# .*\n)+)", STARTER, flags=r
 @pytest.mark.parametrize("block", BLOCKS, ids=lambda block: block.split("]")[0][3:])
 def test_commented_blocks_of_the_starter_file_are_valid(block, tmp_path):
     text = STARTER.replace(block, re.sub(r"^# ", "", block, flags=re.MULTILINE))
+    if "[spring]" in block:
+        text = re.sub(r"^spring_(?!top|seat).*\n", "", text, flags=re.MULTILINE)
     if "[damper]" in block:
         text = re.sub(r"^damper_rate_N_s_per_m.*\n", "", text, flags=re.MULTILINE)
     file = tmp_path / "car.toml"
@@ -254,4 +289,9 @@ def test_commented_blocks_of_the_starter_file_are_valid(block, tmp_path):
 
 
 def test_the_starter_file_shows_all_optional_sections():
-    assert [block.split("]")[0][3:] for block in BLOCKS] == ["bump_stop", "rebound_stop", "damper"]
+    assert [block.split("]")[0][3:] for block in BLOCKS] == [
+        "bump_stop",
+        "rebound_stop",
+        "spring",
+        "damper",
+    ]
