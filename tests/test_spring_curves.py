@@ -8,10 +8,12 @@ import kintrafo
 import numpy as np
 import pytest
 from kintrafo import (
+    Axle,
     InputError,
     Model,
     RigidAxle,
     Suspension,
+    axles,
     characteristics,
     loads,
     rigid_axles,
@@ -144,6 +146,25 @@ def test_it_rests_where_the_curve_carries_the_wheel(name):
     force = float(curve(free - signals["spring_length"]))
     assert signals["spring_force"] == pytest.approx(force, rel=1e-10)
     assert np.abs(model.evaluate("rhs", rest)).max() < 1e-6
+
+
+def test_an_axle_rolls_on_the_rates_where_its_springs_are():
+    """Stiffness in roll and compliance of both sides: those of straight springs at design."""
+    name = "double_wishbone_car"
+    there = float(expected_curve("cubic")[1](compression_of("cubic", 4000.0)))
+    sides = curved(name), with_spring(name, rate_N_per_m=there, force_at_design_N=4000.0)
+    one, other = (
+        Axle.from_dict({"axle": "front", "right": side, "left": side.mirrored()}) for side in sides
+    )
+    rolled = [axles.roll(each, [0.0]) for each in (one, other)]
+    for quantity in ("roll_stiffness", "roll_stiffness_with_tyres"):
+        found, expected = (float(each[quantity][0]) for each in rolled)
+        assert found == pytest.approx(expected, rel=1e-9)
+        assert found > 1e4
+    soft = [
+        axles.compliance(each, BUSH, [0.0], held="spring")["flexibility"] for each in (one, other)
+    ]
+    np.testing.assert_allclose(*soft, rtol=1e-8, atol=1e-14)
 
 
 BUSH = {"lower_arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0}}
