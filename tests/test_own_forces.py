@@ -104,6 +104,7 @@ FORMULAS = {
     "below": (q**2 + 1) ** -5 + (q**2 + 1) ** -6.5 + 1 / (q**2 + 2) ** 3 + (v**2 + 1) ** -1.5,
     "of_parameters": q * k**11 + sp.Abs(k - 3) + sp.Max(k, 2),
     "numbers": q * (sp.E + sp.GoldenRatio + sp.pi + sp.EulerGamma),
+    "computed": q * sp.exp(2) + v * sp.log(3) ** 2 + sp.sqrt(sp.E) + sp.cbrt(5) + sp.tanh(1),
     "rationals": q * sp.Rational(10**30 + 1, 3 * 10**30),
     "decimals": q * sp.Float("0.1", 40) + v * 0.3,
     "pieces": sp.Piecewise((q**2, q < -0.5), (v, q <= 0.5), (k * q, True)),

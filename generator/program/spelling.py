@@ -86,7 +86,7 @@ class _Speller:
     def spell(self, e: sp.Expr) -> sp.Expr:
         if e.is_Symbol:
             return self._symbol(e)
-        if e.is_Number or e.is_NumberSymbol:
+        if e.is_Number or e.is_NumberSymbol or _is_computed(e):
             return _number(e)
         if e.is_Add or e.is_Mul or isinstance(e, _EMITTED):
             return e.func(*map(self.spell, e.args))
@@ -164,6 +164,13 @@ class _Speller:
         kind = "and, or, not" if isinstance(condition, BooleanFunction) else "<, <=, > and >="
         message = f"the condition {_shown(condition)} cannot be written in C: there are {kind}"
         raise SpellingError(message)
+
+
+def _is_computed(e: sp.Expr) -> bool:
+    """Tell whether something is a real number by functions that are not emitted, such as exp(2)."""
+    whole = e.is_Pow and (2 * e.exp).is_Integer
+    written = e.is_Add or e.is_Mul or whole or isinstance(e, _EMITTED)
+    return not written and not e.is_Symbol and bool(e.is_number and e.is_real)
 
 
 def _number(number: sp.Expr) -> sp.Expr:
