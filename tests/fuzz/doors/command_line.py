@@ -74,7 +74,7 @@ OPTIONS = {
     "new": ("--suspension", "--template", "--axle"),
     "import-chrono": ("--tire", "--side"),
     "import-adams": ("--side", "--kind", "--from", "--name"),
-    "import-points": ("--mirror",),
+    "import-points": ("--mirror", "--unit", "--axes", "--left-handed", "--sheet", "--name"),
     "export-points": (),
     "schema": (),
     "check": ("--json",),
@@ -109,6 +109,9 @@ WORDS = {
     "--from": (*packaged(), "x"),
     "--name": ("spring_top=top_mount", "spring_top=x", "x", "="),
     "--side": ("left", "right", "x"),
+    "--unit": ("mm", "in", "x", ""),
+    "--axes": ("rearward right up", "forward right up", "up up up", "x", ""),
+    "--sheet": ("points", ""),
     "--over": ("travel", "rack", "both", "roll", "x"),
     "--motion": ("bump", "roll", "left", "steer", "x", ""),
     "--wheels": ("left", "both", "x"),
@@ -281,7 +284,7 @@ _WEIGHTS = [
 
 
 def _value(random: Generator, option: str, names: list[str]) -> list[str]:
-    if option in ("--json", "--free-rack", "--numpy", "--axle", "--mirror"):
+    if option in ("--json", "--free-rack", "--numpy", "--axle", "--mirror", "--left-handed"):
         return []
     if option in WORDS:
         return [str(random.choice(WORDS[option]))]
