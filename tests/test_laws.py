@@ -8,25 +8,40 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo.generator import (
+    UP,
     Actuator,
+    AlongHinge,
+    Body,
     DamperRate,
     DamperTable,
+    DeclarationError,
     Displacement,
+    ForceElement,
     ForceLevel,
     Friction,
+    Ground,
     Input,
     Length,
+    Line,
     LinearDamper,
     LinearSpring,
+    Point,
     Progression,
+    Revolute,
     Speed,
     SpringRate,
+    SpringTable,
     Stop,
 )
 from kintrafo.generator.declare.laws import Law, Stretch
 from kintrafo.generator.program import ConstantStage, Function, Program
 from oracle import laws as oracle
-from oracle.reference import completed, reference_parameters, set_damper_curve
+from oracle.reference import (
+    completed,
+    reference_parameters,
+    set_damper_curve,
+    spring_parameters,
+)
 from scipy.interpolate import PchipInterpolator
 from symbolic import python
 from sympy import Symbol
@@ -227,6 +242,48 @@ def test_table_without_force() -> None:
     force = force_of(TABLE, parameters)
     assert [force(velocity=v) for v in (-3.0, -1e-9, 0.0, 1e-9, 3.0)] == [0.0] * 5
     assert len(parameters) == 3 + 11 + 4 * 10
+
+
+SPRING = SpringTable(name="spring_table", segments=10)
+
+
+def spring(seed: int) -> dict[str, float]:
+    """Return a curve of a spring about 0.6 m, and no rate beside it."""
+    parameters = completed(reference_parameters()) | {"spring_rate": 0.0}
+    return parameters | spring_parameters(np.random.default_rng(seed), 0.6)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_spring_of_lengths_is_that_of_the_oracle(seed: int) -> None:
+    """Value and slope, at the knots as well: a spring that is shorter pushes more."""
+    parameters = spring(seed)
+    force, (_, slopes) = force_of(SPRING, parameters), programs(SPRING)
+    knots = [parameters[f"spring_table_knot_{i}"] for i in range(SPRING.segments + 1)]
+    assert knots[0] > knots[-1]
+    h = 1e-6
+    for length in (*np.linspace(0.45, 0.75, 13), *knots):
+        expected = oracle.spring_force(parameters, length)
+        # sums of up to ten cubics of some thousand newtons
+        assert force(length=length) == pytest.approx(expected, rel=1e-12, abs=1e-9)
+        by_length, by_velocity, by_slide = evaluated(slopes, parameters, length=length)
+        # differences over 1e-6 m: rounding of 1e-9 N by that, and third derivatives of 1e9 N/m^3
+        around = [oracle.spring_force(parameters, length + sense * h) for sense in (1.0, -1.0)]
+        assert by_length == pytest.approx((around[0] - around[1]) / (2.0 * h), rel=1e-3, abs=50.0)
+        assert by_length < 1e-9
+        assert by_velocity == by_slide == 0.0
+
+
+def test_a_spring_of_lengths_without_force() -> None:
+    force = force_of(SPRING, {p.name: p.default for p in SPRING.numbers})
+    assert [force(length=length) for length in (0.1, 0.6, 3.0)] == [0.0] * 3
+
+
+def test_a_twist_has_no_lengths() -> None:
+    ground, crank = Ground("ground", 1), Body("crank", 1.0, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
+    axis = Line(Point("pivot", (0.0, 0.0, 0.0), "pivot"), UP)
+    hinge = Revolute("hinge", ground, crank, axis=axis)
+    with pytest.raises(DeclarationError, match="are in m, and a twist has none"):
+        ForceElement("coil", AlongHinge(hinge), (SPRING,))
 
 
 @pytest.mark.parametrize(
