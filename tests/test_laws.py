@@ -260,13 +260,14 @@ def test_a_spring_of_lengths_is_that_of_the_oracle(seed: int) -> None:
     force, (_, slopes) = force_of(SPRING, parameters), programs(SPRING)
     knots = [parameters[f"spring_table_knot_{i}"] for i in range(SPRING.segments + 1)]
     assert knots[0] > knots[-1]
-    h = 1e-6
+    h = 1e-8
     for length in (*np.linspace(0.45, 0.75, 13), *knots):
         expected = oracle.spring_force(parameters, length)
         # sums of up to ten cubics of some thousand newtons
         assert force(length=length) == pytest.approx(expected, rel=1e-12, abs=1e-9)
         by_length, by_velocity, by_slide = evaluated(slopes, parameters, length=length)
-        # differences over 1e-6 m: rounding of 1e-9 N by that, and third derivatives of 1e9 N/m^3
+        # differences over 1e-8 m: roundings of 1e-12 N and of 1e-16 m by that are some newtons per
+        # metre, and so is what a slope changes by between knots of which two are all but one
         around = [oracle.spring_force(parameters, length + sense * h) for sense in (1.0, -1.0)]
         assert by_length == pytest.approx((around[0] - around[1]) / (2.0 * h), rel=1e-3, abs=50.0)
         assert by_length < 1e-9
