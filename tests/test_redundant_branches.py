@@ -94,7 +94,13 @@ def test_two_couplers_apart_lock_the_mechanism():
     assert not redundant(couplers(2, apart=0.03))
 
 
-def test_a_joint_alone_may_be_redundant():
+def test_what_holds_to_the_ground_alone_is_not_redundant():
+    """Without its only joint there is no ground: the refusal is that of what was declared."""
+    crank = couplers(1).joints[0]
+    assert not redundant(g.Mechanism("one", "t", (crank,), (), (crank.angle("q", "q"),)))
+
+
+def test_a_second_bearing_is_redundant():
     """The crank is held at its outer end by a second bearing on the line of the first."""
     (mechanism,) = (couplers(1),)
     pin = g.Body("pin", 0.1, (0.0, 0.0, 0.1), (1e-5,) * 3)

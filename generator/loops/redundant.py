@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import networkx as nx
 
+from ..declare.declared import DeclarationError
 from .errors import TopologyError
 from .graph import Topology
 from .mobility import Mobility
@@ -77,10 +78,10 @@ def _freedoms_without(mechanism: Mechanism, joints: Collection[Joint]) -> int:
     rest = tuple(joint for joint in mechanism.joints if joint not in joints)
     if not rest:
         return -1
-    bare = replace(mechanism, joints=rest, forces=(), coordinates=(), outputs=())
     try:
+        bare = replace(mechanism, joints=rest, forces=(), coordinates=(), outputs=())
         topology = Topology(bare)
-    except TopologyError:  # it falls apart
+    except (DeclarationError, TopologyError):  # it falls apart, or off the ground
         return -1
     return Mobility(topology, ()).freedoms
 

@@ -64,7 +64,7 @@ def attempt(random):
     except KintrafoError as error:
         _judge(error)
         raise
-    if model.name in _SMALL and random.random() < _DERIVED and not plan.model.prescribed:
+    if model.name in _SMALL and random.random() < _DERIVED and not plan.formulation.prescribed:
         _compare(model, random)
 
 
