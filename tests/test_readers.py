@@ -158,6 +158,14 @@ def test_a_long_text_of_a_workbook(tmp_path: Path) -> None:
     assert len(refusal("points", path)) < 3000
 
 
+def test_a_text_longer_than_excel_has_them(tmp_path: Path) -> None:
+    path, long = book_with(tmp_path / "a.xlsx", {"B1": "HEADING"}), tmp_path / "b.xlsx"
+    with ZipFile(path) as read, ZipFile(long, "w", ZIP_DEFLATED) as archive:
+        for name in read.namelist():
+            archive.writestr(name, read.read(name).replace(b"HEADING", 40_000 * b"x"))
+    assert "row 1: a text is longer" in refusal("points", long)
+
+
 def test_a_workbook_that_unpacks_to_much(tmp_path: Path) -> None:
     path = book_with(tmp_path / "a.xlsx", {})
     with ZipFile(path, "a", ZIP_DEFLATED) as archive:

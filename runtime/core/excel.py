@@ -16,6 +16,7 @@ ROWS, COLUMNS = 1_048_576, 16_384
 
 _MOST_ROWS, _MOST_COLUMNS = 10_000, 256
 _MOST_SHEETS = 100
+_LONGEST = 32_767  # characters of a cell, in Excel
 _MOST_UNPACKED = 32 * MIB  # texts that repeat are packed to a thousandth
 
 
@@ -96,6 +97,9 @@ def _rows(sheet: Any, file: Path) -> Iterator[tuple[int, list[Any]]]:
         held += 1
         if held > _MOST_ROWS or number > _MOST_ROWS or filled[-1] >= _MOST_COLUMNS:
             raise InputError([_stray(sheet.title, number, filled[-1])], str(file))
+        if any(isinstance(cell, str) and len(cell) > _LONGEST for cell in cells):
+            problem = f"sheet {sheet.title}, row {number}: a text is longer than Excel has them."
+            raise InputError([problem], str(file))
         yield number, list(cells)
 
 
