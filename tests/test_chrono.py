@@ -202,7 +202,7 @@ class TestDoubleWishbone:
             forces = {-2.0: -4000.0, 3.0: 9000.0}
             shock["Damping Curve Data"] = [[0.0, 0.0], *([v, f] for v, f in forces.items())]
         found, told, _ = chrono.read(written(tmp_path, data), tire=TIRE)
-        (words,) = (text for text in told if text.startswith("damper: "))
+        words = next(text for text in told if text.startswith("damper: between"))
         assert '"Location Arm" = [0.01, 0.55, -0.27] m' in words
         model = Model(found)
         front, back = (np.array(arm[f"Location Chassis {end}"]) for end in ("Front", "Back"))
@@ -371,6 +371,62 @@ class TestKeys:
         )
         with pytest.raises(InputError, match='"Axle" is there 2 times'):
             chrono.read(path)
+
+
+# deformation (of the length, over the free one) [m] and force [N], which pulls where positive
+SPRING_CURVE = [[-0.12, -9000.0], [-0.03, -1500.0], [0.0, 0.0], [0.05, 2500.0]]
+
+
+class TestCurves:
+    @pytest.mark.parametrize("path", [STRUT, WISHBONES])
+    @pytest.mark.parametrize("key", ["Spring Curve Data", "Curve Data"])
+    def test_a_spring_has_chronos_force_at_every_length(self, tmp_path, path, key):
+        data = content(path)
+        spring = data["Spring"]
+        del spring["Spring Coefficient"]
+        ends = [spring[k] for k in spring if k.startswith("Location")]
+        at_design = math.dist(*ends)
+        spring |= {key: SPRING_CURVE, "Preload": 150.0, "Free Length": at_design + 0.04}
+        found, told, _ = chrono.read(written(tmp_path, data), tire=TIRE)
+        assert "spring: beyond its curve the force goes on straight, where" in "; ".join(told)
+        model = Model(found)
+        places = np.linspace(-0.04, 0.04, 9)
+        curves = sweep.positions(model, places)
+        lengths = curves["spring_length"].values
+        assert lengths[4] == pytest.approx(at_design, rel=1e-12)
+        expected = 150.0 - np.interp(lengths - spring["Free Length"], *np.transpose(SPRING_CURVE))
+        for angle, wanted in zip(curves["arm_angle"].values, expected, strict=True):
+            state = model.state(**{model.names.arm: angle})
+            assert float(model.signal("spring_force", state)) == pytest.approx(wanted, rel=1e-9)
+
+    def test_points_of_extension_that_are_too_many_are_listed(self, tmp_path):
+        data = content(WISHBONES)
+        del data["Spring"]["Spring Coefficient"]
+        curve = [[x / 50, 1e5 * x + 5e3 * x**3] for x in range(-10, 11)]
+        data["Spring"]["Spring Curve Data"] = curve
+        found, told, _ = chrono.read(written(tmp_path, data), tire=TIRE)
+        assert found.spring.compression_mm == pytest.approx([20.0 * x for x in range(11)])
+        assert found.spring.force_N == pytest.approx([1e5 * x + 5e3 * x**3 for x in range(11)])
+        (words,) = (text for text in told if "left out are those" in text)
+        assert words.startswith("spring: by 11 points, as many as a curve may have")
+        assert "-200 mm: -6e+06 N" in words
+        data["Spring"]["Spring Curve Data"] = [[x - 0.3, y - 1e7] for x, y in curve]
+        with pytest.raises(
+            InputError, match=r'compression_mm has 21 values.* In the file: "Spring"'
+        ):
+            chrono.read(written(tmp_path, data))
+
+    @pytest.mark.parametrize("path", [STRUT, WISHBONES])
+    def test_a_damper_has_chronos_force_at_every_speed(self, tmp_path, path):
+        data = content(path)
+        del data["Shock"]["Damping Coefficient"]
+        curve = [[-2.0, -9000.0], [-0.5, -4000.0], [0.0, 0.0], [0.3, 500.0], [2.0, 8000.0]]
+        data["Shock"]["Damping Curve Data"] = curve
+        found = chrono.read(written(tmp_path, data), tire=TIRE).suspension
+        assert found.damper.interpolation == "linear"
+        for speed in (-1.5, -0.2, 0.1, 1.0):
+            ours = np.interp(-speed, found.damper.velocity_m_per_s, found.damper.force_N)
+            assert ours == pytest.approx(-np.interp(speed, *np.transpose(curve)), rel=1e-12)
 
 
 class TestNoBody:
@@ -623,13 +679,6 @@ class TestMistakes:
     def test_are_named(self, tmp_path, changes, words):
         with pytest.raises(InputError, match=re.escape(words)):
             chrono.read(written(tmp_path, content() | changes))
-
-    def test_a_spring_by_a_curve(self, tmp_path):
-        data = content()
-        del data["Spring"]["Spring Coefficient"]
-        data["Spring"]["Spring Curve Data"] = [[-0.1, -6000.0], [0.1, 6000.0]]
-        with pytest.raises(InputError, match="is a spring by a curve, which cannot be read"):
-            chrono.read(written(tmp_path, data))
 
     @pytest.mark.parametrize(
         ("text", "words"),

@@ -62,7 +62,7 @@ def command(
 ) -> None:
     """Write the hardpoint file of a suspension that a subsystem of Adams/Car describes.
 
-    Hardpoints, camber, toe and a linear spring are read. What was read, assumed and left out is
+    Hardpoints, camber, toe and a spring are read. What was read, assumed and left out is
     printed.
     """
     from ..core.files import refuse

@@ -2,13 +2,14 @@
 
 import math
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any, Literal
 
 import tomlkit
 from pydantic import BaseModel
 
 from .data import find
+from .input.curve import SEGMENTS
 from .kinds import KINDS, Suspension
 from .kinds.macpherson import MacPherson
 
@@ -136,6 +137,20 @@ def _fit_strut(document: Any, old: Suspension, points: Mapping[str, Point]) -> s
     slide = strut["length_max_mm"] - was
     strut["length_max_mm"] = _rounded(new + slide)
     return f"strut: {slide:.1f} mm longer when fully extended than at design"
+
+
+def fewer(curve: Sequence[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
+    """Return a curve of a spring with as many points as a curve may have, if it is possible.
+
+    Points of extension are left out, of which no suspension has much; those of compression never.
+
+    Parameters
+    ----------
+    curve : sequence of (float, float)
+        Compressions, rising, and forces.
+    """
+    first = next((i for i, (place, _) in enumerate(curve) if place > 0.0), len(curve)) - 1
+    return tuple(curve[max(0, min(first, len(curve) - SEGMENTS - 1)) :])
 
 
 def ground(suspension: Suspension) -> list[str]:

@@ -15,10 +15,11 @@ from ..kinds import KINDS, Suspension
 from ..point_names import assumed_of, known, listed, matched, points_of
 from ..point_table import Merged, put_points
 from .rest import Rest, rest_of
-from .springs import Spring, put_spring, spring_of
+from .springs import Spring, force_at_design, put_spring, spring_of
 from .subsystem import ANGLES, Subsystem
 from .values import shown
 
+SMOOTH = "spring: a monotone cubic through the points of its curve, and straight beyond them"
 _SCHEMA = "#:schema"  # editors look for it in the first line
 
 
@@ -137,9 +138,15 @@ def imported(
 def _spring(subsystem: Subsystem, rest: Rest, side: Side) -> tuple[Spring | None, list[str]]:
     """Return the spring, and what of springs is left out: a file of the user has its own."""
     found, unread = spring_of(subsystem, side)
-    if found is None or rest.packaged:
-        return found, unread
-    return None, [f"{found.words()}: the {rest.title} has its own", *unread]
+    if found is None:
+        return None, unread
+    if not rest.packaged:
+        return None, [f"{found.words()}: the {rest.title} has its own", *unread]
+    force = force_at_design(tomlkit.parse(rest.text)) if found.force is None else found.force
+    if not found.reaches(force):
+        problem = f"its curve does not reach the force at design, {force:g} N"
+        return None, [f"{found.words()}: {problem}", *unread]
+    return found, unread
 
 
 def _angles(subsystem: Subsystem, side: Side) -> dict[str, float]:
@@ -206,6 +213,7 @@ def _assumed(
         "axes: x rearward, y to the right, z up, as is usual in Adams/Car",
         f"{'' if spring else 'spring, '}damper, masses, tyre, rack and vehicle: as in the {rest}",
         *([f"force of the spring: as in the {rest}"] if spring and spring.force is None else []),
+        *([SMOOTH] if spring and spring.curve else []),
         *(f"{name}: as in the {rest}" for name in kept),
     ]
     told += [

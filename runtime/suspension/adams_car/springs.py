@@ -1,7 +1,7 @@
-"""The spring of a subsystem of Adams/Car: its rate, and its force at the design position.
+"""The spring of a subsystem of Adams/Car: its rate or curve, and its force at the design position.
 
-It is read where its property file is beside the subsystem and its curve is straight. There the
-deflection is positive in compression, and so is the force.
+It is read where its property file is beside the subsystem. There the deflection is positive in
+compression, and so is the force. A straight curve is a rate.
 """
 
 import math
@@ -12,9 +12,12 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import tomlkit
+
 from ...core.errors import InputError
 from ...core.teim_orbit import Block, read_blocks
-from ..fitting import Side
+from ..fitting import Side, fewer
+from ..input.curve import SEGMENTS
 from .subsystem import Subsystem
 from .values import MILLIMETRES, NEWTONS, Values, number, shown, unit_of
 
@@ -25,26 +28,37 @@ _FORCE = ("value_type", "user_value")
 
 
 class Spring(NamedTuple):
-    """A linear spring.
+    """A spring.
 
     Attributes
     ----------
-    rate : float
-        In N/m.
+    rate : float or None
+        In N/m; None of a spring by a curve.
     force : float or None
         At the design position [N]; None if the subsystem does not say.
     file : str
         The name of the property file.
+    curve : tuple of (float, float)
+        Compressions [mm], rising, and forces [N].
+    lost : tuple of (float, float)
+        Points of the curve that there are too many of.
     """
 
-    rate: float
+    rate: float | None
     force: float | None
     file: str
+    curve: tuple[tuple[float, float], ...] = ()
+    lost: tuple[tuple[float, float], ...] = ()
 
     def words(self) -> str:
         """Return it in words."""
         force = "" if self.force is None else f", {self.force:g} N at design"
-        return f"spring {self.rate / 1000.0:g} N/mm{force} ({self.file})"
+        law = f"by {len(self.curve)} points" if self.rate is None else f"{self.rate / 1e3:g} N/mm"
+        return f"spring {law}{force} ({self.file})"
+
+    def reaches(self, force: float) -> bool:
+        """Return whether it has a force [N] at one compression."""
+        return not self.curve or self.curve[0][1] < force < self.curve[-1][1]
 
 
 def spring_of(subsystem: Subsystem, side: Side) -> tuple[Spring | None, list[str]]:
@@ -77,6 +91,9 @@ def spring_of(subsystem: Subsystem, side: Side) -> tuple[Spring | None, list[str
         return None, [*unread, f"{_named(values)}: {error.problems[0]} {_words(values)}"]
     read = ["symmetry", "property_file", *(_FORCE if found.force is not None else ())]
     rest = {key: value for key, value in values.items() if key not in read}
+    if found.lost:
+        points = ", ".join(f"{x:g} mm: {force:g} N" for x, force in found.lost)
+        unread.append(f"{_named(values)}: points of the greatest extension ({points})")
     return found, [*unread, *([f"{_named(values)}: {_words(rest)}"] if _words(rest) else [])]
 
 
@@ -98,16 +115,32 @@ def _spring(values: Mapping[str, str], subsystem: Subsystem) -> Spring:
     scaled = [key for key, text in values.items() if "scal" in key and number(text) != 1.0]
     if scaled:
         raise InputError([f"{shown(scaled[0].upper())} is not 1."])
-    return Spring(_rate(file), _force(values, subsystem), shown(name))
+    return _law(file)._replace(force=_force(values, subsystem), file=shown(name))
+
+
+def force_at_design(document: Any) -> float:
+    """Return the force at design that an input file gives [N]."""
+    in_strut = "strut" in document
+    section = document["strut" if in_strut else "spring"]
+    return float(section["spring_force_at_design_N" if in_strut else "force_at_design_N"])
 
 
 def put_spring(document: Any, spring: Spring) -> None:
     """Put a spring into the text of an input file that gives a force at design."""
-    section = document["strut" if "strut" in document else "spring"]
     prefix = "spring_" if "strut" in document else ""
-    section[f"{prefix}rate_N_per_m"] = spring.rate
-    if spring.force is not None:
-        section[f"{prefix}force_at_design_N"] = spring.force
+    section = document["strut" if prefix else "spring"]
+    force = force_at_design(document) if spring.force is None else spring.force
+    if spring.rate is not None:
+        section[f"{prefix}rate_N_per_m"] = spring.rate
+    else:
+        del section[f"{prefix}rate_N_per_m"]
+        if prefix:
+            del section[f"{prefix}force_at_design_N"]
+            prefix, section = "", tomlkit.table()
+            document["spring"] = section
+        section["compression_mm"] = [place for place, _ in spring.curve]
+        section["force_N"] = [value for _, value in spring.curve]
+    section[f"{prefix}force_at_design_N"] = force
 
 
 def _beside(folder: Path, name: str) -> Path | None:
@@ -117,11 +150,11 @@ def _beside(folder: Path, name: str) -> Path | None:
     return next((p / name for p in places if name and os.path.isfile(p / name)), None)  # noqa: PTH113
 
 
-def _rate(file: Path) -> float:
-    """Return the rate of a spring whose curve is straight [N/m]."""
+def _law(file: Path) -> Spring:
+    """Return the rate of a spring whose curve is straight, or its curve."""
     blocks = read_blocks(file)
     values = Values(blocks, str(file))
-    length = unit_of(values, "length", "mm", MILLIMETRES) / 1000.0
+    length = unit_of(values, "length", "mm", MILLIMETRES)
     force = unit_of(values, "force", "newton", NEWTONS)
     points = sorted(_points(blocks))
     if len(points) < 2 or any(a[0] == b[0] for a, b in pairwise(points)):
@@ -129,10 +162,20 @@ def _rate(file: Path) -> float:
     (x0, f0), (x1, f1) = points[0], points[-1]
     slope = (f1 - f0) / (x1 - x0)
     off = max(abs(f - f0 - slope * (x - x0)) for x, f in points)
-    if not (slope > 0.0 and off <= _STRAIGHT * max(abs(f) for _, f in points)):
-        raise InputError(["its curve is no straight line that rises."])
-    # so many digits as anybody measures; the unit has brought the others
-    return float(f"{slope * force / length:.12g}")
+    if not (slope > 0.0 and all(b[1] >= a[1] for a, b in pairwise(points))):
+        raise InputError(["its curve falls."])
+    if off <= _STRAIGHT * max(abs(f) for _, f in points):
+        return Spring(_rounded(1e3 * slope * force / length), None, "")
+    curve = [(_rounded(length * x), _rounded(force * f)) for x, f in points]
+    kept = fewer(curve)
+    if len(kept) > SEGMENTS + 1:
+        raise InputError([f"its curve has {len(points)} points; {SEGMENTS + 1} are the most."])
+    return Spring(None, None, "", kept, tuple(curve[: -len(kept)]))
+
+
+def _rounded(value: float) -> float:
+    """Return so many digits as anybody measures; the unit has brought the others."""
+    return float(f"{value:.12g}")
 
 
 def _points(blocks: list[Block]) -> list[tuple[float, float]]:

@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import Field
 
 from ...core.vectors import cross
-from .forces import Shock, Spring, damper_law, damper_section, free_length_mm, spring_law
+from .forces import DamperLaw, Shock, Spring, damper_law, spring_law, words_of_curves
 from .keys import Part
 from .parts import ON_THE_LINE, POINTS_ONLY, ArmPoints, ControlArm, Point
 from .suspension_file import PointsFile, SuspensionFile, arm_sources
@@ -97,17 +97,13 @@ class DoubleWishbone(SuspensionFile, WishbonePoints):
 
     def forces(self) -> dict[str, Any]:
         """Return spring and damper."""
-        spring = spring_law(self.spring)
-        damper = damper_law(self.spring, self.shock)
-        return {
-            "spring": {"rate_N_per_m": spring.rate, "free_length_mm": free_length_mm(spring)},
-            "damper": damper_section(damper.scaled(self._ratio()) if self._is_apart() else damper),
-        }
+        return {"spring": spring_law(self.spring).section(), "damper": self._damper().section()}
 
     def left_open(self) -> list[str]:
-        """Say where the damper stands."""
+        """Say where the damper stands, and what curves are like."""
+        of_curves = words_of_curves(spring_law(self.spring), self._damper())
         if not self._is_apart():
-            return []
+            return of_curves
         ratio = self._ratio()
         told = (
             f"damper: between the points of the spring, with {ratio:.4g} times its force at "
@@ -115,7 +111,12 @@ class DoubleWishbone(SuspensionFile, WishbonePoints):
             f'"Shock > Location Chassis" = {list(self.shock.chassis)} and "Location Arm" = '
             f"{list(self.shock.arm)} m"
         )
-        return [told]
+        return [told, *of_curves]
+
+    def _damper(self) -> DamperLaw:
+        """Return the damper between the points of the spring."""
+        damper = damper_law(self.spring, self.shock)
+        return damper.scaled(self._ratio()) if self._is_apart() else damper
 
     def _is_apart(self) -> bool:
         """Return whether the damper has points of its own, and stands there."""

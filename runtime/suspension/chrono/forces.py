@@ -8,10 +8,12 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 
 from pydantic import Field
 
+from ..fitting import fewer
 from .keys import Part
 from .parts import POINTS_ONLY, Finite, Point, millimetres
 
-Curve = Annotated[tuple[tuple[Finite, Finite], ...], Field(min_length=2)]
+Curve = tuple[tuple[float, float], ...]
+_Points = Annotated[tuple[tuple[Finite, Finite], ...], Field(min_length=2)]
 
 _LAWS = {
     ("Map Data", "Deformation"): "a force over length and speed together",
@@ -30,10 +32,10 @@ class Element(Part):
 
     chassis: Point = Field(alias="Location Chassis")
     rate: Finite | None = Field(default=None, alias="Spring Coefficient")
-    curve: Curve | None = Field(default=None, alias="Spring Curve Data")
+    curve: _Points | None = Field(default=None, alias="Spring Curve Data")
     damping: Finite | None = Field(default=None, alias="Damping Coefficient")
-    damping_curve: Curve | None = Field(default=None, alias="Damping Curve Data")
-    old_curve: Curve | None = Field(default=None, alias="Curve Data")
+    damping_curve: _Points | None = Field(default=None, alias="Damping Curve Data")
+    old_curve: _Points | None = Field(default=None, alias="Curve Data")
     map_data: Any = Field(default=None, alias="Map Data")
     deformation: Any = Field(default=None, alias="Deformation")
     in_bump: Finite | None = Field(default=None, alias="Degressivity Compression")
@@ -92,18 +94,33 @@ class Shock(Element):
 
 
 class SpringLaw(NamedTuple):
-    """A spring.
+    """A spring: by its rate, or by its curve.
 
     Attributes
     ----------
     rate : float
         In N/m.
     free_length : float
-        Of no force [m].
+        Of no force, or of no compression of a curve [m].
+    curve : tuple of (float, float)
+        Compressions [m], rising, and forces that push the ends apart [N]; empty with a rate.
+    lost : tuple of (float, float)
+        Points of the curve that there are too many of.
     """
 
     rate: float
     free_length: float
+    curve: Curve = ()
+    lost: Curve = ()
+
+    def section(self) -> dict[str, Any]:
+        """Return it as the section of a hardpoint file."""
+        free = {"free_length_mm": millimetres(self.free_length)}
+        if not self.curve:
+            return {"rate_N_per_m": self.rate} | free
+        places, forces = zip(*self.curve, strict=True)
+        places_mm = [millimetres(place) for place in places]
+        return {"compression_mm": places_mm, "force_N": [*forces], "interpolation": "linear"} | free
 
 
 class DamperLaw(NamedTuple):
@@ -118,12 +135,23 @@ class DamperLaw(NamedTuple):
     """
 
     rate: float
-    curve: tuple[tuple[float, float], ...] = ()
+    curve: Curve = ()
 
     def scaled(self, ratio: float) -> "DamperLaw":
         """Return the damper that does the same along a line with 1/ratio of the speed."""
         curve = tuple((velocity / ratio, force * ratio) for velocity, force in self.curve)
         return DamperLaw(self.rate * ratio**2, curve)
+
+    def section(self) -> dict[str, Any]:
+        """Return it as the section of a hardpoint file."""
+        if not self.curve:
+            return {"rate_N_s_per_m": self.rate}
+        velocities, forces = zip(*self.curve, strict=True)
+        return {
+            "velocity_m_per_s": [*velocities],
+            "force_N": [*forces],
+            "interpolation": "linear",
+        }
 
 
 def problems_of(spring: Spring, shock: Shock) -> list[str]:
@@ -131,11 +159,6 @@ def problems_of(spring: Spring, shock: Shock) -> list[str]:
     told = [*spring.problems(), *shock.problems()]
     if not spring.springs():
         told.append('"Spring > Spring Coefficient" or "Spring Curve Data" is missing. Add one.')
-    elif spring.springs() != ["Spring Coefficient"]:
-        told.append(
-            f'"Spring > {spring.springs()[0]}" is a spring by a curve, which cannot be read. Enter '
-            f'its rate as "Spring Coefficient" in N/m, or {POINTS_ONLY}.'
-        )
     elif spring.free_length is None:
         told.append('"Spring > Free Length" is missing. Add it, in m.')
     if spring.rate == 0.0 and spring.preload:
@@ -160,9 +183,17 @@ def problems_of(spring: Spring, shock: Shock) -> list[str]:
 
 
 def spring_law(spring: Spring) -> SpringLaw:
-    """Return the spring of a file without `problems_of`; its preload is in the free length."""
-    rate, free = spring.rate or 0.0, spring.free_length or 0.0
-    return SpringLaw(rate, free + spring.preload / rate if spring.preload else free)
+    """Return the spring of a file without `problems_of`, with its preload.
+
+    Chrono's curve is over the length above the free one, and positive where the spring pulls.
+    """
+    free, points = spring.free_length or 0.0, spring.curve or spring.old_curve
+    if points is None:
+        rate = spring.rate or 0.0
+        return SpringLaw(rate, free + spring.preload / rate if spring.preload else free)
+    curve = sorted((-longer + 0.0, spring.preload - force) for longer, force in points)
+    kept = fewer(curve)
+    return SpringLaw(0.0, free, kept, tuple(point for point in curve[: -len(kept)]))
 
 
 def damper_law(spring: Spring, shock: Shock) -> DamperLaw:
@@ -176,16 +207,19 @@ def damper_law(spring: Spring, shock: Shock) -> DamperLaw:
     return DamperLaw(of.damping or 0.0, tuple(curve))
 
 
-def damper_section(law: DamperLaw) -> dict[str, Any]:
-    """Return the damper of a hardpoint file."""
-    if not law.curve:
-        return {"rate_N_s_per_m": law.rate}
-    return {
-        "velocity_m_per_s": [velocity for velocity, _ in law.curve],
-        "force_N": [force for _, force in law.curve],
-    }
-
-
-def free_length_mm(law: SpringLaw) -> float:
-    """Return the length of no force, in mm."""
-    return millimetres(law.free_length)
+def words_of_curves(spring: SpringLaw, damper: DamperLaw) -> list[str]:
+    """Return how curves go on at their ends, and which points of a spring are left out."""
+    told = []
+    named = [name for name, law in (("spring", spring), ("damper", damper)) if law.curve]
+    if named:
+        told.append(
+            f"{' and '.join(named)}: beyond its curve the force goes on straight, where that of "
+            "Chrono stays as at the end"
+        )
+    if spring.lost:
+        points = ", ".join(f"{1e3 * x:g} mm: {force:g} N" for x, force in spring.lost)
+        told.append(
+            f"spring: by {len(spring.curve)} points, as many as a curve may have; left out are "
+            f"those of the greatest extension ({points})"
+        )
+    return told

@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import Field
 
 from ...core.vectors import cross
-from .forces import Shock, Spring, damper_law, damper_section, free_length_mm, spring_law
+from .forces import Shock, Spring, damper_law, spring_law, words_of_curves
 from .keys import Part
 from .parts import DRAWING, ON_THE_LINE, POINTS_ONLY, ArmPoints, ControlArm, Point, millimetres
 from .suspension_file import PointsFile, SuspensionFile, arm_sources
@@ -70,6 +70,7 @@ class MacPhersonStrut(SuspensionFile, StrutPoints):
         **_SOURCES,
         "[bodies.control_arm]": "Control Arm",
         "[strut] spring_": "Spring",
+        "[spring]": "Spring",
         "[strut] damper_": "Shock",
         "[damper]": "Shock",
     }
@@ -99,18 +100,20 @@ class MacPhersonStrut(SuspensionFile, StrutPoints):
         """Return the strut with its spring and damper."""
         spring, damper = spring_law(self.spring), damper_law(self.spring, self.shock)
         length = float(np.linalg.norm(np.subtract(self.spring.chassis, self.spring.upright)))
-        strut = {
-            "length_max_mm": round(millimetres(length + _STROKE), 3),
-            "spring_rate_N_per_m": spring.rate,
-            "spring_free_length_mm": free_length_mm(spring),
-        }
+        strut = {"length_max_mm": round(millimetres(length + _STROKE), 3)}
+        if spring.curve:
+            own = {"spring": spring.section()}
+        else:
+            own, of_strut = {}, spring.section()
+            strut |= {f"spring_{key}": value for key, value in of_strut.items()}
         if damper.curve:
-            return {"strut": strut, "damper": damper_section(damper)}
-        return {"strut": strut | {"damper_rate_N_s_per_m": damper.rate}}
+            return {"strut": strut, "damper": damper.section()} | own
+        return {"strut": strut | {"damper_rate_N_s_per_m": damper.rate}} | own
 
     def left_open(self) -> list[str]:
         """Say what stroke the strut has, and along which line the damper acts."""
         told = [f"strut: {1e3 * _STROKE:g} mm longer when fully extended than at design"]
+        told += words_of_curves(spring_law(self.spring), damper_law(self.spring, self.shock))
         ends = np.subtract(self.shock.chassis, self.spring.chassis)
         if self.shock.dampers() and np.linalg.norm(ends) > ON_THE_LINE:
             told.append(

@@ -227,8 +227,10 @@ def _check(text: str, found: Any, car: Any, how: dict[str, Any]) -> None:
     outboard = car.hardpoints.metres("wheel_center")[1] * car.vehicle.sign
     if not outboard > 0.0:
         raise WrongError(f"the wheel is {outboard} m outboard")
-    if found.spring is not None and not 0.0 < found.spring.rate < np.inf:
-        raise WrongError(f"{found.spring}")
+    if found.spring is not None:
+        curve = np.array(found.spring.curve or [(0.0, 0.0), (1.0, found.spring.rate)])
+        if not (np.diff(curve[:, 0]) > 0.0).all() or not (np.diff(curve[:, 1]) >= 0.0).all():
+            raise WrongError(f"{found.spring}")
     if not all(np.isfinite(value) for value in car.parameters().values()):
         raise WrongError("a parameter is not finite")
 
