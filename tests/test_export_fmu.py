@@ -13,6 +13,7 @@ import pytest
 from c_text import EMITTED
 from exported import system_named
 from kintrafo.systems.compile.compiler import find_compiler
+from kintrafo.targets.fmi import binaries
 from kintrafo.targets.fmi.units import powers
 from mockup import DISCARD, ERROR, OK, Unit
 from own_models import STRICT, UNOPTIMISED
@@ -597,3 +598,28 @@ def test_casadi_has_the_equations_with_their_derivatives(unit, version):
     found, linear = function.jacobian()(x=at, u=torque), kintrafo.linearise(system, at, torque)
     for name, matrix in (("ode_x", linear.A), ("ode_u", linear.B), ("y_x", linear.C)):
         np.testing.assert_array_equal(np.array(found[f"jac_{name}"]), matrix)
+
+
+def test_a_platform_without_a_compiler(tmp_path, monkeypatch):
+    """What to install is said, and nothing is written; sources alone need none."""
+    system, path = system_named("four_bar"), tmp_path / "a.fmu"
+    monkeypatch.setattr(binaries.shutil, "which", lambda _: None)
+    monkeypatch.setattr(binaries, "find_spec", lambda _: None)
+    monkeypatch.setattr(binaries, "find_compiler", lambda: None)
+    for platform, words in (("windows", "pip install ziglang"), ("linux", "apt-get install gcc")):
+        with pytest.raises(kintrafo.CompilerError, match=words):
+            kintrafo.export_model(system, path, "fmu", platforms=[platform])
+    assert not [*tmp_path.iterdir()]
+    kintrafo.export_model(system, path, "fmu", platforms=())
+    with zipfile.ZipFile(path) as archive:
+        assert not any(name.startswith("binaries") for name in archive.namelist())
+
+
+@pytest.mark.skipif(shutil.which("x86_64-w64-mingw32-gcc") is None, reason="no compiler for it")
+def test_a_library_for_windows(tmp_path):
+    path = tmp_path / "a.fmu"
+    kintrafo.export_model(system_named("four_bar"), path, "fmu", platforms=["linux", "windows"])
+    with zipfile.ZipFile(path) as archive:
+        content = archive.read("binaries/win64/four_bar.dll")
+    assert content[:2] == b"MZ"
+    assert b"fmi2DoStep\0" in content
