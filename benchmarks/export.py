@@ -53,7 +53,9 @@ def steps(folder: Path, rounds: int) -> list[float]:
     sources = [f"{name}.c", f"{name}_derivatives.c", f"{name}_values.c"]
     macros = {
         "EQUATIONS": name,
+        "STATES": str(len(model.state_names)),
         "ROUNDS": str(rounds),
+        "METHOD": f'"{folder}/fmi2/sources/dormand_prince.h"',
         "VALUES": f'"{code / name}_values.h"',
         **{f"FMI{v}": f'"{folder}/fmi{v}/sources/fmi{v}Functions.h"' for v in VERSIONS},
     }

@@ -2,14 +2,16 @@
  * What a communication step of a functional mock-up unit takes above its arithmetic, and what instances take
  * in memory. Called with the libraries of FMI 2.0 and 3.0, and their tokens.
  *
- * The arithmetic of a step of Dormand and Prince is seven evaluations of the right-hand side and three of the
- * margins: at the begin, a short time later, and at the end. EQUATIONS is the name of the equations, ROUNDS how often all is measured.
+ * The arithmetic of a step of Dormand and Prince is seven evaluations of the right-hand side, the sums of the
+ * method and of its error, and one evaluation of the margins. EQUATIONS is the name of the equations, STATES the
+ * number of their states, ROUNDS how often all is measured.
  */
 #define _POSIX_C_SOURCE 200809L
 
 #include VALUES
 #include FMI2
 #include FMI3
+#include METHOD
 
 #include <dlfcn.h>
 #include <stdio.h>
@@ -61,25 +63,49 @@ static void check(int status)
     }
 }
 
+/* Compute a step with nothing around it; returns what no compiler can leave out. */
+static double bare_step(const double *state)
+{
+    double rates[STAGES][STATES], stage[STATES], margins[100], error = 0.0;
+    int status = 0;
+    for (int s = 0; s < STAGES; ++s) {
+        for (int i = 0; i < STATES; ++i) {
+            double sum = 0.0;
+            for (int k = 0; k < s; ++k) {
+                sum += TABLE[s][k] * rates[k][i];
+            }
+            stage[i] = state[i] + LENGTH * sum;
+        }
+        status += NAME(EQUATIONS, _rhs)(NAME(EQUATIONS, _constants), stage, NAME(EQUATIONS, _inputs), rates[s]);
+    }
+    for (int i = 0; i < STATES; ++i) {
+        double sum = 0.0;
+        for (int s = 0; s < STAGES; ++s) {
+            sum += ERROR[s] * rates[s][i];
+        }
+        double measured = LENGTH * sum / (1.0e-9 + 1.0e-6 * (state[i] < 0.0 ? -state[i] : state[i]));
+        error += measured * measured;
+    }
+    status += NAME(EQUATIONS, _margins)(NAME(EQUATIONS, _constants), stage, NAME(EQUATIONS, _inputs), margins);
+    return error + status + stage[0] + margins[0] + NODES[1] + DENSE[0];
+}
+
 static double arithmetic(void)
 {
-    double rates[100], margins[100], sum = 0.0, best = 1.0e9;
+    double state[STATES], sum = 0.0, best = 1.0e9;
+    for (int i = 0; i < STATES; ++i) {
+        state[i] = NAME(EQUATIONS, _start)[i];
+    }
     for (int round = 0; round < ROUNDS; ++round) {
         double begin = now();
         for (int k = 0; k < STEPS; ++k) {
-            for (int i = 0; i < 7; ++i) {
-                sum += NAME(EQUATIONS, _rhs)(NAME(EQUATIONS, _constants), NAME(EQUATIONS, _start),
-                                             NAME(EQUATIONS, _inputs), rates);
-            }
-            for (int i = 0; i < 3; ++i) {
-                sum += NAME(EQUATIONS, _margins)(NAME(EQUATIONS, _constants), NAME(EQUATIONS, _start),
-                                                 NAME(EQUATIONS, _inputs), margins);
-            }
+            state[0] += 1.0e-12;
+            sum += bare_step(state);
         }
         double taken = (now() - begin) / STEPS;
         best = taken < best ? taken : best;
     }
-    return sum < 0.0 ? 0.0 : best;
+    return sum == 0.5 ? 0.0 : best;
 }
 
 static fmi2Component open2(void *library, const char *token)
