@@ -623,3 +623,21 @@ def test_a_library_for_windows(tmp_path):
         content = archive.read("binaries/win64/four_bar.dll")
     assert content[:2] == b"MZ"
     assert b"fmi2DoStep\0" in content
+
+
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
+def test_no_access_is_beyond_what_is_kept(unit, tmp_path):
+    """With sanitizers: every access, leak and undefined operation ends the program."""
+    known = unit("four_bar", 2)
+    sources = sorted(map(str, known.folder.glob("sources/**/*.c")))
+    program = tmp_path / "driver"
+    flags = ["-std=c11", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"]
+    include = f"-I{known.folder / 'sources'}"
+    driver = str(Path(__file__).with_name("unit_driver.c"))
+    made = ["gcc", *flags, include, driver, *sources, "-o", str(program), "-lm"]
+    subprocess.run(made, check=True)
+    called = [str(program), known.token, str(len(known.references))]
+    ended = subprocess.run(called, capture_output=True, text=True, check=False)
+    assert ended.returncode == 0, ended.stderr
+    assert ended.stdout.endswith("done\n")
+    assert "damper_rate = -1 N s/m is out of its range" in ended.stdout
