@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import numpy as np
 
 SECONDS = 300.0
-SHORT = 3
+SHORT = 2
 CARS = 16  # in an attempt
 RACK = 0.06  # m
 
