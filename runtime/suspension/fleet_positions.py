@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from .attitudes import Attitudes, attitudes, attitudes_at
 from .fleet import Fleet
-from .reach import ARM_STEP, ARM_STEPS, branch, clear_of, margins_at, way_of_rack
+from .reach import ARM_STEP, ARM_STEPS, branch, clear_of, clearance_of, margins_at, way_of_rack
 from .reach import at_rest as rest_of
 from .swing import Seen, march, margins_stay, resolved
 
@@ -178,7 +178,12 @@ def _end(fleet: Fleet, last: _Table, short: Flags, direction: float, rack: float
         design + direction * ARM_STEP * ARM_STEPS,
         ARM_STEP,
     )
-    ends = clear_of(fleet, ends, limits, design, direction)[:, None]
+
+    def usable(places: Array) -> Flags:
+        return _look(fleet.of(rows), places[:, None], rack).usable[:, 0]
+
+    clearance = clearance_of(fleet)
+    ends = clear_of(usable, clearance, ends, limits, design, direction)[:, None]
     seen = _look(fleet.of(rows), ends, rack)
     found = _Table(*(values.copy() for values in last))
     for values, there in zip(found, (ends, seen.height, seen.slope), strict=True):

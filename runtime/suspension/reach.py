@@ -6,6 +6,7 @@ that every height within reach has exactly one position. `swing` sees to it that
 angles that are looked at is missed.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -302,11 +303,22 @@ def _ends(model: Model, places: bytes, direction: float) -> tuple[Array, list[in
         goals,
         ARM_STEP,
     )
-    return clear_of(model, ends, limits, angles[0], direction), limits.tolist()
+    clearance = clearance_of(model)
+
+    def usable(places: Array) -> NDArray[np.bool_]:
+        return _look(model, places[:, None], racks[:, None]).usable[:, 0]
+
+    return clear_of(usable, clearance, ends, limits, angles[0], direction), limits.tolist()
+
+
+def clearance_of(model: System) -> float:
+    """Return by how much a range ends before its limit [rad]."""
+    return _CLEARANCE_OF_ITERATION if iterates(model.equations) else _CLEARANCE
 
 
 def clear_of(
-    model: System,
+    usable: Callable[[Array], NDArray[np.bool_]],
+    clearance: float,
     ends: Array,
     limits: NDArray[np.int64],
     design: Array | float,
@@ -316,7 +328,10 @@ def clear_of(
 
     Parameters
     ----------
-    model : System
+    usable : callable
+        Tells which angles can be taken: where roundings decide, the next one cannot.
+    clearance : float
+        [rad]
     ends : ndarray
         From `march` [rad].
     limits : ndarray of int
@@ -327,9 +342,15 @@ def clear_of(
         Which way the arm has swung: 1 or -1.
     """
     # not past the design position, where a wheel that turns back at once has its end
-    clearance = _CLEARANCE_OF_ITERATION if iterates(model.equations) else _CLEARANCE
-    clear = direction * (ends - design) > clearance
-    return np.where(clear & (limits != GOAL), ends - direction * clearance, ends)
+    swung = direction * (ends - design)
+    clear = np.where((swung > clearance) & (limits != GOAL), ends - direction * clearance, ends)
+    refused = (limits != GOAL) & (swung > clearance) & ~usable(clear)
+    while refused.any():
+        clearance *= 10.0
+        farther = np.where(swung > clearance, ends - direction * clearance, design)
+        clear = np.where(refused, farther, clear)
+        refused &= (swung > clearance) & ~usable(clear)
+    return clear
 
 
 def refuse_beyond(model: System, state: Array, inputs: Array) -> None:
