@@ -7,6 +7,7 @@
 `quantities`   names, units and signs of what is shown
 `legible`      texts of others, made harmless before they are shown
 `physical`     what the parameters of a mechanism can be
+`memory`       how much there is, before it is taken
 `interrupts`   Ctrl-C: none is lost, and nothing is left half done
 `files`        writing a file as a whole, and replacing none of somebody else's
 `folders`      where things are kept between two runs

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
+from ..core.memory import refuse_beyond
 from ..core.named_types import ArrayLike
 from ..systems.derivatives import checked_directions, direction_of, kept_together
 from ..systems.state import inputs_of
@@ -129,6 +130,10 @@ def motion_sensitivity(
                 given, len(system.state_names), rtol=rtol, atol=atol, max_step=max_step,
                 first_step=None, max_steps=MOST_STEPS,
             )  # fmt: skip
+            # as they come, and in rows for each signal
+            needed = 16.0 * times.size * len(along) * (len(chosen) + len(system.state_names))
+            what = f"derivatives of {times.size:,} outputs along {len(along)} directions"
+            refuse_beyond(given, needed, what, "Ask for fewer outputs, by t_eval, or signals.")
     tangents = _Tangents(system, along)
     held = inputs_of(y0, system.names_of_states)
     courses = time_inputs(system, inputs, span, held=held, max_step=max_step)
@@ -156,6 +161,7 @@ def _along(given: Arguments, system: System, by: Any) -> dict[str, Mapping[str, 
         found = {name: {name: 1.0} for name in given.names("by", by, known)}
         by = {}
     for label, direction in given.mapping("by", by, "names and directions").items():
+        given.text("label in by", label)
         named = given.mapping(f"by {label!r}", direction, "names and numbers")
         found[str(label)] = {
             given.among("name", name, known): given.number(f"by {label!r} {name}", value)

@@ -11,6 +11,7 @@ from typing_extensions import TypeAliasType
 
 from ..core.arguments import Arguments
 from ..core.errors import InputError
+from ..core.memory import refuse_beyond
 from ..core.named_types import ArrayLike
 from ..equations.errors import ModelError
 from ..systems.state import inputs_of
@@ -188,6 +189,8 @@ def simulate(
             )
             if method == "RK4" and not arguments.refused:
                 _check_count(arguments, span, accuracy)
+            if not arguments.refused:
+                _check_memory(arguments, model, method, span, times, accuracy)
             arguments.flag("dense_output", dense_output)
             arguments.flag("stop_at_outputs", stop_at_outputs)
     options = Options(
@@ -275,6 +278,24 @@ def _check_count(given: Arguments, span: tuple[float, float], accuracy: Accuracy
     needed = abs(span[1] - span[0]) / step
     if needed > most:
         given.refuse(f"step = {step:g} s makes {needed:.3g} steps, and max_steps is {most}.")
+
+
+def _check_memory(
+    given: Arguments,
+    model: System,
+    method: str,
+    span: tuple[float, float],
+    times: Array | None,
+    accuracy: Accuracy,
+) -> None:
+    """Refuse more outputs than memory holds, as far as it is known how many there are."""
+    count = 0.0 if times is None else times.size
+    if times is None and method == "RK4":
+        count = abs(span[1] - span[0]) / accuracy.max_step
+    # a table of times and states as it comes from C, its rows in order, and the inputs of each
+    of_one = 2 * (1 + len(model.state_names)) + len(model.input_names)
+    what = f"{count:,.0f} outputs of {len(model.state_names)} elements of the state"
+    refuse_beyond(given, 8.0 * count * of_one, what, "Ask for fewer, by t_eval.")
 
 
 def _choose_backend(model: System, backend: Backend, options: Options) -> Callable[..., Piece]:

@@ -17,7 +17,7 @@ Finish = Callable[[int, int, NDArray[np.float64], Callable[[], bool]], None]
 # end are little beside them, and so few that all threads end together.
 _FEWEST, _MOST, _PARTS = 64, 2048, 8
 # Samples that a thread holds at a time, with which many systems would fill the memory [bytes].
-_SAMPLES = 2**23
+SAMPLES = 2**23
 # How long the main thread waits before it looks at signals and tells how far it is [s].
 _PATIENCE = 0.1
 
@@ -78,6 +78,6 @@ def _chunks(problem: Problem, threads: int) -> Iterator[tuple[int, int]]:
     count, wanted = problem.systems.count, problem.wanted
     size = min(max(count // (threads * _PARTS), _FEWEST), _MOST)
     of_one = 8 * wanted.sample_count * wanted.times.size
-    size = min(size, max(_SAMPLES // max(of_one, 1), problem.width))
+    size = min(size, max(SAMPLES // max(of_one, 1), problem.width))
     for first in range(0, count, size):
         yield first, min(first + size, count)

@@ -27,6 +27,7 @@ from .pieces.kept import kept_in
 from .pieces.whole import run_in_pieces
 from .pieces.workers import workers_of
 from .results import dataset_of
+from .room import Room
 from .variants import Variants, impossible_sets, variants_of
 from .wanted import Asked, asked_of
 
@@ -181,7 +182,8 @@ def ensemble(
             given.flag("progress", progress)
             if stiff is not None:
                 given.among("stiff", stiff, ["BDF"])
-    own = variants_of(model, variants, courses, None if len(state) == 1 else len(state))
+    rows = None if len(state) == 1 else len(state)
+    own = variants_of(model, variants, courses, rows, Room(model, asked, cores, width))
     _check_together(model, y0, courses, own, asked)
     held = inputs_of(y0, model.names_of_states)
     drives = drives_of(model, courses, own, span, held=held, max_step=accuracy.max_step)

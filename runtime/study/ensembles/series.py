@@ -15,7 +15,7 @@ USUAL_SEGMENT, LEAST_SEGMENT = 256, 8
 # Parts of a step by which times may be off; a spectrum is off by less than that part.
 _OFF = 1e-6
 # Series that a transform takes together: always as many, since how it groups them depends on that.
-_TOGETHER = 64
+TOGETHER = 64
 
 
 def uniform_step(times: Array) -> float | None:
@@ -57,9 +57,9 @@ def spectra(series: Array, times: Array, segment: int) -> Array:
 
     rate = 1.0 / (uniform_step(times) or np.nan)
     found = np.empty((len(series), segment // 2 + 1))
-    together = np.zeros((_TOGETHER, times.size))
-    for first in range(0, len(series), _TOGETHER):
-        some = series[first : first + _TOGETHER]
+    together = np.zeros((TOGETHER, times.size))
+    for first in range(0, len(series), TOGETHER):
+        some = series[first : first + TOGETHER]
         together[: len(some)] = some
         density = welch(
             together, rate, window="hann", nperseg=segment, noverlap=segment // 2,

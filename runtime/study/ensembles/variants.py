@@ -1,5 +1,6 @@
 """What each of many systems has of its own: parameters, elements of its start, inputs, labels."""
 
+import math
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -13,6 +14,7 @@ from ...core.physical import impossible
 from ...core.suggestions import suggestion
 from ...systems.inputs import derived_inputs
 from ...systems.system import System
+from .room import Room
 
 Array = NDArray[np.float64]
 
@@ -59,7 +61,7 @@ class Variants:
 
 
 def variants_of(
-    model: System, given: Any, courses: Mapping[str, Any], rows: int | None
+    model: System, given: Any, courses: Mapping[str, Any], rows: int | None, room: Room
 ) -> Variants:
     """Read what differs between the systems, or refuse it.
 
@@ -71,6 +73,8 @@ def variants_of(
         What inputs do over time: one course for all, or several by label.
     rows : int or None
         How many rows the start has; None where it has one for all.
+    room : Room
+        What is kept of the systems.
     """
     choices = {name: several for name, several in courses.items() if isinstance(several, Mapping)}
     with Arguments("ensemble") as arguments:
@@ -83,6 +87,7 @@ def variants_of(
             _check_coordinates(arguments, model, given, columns)
         if not arguments.refused:
             columns, shape = _broadcast(arguments, columns, rows)
+            room.refuse_beyond(arguments, math.prod(shape.values()), len(columns))
         if not arguments.refused:
             coordinates = _coordinates(arguments, model, given, columns)
         if arguments.refused:

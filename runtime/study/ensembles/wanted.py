@@ -110,6 +110,13 @@ class Asked:
         return tuple(dict.fromkeys([*self.signals, *(r.signal for r in self.of_series)]))
 
     @property
+    def numbers(self) -> int:
+        """How many numbers are kept of one system."""
+        spectra = sum(int(r.level) // 2 + 1 for r in self.of_series if r.kind == "psd")
+        others = sum(r.kind == "percentile" for r in self.of_series) + len(self.places())
+        return len(self.signals) * self.times.size + spectra + others
+
+    @property
     def weights(self) -> Array:
         """How long each output stands for the motion: half of the time to those beside it [s]."""
         steps = np.diff(self.times, prepend=self.times[0], append=self.times[-1])

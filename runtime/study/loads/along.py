@@ -8,6 +8,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
+from ...core.memory import refuse_beyond
 from ...core.quantities import variable
 from ...core.threads import shared_out
 from ...simulation.result import Simulation
@@ -84,10 +85,14 @@ def over_time(find: Callable[[Array, Array], xr.Dataset], result: Simulation) ->
     size = result.t.size
     parts = [slice(begin, begin + _TOGETHER) for begin in range(0, size, _TOGETHER)]
     by_part: dict[int, xr.Dataset] = {}
+
+    def take(some: tuple[int, xr.Dataset]) -> None:
+        if not by_part:  # they are as large as each other, and put together at the end
+            _refuse_beyond(2.0 * len(parts) * some[1].nbytes, size)
+        by_part.update([some])
+
     shared_out(
-        lambda rows, _: (rows.start, find(result.y.T[rows], result.inputs[rows])),
-        parts,
-        lambda some: by_part.update([some]),
+        lambda rows, _: (rows.start, find(result.y.T[rows], result.inputs[rows])), parts, take
     )
     found = [by_part[rows.start] for rows in parts]
     data = {
@@ -95,6 +100,12 @@ def over_time(find: Callable[[Array, Array], xr.Dataset], result: Simulation) ->
     }
     coordinates = {**found[0].coords, TIME: variable(TIME, result.t, "time", "s")}
     return xr.Dataset(data, coordinates, {**found[0].attrs, "title": "loads along a motion"})
+
+
+def _refuse_beyond(needed: float, outputs: int) -> None:
+    with Arguments("along") as given:
+        what = f"the loads of {outputs:,} outputs"
+        refuse_beyond(given, needed, what, "Simulate with fewer outputs, by t_eval.")
 
 
 def _one_after_another(parts: Sequence[xr.Variable]) -> xr.Variable:

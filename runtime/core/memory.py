@@ -1,0 +1,66 @@
+"""How much memory there is, so that what does not fit is refused before it is begun."""
+
+import os
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+
+from .arguments import Arguments
+
+_UNITS = (("TB", 1e12), ("GB", 1e9), ("MB", 1e6))
+
+
+def refuse_beyond(given: Arguments, needed: float, what: str, instead: str) -> None:
+    """Refuse what needs more memory than there is.
+
+    Parameters
+    ----------
+    given : Arguments
+    needed : float
+        [bytes]
+    what : str
+        What needs it, with its sizes; a plural.
+    instead : str
+        What to do: a sentence.
+    """
+    there = free()
+    if needed > there:
+        given.refuse(f"{what} need {_size(needed)}, and {_size(there)} are free. {instead}")
+
+
+def free() -> float:
+    """Return how much memory this process can still take, as far as the system tells [bytes]."""
+    return min(_limits(), default=float("inf"))
+
+
+def _limits() -> Iterator[float]:
+    with suppress(OSError, KeyError, ValueError):
+        there = _table("/proc/meminfo")
+        yield 1024.0 * (there["MemAvailable"] + there.get("SwapFree", 0.0))
+    with suppress(OSError, KeyError, ValueError):  # of a container
+        limit = float(Path("/sys/fs/cgroup/memory.max").read_text(encoding="ascii"))
+        yield limit - _table("/sys/fs/cgroup/memory.stat")["anon"]
+    with suppress(OSError, ImportError, ValueError):
+        import resource  # noqa: PLC0415 (not of every system)
+
+        limit, _ = resource.getrlimit(resource.RLIMIT_AS)
+        pages = Path("/proc/self/statm").read_text(encoding="ascii").split()[0]
+        if limit != resource.RLIM_INFINITY:
+            yield float(limit - int(pages) * os.sysconf("SC_PAGE_SIZE"))
+    with suppress(OSError, ValueError, AttributeError):  # what is there at all
+        yield float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
+
+
+def _table(path: str) -> dict[str, float]:
+    """Return the numbers of a file with a name and a number in each row."""
+    rows = (
+        line.replace(":", " ").split()
+        for line in Path(path).read_text(encoding="ascii").splitlines()
+    )
+    return {row[0]: float(row[1]) for row in rows}
+
+
+def _size(count: float) -> str:
+    """Return a number of bytes, for people."""
+    unit, scale = next((one for one in _UNITS if count >= one[1]), _UNITS[-1])
+    return f"{count / scale:.3g} {unit}"
