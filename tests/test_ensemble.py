@@ -352,7 +352,7 @@ def test_series_do_not_fill_the_memory(car: Model, start: Any, monkeypatch: Any)
     times = np.linspace(*SPAN, 301)
     options = {"t_eval": times, "reductions": {"camber": [("percentile", 95.0), ("psd", 64)]}}
     expected = ensemble(car, some_cars(100), SPAN, start, **options)
-    monkeypatch.setattr(run, "_SAMPLES", 8 * 301 * 5)
+    monkeypatch.setattr(run, "SAMPLES", 8 * 301 * 5)
     held: list[int] = []
     real = Problem.integrate
     monkeypatch.setattr(

@@ -4,6 +4,7 @@ import _thread
 import json
 import os
 import shutil
+import socket
 import sys
 import threading
 import time
@@ -380,7 +381,9 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"kept": 3}, "kept = 3: the path of a file or folder is needed"),
     ({"kept": ["x"]}, "kept = "),
     ({"kept": "x\0y"}, "zero byte"),
-    ({"cluster": "127.0.0.1:1"}, "no scheduler of Dask answers there"),
+    ({"cluster": "127.0.0.1:1"}, "nothing answers there ("),
+    ({"cluster": "tls://127.0.0.1:1"}, "nothing answers there ("),
+    ({"cluster": "127.0.0.1:99999"}, "nothing answers there ("),
 ]
 
 
@@ -411,13 +414,52 @@ def test_a_scheduler_without_workers(car: Model, monkeypatch: Any) -> None:
         ensemble(car, None, SPAN, cluster=client)
 
 
-def test_a_script_that_starts_itself(car: Model, monkeypatch: Any) -> None:
+def test_a_dead_address_is_told_at_once(car: Model) -> None:
+    begun = time.monotonic()
+    with pytest.raises(InputError, match="start a scheduler there: dask scheduler"):
+        ensemble(car, None, SPAN, cluster="tcp://127.0.0.1:1")
+    assert time.monotonic() - begun < workers._PATIENCE / 2.0
+
+
+def test_what_listens_and_is_no_scheduler(car: Model, monkeypatch: Any) -> None:
+    monkeypatch.setattr(workers, "_PATIENCE", 0.3)
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        port = server.getsockname()[1]
+        with pytest.raises(InputError, match=r"nothing answers there \(timed out"):
+            ensemble(car, None, SPAN, cluster=f"127.0.0.1:{port}")
+
+
+SCRIPTS = {
+    "x": "They read the script that starts them",
+    "if __name__ == '__main__': x": "They ended as they began (ImportError: no such module)",
+    None: "They ended as they began (ImportError: no such module)",
+}
+
+
+@pytest.mark.parametrize("script", SCRIPTS)
+def test_local_workers_that_cannot_begin(
+    car: Model, monkeypatch: Any, tmp_path: Path, script: str | None
+) -> None:
+    """What is wrong is told by whether the script could be read by them, and what Dask says."""
+    main = SimpleNamespace()
+    if script:
+        main.__file__ = str(tmp_path / "script.py")
+        Path(main.__file__).write_text(script)
+    monkeypatch.setitem(sys.modules, "__main__", main)
+
     def refused(**_: Any) -> None:
-        raise RuntimeError
+        raise RuntimeError from ImportError("no such module")
 
     monkeypatch.setattr(distributed, "LocalCluster", refused)
-    with pytest.raises(InputError, match="only below if __name__"):
+    with pytest.raises(InputError) as told:
         ensemble(car, None, SPAN, cluster=1)
+    assert SCRIPTS[script] in str(told.value)
+    assert ("if __name__" in str(told.value)) == (script == "x")
+
+
+def test_a_worker_that_reads_the_script(monkeypatch: Any) -> None:
+    monkeypatch.setattr(workers, "current_process", lambda: SimpleNamespace(_inheriting=True))
+    assert "only below if __name__" in workers._why_not(RuntimeError())
 
 
 def test_a_missing_package(car: Model, monkeypatch: Any) -> None:

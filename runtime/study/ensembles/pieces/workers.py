@@ -1,10 +1,15 @@
 """Where the workers are: processes of this machine, or those of a scheduler of Dask."""
 
+import errno
+import os
 import re
+import socket
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from multiprocessing import current_process
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,6 +26,8 @@ _NEEDED = (
 _ADDRESS = re.compile(r"(\w+://)?[^\s/:]+:\d+")
 # How long a scheduler may take to answer, and its first worker to be there [s].
 _PATIENCE = 30.0
+# How long a network may take to say whether anything listens [s].
+_ANSWERED = 5.0
 
 
 @dataclass(frozen=True)
@@ -124,10 +131,7 @@ def _local(distributed: Any, number: int, threads: int) -> Iterator[Any]:
             dashboard_address="127.0.0.1:0",  # any that is free: there may be several ensembles
         )
     except RuntimeError as error:
-        problem = (
-            f"cluster = {number}: local workers cannot be started. They read the script that "
-            'starts them: let it call ensemble only below if __name__ == "__main__":'
-        )
+        problem = f"cluster = {number}: local workers cannot be started. {_why_not(error)}"
         raise InputError([problem], "ensemble") from error
     try:
         yield cluster
@@ -135,9 +139,62 @@ def _local(distributed: Any, number: int, threads: int) -> Iterator[Any]:
         cluster.close()
 
 
+def _why_not(error: BaseException) -> str:
+    """Say why workers of this machine ended as they began, as far as that can be known here."""
+    if not _is_guarded():
+        return (
+            "They read the script that starts them: let it call ensemble only below "
+            'if __name__ == "__main__":'
+        )
+    while error.__cause__ is not None:
+        error = error.__cause__
+    # an assertion of Dask says only that there is no worker
+    said = "" if isinstance(error, AssertionError) else f" ({type(error).__name__}: {error})"
+    return (
+        f"They ended as they began{said}. What they have printed says why: they may lack a package "
+        "or memory. Without cluster, threads of this process do the same."
+    )
+
+
+def _is_guarded() -> bool:
+    """Tell whether what workers read does nothing where it is not the main program."""
+    if getattr(current_process(), "_inheriting", False):  # a worker, which reads it just now
+        return False
+    script = getattr(sys.modules.get("__main__"), "__file__", None)
+    if script is None:  # typed in, or in a notebook: nothing is read
+        return True
+    try:
+        return "__main__" in Path(script).read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return True
+
+
+def _refuse_dead(address: str) -> None:
+    """Refuse an address at once where no scheduler is: Dask would try again, or wait forever."""
+    protocol, _, place = address.rpartition("://")
+    host, _, port = place.partition(":")
+    if protocol not in ("", "tcp", "tls"):
+        return
+    try:
+        with socket.create_connection((host, int(port)), timeout=_ANSWERED) as connection:
+            if protocol != "tls":  # where the client speaks first; else a scheduler greets it
+                connection.settimeout(_PATIENCE)
+                greeted = connection.recv(1)
+                if not greeted:
+                    raise ConnectionResetError(errno.ECONNRESET, os.strerror(errno.ECONNRESET))
+    except (OSError, OverflowError) as error:
+        problem = (
+            f"cluster = {address!r}: nothing answers there ({error}). Check the address, or start "
+            "a scheduler there: dask scheduler"
+        )
+        raise InputError([problem], "ensemble") from error
+
+
 @contextmanager
 def _of(where: Any) -> Iterator[Any]:
     """Yield a client of our own."""
+    if isinstance(where, str):
+        _refuse_dead(where)
     try:
         client = _package().Client(where, timeout=_PATIENCE, set_as_default=False)
     except (OSError, ValueError) as error:
