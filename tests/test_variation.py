@@ -167,7 +167,7 @@ def test_masses_move_no_curve() -> None:
     found = variation.sensitivity(
         CAR, ["bodies.wheel"], positions=[-0.03, 0.03], names=["toe", "camber"]
     )
-    assert found.sizes["place"] == 3
+    assert found.sizes["place"] == 4, "mass, spin and diametral inertia, and that of a shaft"
     assert not found["toe"].values.any()
 
 
