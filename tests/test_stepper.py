@@ -142,6 +142,52 @@ def test_what_cannot_be_stepped_is_refused(arguments: dict[str, Any], words: str
         kintrafo.Stepper(MODEL, **arguments)
 
 
+def test_what_is_assigned_is_copied() -> None:
+    """A controller that assigns its inputs is obeyed, as one that writes into the array."""
+    rest = kintrafo.equilibrium(MODEL)
+    written, assigned, handed = (kintrafo.Stepper(MODEL, STEP, rest) for _ in range(3))
+    inputs = np.zeros(len(MODEL.input_names))
+    inputs[place("road_height")] = 0.01
+    arrays = assigned.inputs, assigned.state
+    assigned.inputs = inputs.tolist()
+    written.inputs[:] = inputs
+    handed.step(inputs)
+    for stepper in (written, assigned):
+        stepper.step()
+    np.testing.assert_array_equal(assigned.state, written.state)
+    np.testing.assert_array_equal(handed.state, written.state)
+    assert not np.array_equal(written.state, rest)
+    assigned.state = rest
+    np.testing.assert_array_equal(arrays[1], rest)
+    assert arrays[0] is assigned.inputs
+    with pytest.raises(AttributeError):
+        assigned.length = 0.5  # type: ignore[misc]
+
+
+@pytest.mark.parametrize(
+    ("inputs", "words"),
+    [
+        (0.01, r"inputs = 0\.01: 5 numbers are needed, in a row"),
+        ([0.01], r"inputs = \[0\.01\]: 5 numbers"),
+        (np.zeros(4), "inputs = array.*: 5 numbers"),
+        (np.zeros((1, 5)), "inputs = array.*: 5 numbers"),
+        ({"road_height": 0.01}, "inputs = .*road_height.*: 5 numbers"),
+        ("road_height", "inputs = 'road_height': numbers are needed"),
+        ([1j] * 5, "numbers are needed"),
+    ],
+)
+def test_inputs_of_a_step_are_as_many_as_the_model_has(inputs: Any, words: str) -> None:
+    """One number would be the place of the rack, and every other input."""
+    stepper = kintrafo.Stepper(MODEL, STEP, kintrafo.equilibrium(MODEL))
+    before = stepper.inputs.copy()
+    with pytest.raises(kintrafo.InputError, match=words):
+        stepper.step(inputs)
+    with pytest.raises(kintrafo.InputError, match=words):
+        stepper.inputs = inputs
+    np.testing.assert_array_equal(stepper.inputs, before)
+    assert stepper.time == 0.0
+
+
 def test_any_mechanism_is_stepped() -> None:
     system = kintrafo.System(four_bar)
     start = system.state(crank_angle_rate=5.0)

@@ -123,7 +123,8 @@ class DenseOutput:
         """
         with Arguments("sol") as given:
             times = np.atleast_1d(given.array("t", t, "s", dimensions=[0, 1], empty=True))
-            self._refuse_outside(given, times)
+            if not given.refused:
+                self._refuse_outside(given, times)
         sign = -1.0 if self._backward else 1.0
         which = np.searchsorted(sign * self._ends, sign * times, side="left")
         which = np.clip(which, 0, len(self._parts) - 1)
@@ -139,8 +140,8 @@ class DenseOutput:
         outside = times[(times < self.t_min - slack) | (times > self.t_max + slack)]
         if outside.size:
             given.refuse(
-                f"t = {outside[0]:.9g} s: the solution is known from {self.t_min:.9g} s to "
-                f"{self.t_max:.9g} s. Ask within, or simulate for as long."
+                f"t = {outside[0]:.15g} s: the solution is known from {self.t_min:.15g} s to "
+                f"{self.t_max:.15g} s. Ask within, or simulate for as long."
             )
 
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
 from ..core.arguments import Arguments, shown
+from ..core.errors import InputError
 from ..core.named_types import ArrayLike
 from ..systems.inputs import derived_inputs, rates_of
 from ..systems.state import inputs_of
@@ -51,11 +52,12 @@ class Stepper:
     ----------
     model : System
     length : float
-        Length of a step [s].
+        Length of a step [s]; a stepper keeps it.
     state : ndarray, shape (number of state elements,)
         State now. `step` writes into it: copy what is to be kept.
     inputs : ndarray, shape (number of inputs,)
-        Inputs of the next step, in the order of ``model.input_names``; may be written to.
+        Inputs of the next step, in the order of ``model.input_names``. State and inputs may be
+        written to; what is assigned to them is copied into the same array.
 
     Raises
     ------
@@ -103,7 +105,7 @@ class Stepper:
         with Arguments("Stepper") as given:
             given.kind("model", model, System, System.NEEDED)
             given.among("method", method, ("RK4", "DormandPrince"))
-            self.length = given.number("step", step, "s", above=0.0)
+            self._length = given.number("step", step, "s", above=0.0)
             if not given.refused:
                 _check_solver(given, model)
             if method == "RK4" and not (rtol is None and atol is None):
@@ -114,30 +116,53 @@ class Stepper:
                     model.design_state.size,
                     rtol=_TOLERANCE[0] if rtol is None else rtol,
                     atol=_TOLERANCE[1] if atol is None else atol,
-                    max_step=self.length,
+                    max_step=self._length,
                     first_step=None,
                     max_steps=_MOST_STEPS,
                 )
         self.model, self._method, self._accuracy = model, method, accuracy
-        self.state, self.inputs = model.design_state.copy(), model.inputs()
+        self._state, self._inputs = model.design_state.copy(), model.inputs()
         addresses = model.equations.ADDRESSES
         self._motion = sundials.Motion(
             tuple(addresses[name] for name in ("rhs", "rhs_jacobian", "margins")),
             model.constants,
-            self.state,
-            self.inputs,
+            self._state,
+            self._inputs,
             _moving(model),
-            self.length,
+            self._length,
             method=method,
             rtol=accuracy.rtol,
             atol=accuracy.atol,
-            max_step=self.length,
+            max_step=self._length,
             max_steps=accuracy.max_steps,
             guards=meanings(model.equations),
             usual_margins=model.usual_margins,
         )
         self._advance = self._motion.advance
         self.reset(model.design_state if y0 is None else y0, inputs=inputs, t0=t0)
+
+    @property
+    def length(self) -> float:
+        """Length of a step [s]."""
+        return self._length
+
+    @property
+    def state(self) -> Array:
+        """State now; what is assigned is copied into it."""
+        return self._state
+
+    @state.setter
+    def state(self, values: ArrayLike) -> None:
+        _copy("state", values, self._state)
+
+    @property
+    def inputs(self) -> Array:
+        """Inputs of the next step; what is assigned is copied into them."""
+        return self._inputs
+
+    @inputs.setter
+    def inputs(self, values: ArrayLike) -> None:
+        _copy("inputs", values, self._inputs)
 
     @property
     def time(self) -> float:
@@ -160,15 +185,17 @@ class Stepper:
 
         Raises
         ------
+        InputError
+            The inputs are not as many numbers as the model has inputs.
         SimulationError
             As `kintrafo.simulate` over this step, with the state reached; that of the stepper, and
             its time, are as they were before.
         """
         if inputs is not None:
-            self.inputs[:] = inputs
+            self.inputs = inputs
         if not self._advance():
             self._fail(self.time)
-        return self.state
+        return self._state
 
     def reset(
         self,
@@ -195,7 +222,7 @@ class Stepper:
                 given.refuse(f"y0 has the shape {state.shape}: one state is needed.")
             if not given.refused and values.shape != self.inputs.shape:
                 given.refuse(f"inputs has the shape {values.shape}: those of one state are needed.")
-        self.state[:], self.inputs[:] = state, values
+        self._state[:], self._inputs[:] = state, values
         self._motion.begin(start)
 
     def signals(self) -> dict[str, Any]:
@@ -210,6 +237,18 @@ class Stepper:
         simulate(self.model, span, self.state, inputs=courses, method=self._method, **how)
         state = self.state.copy()
         raise SimulationError("the step could not be taken. Try a shorter one.", start, state, None)
+
+
+def _copy(name: str, values: ArrayLike, into: Array) -> None:
+    """Copy numbers into an array that stays the same; they are looked at when they are used."""
+    taken: Any = values
+    if not (isinstance(taken, np.ndarray) and taken.dtype == into.dtype):
+        with Arguments("Stepper") as given:
+            taken = given.array(name, values, empty=True, finite=False)
+    if taken.shape != into.shape:
+        needed = f"{into.size} numbers are needed, in a row"
+        raise InputError([f"{name} = {shown(values)}: {needed}."], "Stepper")
+    into[:] = taken
 
 
 def _check_solver(given: Arguments, model: System) -> None:
