@@ -351,7 +351,7 @@ def test_the_roll_moment_gradient_is_the_slope_of_the_roll_moment(of: Any) -> No
     # the fourth power of the step
     np.testing.assert_allclose(found["roll_moment_gradient"], slope, rtol=1e-8)
     assert "levers" in found["roll_moment_gradient"].attrs["definition"]
-    assert "levers y of the contacts, held" in found["roll_stiffness"].attrs["definition"]
+    assert "constant levers y of the contacts" in found["roll_stiffness"].attrs["definition"]
 
 
 def test_rates_in_roll_are_derivatives() -> None:

@@ -166,8 +166,8 @@ def test_many_cars_have_curves_of_compliance(subject: str) -> None:
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: variation.tolerance(CAR, {REAR: "20 %"}, count=4), "on bushes, joints are rigid"),
-        (lambda: variation.sensitivity(CAR, [REAR]), "look at compliance: by what holds"),
+        (lambda: variation.tolerance(CAR, {REAR: "20 %"}, count=4), "on bushes, since joints are rigid"),
+        (lambda: variation.sensitivity(CAR, [REAR]), "ask for compliance: name what holds"),
         (lambda: variation.cars(CAR, {REAR: [1.0, 2.0]}, over="rack"), "joints are rigid"),
         (lambda: variation.sensitivity(CAR, [REAR], held="road"), "held"),
         (lambda: variation.sensitivity(CAR, [REAR], held="tyre", over="rack"), "Leave over ="),
@@ -206,7 +206,7 @@ def test_a_front_of_stiffnesses() -> None:
     toe = under(member, "toe_by_recession", [0.0])[0]
     column = next(name for name in found.dataset if "toe_by_recession" in str(name))
     assert np.rad2deg(found.dataset[column].values[0]) * 1e3 == pytest.approx(toe)
-    with pytest.raises(InputError, match="by limits and targets under loads"):
+    with pytest.raises(InputError, match="give limits and targets of compliance"):
         variation.pareto(CAR, {REAR: 300.0}, {"toe": {"value": 0.1, "within": 0.01}}, **asked)
 
 

@@ -141,7 +141,7 @@ def book_with(path: Path, cells: dict[str, Any]) -> Path:
 @pytest.mark.parametrize("cell", ["XFD1048576", "A1048576", "XFD2", "E10001", "IW1"])
 def test_a_cell_that_is_far_away(cell: str, tmp_path: Path) -> None:
     path = book_with(tmp_path / "a.xlsx", {cell: "x"})
-    assert f"something stands in cell {cell};" in refusal("points", path)
+    assert f"there is a value in cell {cell};" in refusal("points", path)
 
 
 def test_cells_without_content_do_not_matter(tmp_path: Path) -> None:

@@ -92,12 +92,12 @@ WRONG = [
     ("wheel_travel [mm],toe\n1,2\n2,3\n", "unit \\(none\\) does not fit toe"),
     ("wheel_travel [deg],toe [deg]\n1,2\n2,3\n", "unit deg does not fit wheel_travel"),
     ("wheel_travel [mm],toe [mm]\n1,2\n2,3\n", "unit mm does not fit toe"),
-    ("wheel_travel [mm],toe [deg],toe [rad]\n1,2,3\n2,3,4\n", "stands in 2 columns"),
+    ("wheel_travel [mm],toe [deg],toe [rad]\n1,2,3\n2,3,4\n", "is in 2 columns"),
     ("wheel_travel [mm],toe [deg]\n1,2\n,3\n", "line 3 has wheel_travel"),
     ("wheel_travel [mm],toe [deg]\n1,2\n2,x\n", "line 3 has toe"),
     ("wheel_travel [mm],toe [deg]\n1,2\n", "at least two"),
     ("", "empty"),
-    ("wheel_travel [mm],toe [deg],toe [deg]\n1,2,3\n2,3,4\n", "toe stands in 2 columns"),
+    ("wheel_travel [mm],toe [deg],toe [deg]\n1,2,3\n2,3,4\n", "toe is in 2 columns"),
     ("wheel_travel [mm];wheel_rate [N/m]\n1;25,000\n2.5;26,000\n", "points and commas"),
     ("rack_position [mm],wheel_rate [N/mm]\n1,2\n2,3\n", "known over wheel_travel only"),
 ]
@@ -198,7 +198,7 @@ def test_names_and_units_of_rigs(tmp_path: Path, text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("Wheel Travel (mm),toe [deg],TOE (rad)\n1,2,3\n2,3,4\n", "toe stands in 2 columns"),
+        ("Wheel Travel (mm),toe [deg],TOE (rad)\n1,2,3\n2,3,4\n", "toe is in 2 columns"),
         ("# units: mm, in\nwheel travel,toe [deg]\n1,2\n2,3\n", "is in mm, and .* says in"),
         ("# units: in\nwheel travel [mm],toe [deg]\n1,2\n2,3\n", "is in mm, and .* says in"),
         ("# units: mm, ells\nwheel travel,toe [deg]\n1,2\n2,3\n", "states units that are not"),

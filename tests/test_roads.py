@@ -120,7 +120,7 @@ def test_distance_becomes_time(tmp_path):
         ("time_s,road_height_mm\n0,0\n2,1\n1,1\n", "line 4: the time falls"),
         ("time_s,road_height_mm\n1,0\n1,1\n", "same time"),
         ("road_height_mm,note\n0,0\n1,1\n", "time_s, time_ms or distance_m"),
-        ("time_s,time_ms,road_height_mm\n0,0,0\n1,1,1\n", "time stands in 2 columns"),
+        ("time_s,time_ms,road_height_mm\n0,0,0\n1,1,1\n", "time is in 2 columns"),
         ("time_s,road_heigth_mm\n0,0\n1,1\n", "Did you mean road_height_mm?"),
         ("time_s,road_height_furlong\n0,0\n1,1\n", "road_height_furlong"),
         ("distance_m,road_height_mm\n0,0\n1,1\n", "speed"),

@@ -641,5 +641,5 @@ def test_bushes_are_refused_where_joints_are_rigid() -> None:
         lambda: variation.sensitivity(soft, [name]),
         lambda: variation.sweep(soft, {name: [400.0]}),
     ):
-        with pytest.raises(InputError, match="depends on bushes, joints are rigid"):
+        with pytest.raises(InputError, match="depend on bushes, since joints are rigid"):
             call()

@@ -71,7 +71,7 @@ class Assembly:
     def _parts(self) -> tuple[Any, ...]:
         found = tuple(parts((self.joints, self.forces, self.coordinates, self.outputs)))
         problems = [
-            f"a {type(part).__name__} cannot be told from another one ({error}): make its class a "
+            f"a {type(part).__name__} cannot be compared with others ({error}): make its class a "
             "dataclass(frozen=True), with tuples in the place of lists"
             for part in found
             if (error := _unhashable(part))

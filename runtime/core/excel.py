@@ -107,7 +107,7 @@ def _stray(title: str, row: int, column: int) -> str:
     from openpyxl.utils import get_column_letter  # noqa: PLC0415 (an extra)
 
     return (
-        f"sheet {title}: something stands in cell {get_column_letter(column + 1)}{row}; a table "
+        f"sheet {title}: there is a value in cell {get_column_letter(column + 1)}{row}; a table "
         f"may have {_MOST_ROWS} rows and {_MOST_COLUMNS} columns. Delete that cell, or copy "
         "the table into a new workbook."
     )

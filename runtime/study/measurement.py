@@ -127,7 +127,7 @@ def _check(sheet: Table) -> None:
         if _resembles(heading.label)
     ]
     problems += [
-        f"{name} stands in {names.count(name)} columns. Keep one of them."
+        f"{name} is in {names.count(name)} columns. Keep one of them."
         for name in dict.fromkeys(names)
         if names.count(name) > 1
     ]

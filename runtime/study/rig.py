@@ -208,7 +208,7 @@ def _curves(model: Model | RigidAxleModel, measured: xr.Dataset, held_by: Held) 
 def _check(sheet: Table, columns: Sequence[Column], units: Mapping[str, str]) -> None:
     names = [column.name for column in columns]
     problems = [
-        f"{name} stands in {names.count(name)} columns. Keep one of them."
+        f"{name} is in {names.count(name)} columns. Keep one of them."
         for name in dict.fromkeys(names)
         if names.count(name) > 1
     ]

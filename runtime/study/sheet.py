@@ -142,7 +142,7 @@ def _rows(here: xr.Dataset, values: Sequence[str]) -> Iterator[tuple[str, ...]]:
             str(own[key].values) for key in ("meaning", "unit", "iso_8855_sign", "sae_j670_sign")
         )
         meaning = meaning.removesuffix(", left").removesuffix(", right")
-        yield (meaning, *cells.values(), unit, iso, "as well" if iso == sae else "the other sign")
+        yield (meaning, *cells.values(), unit, iso, "the same" if iso == sae else "the other sign")
 
 
 # -- what stands in it ----------------------------------------------------------------------------

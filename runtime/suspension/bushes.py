@@ -24,7 +24,7 @@ _STIFFNESSES = {
     "axial_N_per_mm": "stiffness along its axis",
     "radial_N_per_mm": "stiffness across its axis; or two, along `radial_axis` and across that",
     "tilt_Nm_per_deg": "stiffness against tilting about axes across its own; or two, about "
-    "`radial_axis` and about the axis across that",
+    "`radial_axis` and about the axis perpendicular to that",
     "torsion_Nm_per_deg": "stiffness against turning about its axis",
     "axial_curve": "in place of a stiffness, lists `mm` and `N`, both rising; see [spring] for "
     "`interpolation`",

@@ -45,8 +45,8 @@ _TURNS_BACK = -1
 _REASONS = {
     _TURNS_BACK: "the wheel centre turns back there",
     GOAL: "the arm has swung by a right angle",
-    UNRESOLVED: "positions beyond it are not connected with it, or cannot be told apart in double "
-    "precision",
+    UNRESOLVED: "positions beyond it are not connected with it, or cannot be distinguished in "
+    "double precision",
 }
 
 

@@ -65,23 +65,23 @@ stiff the steering holds the rack. All else that is computed takes joints as rig
 _CURVES = """\
 ### Curves
 
-Springs and dampers have a rate, or a curve by its points; bushes, too. Between its points a curve
-is a monotone cubic (Fritsch and Carlson): smooth, and within the forces of both neighbours.
-`interpolation = "linear"` draws straight lines instead, as some other programs do. Both go through
-the points, and differ between them: the damper curve that the first of the annotated files proposes
+Springs, dampers and bushes have a rate, or a curve by its points. Between its points a curve is a
+monotone cubic (Fritsch and Carlson): smooth, and within the forces of both neighbours. With
+`interpolation = "linear"` it is straight lines, as in some other programs. Both pass through the
+points and differ between them: the damper curve that the first of the annotated files proposes
 has -2177 N at -0.7 m/s, straight lines have -1986 N there.
 
-Outside of its points a curve goes on straight: of a damper as it ends, of springs and bushes as the
-last two points rise, so that they carry any force. A simulation says where it went there, and
-`kintrafo check` where the spring is there at design. Where lines meet, a rate is that of the line
-on the side that is pressed less; a motion over such a kink is as accurate as its tolerances say,
-with more steps.
+Beyond its points a curve is extrapolated linearly: that of a damper with its slope at the end,
+those of springs and bushes with the slope between their last two points, so that they carry any
+force. A simulation reports when it goes beyond the points, and `kintrafo check` when the spring is
+beyond them at design. At a corner between two straight lines the rate is that of the less
+compressed side; a motion over such a corner is as accurate as its tolerances, with more steps.
 
 The force of a spring must not fall as it is compressed. Over `length_mm` a curve says what the
 force is at every distance of the seats, and neither `free_length_mm` nor `force_at_design_N` is
-needed. Over `compression_mm` one of them is: `free_length_mm` is the distance of the seats where
-the compression is 0, and `force_at_design_N` puts the design position where the curve has that
-force.
+needed. Over `compression_mm` one of them is needed: `free_length_mm` is the distance of the seats
+at which the compression is 0; `force_at_design_N` is the force at the design position, from which
+the compression there follows.
 
 ```toml
 [spring]
@@ -90,8 +90,8 @@ force_N = [0.0, 2000.0, 4400.0, 7600.0, 12000.0]
 force_at_design_N = 5360.268
 ```
 
-All that needs a rate takes that of the curve where the spring is: wheel rate, ride frequency,
-compliance, what a suspension does about its rest. Where a curve is flat, that is zero.
+Analyses that need a rate take the slope of the curve at the length that the spring has: wheel
+rate, ride frequency, compliance, linearised motion. Where a curve is flat, this rate is zero.
 """
 
 _EVERY_BODY = """\

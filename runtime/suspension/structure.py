@@ -223,7 +223,7 @@ class Telescope(Joint):
 
     end: str
 
-    RULE = "the couple of a telescope is told about its lower end"
+    RULE = "the moment of a telescope is about its lower end"
 
     def axis(self, points: Points) -> Array | None:
         """Return that along which it slides."""

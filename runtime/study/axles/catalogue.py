@@ -227,9 +227,9 @@ ROLL = (
             "roll_moment_gradient",
             "N m/rad",
             "roll-moment gradient",
-            "derivative of the roll moment by the roll angle, the wheel centres moving oppositely: "
-            "the forces change, and so do their levers",
-            "positive when it resists roll",
+            "derivative of the roll moment by the roll angle, the wheel centres moving oppositely; "
+            "forces and levers change",
+            "positive when it resists roll; with the change of levers",
             needs=_GROUND,
             display=_PER_DEGREE,
         ),
@@ -240,8 +240,9 @@ ROLL = (
             "roll_stiffness",
             "N m/rad",
             "roll stiffness",
-            "y' K y: levers y of the contacts, held, and stiffness K of both wheels; no tyres",
-            "positive when it resists roll",
+            "y' K y, with the stiffness K of both wheels and constant levers y of the contacts; "
+            "no tyres",
+            "positive when it resists roll; at constant levers",
             needs=_GROUND,
             display=_PER_DEGREE,
         ),

@@ -349,7 +349,7 @@ STEERING = (
 )
 """What the motion over the rack decides, for one wheel."""
 
-_WITHOUT_TOE = "; steer angles are from those with the rack in its middle, without static toe"
+_WITHOUT_TOE = "; steer angles without static toe, which is that with the rack in its middle"
 
 AXLE = {
     quantity.name: quantity
@@ -381,9 +381,9 @@ AXLE = {
             "ackermann",
             "1",
             "Ackermann percentage",
-            "difference of the steer angles over that for rolling without slip" + _WITHOUT_TOE,
-            "0 % for parallel, 100 % for Ackermann steering; not defined straight ahead, and where "
-            "the wheels are steered to different sides",
+            "difference of the steer angles over that for rolling without slip; not defined where "
+            "the wheels are steered to different sides" + _WITHOUT_TOE,
+            "0 % for parallel, 100 % for Ackermann steering; not defined straight ahead",
             needs=("wheelbase",),
             display=_PERCENT,
         ),

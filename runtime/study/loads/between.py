@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 STEERING = "steering"
 """What holds a rack along its axis."""
 
-_OF_GUIDE = "the guide of the rack is told about the inner end of the tie rod"
+_OF_GUIDE = "the moment of the rack's guide is about the inner end of the tie rod"
 
 STILL = np.zeros(3)
 
@@ -73,7 +73,7 @@ def on_the_rack(
     loads : sequence of Load
         All others; those of tie rods on the rack say where it is.
     point : str
-        What the middle between the tie rods is called, about which this is told.
+        Name of the middle between the tie rods, about which the moments are taken.
 
     Returns
     -------

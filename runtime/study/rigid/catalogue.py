@@ -151,8 +151,8 @@ GROUND = (
             "roll_center_height",
             "m",
             "roll-centre height",
-            "midway between the contacts, the point that does not move along the line through them "
-            "as the axle rolls while their middle stays on that line",
+            "point midway between the contacts that does not move along the line through them as "
+            "the axle rolls and the middle between the contacts stays on that line",
             "positive above the contacts",
         ),
         formulas.roll_center_height,
@@ -333,9 +333,9 @@ SPRINGS = (
             "roll_moment_gradient",
             "N m/rad",
             "roll-moment gradient",
-            "derivative of the roll moment by the roll angle, the wheel centres moving oppositely: "
-            "the forces change, and so do their levers",
-            "positive when it resists roll",
+            "derivative of the roll moment by the roll angle, the wheel centres moving oppositely; "
+            "forces and levers change",
+            "positive when it resists roll; with the change of levers",
             display=_PER_DEGREE,
         ),
         formulas.roll_moment_gradient,
@@ -346,8 +346,9 @@ SPRINGS = (
             "roll_stiffness",
             "N m/rad",
             "roll stiffness",
-            "y' K y: levers y of the contacts, held, and stiffness K of both wheels; no tyres",
-            "positive when it resists roll",
+            "y' K y, with the stiffness K of both wheels and constant levers y of the contacts; "
+            "no tyres",
+            "positive when it resists roll; at constant levers",
             display=_PER_DEGREE,
         ),
         lambda beam: formulas.in_roll(beam, formulas.of_all(beam)),

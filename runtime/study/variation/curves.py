@@ -140,16 +140,16 @@ def _held(given: Arguments, suspension: Subject, over: Any, held: Any) -> Any:
     if over != usual:
         given.refuse(f"held: compliance is over {way(usual).words}. Leave over = {over!r} out.")
     if not suspension.bushings:
-        given.refuse("held: compliance is that of a file with [bushings]. Add what gives way.")
+        given.refuse("held: compliance needs a file with [bushings]. Add them.")
     return given.among("held", held, HELD)
 
 
 def refuse_bushes(given: Arguments, places: Iterable[Place], overs: Iterable[str]) -> None:
-    """Refuse bushes where nothing that is looked at is under loads, so that joints are rigid."""
+    """Refuse bushes where no result is one of compliance, so that joints are rigid."""
     soft = [place.name for place in places if place.name.startswith("bushings.")]
     if soft and not any(over in HELD for over in overs):
         given.refuse(
-            f"{', '.join(soft[:3])}{' ...' if soft[3:] else ''}: nothing that is looked at depends "
-            "on bushes, joints are rigid. Leave them out, or look at compliance: by what holds the "
-            "wheels (held), or by limits and targets under loads."
+            f"{', '.join(soft[:3])}{' ...' if soft[3:] else ''}: these results do not depend on "
+            "bushes, since joints are rigid. Leave bushes out, or ask for compliance: name what "
+            "holds the wheels (held), or give limits and targets of compliance."
         )

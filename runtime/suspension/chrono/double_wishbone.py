@@ -90,7 +90,7 @@ class DoubleWishbone(SuspensionFile, WishbonePoints):
             told.append(
                 f'"Shock > Location Chassis" = {list(self.shock.chassis)} m and "Location Arm" = '
                 f"{list(self.shock.arm)} m: between them the damper moves {self._ratio():.3g} "
-                "times as fast as the spring at design. Here both stand between the same points, "
+                "times as fast as the spring at design. Here both have the same points, "
                 f"and at least {_LEAST_RATIO:g} is needed. Correct them, or {POINTS_ONLY}."
             )
         return told

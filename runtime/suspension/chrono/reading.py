@@ -23,11 +23,11 @@ _TEMPLATES: Mapping[str, tuple[type[PointsFile], type[SuspensionFile]]] = {
 }
 _REFUSED = {
     "MultiLink": (
-        " Its spring and damper stand on the trailing link, beside the line through its joints, so "
-        "that they depend on how its universal joint lets it turn about that line; links of this "
-        "project turn otherwise. The wheel moves alike on five links: write a multi_link file in "
-        "which the upper arm is two links with one outer point, beside lateral, trailing link and "
-        "tie rod."
+        " Its spring and damper are attached to the trailing link, beside the line through its "
+        "joints, so that they depend on its rotation about this line, which its universal joint "
+        "sets and which is another one for the links here. The wheel moves alike on five links: "
+        "write a multi_link file in which the upper arm is two links with one outer point, beside "
+        "lateral link, trailing link and tie rod."
     ),
 }
 

@@ -201,7 +201,7 @@ def _radius_in(folder: Path, name: str) -> tuple[float | None, str]:
     except InputError as error:
         radius, problem = math.nan, error.problems[0]
     if problem:
-        told = f"not known, as it stands in {legible(short(name))}: {problem} Enter radius_mm"
+        told = f"not known, since it is in {legible(short(name))}: {problem} Enter radius_mm"
         return None, f"radius of the tire: {told} in [tyre]"
     return radius, f"tire: of {legible(short(name))} only UNLOADED_RADIUS is read"
 

@@ -102,7 +102,7 @@ def deflection(
         If an argument cannot be used.
     PositionError
         If the travel is out of reach, or there is no equilibrium, or one only with damper or strut
-        beyond a length that the file allows, or with a bush that gives way by more than 100 mm, or
+        beyond a length that the file allows, or with a bush that deflects by more than 100 mm, or
         a tyre by more than 200 mm.
 
     Notes
@@ -219,8 +219,8 @@ def _refuse_on_tyres(suspension: Equilibrium, load: RigLoad, wanted: Array) -> N
     worst = float(wanted[np.abs(wanted).argmax()]) if wanted.size else 0.0
     if abs(worst) * soft > _FARTHEST_TYRE:
         problem = (
-            f"under {load.words} of {worst:.4g} {load.unit} the standing tyre gives way by "
-            f"{1e3 * abs(worst) * soft:.4g} mm, and none does by more than "
+            f"under {load.words} of {worst:.4g} {load.unit} the standing tyre deflects by "
+            f"{1e3 * abs(worst) * soft:.4g} mm, more than any tyre can: "
             f"{1e3 * _FARTHEST_TYRE:g} mm: it slides before. Leave greater loads out, or correct "
             "its rates in [tyre]."
         )

@@ -23,7 +23,7 @@ from .places import Measured, Places, cross_matrix
 Array = NDArray[np.float64]
 
 _MOST_STEPS = 40
-# A bush that gives way farther is refused: some tens of millimetres are what one can do [m].
+# The most that a bush may deflect: real ones reach some tens of millimetres [m].
 _FARTHEST = 0.1
 # A step this small is the last one: the next would be as small as its square, in m and rad.
 _LAST_STEP = 1e-9
@@ -168,13 +168,13 @@ class Equilibrium:
         ]
 
     def overstretched(self, state: State) -> str:
-        """Say which bush gives way farther than any bush can; empty where none does."""
+        """Return which bush deflects farther than any bush can; empty where none does."""
         far = self._connections.given_way(state.places)
         for bush, amount in sorted(far.items(), key=lambda item: -float(np.nanmax(item[1]))):
             most = 1e3 * float(np.nanmax(amount))
             if most > 1e3 * _FARTHEST:
                 return (
-                    f"the bush at {bush} gives way by {most:.4g} mm, and no bush does by more than "
+                    f"the bush at {bush} deflects by {most:.4g} mm, more than any bush can: "
                     f"{1e3 * _FARTHEST:g} mm"
                 )
         return ""
