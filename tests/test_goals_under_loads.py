@@ -166,7 +166,10 @@ def test_many_cars_have_curves_of_compliance(subject: str) -> None:
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: variation.tolerance(CAR, {REAR: "20 %"}, count=4), "on bushes, since joints are rigid"),
+        (
+            lambda: variation.tolerance(CAR, {REAR: "20 %"}, count=4),
+            "on bushes, since joints are rigid",
+        ),
         (lambda: variation.sensitivity(CAR, [REAR]), "ask for compliance: name what holds"),
         (lambda: variation.cars(CAR, {REAR: [1.0, 2.0]}, over="rack"), "joints are rigid"),
         (lambda: variation.sensitivity(CAR, [REAR], held="road"), "held"),
