@@ -673,12 +673,34 @@ class TestMistakes:
             ({"Axle": {"Inertia": "1"}}, '"Axle > Inertia" = "1"'),
             ({"Axle": {"Inertia": True}}, '"Axle > Inertia" = true'),
             ({"Vehicle-Frame Inertia": 1}, '"Vehicle-Frame Inertia" = 1'),
-            ({"Toe Angle (deg)": "no"}, '"Toe Angle (deg)" = "no"'),
+            ({"Toe Angle (deg)": "no"}, '"Toe Angle (deg)" = "no": a number is needed'),
+            ({"Spindle": [1]}, '"Spindle" = [1]: keys with values are needed, in braces.'),
         ],
     )
     def test_are_named(self, tmp_path, changes, words):
         with pytest.raises(InputError, match=re.escape(words)):
             chrono.read(written(tmp_path, content() | changes))
+
+    @pytest.mark.parametrize(
+        ("points", "words"),
+        [
+            ([[0, 0], [0, 0, 1]], ['"Spring > Spring Curve Data > 1" = [0, 0, 1] has 3 values; 2']),
+            (
+                [[0, "a"], [1, 1]],
+                ['"Spring > Spring Curve Data > 0 > 1" = "a": a number is needed'],
+            ),
+            ([[0, 0]], ['"Spring > Spring Curve Data" = [[0, 0]] has 1 values; at least 2 are']),
+            (5, ['"Spring > Spring Curve Data" = 5: a list is needed']),
+        ],
+    )
+    def test_points_of_a_curve_are_named_once(self, tmp_path, points, words):
+        data = content()
+        data["Spring"]["Spring Curve Data"] = points
+        with pytest.raises(InputError) as raised:
+            chrono.read(written(tmp_path, data))
+        found = raised.value.problems
+        assert len(found) == len(words)
+        assert all(one.startswith(word) for one, word in zip(found, words, strict=True))
 
     @pytest.mark.parametrize(
         ("text", "words"),

@@ -562,6 +562,9 @@ def test_what_cannot_be_is_refused() -> None:
     for point, key in (("wheel_center", "torsion_Nm_per_deg"), ("arm_rear", "tilt_Nm_per_mm")):
         with pytest.raises(InputError, match=key):
             loads.elastokinematics(model, {point: {key: 5.0}}, [0.0])
+    too_close = {"mm": [-1.0, 0.0, 5e-324, 1.0], "N": [-5.0, 0.0, 1.0, 9.0]}
+    with pytest.raises(InputError, match="both lists must rise, by 1e-06 at least"):
+        loads.compliance(model, {"arm_rear": {"axial_curve": too_close}})
     one_sided = {"mm": [0.0, 1.0, 2.0], "N": [0.0, 1.0, 1000.0]}
     with pytest.raises(InputError, match="both sides of 0 mm"):
         loads.compliance(model, {"arm_rear": {"axial_curve": one_sided}})

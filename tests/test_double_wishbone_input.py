@@ -147,7 +147,7 @@ def test_metres():
                 "damper.velocity_m_per_s": [1.0, 0.0],
                 "damper.force_N": [9.0, 0.0],
             },
-            "velocities must rise",
+            "the values must rise",
         ),
         ({"damper.friction_velocity_m_per_s": 0.0}, "more than 0 m/s"),
         ({"spring.free_length_mm": 530.0}, "both are given. Keep one."),

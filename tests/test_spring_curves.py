@@ -379,6 +379,15 @@ GOOD = {"compression_mm": [0.0, 50.0, 100.0], "force_N": [0.0, 2000.0, 6000.0]}
             "Leave free_length_mm out",
         ),
         ({"length_mm": [400.0, 300.0], "force_N": [0.0, 900.0]}, "the values must rise"),
+        (
+            {"compression_mm": [0.0, 5e-324], "force_N": [0.0, 1.0], "free_length_mm": 500.0},
+            "must rise, by 1e-06 mm at least",
+        ),
+        (
+            {"compression_mm": [0.0, 100.0], "force_N": [0.0, 1e308], "free_length_mm": 500.0},
+            "allowed is -1e.12 N to 1e.12 N",
+        ),
+        ({"compression_mm": 5.0, "force_N": [0.0, 1.0]}, r"compression_mm = 5.0 mm must be a list"),
         ({"length_mm": [300.0, 400.0], "force_N": [0.0, 900.0]}, "does not push more"),
         ({"length_mm": [0.0, 400.0], "force_N": [900.0, 0.0]}, "more than 0 mm"),
         ({"length_mm": [300.0, 400.0], "force_N": [900.0]}, "2 values and force_N 1"),

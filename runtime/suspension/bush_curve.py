@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
-from .input.curve import Curve, Interpolation
+from .input.curve import LEAST_GAP, Curve, Interpolation
 
 Array = NDArray[np.float64]
 
@@ -56,10 +56,13 @@ def _problem(places: Array, forces: Array, *, odd: bool) -> str:
     if not (np.abs(places) <= _MOST_MM).all() or not (np.abs(forces) <= _MOST_N).all():
         return f"values up to {_MOST_MM:g} mm and {_MOST_N:g} N are needed."
     for key, values in (("mm", places), ("N", forces)):
-        fall = np.flatnonzero(np.diff(values) <= 0.0)
+        fall = np.flatnonzero(np.diff(values) < LEAST_GAP)
         if fall.size:
             first, second = values[fall[0] : fall[0] + 2]
-            return f"{key}: {second:g} follows {first:g}; both lists must rise."
+            return (
+                f"{key}: {second:g} follows {first:g}; both lists must rise, by {LEAST_GAP:g} at "
+                "least."
+            )
     if not ((places == 0.0) & (forces == 0.0)).any():
         return "a point 0 mm, 0 N is needed: a bush is relaxed there."
     return _problem_of_sides(places, odd=odd)

@@ -8,7 +8,7 @@ from pydantic import Field
 from scipy.interpolate import PchipInterpolator
 
 from ...core.errors import InputError
-from ..input.curve import Numbers
+from ..input.curve import LEAST_GAP, Numbers
 from ..input.section import Section
 
 Array = NDArray[np.float64]
@@ -36,9 +36,10 @@ class SteeringCurve(Section):
             )
             return [problem]
         problems = [
-            f"angle_deg: {b} deg follows {a} deg; angles must rise. Sort the points."
+            f"angle_deg: {b} deg follows {a} deg; angles must rise, by {LEAST_GAP:g} deg at least. "
+            "Sort the points."
             for a, b in pairwise(angles)
-            if not b > a
+            if not b - a >= LEAST_GAP
         ]
         steps = np.diff(racks)
         if not (np.all(steps > 0.0) or np.all(steps < 0.0)):

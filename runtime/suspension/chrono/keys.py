@@ -17,6 +17,13 @@ from ...core.errors import InputError
 from ...core.legible import legible, short
 
 _SIMILAR = 0.8  # of two keys that may be one, as `difflib` has it
+_NEEDED = {
+    "tuple_type": "a list is needed, such as [0.0, 1.0]",
+    "model_type": "keys with values are needed, in braces",
+    "float_type": "a number is needed, without quotes",
+    "finite_number": "a finite number is needed",
+    "bool_type": "true or false is needed, without quotes",
+}
 _DEEP = 6  # keys within each other; templates have three
 
 Place = tuple[str, ...]
@@ -72,7 +79,7 @@ def checked(model: type[Kind], data: dict[str, Any], path: str | Path) -> Kind:
     try:
         found = model.model_validate(data)
     except ValidationError as error:
-        details = error.errors()
+        details = _causes(error)
         # of another kind of file, nothing else is worth telling
         other = [detail for detail in details if detail["type"] == "literal_error"]
         problems = [problem_of(detail) for detail in other or details]
@@ -134,9 +141,13 @@ def problem_of(detail: Any, place: Place | None = None) -> str:
     given = shown(detail["input"])
     if detail["type"] == "missing":
         return f'"{words}" is missing. Add it, in SI units.'
+    if detail["type"] in {"too_short", "too_long"}:
+        least, most = detail["ctx"].get("min_length"), detail["ctx"].get("max_length")
+        wanted = f"at least {least} are needed" if most is None else f"{most} are needed"
+        return f'"{words}" = {given} has {len(detail["input"])} values; {wanted}.'
     if detail["type"] == "literal_error":
         return f'"{words}" is {given}; only {detail["ctx"]["expected"]} can be read.'
-    return f'"{words}" = {given}: {detail["msg"].lower()}.'
+    return f'"{words}" = {given}: {_NEEDED.get(detail["type"], detail["msg"].lower())}.'
 
 
 def shown(value: Any) -> str:
@@ -145,6 +156,19 @@ def shown(value: Any) -> str:
         return legible(short(json.dumps(value, default=str)))
     except RecursionError:  # lists in each other, as deep as Python reads them
         return "..."
+
+
+def _causes(error: ValidationError) -> list[Any]:
+    """Return what pydantic has found, without lists that are too short as an element is wrong."""
+    details = error.errors()
+    return [
+        one
+        for one in details
+        if one["type"] != "too_short"
+        or not any(
+            other["loc"][: len(one["loc"])] == one["loc"] for other in details if other is not one
+        )
+    ]
 
 
 def _slips(found: Iterable[Other]) -> list[str]:

@@ -182,7 +182,10 @@ def _template(data: dict[str, Any], path: str | Path) -> str:
         problem = f'"Type" is {shown(kind)}; the file of a tire is needed, in which it is "Tire".'
     elif not isinstance(template, str) or template not in _TEMPLATES:
         known = ", ".join(_TEMPLATES)
-        problem = f'"Template" is {shown(template)}; of tires, these can be read: {known}.'
+        problem = (
+            f'"Template" is {shown(template)}; of tires, these can be read: {known}. Leave the '
+            "tire out and enter its values in the new file."
+        )
     elif template == "MFTire" and (unit := _at(data, ("UNITS", "LENGTH"))) not in ("meter", "m"):
         problem = f'"UNITS > LENGTH" is {shown(unit)}; only "meter" can be read.'
     else:

@@ -1,5 +1,6 @@
 """A force by a table: smooth between its points, or straight."""
 
+from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -15,6 +16,12 @@ Array = NDArray[np.float64]
 
 # As many segments as the generated equations have.
 SEGMENTS = 10
+
+LEAST_GAP = 1e-6
+"""Between neighbouring points, in mm or m/s: as a length in metres it keeps seven digits."""
+
+# What no part of a car carries; slopes of what is less are finite.
+_MOST_N = 1e12
 
 Interpolation = Literal["cubic", "linear"]
 
@@ -32,13 +39,17 @@ def _numbers(value: Any) -> Any:
 Numbers = Annotated[tuple[Number, ...], BeforeValidator(_numbers)]
 
 
-def count_problems(key: str, places: tuple[float, ...], forces: tuple[float, ...]) -> list[str]:
-    """Say why so many points are no curve.
+def point_problems(
+    key: str, unit: str, places: tuple[float, ...], forces: tuple[float, ...]
+) -> list[str]:
+    """Say why points are no curve: their number, their order or their size.
 
     Parameters
     ----------
     key : str
         What a file calls the places; the forces are ``force_N``.
+    unit : str
+        Of the places.
     places, forces : tuple of float
     """
     if len(places) != len(forces):
@@ -53,7 +64,19 @@ def count_problems(key: str, places: tuple[float, ...], forces: tuple[float, ...
             "where the curve is nearly straight."
         )
         return [problem]
-    return []
+    for a, b in pairwise(places):
+        if not b - a >= LEAST_GAP:
+            problem = (
+                f"{key}: {b} {unit} follows {a} {unit}; the values must rise, by {LEAST_GAP:g} "
+                f"{unit} at least. Sort the points and keep one force for each."
+            )
+            return [problem]
+    most = f"{_MOST_N:g} N"
+    too_much = [force for force in forces if not abs(force) <= _MOST_N]
+    return [
+        f"force_N = {force} N is out of range: allowed is -{most} to {most}. Correct it."
+        for force in too_much[:1]
+    ]
 
 
 class Curve:

@@ -1,11 +1,9 @@
 """A damper curve: force over velocity from a table."""
 
-from itertools import pairwise
-
 import numpy as np
 from pydantic import Field
 
-from .curve import WAYS, Curve, Interpolation, Numbers, count_problems, no_curve
+from .curve import WAYS, Curve, Interpolation, Numbers, no_curve, point_problems
 from .section import Section
 
 TABLE = "damper_table"
@@ -14,17 +12,9 @@ TABLE = "damper_table"
 
 def curve_problems(v: tuple[float, ...], force: tuple[float, ...]) -> list[str]:
     """Say why velocities [m/s] and forces [N] are no curve of a damper that takes energy."""
-    problems = count_problems("velocity_m_per_s", v, force)
+    problems = point_problems("velocity_m_per_s", "m/s", v, force)
     if problems:
         return problems
-    falling = [(a, b) for a, b in pairwise(v) if not b > a]
-    if falling:
-        a, b = falling[0]
-        problem = (
-            f"velocity_m_per_s: {b} m/s follows {a} m/s; velocities must rise. Sort the points "
-            "and keep one force for each velocity."
-        )
-        return [problem]
     wrong = [(a, f) for a, f in ((v[0], force[0]), (v[-1], force[-1])) if a * f < 0.0]
     return [
         f"force_N = {f} N at {a} m/s pushes along with the motion; a damper resists it. Enter "

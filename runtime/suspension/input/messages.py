@@ -16,6 +16,7 @@ _MOST_LOOKED_AT = 200  # errors: nobody reads more, and each is compared with al
 _EXPECTATIONS = {
     "finite_number": "must be a finite number. Enter the measured or estimated value.",
     "float_type": "must be a number. Write digits without quotes, with a point for decimals.",
+    "tuple_type": "must be a list of numbers. Write them as [0.0, 1.0, 2.0].",
     "dict_type": "must be sections. Write one for each, such as [bushings.arm_rear].",
     "bool_type": "must be true or false. Write it without quotes.",
     "three_numbers": "must be three numbers. Write them as [x, y, z].",

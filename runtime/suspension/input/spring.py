@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import Field
 
 from ...core.columns import each
-from .curve import WAYS, Curve, Interpolation, Numbers, count_problems, no_curve
+from .curve import WAYS, Curve, Interpolation, Numbers, no_curve, point_problems
 from .section import NonNegative, Number, Positive, Section
 from .units import in_metres
 
@@ -108,7 +108,9 @@ class Spring(Section):
             return [problem]
         (key,) = over
         places, force = getattr(self, key), self.force_N
-        problems = count_problems(key, places, force) or _problems_of_points(key, places, force)
+        problems = point_problems(key, "mm", places, force) or _problems_of_spring(
+            key, places, force
+        )
         if problems:
             return problems
         if key == "length_mm":
@@ -218,15 +220,8 @@ def rate_key(part: str, spring: Spring | None) -> str:
     return {"spring": "[spring] rate_N_per_m", "damper": "[damper] rate_N_s_per_m"}[part]
 
 
-def _problems_of_points(key: str, places: tuple[float, ...], force: tuple[float, ...]) -> list[str]:
-    """Say why lengths or compressions [mm] and forces [N] are no curve of a spring."""
-    for a, b in pairwise(places):
-        if not b > a:
-            problem = (
-                f"{key}: {b} mm follows {a} mm; the values must rise. Sort the points and keep one "
-                "force for each."
-            )
-            return [problem]
+def _problems_of_spring(key: str, places: tuple[float, ...], force: tuple[float, ...]) -> list[str]:
+    """Say why lengths or compressions [mm] and forces [N] are those of no spring."""
     if key == "length_mm" and not places[0] > 0.0:
         return [f"length_mm begins with {places[0]} mm; more than 0 mm is needed. Correct it."]
     sense, words = (-1.0, "longer") if key == "length_mm" else (1.0, "more compressed")
