@@ -185,6 +185,14 @@ def test_kinks_of_a_formula_are_found(tmp_path):
     assert np.all(np.abs(np.atleast_2d(kinks)[1]) > 0.1)
 
 
+@pytest.mark.parametrize(("formula", "angle"), [(sp.sqrt(q), -0.7), (1 / q, 0.0), (q**2.5, -0.1)])
+def test_where_a_formula_has_no_value_it_is_said_so(tmp_path, formula, angle):
+    """It is no overflow: no smaller force would help."""
+    system = kintrafo.System(compiled(Own(lambda _: Action({"q_A": formula})), folder=tmp_path))
+    with pytest.raises(kintrafo.ModelError, match=rf"has no value there\), at q_A = {angle:g} rad"):
+        system.evaluate("rhs", [angle, 0.0])
+
+
 def test_steps_of_its_own_may_have_formulas(tmp_path):
     def act(at):
         step = at.program.define("stretch", sp.tan(q) * sp.Abs(v))

@@ -637,7 +637,8 @@ def finite_or_refused(model: ModuleType, instant: Instant, constants: Array) -> 
             assert np.isfinite(result).all(), function
             done.add(function)
         elif "overflows" in str(error):
-            assert "the result overflows double precision, at beta1 = " in str(error)
+            assert "no finite number (it overflows double precision, " in str(error)
+            assert "), at beta1 = " in str(error)
         else:
             assert isinstance(error, ClosureError)
             assert error.reasons

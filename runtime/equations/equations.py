@@ -394,7 +394,10 @@ class Equations:
             return
         if not hit:
             shown = located(coordinates, described)
-            message = f"{where}: the result overflows double precision, at {shown}{place_of(index)}"
+            message = (
+                f"{where}: the result is no finite number (it overflows double precision, or a "
+                f"formula has no value there), at {shown}{place_of(index)}"
+            )
             raise ModelError(message)
         raise ClosureError(
             where,
