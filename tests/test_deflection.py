@@ -740,21 +740,33 @@ def _of_page(page: str, name: str) -> dict[str, Any]:
     return bushings
 
 
+def _slope_over_first_order(changes: Any) -> float:
+    """Return the slope at zero, by central differences, over that of first order."""
+    slopes = changes.values[:, 1] - changes.values[:, 0]
+    return float(slopes[0] / slopes[1])
+
+
 def test_what_the_pages_say_of_small_loads_under_a_static_one() -> None:
     """Preloaded parts turn, which first order leaves out."""
+    small = [-10.0, 10.0]
     car = loads.deflection(
-        Model("reference_car"), _of_page("loads.md", "bushes.toml"), "lateral", [10.0],
+        Model("reference_car"), _of_page("loads.md", "bushes.toml"), "lateral", small,
         held="spring",
-    )["toe_change"]  # fmt: skip
-    assert float(car[0, 0] / car[1, 0]) == pytest.approx(1.29, abs=5e-3)
-    bushes = _of_page("rigid-axle.md", "axle_bushes.toml")
-    rigid = {
-        under: rigid_axles.deflection(
-            RigidAxle.load("rigid_axle"), bushes, under, [10.0], held="spring"
-        )
-        for under in ("lateral", "aligning")
-    }
-    steer = rigid["lateral"]["axle_steer_change"]
-    assert float(steer[0, 0] / steer[1, 0]) == pytest.approx(1.19, abs=5e-3)
-    shift = rigid["aligning"]["axle_lateral_change"]
-    assert float(shift[0, 0] / shift[1, 0]) == pytest.approx(0.68, abs=5e-3)
+    )  # fmt: skip
+    found = {"toe": (_slope_over_first_order(car["toe_change"]), 1.28)}
+    axle, bushes = RigidAxle.load("rigid_axle"), _of_page("rigid-axle.md", "axle_bushes.toml")
+    for under, ratios in {
+        "lateral": {
+            "axle_steer_change": 1.19,
+            "axle_lateral_change": 1.12,
+            "displacement_left": 1.15,
+            "camber_change_left": 1.15,
+        },
+        "braking": {"camber_change_left": 1.18},
+        "aligning": {"axle_lateral_change": 0.68},
+    }.items():
+        rigid = rigid_axles.deflection(axle, bushes, under, small, held="spring")
+        for name, ratio in ratios.items():
+            found[f"{name} by {under}"] = _slope_over_first_order(rigid[name]), ratio
+    for name, (ratio, of_page) in found.items():
+        assert ratio == pytest.approx(of_page, abs=5e-3), name
