@@ -381,6 +381,7 @@ def test_topology_needs_no_sympy(kintrafo, monkeypatch):
         (["simulate", CAR, "--road-sine", "9", "--road-frequency", "0"], 2, "0 Hz"),
         (["simulate", CAR, "--measured", "none.csv"], 2, "none.csv"),
         (["simulate", CAR, "--road-step", "nan"], 2, "finite"),
+        (["characteristics", CAR, "--bump", "1e400"], 2, "a finite number in mm"),
         (["topology", "no_such_car"], 2, "no_such_car"),
         (["compare", CAR, "no_such_car"], 2, "no_such_car"),
         (["animate", CAR, "x.gif", "--start", "beta1=1", "--start", "beta1=2"], 2, "given twice"),

@@ -446,6 +446,10 @@ class TestMistakes:
         path.write_bytes(b"\xff\xfe\x00")
         with pytest.raises(kintrafo.InputError, match="no text in UTF-8"):
             kintrafo.compile(path)
+        path.write_bytes(b"import math\n\0\n")
+        with pytest.raises(kintrafo.InputError, match="null bytes") as raised:
+            kintrafo.compile(path)
+        assert "None" not in str(raised.value)
         with pytest.raises(kintrafo.InputError, match="not 3"):
             kintrafo.compile(3)
         with pytest.raises(kintrafo.InputError, match="Did you mean numpy"):

@@ -67,6 +67,8 @@ MISTAKES = [
         "bodies.wheel",
         "kg mm^2",
     ),
+    (REFERENCE, {"tyre.radius_mm": 0.3}, "[tyre] radius_mm = 0.3 mm", "in m?"),
+    (REFERENCE, {"tyre.radius_mm": 326e3}, "[tyre] radius_mm = 326000 mm", "in another unit?"),
     (REFERENCE, {"vehicle.wheelbase_mm": 2.6}, "[vehicle] wheelbase_mm", "in metres"),
     (
         REFERENCE,

@@ -1,5 +1,6 @@
 """Hardpoints from spreadsheets, and into them."""
 
+import tomllib
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -80,7 +81,7 @@ WRONG = {
     "no names": ("x [mm],y [mm],z [mm]\n1,2,3\n", "one column with the names"),
     "no z": ("point,x [mm],y [mm]\na,1,2\n", "one column z is needed"),
     "units": ("point,x [mm],y [m],z [mm]\na,1,2,3\n", "of all the same; it is m, mm"),
-    "no unit": ("point,x,y,z\na,1,2,3\n", "it is none"),
+    "no unit": ("point,x,y,z\na,1,2,3\n", "x, y and z have no unit"),
     "no length": ("point,x [kg],y [kg],z [kg]\na,1,2,3\n", "it is kg"),
     "furlongs": ("point,x [furlong],y [furlong],z [furlong]\na,1,2,3\n", "it is furlong"),
     "another spelling": (HEAD + "ball_joint,1,2,3\nBall Joint,1,2,4\n", "are one point"),
@@ -151,6 +152,22 @@ def test_lengths_are_those_of_the_file(unit: str, tmp_path: Path) -> None:
     for name, place in there.items():
         # four roundings: the two products and the quotient here, and that of the conversion
         np.testing.assert_allclose(getattr(car.hardpoints, name), place, rtol=1e-15, atol=0.0)
+
+
+def test_lengths_have_the_digits_of_the_table(tmp_path: Path) -> None:
+    path = table(tmp_path, "point,x [in],y [in],z [in]\narm_front,4.078,-9.492422,10.26018\n")
+    new = tomllib.loads(merged(read_points(path), "reference_car").text)
+    # exact: 25.4 times these decimals
+    assert new["hardpoints"]["arm_front"] == [103.5812, -241.1075188, 260.608572]
+
+
+def test_a_refusal_says_how_the_table_was_read(tmp_path: Path) -> None:
+    rows = "arm_front,-160,-360,195\narm_rear,200,-360,200\n"
+    path = table(tmp_path, "point,x [mm],y [mm],z [mm]\n" + rows)
+    with pytest.raises(
+        InputError, match=r"unit mm; x, y, z: forward left up; other axes by --axes"
+    ):
+        merged(read_points(path), "reference_car")
 
 
 def test_a_unit_that_is_given_must_not_contradict(tmp_path: Path) -> None:
@@ -234,7 +251,7 @@ def test_a_text_of_lotus_suspension_analysis(tmp_path: Path) -> None:
     }
     new = Suspension.load(write_merged(found, tmp_path / "new.toml"))
     assert new == Suspension.load("double_wishbone_car")
-    with pytest.raises(InputError, match="unit of x, y and z"):
+    with pytest.raises(InputError, match="x, y and z have no unit"):
         read_points(table(tmp_path, LOTUS.replace("(mm)", ""), "front.txt"))
     with pytest.raises(InputError, match="text with its points"):
         read_points(table(tmp_path, LOTUS, "front.shk"))

@@ -1,5 +1,6 @@
 """Numbers on the command line: what is none is refused with its unit and an example."""
 
+import math
 import re
 from collections.abc import Callable
 from types import UnionType
@@ -50,7 +51,7 @@ def _number(kind: type[float], unit: str) -> Callable[[Any], float]:
             number = None if "_" in str(text) else kind(text)
         except ValueError:
             number = None
-        if number is None:
+        if number is None or not math.isfinite(number):
             raise typer.BadParameter(_problem(str(text), unit, whole=kind is int))
         return number
 
@@ -63,5 +64,5 @@ def _problem(text: str, unit: str, *, whole: bool) -> str:
         return f"{text!r}: a whole number is needed, such as 20."
     number = re.match(r"\s*[-+]?\d+(?:[.,]\d+)?", text)
     example = number[0].strip().replace(",", ".") if number else "20" if unit else "1e-6"
-    wanted = f"a number in {unit}, without the unit," if unit else "a number"
+    wanted = f"a finite number in {unit}, without the unit," if unit else "a finite number"
     return f"{text!r}: {wanted} is needed, such as {example}."

@@ -93,8 +93,8 @@ def length_in(value: float, given: str, wanted: str) -> float:
 
     Examples
     --------
-    >>> length_in(205.0, "mm", "m"), length_in(1.0, "in", "mm")
-    (0.205, 25.4)
+    >>> length_in(205.0, "mm", "m"), length_in(4.078, "in", "mm")
+    (0.205, 103.5812)
     """
-    # rounded once, at the end: the factor 0.001 would have been rounded before
-    return float(Fraction(value) * LENGTHS[given] / LENGTHS[wanted])
+    # of the digits that one reads, and rounded once, at the end: 4.078 in are 103.5812 mm
+    return float(Fraction(repr(float(value))) * LENGTHS[given] / LENGTHS[wanted])

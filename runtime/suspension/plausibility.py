@@ -50,6 +50,9 @@ _APART = 5.6
 _TYRE_TO_SPRING = (0.05, 500.0)
 # Of the damping that would keep the wheel on its tyre from oscillating, dampers have 10 to 60 %.
 _DAMPING = (0.005, 20.0)
+# Radii of wheels, from karts to lorries, are 0.1 to 0.7 m; units that are mistaken make 1,000 times
+# more or less of them, and half way, by factors, are these [m].
+_RADII = (0.005, 20.0)
 # Rates of one tyre are alike; one in N/mm is 1,000 times less, and half way, by factors, is this.
 _ALIKE = 31.6
 # Nothing that rolls has more inertia than a hoop. In kg mm^2 an inertia is 1,000,000 times as much;
@@ -320,7 +323,13 @@ def unusual_alignment(wheel: Wheel) -> Iterator[str]:
 
 
 def unlikely_tyre(tyre: Tyre) -> Iterator[str]:
-    """Compare the rates of a tyre along the ground with that of its springing."""
+    """Compare the rates of a tyre along the ground with that of its springing; see its radius."""
+    radius = tyre.radius_mm
+    if radius is not None and not _RADII[0] <= 1e-3 * radius <= _RADII[1]:
+        yield (
+            f"[tyre] radius_mm = {radius:g} mm: wheels of vehicles have 100 to 700 mm. Is it in "
+            f"{'m' if 1e-3 * radius < _RADII[0] else 'another unit'}?"
+        )
     for name in ("lateral_rate_N_per_m", "longitudinal_rate_N_per_m"):
         rate, vertical = getattr(tyre, name), tyre.rate_N_per_m
         if rate is not None and vertical and not 1.0 / _ALIKE <= rate / vertical <= _ALIKE:

@@ -171,8 +171,8 @@ def _unit(found: Found, given: str | None) -> str:
         problems.append(f"the unit of the table is {', '.join(sorted(every))}, and not {wanted}.")
     elif not (every or wanted):
         problems.append(
-            f"the unit of x, y and z must be {', '.join(LENGTHS)}; it is none. Write x [mm], or "
-            "give it: --unit mm (unit=)."
+            f"x, y and z have no unit; {', '.join(LENGTHS)} can be read. Write x [mm], or give it: "
+            "--unit mm (unit=)."
         )
     elif not every <= LENGTHS.keys() or (len(every) > 1 and not problems):
         told = short(", ".join(sorted(every)))
@@ -280,7 +280,10 @@ def merged(
     if not mirrored:
         _refuse_other_side(old, document["hardpoints"], read, table.source)
     text = tomlkit.dumps(document)
-    source = f"{file} with the points of {table.source}"
+    source = (
+        f"{file} with the points of {table.source} (unit {table.unit}; x, y, z: {table.axes}; "
+        "other axes by --axes)"
+    )
     Suspension.from_dict(tomlkit.parse(text).unwrap(), source=source)
     kept = tuple(name for name in old.hardpoints.given() if name not in read)
     return Merged(text, read, kept, tuple(left_out))

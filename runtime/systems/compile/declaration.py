@@ -140,7 +140,10 @@ def _run(path: Path) -> ModuleType:
         with _neighbours(path.parent.resolve()):
             exec(compile(source, str(path), "exec"), vars(module))
     except SyntaxError as error:
-        problem = f"Line {error.lineno}: {error.msg}: {(error.text or '').strip()}"
+        line = f"Line {error.lineno}: " if error.lineno else ""
+        problem = (
+            f"{line}{error.msg}: {error.text.strip()}" if error.text else f"{line}{error.msg}."
+        )
         raise InputError([problem], str(path)) from error
     except SystemExit as error:
         problem = (
