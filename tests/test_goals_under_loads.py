@@ -391,3 +391,11 @@ def test_comparisons_and_reports_have_them(
     monkeypatch.setattr(report, "write", written)
     shown = called("report", soft_car, str(tmp_path / "report.html"), "--goals", str(goals))
     assert shown.exit_code == 0, shown.exception
+
+
+@pytest.mark.parametrize("kind", [Suspension, RigidAxle])
+def test_bushes_of_a_file_without_any_are_asked_for(kind: Any) -> None:
+    of = kind.load("reference_car" if kind is Suspension else "rigid_axle")
+    for name in ("bushings", "bushings.arm_rear.axial_N_per_mm"):
+        with pytest.raises(InputError, match=r"The file has no \[bushings\]. Add them."):
+            variation.tolerance(of, {name: "20 %"}, count=4)

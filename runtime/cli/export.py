@@ -38,16 +38,21 @@ def command(
     ],
     out: Annotated[
         Path | None,
-        typer.Option("--out", "-o", metavar="PATH", help="What to write. Default: by FILE."),
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="PATH",
+            help="Path of what is written. Default: from the name of FILE.",
+        ),
     ] = None,
     fmi: Annotated[
-        int | None, typer.Option(metavar="VERSION", help="2 or 3: of a unit. Default: 2.")
+        int | None, typer.Option(metavar="VERSION", help="Of FMI, for a unit: 2 or 3. Default: 2.")
     ] = None,
     platform: Annotated[
         list[str] | None,
         typer.Option(
             metavar="NAME",
-            help="linux, windows: what a unit has a library for. May be repeated. Default: this.",
+            help="With a library for linux or windows. May be repeated. Default: this one.",
         ),
     ] = None,
     model: Which = None,

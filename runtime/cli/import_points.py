@@ -36,13 +36,13 @@ def command(
     ] = False,
     unit: Annotated[
         str | None,
-        typer.Option(metavar="UNIT", help="Of a table that does not say it: mm, cm, m, in or ft."),
+        typer.Option(metavar="UNIT", help="If the table gives no unit: mm, cm, m, in or ft."),
     ] = None,
     axes: Annotated[
         str | None,
         typer.Option(
             metavar="WORDS",
-            help="Where x, y and z point: three of forward, rearward, left, right, up, down. "
+            help="Directions of x, y and z: three of forward, rearward, left, right, up, down. "
             "Default: forward left up (ISO 8855).",
         ),
     ] = None,

@@ -23,8 +23,8 @@ Over = Annotated[
 Held = Annotated[
     Literal["height", "tyre", "spring", "locked"] | None,
     typer.Option(
-        help="Instead of characteristics, the compliance of a file with [bushings] over wheel "
-        "travel, with this to hold the wheels.",
+        help="Analyse the compliance over wheel travel of a file with [bushings], instead of "
+        "characteristics; this holds the wheels.",
         show_default=False,
     ),
 ]

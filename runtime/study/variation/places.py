@@ -110,13 +110,18 @@ def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, 
     for pattern in patterns:
         found = {name for name in known if _fits(name, pattern)}
         if not found:
-            levels = {".".join(name.split(".")[:depth]) for name in known for depth in (1, 2, 3)}
-            given.refuse(
-                f"{pattern} is no number of the input file, nor a section of it. "
-                f"{suggestion(pattern, sorted(levels)) if len(pattern) > 2 else ''}".strip()
-            )
+            hint = _hint(suspension, pattern, known)
+            given.refuse(f"{pattern} is no number of the input file, nor a section of it. {hint}")
         wanted |= found
     return {name: place for name, place in known.items() if name in wanted}
+
+
+def _hint(suspension: Subject, pattern: str, known: Mapping[str, Place]) -> str:
+    """Return what a pattern may have meant that names nothing of a file."""
+    if pattern.partition(".")[0] == "bushings" and not suspension.bushings:
+        return "The file has no [bushings]. Add them."
+    levels = {".".join(name.split(".")[:depth]) for name in known for depth in (1, 2, 3)}
+    return suggestion(pattern, sorted(levels)) if len(pattern) > 2 else "Name one of its sections."
 
 
 def amounts(
