@@ -85,7 +85,8 @@ def test_every_number_is_refused_with_its_unit(
         said = " ".join(re.sub(r"[│╭╰─╮╯]", " ", err).split())
         assert code == 2
         assert "valid" not in said.replace("Invalid value for", ""), said
-        wanted = "a whole number" if whole else f"a number in {known.get(unit, '')}".rstrip(" in")
+        in_unit = f" in {known[unit]}, without the unit," if unit in known else ""
+        wanted = "a whole number" if whole else f"a finite number{in_unit}"
         assert f"{value!r}: {wanted}" in said
 
 
