@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from functools import cached_property, partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
@@ -12,6 +12,9 @@ from ...systems.compile.build import compile_mechanism, require_generator
 from ...systems.system import System
 from ..model import Model
 from .axle import LEFT, RIGHT, Axle
+
+if TYPE_CHECKING:
+    from ...generator import Formulation
 
 
 class AxleModel(System):
@@ -46,25 +49,7 @@ class AxleModel(System):
             given.kind("axle", axle, Axle, Axle.NEEDED)
             given.function("progress", progress)
             wheel_loads = given.flag("wheel_loads", wheel_loads)
-        require_generator()
-        from ...generator.mechanisms import axle as page  # noqa: PLC0415 (an extra)
-        from ...generator.mechanisms import model_named  # noqa: PLC0415
-        from ...generator.mechanisms.suspension import with_wheel_loads  # noqa: PLC0415
-
-        corner = model_named(_corner_of(axle))
-        if wheel_loads:
-            corner = with_wheel_loads(corner)
-        pulls = axle.bar.link_on if axle.bar else ""
-        parts = (corner.name, axle.end, "axle", pulls, "" if axle.symmetric else "two_sides")
-        declared = page.mechanism(
-            "_".join(part for part in parts if part),
-            axle.heading()[:1].upper() + axle.heading()[1:],
-            corner,
-            pulls=pulls,
-            own=not axle.symmetric,
-            end=axle.end,
-        )
-        equations = compile_mechanism(page.model(corner, declared), progress=progress)
+        equations = compile_mechanism(declared(axle, wheel_loads=wheel_loads), progress=progress)
         values = _parameters(axle, wheel_loads=wheel_loads)
         known = {name: values[name] for name in values if name in equations.PARAMETERS}
         super().__init__(equations, known)
@@ -90,6 +75,29 @@ class AxleModel(System):
 
     def __repr__(self) -> str:
         return f"<AxleModel {self.equations.NAME}>"
+
+
+def declared(axle: Axle, *, wheel_loads: bool = False) -> "Formulation":
+    """Return the declaration of an axle, whose values are apart from it."""
+    require_generator()
+    from ...generator.mechanisms import axle as page  # noqa: PLC0415 (an extra)
+    from ...generator.mechanisms import model_named  # noqa: PLC0415
+    from ...generator.mechanisms.suspension import with_wheel_loads  # noqa: PLC0415
+
+    corner = model_named(_corner_of(axle))
+    if wheel_loads:
+        corner = with_wheel_loads(corner)
+    pulls = axle.bar.link_on if axle.bar else ""
+    parts = (corner.name, axle.end, "axle", pulls, "" if axle.symmetric else "two_sides")
+    mechanism = page.mechanism(
+        "_".join(part for part in parts if part),
+        axle.heading()[:1].upper() + axle.heading()[1:],
+        corner,
+        pulls=pulls,
+        own=not axle.symmetric,
+        end=axle.end,
+    )
+    return page.model(corner, mechanism)
 
 
 def _corner_of(axle: Axle) -> str:

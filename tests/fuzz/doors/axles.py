@@ -38,8 +38,8 @@ CLOSE = 1e-9
 
 def attempt(random):
     car = CARS[random.integers(len(CARS))]
-    right = _moved(random, car)
-    left = right.mirrored() if random.random() < 0.3 else _moved(random, car).mirrored()
+    right = moved(random, car)
+    left = right.mirrored() if random.random() < 0.3 else moved(random, car).mirrored()
     bar = {"anti_roll_bar": BAR} if random.random() < 0.5 else {}
     axle = Axle.from_dict({"axle": car.vehicle.end or "front", "right": right, "left": left} | bar)
     rack = float(random.uniform(-0.01, 0.01))
@@ -61,7 +61,7 @@ def attempt(random):
     _check_loads(axle, random, rack)
 
 
-def _moved(random, car):
+def moved(random, car):
     """Return a car whose hardpoints are some millimetres beside."""
     size = 10.0 ** random.uniform(-1.0, 1.0)
     return car.with_changes(
