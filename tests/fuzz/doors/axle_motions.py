@@ -50,9 +50,9 @@ BAR = {
     "link_on": "knuckle",
     "rate_Nm_per_deg": 25.0,
 }
-# Of coordinates [rad, m]: errors of steps at 1e-8 add up to some hundred tolerances over the
-# oscillations of half a second, and to some thousand by formulas of many steps.
-_TOLERANCE = 1e-5
+# Of coordinates [rad, m]: errors of steps at 1e-8 add up to a hundred tolerances over some
+# oscillations.
+_TOLERANCE = 1e-6
 # Of the reference, whose errors of steps at 1e-11 add up in the same way, as a part of the size;
 # where stops begin to act between two steps, to some thousand.
 _CLOSE = 1e-8

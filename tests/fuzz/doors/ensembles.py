@@ -31,9 +31,9 @@ _CARS = (
     "multi_link_car", "trailing_arm_car",
 )  # fmt: skip
 _RATES = ("damper_rate", "spring_rate", "tyre_rate")
-# Of coordinates [rad], of what is some 0.1: errors of steps at 1e-8 add up to some hundred
-# tolerances over the oscillations of a second, as of the door `inputs`.
-_TOLERANCE = 1e-5
+# Of coordinates [rad]: errors of steps at 1e-8 add up to a hundred tolerances over the oscillations
+# of a second.
+_TOLERANCE = 1e-6
 
 
 @cache
