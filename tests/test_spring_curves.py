@@ -477,3 +477,13 @@ def test_springs_of_a_rigid_axle():
         assert float(signals[f"{side}_spring_spring_force"]) == pytest.approx(
             float(curve(free - length)), rel=1e-10
         )
+
+
+def test_what_varies_of_a_spring_by_a_curve_is_said():
+    car = curved("double_wishbone_car")
+    with pytest.warns(
+        RuntimeWarning, match=r"spring.compression_mm, spring.force_N: lists, as of a"
+    ):
+        variation.sensitivity(car, ["spring"], positions=[0.0])
+    with pytest.raises(InputError, match=r"spring.force_N is a list, as of a curve"):
+        variation.sensitivity(car, ["spring.force_N"], positions=[0.0])

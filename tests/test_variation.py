@@ -582,7 +582,7 @@ def test_commands_refuse_and_end_as_others_do(kintrafo: Any, tmp_path: Path) -> 
         files = ["reference_car", "b.toml"][: 1 + (command == "tolerance")]
         code, _, err = kintrafo(command, *files, "--at", "nan")
         assert code == 2
-        assert "a finite number of mm" in " ".join(err.split())
+        assert "a finite number in mm" in " ".join(err.split())
     code, _, err = kintrafo("sweep", "reference_car", f"{ROD}=270", f"{ROD}=280")
     assert (code, "named twice" in " ".join(err.split())) == (2, True)
     for wrong in (f"{ROD}=1:2:1000000000", f"{ROD}=1:2", f"{ROD}=1:2:x", ROD, f"{ROD}=a"):

@@ -2,6 +2,7 @@
 
 import math
 import re
+import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
@@ -101,18 +102,29 @@ def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, 
         A number, or all within a section or a point; ``*`` stands for anything:
         ``hardpoints.*.z``.
     """
-    known = places_of(suspension)
+    known, lists = places_of(suspension), {*_lists(suspension.to_dict())}
     wanted: set[str] = set()
+    lost: dict[str, None] = {}
     texts = isinstance(patterns, list | tuple) and all(isinstance(p, str) for p in patterns)
     if not (texts and patterns):
         given.refuse(f"places = {shown(patterns)}: a list of places is needed.")
         return {}
     for pattern in patterns:
         found = {name for name in known if _fits(name, pattern)}
-        if not found:
+        if not found and pattern in lists:
+            given.refuse(f"{pattern} is a list, as of a curve; single numbers vary. Leave it out.")
+        elif not found:
             hint = _hint(suspension, pattern, known)
             given.refuse(f"{pattern} is no number of the input file, nor a section of it. {hint}")
         wanted |= found
+        if found:
+            lost |= dict.fromkeys(sorted(name for name in lists if _fits(name, pattern)))
+    if lost:
+        warnings.warn(
+            f"{', '.join(lost)}: lists, as of a curve, do not vary; single numbers do.",
+            RuntimeWarning,
+            stacklevel=2,
+        )
     return {name: place for name, place in known.items() if name in wanted}
 
 
@@ -159,6 +171,19 @@ def _part_of(given: Arguments, title: str, text: str, place: Place) -> float:
 
 def _fits(name: str, pattern: str) -> bool:
     return fnmatchcase(name, pattern) or fnmatchcase(name, f"{pattern}.*")
+
+
+def _lists(table: Mapping[str, Any], above: str = "") -> Iterator[str]:
+    """Yield the names of lists that are no points, such as the forces of a curve."""
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            yield from _lists(value, f"{above}{key}.")
+        elif (
+            isinstance(value, list | tuple)
+            and not key.endswith("axis")
+            and not any(_places({key: value}, above, 1.0))
+        ):
+            yield f"{above}{key}"
 
 
 def _places(table: Mapping[str, Any], above: str, in_file: float) -> Iterator[Place]:
