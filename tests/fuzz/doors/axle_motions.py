@@ -56,6 +56,8 @@ _TOLERANCE = 1e-6
 # Of the reference, whose errors of steps at 1e-11 add up in the same way, as a part of the size;
 # where stops begin to act between two steps, to some thousand.
 _CLOSE = 1e-8
+# Part of a margin's usual size: nearer to a dead point the oracle's joints are rounded, too.
+_FAR = 1e-2
 # Of accelerations, as of the door `motions`.
 _ACCELERATIONS = 1e-7
 
@@ -118,6 +120,9 @@ def attempt(random: Generator) -> None:
     except ModelError as error:
         raise UnjudgedError("a dead point is reached") from error
     last = reference.y[:, -1]
+    margins = drawn.built("margins", last, drawn.inputs(drawn.end))
+    if (margins < _FAR * System(drawn.built.module, drawn.built.parameters).usual_margins).any():
+        raise UnjudgedError("a dead point is near")
     for time, state in ((0.0, drawn.start), (drawn.end, last)):
         _judge_accelerations(drawn, time, state)
     _judge_energy(drawn, last)
