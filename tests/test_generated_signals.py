@@ -51,8 +51,7 @@ def test_signals(model, seed: int) -> None:
             "strut_velocity": -slide_rate,
             "spring_length": seen.spring_length,
             "spring_velocity": spring_velocity(car, pose, solution.twist),
-            "spring_force": given["spring_rate"]
-            * (given["spring_free_length"] - seen.spring_length),
+            "spring_force": laws.spring_force(given, seen.spring_length),
             "damper_force": laws.damper_force(given, slide_rate),
             "friction_force": laws.friction_force(given, slide_rate),
             "bump_stop_force": laws.stop_force(given, "bump", seen.strut_length),

@@ -134,8 +134,8 @@ def test_derivatives_of_the_compiled_functions(
             return function(arrays["STATE"], arrays["INPUTS"], at.constants)
 
         place = {"STATE": at.state, "INPUTS": at.inputs}[by][:width]
-        expected = gradient(moved, 2e-3 * np.maximum(1.0, np.abs(place)))
-        # The function's roundings over the step, some 1e-15 / 2e-3, and the ninth derivative times
+        expected = gradient(moved, 2e-4 * np.maximum(1.0, np.abs(place)))
+        # The function's roundings over the step, some 1e-15 / 2e-4, and the ninth derivative times
         # the eighth power of the step. No instant is so near to a kink of a force that a step
         # crosses it.
         size = np.maximum(np.abs(expected).max(axis=1, keepdims=True), 1.0)
