@@ -125,7 +125,7 @@ def test_without_sundials_scipy_remains(monkeypatch, case):
 
 def test_page_names_only_known_blocks():
     found = re.findall(r"<!-- begin (\w+) -->", PAGE.read_text())
-    assert found == ["machine", "methods", "ratios", "stiffness", "accuracy", "costs", "friction"]
+    assert found == ["machine", "methods", "ratios", "stiffness", "costs", "friction", "accuracy"]
 
 
 def test_table_and_page(tmp_path):

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 EXAMPLES = (
     "kintrafo export my_car.toml --to c -o my_car_c",
     "kintrafo export my_axle.toml --to fmu",
-    "kintrafo export my_car.toml --to fmu --fmi 3 --platform linux --platform windows",
+    "kintrafo export my_car.toml --to fmu --fmi 3 -o my_car_3.fmu",
     "kintrafo export my_mechanism.py --model crane --to c",
 )
 
