@@ -12,8 +12,10 @@ EXAMPLES = (
     "kintrafo import-points points.csv my_car.toml new_car.toml",
     "kintrafo import-points left_side.xlsx my_car.toml new_car.toml --mirror",
     'kintrafo import-points cad.csv my_car.toml new_car.toml --unit in --axes "rearward right up"',
-    "kintrafo import-points cad.csv my_car.toml new.toml --unit in --mirror "
-    '--name "ball_joint=FLCA outboard"',
+    (
+        "kintrafo import-points cad.csv my_car.toml new.toml --unit in --mirror "
+        '--name "ball_joint=FLCA outboard"'
+    ),
 )
 
 _File = {"exists": True, "dir_okay": False}
