@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import permutations
 from math import pi
 from typing import TYPE_CHECKING
 
@@ -13,10 +14,11 @@ from changes import with_default
 from kintrafo import generator as g
 from kintrafo.equations.errors import ParameterError
 from kintrafo.generator.closed_forms.parallel_links import ParallelLinks
+from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.planning.plan import Plan
 from oracle_check import check_with_the_oracle
 from own_models import derive, own
-from own_wheels import locomotive
+from own_wheels import PINS, double_crank, locomotive, table_on_links
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -65,3 +67,84 @@ def test_parameters_that_lock_it_are_refused() -> None:
     model = own(locomotive(), arrays=True, derivatives=False)
     with pytest.raises(ParameterError, match="not parallel and equally long, so that nothing"):
         kintrafo.System(model, {"bearing_1_z": 0.5})
+
+
+LOCKED = {
+    "the ground link is across": (PINS, {"lean": 0.05}),
+    "four links": ((*PINS, (0.15, 0.1)), {"lean": 0.05}),
+    # the design position is a dead point: at first order, the rocker turns as the crank does
+    "the ground link is parallel and longer": (PINS, {"way": 0.35}),
+    "two of the links are the same": ((PINS[0], PINS[0], PINS[1]), {"lean": 0.05}),
+}
+
+
+@pytest.mark.parametrize("allow_iteration", [False, True])
+@pytest.mark.parametrize("case", LOCKED)
+def test_links_of_bodies_that_another_loop_turns_are_refused(case, allow_iteration) -> None:
+    """Crank and rocker turn against each other, as the frame has it, and the links forbid that."""
+    pins, more = LOCKED[case]
+    model = replace(double_crank("locked", pins, **more), allow_iteration=allow_iteration)
+    with pytest.raises(NoClosedFormError) as error:
+        Plan.of(model)
+    left = [f"link{i}" for i in range(2 if "same" in case else 1, len(pins))]
+    text = str(error.value)
+    assert f"Leave {', '.join(left)} out" in text
+    assert "the way between the hinges of frame on them that of link0" in text
+    assert "without turning" in text
+
+
+def test_in_whatever_order_links_are_declared_they_are_refused() -> None:
+    for pins in permutations(PINS):
+        model = double_crank("locked", pins, lean=0.05)
+        joints = model.mechanism.joints
+        for order in (joints, joints[::-1]):
+            turned = replace(model, mechanism=replace(model.mechanism, joints=order))
+            with pytest.raises(NoClosedFormError, match=r"Leave link\d, link\d out"):
+                Plan.of(turned)
+
+
+@pytest.mark.parametrize("also", ["crank_0", "axle_1", "crank_1", "axle_2", "crank_2"])
+def test_what_the_links_determine_cannot_be_driven_too(also: str) -> None:
+    model = locomotive("driven_twice")
+    driven = tuple(map(model.mechanism.joint, ("swing", "axle_0", also)))
+    with pytest.raises(NoClosedFormError) as error:
+        Plan.of(replace(model, independent=driven))
+    if also == "crank_0":
+        assert "or drive one of the hinges of wheel0 only" in str(error.value)
+
+
+@pytest.mark.parametrize("driven", ["crank_bearing", "rocker_bearing"])
+def test_a_frame_that_is_one_more_parallel_link_moves_with_them(driven, tmp_path) -> None:
+    """Behind the dead points, too, where a four-bar of one link would leave the parallelogram."""
+    model = double_crank(f"by_{driven}", driven=("swing", driven))
+    plan = Plan.of(model)
+    assert plan.topology.mobility == 2
+    assert [type(t.step) for t in plan.transformers] == [ParallelLinks] * 3
+    check_with_the_oracle(model, tmp_path, pi)
+
+
+def test_a_frame_that_is_no_longer_parallel_is_refused_by_its_name() -> None:
+    model = own(double_crank("double_crank"), arrays=True, derivatives=False)
+    with pytest.raises(ParameterError, match="link0 and frame hold rocker on crank"):
+        kintrafo.System(model, {"d_x": 0.5})
+
+
+def test_links_on_the_same_pins_turn_with_the_first(tmp_path) -> None:
+    check_with_the_oracle(double_crank("same", PINS[:1] * 3, lean=0.05), tmp_path, 0.5)
+
+
+def test_links_whose_pins_are_no_longer_the_same_are_refused() -> None:
+    model = own(double_crank("same", PINS[:1] * 3, lean=0.05), arrays=True, derivatives=False)
+    moved = {
+        f"{pin}_1_{x}": kintrafo.System(model).parameters[f"{pin}_0_{x}"] + 0.01
+        for pin in "bc"
+        for x in "xyz"
+    }  # parallel and equally long all the same
+    with pytest.raises(ParameterError, match=r"pins are not the same.*leave link1 out"):
+        kintrafo.System(model, moved)
+
+
+def test_a_table_that_guides_keep_from_turning_has_links(tmp_path) -> None:
+    model = table_on_links("table")
+    assert ParallelLinks in [type(t.step) for t in Plan.of(model).transformers]
+    check_with_the_oracle(model, tmp_path, 0.02)

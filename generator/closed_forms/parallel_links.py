@@ -3,20 +3,23 @@
 The body that they carry does not turn as the other one sees it, and each link turns as the first
 one does: ``x(B) = x(pin of the first link)`` with the axes of A, and nothing is to be solved. There
 is one equation more than it takes, which is fulfilled if the links are parallel and equally long:
-`prepare` sees to that. Branch: the parallelogram, also behind the position in which all pins lie on
-a line. Singular set: none.
+`prepare` sees to that. A body that something else has placed must not turn either, for this; or
+else a link follows one that has the same pins. Branch: the parallelogram, also behind the position
+in which all pins lie on a line. Singular set: none.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
 from ..kinematics.motion import BodyMotion, to_axes
 from ..loops.forms import ClosedForm
-from ..loops.parallel import ends_of
+from ..loops.parallel import ends_of, is_along
+from ..loops.turned import turn_alike
 from ..program.conditions import Assumption
 from ..program.vectors import ZERO, Twist
 from .lines import once
@@ -47,15 +50,37 @@ class _Link:
         """The way from hinge to hinge at the design position."""
         return self.far.axis.through.position - self.near.axis.through.position
 
+    def waits(self, known: Known) -> bool:
+        """Tell whether nothing says yet how it turns."""
+        hinges = (self.near, self.far)
+        return self.name not in known.placed and all(map(known.unknowns_of, hinges))
+
+    def off(self, other: _Link) -> Iterator[Vector]:
+        """Yield how far the hinges of another link are from those of this one."""
+        for own, its in ((self.near, other.near), (self.far, other.far)):
+            yield its.axis.through.position - own.axis.through.position
+
+    def has_pins_of(self, other: _Link, known: Known) -> bool:
+        """Tell whether both have the same hinges at the default parameters."""
+        hinge, length = self.near, self.design
+        return all(is_along(known.mechanism, hinge, way, length) for way in self.off(other))
+
 
 @dataclass(frozen=True)
 class ParallelLinks(ClosedForm):
-    """Links of which one is placed carry a body: neither that nor the others turn by themselves."""
+    """Links of which one is placed carry a body: neither that nor the others turn by themselves.
+
+    Attributes
+    ----------
+    on_its_pins
+        Whether the body may turn, so that the link has to have the pins of the leader.
+    """
 
     base: str
     body: str
     leader: _Link
     link: _Link
+    on_its_pins: bool
 
     rank: ClassVar[int] = 0
     """Before any other, since these can do without the third link only."""
@@ -66,13 +91,20 @@ class ParallelLinks(ClosedForm):
         loop = {*cut.bodies, *cut.others}
         for pair, links in known.topology.parallel_links.items():
             base = next((body for body in sorted(pair) if body in known.placed), None)
-            leader = next((link for link in links if link in known.placed), None)
-            waiting = [link for link in links if link in loop and link not in known.placed]
-            if loop == {*pair, *loop.intersection(links)} and base and leader and waiting:
-                (body,) = pair - {base}
-                ends = [ends_of(known.mechanism, link) for link in (leader, waiting[0])]
-                lines = zip((leader, waiting[0]), ends, strict=True)
-                return cls(base, body, *(_Link(n, e[base], e[body]) for n, e in lines if e))
+            if loop != {*pair, *loop.intersection(links)} or base is None:
+                continue
+            (body,) = pair - {base}
+            lines = [
+                _Link(link, ends[base], ends[body])
+                for link in links
+                if (ends := ends_of(known.mechanism, link, pair))
+            ]
+            turns = body in known.placed and not turn_alike(known, base, body)
+            leaders = [line for line in lines if line.name in known.placed]
+            waiting = [x for x in lines if x.name in loop and x.waits(known)]
+            for leader, link in product(leaders, waiting):
+                if not turns or link.has_pins_of(leader, known):
+                    return cls(base, body, leader, link, turns)
         return None
 
     @property
@@ -88,6 +120,11 @@ class ParallelLinks(ClosedForm):
     def words(self, closing: Closing | None) -> tuple[str, str]:
         """Return closure equation and solution."""
         del closing
+        if self.on_its_pins:
+            return (
+                f"pins of {self.link.name} = pins of {self.leader.name}",
+                f"{self.link.name} turns with {self.leader.name}",
+            )
         return (
             f"{self.link.name} = {self.leader.name}, as vectors",
             f"{self.body} turns with {self.base}, {self.link.name} with {self.leader.name}",
@@ -97,18 +134,34 @@ class ParallelLinks(ClosedForm):
         """Record body and link, with the hinges of both."""
         known.place(self.body)
         known.place(self.link.name)
+        known.alike.add(frozenset((self.leader.name, self.link.name)))
+        if not self.on_its_pins:
+            known.alike.add(frozenset((self.base, self.body)))
         return known.add_all([self.leader.near, self.leader.far, self.link.near, self.link.far])
 
     def assumptions(self) -> Iterator[Assumption]:
         """Yield what makes the links equal."""
         n, leader = self.leader.near.axis.vector, self.leader.design
-        off = n.cross(self.link.design - leader)
+        size = sp.sqrt(leader.dot(leader))
+        between = f"{self.link.name} and {self.leader.name} hold {self.body} on {self.base}"
+        if self.on_its_pins:
+            for end, off in zip(("near", "far"), self.leader.off(self.link), strict=True):
+                yield Assumption(
+                    f"{self.link.name}_{end}_pin_off",
+                    _across(n, off),
+                    size,
+                    "m",
+                    f"{between}, which turn against each other, and their pins are not the same, "
+                    "so that nothing moves",
+                    f"give both the same pins, or leave {self.link.name} out",
+                )
+            return
         yield Assumption(
             f"{self.link.name}_not_parallel",
-            sp.sqrt(off.dot(off) / n.dot(n)),
-            sp.sqrt(leader.dot(leader)),
+            _across(n, self.link.design - leader),
+            size,
             "m",
-            f"{self.link.name} and {self.leader.name} hold {self.body} on {self.base} with another "
+            f"{between} with another "
             "link, and they are not parallel and equally long, so that nothing moves",
             "make the way from hinge to hinge the same in all of them",
         )
@@ -118,6 +171,12 @@ class ParallelLinks(ClosedForm):
         if self.body not in kin.placed:
             _carry(kin, self.body, self.base, self.leader.name, self.leader.far.axis.through)
         _carry(kin, self.link.name, self.leader.name, self.base, self.link.near.axis.through)
+
+
+def _across(n: Vector, way: Vector) -> sp.Expr:
+    """Return how long a way is across a direction."""
+    off = n.cross(way)
+    return sp.sqrt(off.dot(off) / n.dot(n))
 
 
 def _carry(kin: Kinematics, body: str, like: str, on: str, point: Point) -> None:

@@ -33,6 +33,8 @@ class Known:
         What made all this known, in order.
     guided
         By the name of a joint, the step that alone may place a body by it.
+    alike
+        Pairs of bodies that do not turn against each other, since parallel links see to it.
     """
 
     mechanism: Mechanism
@@ -42,6 +44,7 @@ class Known:
     coordinates: set[Coordinate] = field(default_factory=set)
     steps: list[Step] = field(default_factory=list)
     guided: dict[str, Step] = field(default_factory=dict)
+    alike: set[frozenset[str]] = field(default_factory=set)
 
     @property
     def bodies(self) -> set[str]:

@@ -2,21 +2,30 @@
 
 Three links with a hinge at either end, in one plane and between the same two bodies, lock these
 unless all of them are parallel and equally long. Then one body moves along the other without
-turning, however many such links there are.
+turning, however many such links there are. Any other body with a hinge on both, such as the frame
+with the bearings of two cranks, is one more link; where it is not parallel, it locks them.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from ..declare.evaluation import AtDefaults
 from ..declare.joints import Revolute
+from ..program.floors import ROUNDING
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence
 
     from ..declare.mechanism import Mechanism
+    from ..program.vectors import Vector
 
 ENOUGH = 2  # to hold two bodies together in a plane
+
+_Ends = dict[str, Revolute]
+"""Two hinges of a link, by the bodies at their other side."""
 
 
 def families(
@@ -31,22 +40,53 @@ def families(
     """
     found: dict[frozenset[str], list[str]] = {}
     for body in mechanism.moving:
-        ends = ends_of(mechanism, body.name)
-        if ends is not None:
-            found.setdefault(frozenset(ends), []).append(body.name)
-    return {
-        pair: tuple(links)
+        joints = mechanism.joints_of(body.name)
+        ends = frozenset(joint.other(body.name) for joint in joints)
+        if len(joints) == ENOUGH and ends_of(mechanism, body.name, ends):
+            found.setdefault(ends, []).append(body.name)
+    held = {
+        pair: (*links, *_frames(mechanism, pair, links))
         for pair, links in found.items()
         if len(links) > ENOUGH
-        and all(in_a_plane(_loop(pair, links[0], link)) for link in links[1:])
+    }
+    return {
+        pair: links
+        for pair, links in held.items()
+        if all(in_a_plane(_loop(pair, links[0], link)) for link in links[1:])
     }
 
 
-def ends_of(mechanism: Mechanism, link: str) -> dict[str, Revolute] | None:
-    """Return the hinges of a link by the bodies at their other side; None: it is no such link."""
-    joints = mechanism.joints_of(link)
-    hinges = {joint.other(link): joint for joint in joints if isinstance(joint, Revolute)}
-    return hinges if len(joints) == len(hinges) == ENOUGH else None
+def ends_of(mechanism: Mechanism, link: str, pair: Collection[str]) -> _Ends | None:
+    """Return the hinges of a body on two others, by these; None: it has not one on either."""
+    joints = [(joint.other(link), joint) for joint in mechanism.joints_of(link)]
+    hinges = {o: joint for o, joint in joints if o in pair and isinstance(joint, Revolute)}
+    return hinges if len(hinges) == ENOUGH else None
+
+
+def is_along(mechanism: Mechanism, hinge: Revolute, off: Vector, length: Vector) -> bool:
+    """Tell whether a way is along a hinge by default, but for rounding of another."""
+    value = AtDefaults(mechanism)
+    n, off_at, beside = (np.array([value(c) for c in v]) for v in (hinge.axis.vector, off, length))
+    least = float(ROUNDING) * np.linalg.norm(n) * np.linalg.norm(beside)
+    return bool(np.linalg.norm(np.cross(n, off_at)) <= least)  # not so if one is NaN
+
+
+def _frames(mechanism: Mechanism, pair: Collection[str], links: Sequence[str]) -> list[str]:
+    """Return what else is hinged to two bodies as far apart as their links, by default."""
+    one, other = sorted(pair)
+    found = {b.name: ends_of(mechanism, b.name, pair) for b in mechanism.bodies}
+    ways = {b: _way(ends[one], ends[other]) for b, ends in found.items() if ends}
+    hinges, model = found[links[0]], ways.pop(links[0])
+    assert hinges
+    return [
+        body
+        for body, way in ways.items()
+        if body not in links and is_along(mechanism, hinges[one], way - model, model)
+    ]
+
+
+def _way(start: Revolute, end: Revolute) -> Vector:
+    return end.axis.through.position - start.axis.through.position
 
 
 def _loop(pair: Collection[str], first: str, second: str) -> tuple[str, ...]:

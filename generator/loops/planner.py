@@ -24,6 +24,7 @@ from .graph import Cycle, MinimalBasis, Topology
 from .known import Known, coordinates_of
 from .redundant import redundant
 from .tilted import tilted
+from .turned import held_apart
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -242,14 +243,15 @@ class Plan:
         """
         cycles = [cycle for cycle, _ in waiting]
         crossed = [c for c in cycles if between_crosses(self._mechanism, c)]
-        forms = () if crossed else self.catalogue.iterations
+        apart = held_apart(self._known, self._driven)
+        forms = () if crossed or apart else self.catalogue.iterations
         tried = (f.attempt(self._known, self._driven, cycles) for f in forms)
         attempt = next((a for a in tried if a), None)
         if attempt is None or attempt.obstacle or not self.formulation.allow_iteration:
             cycle = (attempt.cycles if attempt else crossed or cycles)[0]
             message = self._refusal(cycle, pair_candidates(self._known, cycle))
             hint = "" if attempt else self._about_crosses(cycle)
-            hint = hint or tilted(self._mechanism) or aimed(self._mechanism)
+            hint = hint or apart or tilted(self._mechanism) or aimed(self._mechanism)
             if hint:
                 message += f" {hint}."
             elif attempt is None or attempt.obstacle:

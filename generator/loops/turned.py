@@ -1,0 +1,69 @@
+"""Bodies that parallel links keep from turning against each other, while others turn them.
+
+With three parallel and equally long links between two bodies there is one equation more than it
+takes. It is fulfilled where the links themselves place a body, and where guides keep both from
+turning. A loop that turns one of them against the other locks the mechanism, and is refused.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import networkx as nx
+
+from ..declare.joints import Prismatic, Weld
+from .parallel import ends_of
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Sequence
+
+    from .known import Known
+
+
+def turn_alike(known: Known, one: str, other: str) -> bool:
+    """Tell whether two bodies do not turn against each other: guides or parallel links see to it.
+
+    Not asked is whether they do so by their dimensions, as in a parallelogram of four hinges.
+    """
+    graph = nx.Graph([tuple(pair) for pair in known.alike])
+    graph.add_nodes_from((one, other))
+    rigid = (j for j in known.mechanism.joints if isinstance(j, Prismatic | Weld))
+    graph.add_edges_from(joint.bodies for joint in rigid)
+    return bool(nx.has_path(graph, one, other))
+
+
+def held_apart(known: Known, driven: Collection[str]) -> str:
+    """Return a sentence on parallel links of bodies that others turn; empty: there are none.
+
+    Parameters
+    ----------
+    driven
+        Names of the joints that are independent or prescribed.
+    """
+    for pair, links in known.topology.parallel_links.items():
+        waiting = [link for link in links if link not in known.placed]
+        if not waiting or len(waiting) == len(links) or not pair <= known.placed:
+            continue
+        one, other = (body.name for body in known.mechanism.bodies if body.name in pair)
+        if turn_alike(known, one, other):
+            continue
+        names = ", ".join(waiting)
+        return (
+            f"The links {', '.join(links)} let {other} move on {one} only without turning, if they "
+            f"are parallel and equally long; but what is solved without {names} may turn it, and "
+            f"then nothing moves. Leave {names} out{_or_else(known, pair, links, driven)}"
+        )
+    return ""
+
+
+def _or_else(
+    known: Known, pair: Collection[str], links: Sequence[str], driven: Collection[str]
+) -> str:
+    """Return what else can be done about bodies that do more than their parallel links let them."""
+    ends = {b.name: ends_of(known.mechanism, b.name, pair) for b in known.mechanism.bodies}
+    for body, hinges in ends.items():
+        if hinges and body not in links:
+            return f", or make the way between the hinges of {body} on them that of {links[0]}"
+        if hinges and all(hinge.name in driven for hinge in hinges.values()):
+            return f", or drive one of the hinges of {body} only"
+    return ""
