@@ -7,7 +7,7 @@ error of either shows, as does one of B, which does no work of its own.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -153,9 +153,13 @@ class Bench:
         """Return events for the stops, the spring's knots, the tyre's load and its clearance."""
         given = self.given
 
+        @lru_cache(maxsize=2)
+        def signals(time: float, state: bytes) -> dict[str, float]:
+            found = MODEL.signals(np.frombuffer(state)[:4], self.inputs(time), self.constants)
+            return dict(zip(MODEL.SIGNALS, found.tolist(), strict=True))
+
         def signal(name: str, time: float, state: Array) -> float:
-            found = MODEL.signals(state[:4], self.inputs(time), self.constants)
-            return float(found[list(MODEL.SIGNALS).index(name)])
+            return signals(time, state.tobytes())[name]  # all events ask at one state
 
         def deflection(time: float, state: Array) -> float:
             road = self.inputs(time)[self.names.index("road_height")]

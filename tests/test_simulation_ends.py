@@ -71,7 +71,7 @@ def test_a_dense_result_ends_where_the_motion_does(method, end):
     assert sol([]).shape == (TURNING.size, 0)
     assert np.isfinite(sol([0.0, end, np.nextafter(end, 10 * end)])).all()
     for beyond in (-0.01 * end, 1.01 * end, [0.0, 1e9], np.nan):
-        with pytest.raises(InputError, match=r"from -?0.*s to|numbers"):
+        with pytest.raises(InputError, match=r"from -?0.*s to|numbers|a finite number is needed"):
             sol(beyond)
 
 
@@ -80,7 +80,7 @@ def test_of_a_motion_that_ends_early_only_that_is_known():
         simulate(CRANK, (0.0, 1.0), TURNING, dense_output=True, max_steps=20)
     sol, reached = caught.value.partial.sol, caught.value.time
     assert sol.t_max == reached
-    with pytest.raises(InputError, match=f"known from 0 s to {reached:.9g} s"):
+    with pytest.raises(InputError, match=f"known from 0 s to {reached:.9g}"):
         sol(1.0)
 
 
