@@ -5,6 +5,7 @@ how fast they approach, in m/s, positive in bump.
 """
 
 from collections.abc import Callable
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -55,11 +56,19 @@ def spring_energy(parameters: Parameters, length: float) -> float:
 
 def _curve(parameters: Parameters, name: str, sense: float) -> Callable[[float], float]:
     """Return force over what presses; a table has its knots with a sign."""
-    table = {
-        what.removeprefix(f"{name}_"): value
-        for what, value in parameters.items()
-        if what.startswith(f"{name}_")
-    }
+    return _curve_of(tuple(parameters[f"{name}_{key}"] for key in _KEYS), sense)
+
+
+_KEYS = (
+    *("first_force", "first_slope", "last_slope"),
+    *(f"knot_{i}" for i in range(DAMPER_SEGMENTS + 1)),
+    *(f"{p}_{i}" for p in ("linear", "quadratic", "cubic") for i in range(DAMPER_SEGMENTS)),
+)
+
+
+@lru_cache(maxsize=64)  # an integration asks for one curve again and again
+def _curve_of(values: tuple[float, ...], sense: float) -> Callable[[float], float]:
+    table = dict(zip(_KEYS, values, strict=True))
     knots = sense * np.array([table[f"knot_{i}"] for i in range(DAMPER_SEGMENTS + 1)])
     used = np.flatnonzero(np.diff(knots) > 0.0)
     first, force = table["first_slope"], table["first_force"]
