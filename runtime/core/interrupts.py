@@ -10,7 +10,7 @@ import sys
 import threading
 import time
 from _thread import interrupt_main
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from queue import Empty, SimpleQueue
 from types import FrameType
@@ -96,8 +96,11 @@ def held() -> Iterator[None]:
         yield  # signals are handled by the main thread
         return
     came: list[Any] = []
-    waiting: Callable[..., Any] = lambda *given: came.append(given)  # noqa: E731
-    signal.signal(signal.SIGINT, waiting)
+
+    def wait(*given: Any) -> None:
+        came.append(given)
+
+    signal.signal(signal.SIGINT, wait)
     try:
         yield
     finally:
