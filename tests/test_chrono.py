@@ -273,14 +273,14 @@ class TestKeys:
     def test_what_is_not_read_stands_with_its_value(self, tmp_path):
         data = content(WISHBONES) | {"Wishes": {"Many": [1, 2], "More": {"Deep": "x"}}}
         data["Tierod"] |= {"Mass": 6.0, "Inertia": [0.05, 0.05, 0.5]}
-        data["Spring"] |= {"Minimum Length": 0.4, "Maximum Length": 0.6}
+        data["Shock"] |= {"Minimum Length": 0.4, "Maximum Length": 0.6, "Preload": 3.0}
         data["Lower Control Arm"]["Bushing Data"] = {"Stiffness Linear": 7e7}
         left_out = chrono.read(written(tmp_path, data)).left_out
         for words in (
             "Wishes: Many = [1, 2]",
             'Wishes > More: Deep = "x"',
             "Tierod: Mass = 6.0, Inertia = [0.05, 0.05, 0.5]",
-            "Spring: Minimum Length = 0.4, Maximum Length = 0.6",
+            "Shock: Minimum Length = 0.4, Maximum Length = 0.6, Preload = 3.0",
             "Lower Control Arm > Bushing Data: Stiffness Linear = 70000000.0",
         ):
             assert words in left_out
@@ -333,6 +333,16 @@ class TestKeys:
                 "Shock",
                 {"Spring Coefficient": 5.0},
                 '"Shock > Spring Coefficient" is a second spring',
+            ),
+            (
+                "Shock",
+                {"Spring Coefficient": 0.0, "Preload": 5.0},
+                '"Shock > Preload" is a second spring',
+            ),
+            (
+                "Shock",
+                {"Spring Coefficient": 0.0, "Minimum Length": 0.2, "Maximum Length": 0.6},
+                '"Shock > Minimum Length" is a second spring',
             ),
             ("Spring", {"Damping Coefficient": 5.0}, "is a second damper, beside that of"),
             ("Spring", {"Spring Curve Data": [[0, 0], [1, 1]]}, "both give its force"),
@@ -427,6 +437,90 @@ class TestCurves:
         for speed in (-1.5, -0.2, 0.1, 1.0):
             ours = np.interp(-speed, found.damper.velocity_m_per_s, found.damper.force_N)
             assert ours == pytest.approx(-np.interp(speed, *np.transpose(curve)), rel=1e-12)
+
+
+# distance pressed in [m] and force [N]: the curve that enable_stops() of Chrono's SpringForce has
+STOP_CURVE = [
+    (0.0, 0.0), (2e-3, 200.0), (4e-3, 400.0), (6e-3, 600.0), (8e-3, 800.0), (1e-2, 1000.0),
+    (2e-2, 2500.0), (3e-2, 4500.0), (4e-2, 7500.0), (5e-2, 12500.0), (6e-2, 125000.0),
+]  # fmt: skip
+
+
+def chronos_force(spring, length):
+    """LinearSpringForce::evaluate() of Chrono."""
+    pressed = lambda x: np.interp(x, *np.transpose(STOP_CURVE))  # noqa: E731
+    force = spring.get("Preload", 0.0)
+    force -= spring["Spring Coefficient"] * (length - spring["Free Length"])
+    if "Minimum Length" in spring and "Maximum Length" in spring:
+        force += pressed(max(0.0, spring["Minimum Length"] - length))
+        force -= pressed(max(0.0, length - spring["Maximum Length"]))
+    return force
+
+
+class TestStops:
+    @pytest.mark.parametrize("path", [STRUT, WISHBONES])
+    @pytest.mark.parametrize(
+        "inside", [(-0.03, 0.02), (-0.005, 0.004), (-0.01, 0.001), (0.01, 0.03)]
+    )
+    def test_spring_and_stops_have_chronos_force_at_every_length(self, tmp_path, path, inside):
+        """Inside, at and beyond the stops; some springs are pressed into a stop at design."""
+        data = content(path)
+        spring = data["Spring"]
+        at_design = math.dist(*(spring[k] for k in spring if k.startswith("Location")))
+        shortest, longest = (at_design + away for away in inside)
+        spring |= {"Minimum Length": shortest, "Maximum Length": longest, "Preload": 150.0}
+        found, told, left_out = chrono.read(written(tmp_path, data), tire=TIRE)
+        assert any(text.startswith("spring: touches its stops at lengths of ") for text in told)
+        assert not any("Length" in line for line in left_out)
+        model = Model(found)
+        touched = [x - at_design for x in (shortest, longest)]
+        assert found.bump_stop.clearance_mm == pytest.approx(-1e3 * touched[0], abs=1e-8)
+        assert found.rebound_stop.clearance_mm == pytest.approx(1e3 * touched[1], abs=1e-8)
+        curves = sweep.positions(model, np.linspace(-0.08, 0.08, 33))
+        lengths = curves["spring_length"].values
+        assert lengths.min() < shortest - 0.01
+        assert lengths.max() > longest + 0.01
+        for angle, length in zip(curves["arm_angle"].values, lengths, strict=True):
+            if not shortest - 0.06 <= length <= longest + 0.05:
+                continue
+            state = model.state(**{model.names.arm: angle})
+            ours = sum(float(model.signal(f"{part}_force", state))
+                       for part in ("spring", "bump_stop", "rebound_stop"))  # fmt: skip
+            # lengths to 1e-12 m of some 0.5 m, by as much as 1.2e7 N/m
+            assert ours == pytest.approx(chronos_force(spring, length), rel=1e-9, abs=1e-4)
+
+    @pytest.mark.parametrize("path", [STRUT, WISHBONES])
+    @pytest.mark.parametrize("key", ["Minimum Length", "Maximum Length"])
+    def test_one_alone_has_no_effect_as_in_chrono(self, tmp_path, path, key):
+        before = chrono.read(path)
+        data = content(path)
+        data["Spring"][key] = 0.25
+        found = chrono.read(written(tmp_path, data))
+        assert found.suspension == before.suspension
+        assert f"Spring: {key} = 0.25" in found.left_out
+
+    @pytest.mark.parametrize("path", [STRUT, WISHBONES])
+    @pytest.mark.parametrize(
+        ("changes", "words"),
+        [
+            ({"Minimum Length": 0.5, "Maximum Length": 0.4}, "are no stops"),
+            ({"Minimum Length": 0.05, "Maximum Length": 0.4}, "are no stops"),
+            ({"Minimum Length": 0.2, "Maximum Length": 0.4, "Spring Coefficient": None,
+              "Spring Curve Data": SPRING_CURVE}, 'no place beside "Spring Curve Data"'),
+            ({"Minimum Length": 0.2, "Maximum Length": 0.4, "Spring Coefficient": None,
+              "Curve Data": SPRING_CURVE}, 'no place beside "Curve Data"'),
+            ({"Minimal Length": 0.2}, 'Is it "Minimum Length"?'),
+        ],
+    )  # fmt: skip
+    def test_what_cannot_be_read_is_refused_but_for_the_points(
+        self, tmp_path, path, changes, words
+    ):
+        data = content(path)
+        spring = data["Spring"] | changes
+        data["Spring"] = {key: value for key, value in spring.items() if value is not None}
+        with pytest.raises(InputError, match=re.escape(words)):
+            chrono.read(written(tmp_path, data))
+        assert chrono.read(written(tmp_path, data), points_only=True).suspension
 
 
 class TestNoBody:

@@ -6,7 +6,7 @@ files leave open is assumed, and each assumption is told; what is not read of th
 
 `json_file`                       JSON with comments
 `keys`                            keys that are read, those that are not, slips of the hand
-`parts`, `forces`                 bodies, springs and dampers of the templates
+`parts`, `forces`, `stops`        bodies, springs, dampers and stops of the templates
 `suspension_file`                 what all templates have
 `macpherson`, `double_wishbone`   the templates
 `tires`                           tires

@@ -1,5 +1,6 @@
 """The template DoubleWishbone."""
 
+import math
 from collections.abc import Mapping
 from typing import Any, ClassVar, Literal
 
@@ -68,6 +69,8 @@ class DoubleWishbone(SuspensionFile, WishbonePoints):
         "[bodies.lower_arm]": "Lower Control Arm",
         "[bodies.upper_arm]": "Upper Control Arm",
         "[spring]": "Spring",
+        "[bump_stop]": "Spring > Minimum Length",
+        "[rebound_stop]": "Spring > Maximum Length",
         "[damper]": "Shock",
     }
 
@@ -96,12 +99,15 @@ class DoubleWishbone(SuspensionFile, WishbonePoints):
         return told
 
     def forces(self) -> dict[str, Any]:
-        """Return spring and damper."""
-        return {"spring": spring_law(self.spring).section(), "damper": self._damper().section()}
+        """Return spring, damper and stops."""
+        stops, at_design = self.spring.stops(), math.dist(self.spring.chassis, self.spring.arm)
+        own = {"spring": spring_law(self.spring).section(), "damper": self._damper().section()}
+        return own | (stops.sections(at_design) if stops else {})
 
     def left_open(self) -> list[str]:
         """Say where the damper stands, and what curves are like."""
-        of_curves = words_of_curves(spring_law(self.spring), self._damper())
+        laws = spring_law(self.spring), self._damper()
+        of_curves = words_of_curves(self.spring.stops(), *laws)
         if not self._is_apart():
             return of_curves
         ratio = self._ratio()

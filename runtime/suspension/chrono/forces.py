@@ -1,7 +1,8 @@
 """Springs and dampers of Project Chrono's templates, and what becomes of them.
 
 Chrono's force pushes the ends apart. With x, the length above the free length, and v, its rate, it
-is ``preload - spring(x) - damper(v)``; each of both is a coefficient or a curve.
+is ``preload - spring(x) - damper(v)``; each of both is a coefficient or a curve. A spring may have
+stops.
 """
 
 from typing import Annotated, Any, ClassVar, NamedTuple
@@ -9,8 +10,9 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 from pydantic import Field
 
 from ..fitting import fewer
-from .keys import Part
+from .keys import Part, Unread
 from .parts import POINTS_ONLY, Finite, Point, millimetres
+from .stops import LONGEST, Stops
 
 Curve = tuple[tuple[float, float], ...]
 _Points = Annotated[tuple[tuple[Finite, Finite], ...], Field(min_length=2)]
@@ -19,13 +21,12 @@ _LAWS = {
     ("Map Data", "Deformation"): "a force over length and speed together",
     ("Degressivity Compression", "Degressivity Expansion"): "a degressive damper",
 }
-_STOPS = frozenset({"Minimum Length", "Maximum Length"})
+_DIGITS = 12  # of a difference of lengths, after the decimal point, in m
+_STOPS = ("Minimum Length", "Maximum Length")
 
 
 class Element(Part):
     """A spring, a damper or both, from the chassis to `end`."""
-
-    UNREAD: ClassVar[frozenset[str]] = _STOPS
 
     NAME: ClassVar[str]
     """What the file calls it."""
@@ -40,6 +41,9 @@ class Element(Part):
     deformation: Any = Field(default=None, alias="Deformation")
     in_bump: Finite | None = Field(default=None, alias="Degressivity Compression")
     in_rebound: Finite | None = Field(default=None, alias="Degressivity Expansion")
+    preload: Finite = Field(default=0.0, alias="Preload")
+    shortest: Finite | None = Field(default=None, alias="Minimum Length")
+    longest: Finite | None = Field(default=None, alias="Maximum Length")
 
     def given(self, *keys: str) -> list[str]:
         """Return those of some keys that the file has."""
@@ -53,6 +57,19 @@ class Element(Part):
     def dampers(self) -> list[str]:
         """Return the keys of its damper."""
         return self.given("Damping Coefficient", "Damping Curve Data")
+
+    def stops(self) -> Stops | None:
+        """Return its stops; Chrono has them where a spring has both lengths."""
+        if self.shortest is None or self.longest is None or not self.springs():
+            return None
+        return Stops(self.shortest, self.longest)
+
+    def without_effect(self) -> list[Unread]:
+        """Return the keys that Chrono does not use here, with their values."""
+        keys = [] if self.stops() else self.given(*_STOPS)
+        keys += [] if self.springs() else self.given("Preload")
+        fields = {field.alias: name for name, field in type(self).model_fields.items()}
+        return [((self.NAME, key), getattr(self, fields[key])) for key in keys]
 
     def problems(self) -> list[str]:
         """Say which of its laws there is no place for, and which exclude each other."""
@@ -75,7 +92,6 @@ class Spring(Element):
     NAME: ClassVar[str] = "Spring"
 
     free_length: Finite | None = Field(default=None, alias="Free Length")
-    preload: Finite = Field(default=0.0, alias="Preload")
 
     def springs(self) -> list[str]:
         """Return the keys of its spring; the last one is of older templates."""
@@ -85,7 +101,7 @@ class Spring(Element):
 class Shock(Element):
     """The damper."""
 
-    UNREAD: ClassVar[frozenset[str]] = _STOPS | {"Free Length", "Preload"}
+    UNREAD: ClassVar[frozenset[str]] = frozenset({"Free Length"})
     NAME: ClassVar[str] = "Shock"
 
     def dampers(self) -> list[str]:
@@ -94,16 +110,17 @@ class Shock(Element):
 
 
 class SpringLaw(NamedTuple):
-    """A spring: by its rate, or by its curve.
+    """A spring: by its rate, or by its curve, which has the stiffer parts of its stops, too.
 
     Attributes
     ----------
     rate : float
-        In N/m.
+        In N/m; where a spring by a rate has a curve, that between its stops.
     free_length : float
         Of no force, or of no compression of a curve [m].
     curve : tuple of (float, float)
-        Compressions [m], rising, and forces that push the ends apart [N]; empty with a rate.
+        Compressions [m], rising, and forces that push the ends apart [N]; empty with a rate
+        alone.
     lost : tuple of (float, float)
         Points of the curve that there are too many of.
     """
@@ -166,9 +183,13 @@ def problems_of(spring: Spring, shock: Shock) -> list[str]:
             f'"Spring > Preload" = {spring.preload:g} N without a rate is a constant force, which '
             "has no place here. Remove it, or enter a rate."
         )
-    if shock.rate or shock.curve:
+    told += _problems_of_stops(spring)
+    second = shock.springs() if shock.rate or shock.curve else []
+    if shock.springs() and not second:  # without a rate, Chrono still has what else it has
+        second = [*(["Preload"] if shock.preload else []), *(_STOPS if shock.stops() else ())]
+    if second:
         told.append(
-            f'"Shock > {shock.springs()[0]}" is a second spring, which has no place here. Remove '
+            f'"Shock > {second[0]}" is a second spring, which has no place here. Remove '
             'it, as older versions of Chrono did not use it, or add it to the spring of "Spring".'
         )
     if spring.damping or spring.damping_curve:
@@ -182,6 +203,26 @@ def problems_of(spring: Spring, shock: Shock) -> list[str]:
     return told
 
 
+def _problems_of_stops(spring: Spring) -> list[str]:
+    """Say why the stops of a spring have no place in this project's suspensions."""
+    stops = spring.stops()
+    if stops is None:
+        return []
+    given = f'"Spring > Minimum Length" = {stops.shortest} m and "Maximum Length" = {stops.longest}'
+    problem = ""
+    if not LONGEST < stops.shortest < stops.longest:
+        problem = (
+            f"{given} m are no stops: the first must be more than {LONGEST:g} m, by which a stop "
+            f"of Chrono can be pressed in, and less than the other. Correct them, or {POINTS_ONLY}."
+        )
+    elif spring.rate is None:
+        problem = (
+            f'{given} m are stops whose curves have no place beside "{spring.springs()[0]}". '
+            f"Remove them and add their forces to that curve, or {POINTS_ONLY}."
+        )
+    return [problem] if problem else []
+
+
 def spring_law(spring: Spring) -> SpringLaw:
     """Return the spring of a file without `problems_of`, with its preload.
 
@@ -190,7 +231,11 @@ def spring_law(spring: Spring) -> SpringLaw:
     free, points = spring.free_length or 0.0, spring.curve or spring.old_curve
     if points is None:
         rate = spring.rate or 0.0
-        return SpringLaw(rate, free + spring.preload / rate if spring.preload else free)
+        free += spring.preload / rate if spring.preload else 0.0
+        stops = spring.stops()
+        lengths = stops.stiffer() if stops else ()
+        stiffer = [(round(free - at, _DIGITS), more) for at, more in lengths]
+        return SpringLaw(rate, free, tuple((x, rate * x + more) for x, more in stiffer))
     curve = sorted((-longer + 0.0, spring.preload - force) for longer, force in points)
     kept = fewer(curve)
     return SpringLaw(0.0, free, kept, tuple(point for point in curve[: -len(kept)]))
@@ -207,10 +252,11 @@ def damper_law(spring: Spring, shock: Shock) -> DamperLaw:
     return DamperLaw(of.damping or 0.0, tuple(curve))
 
 
-def words_of_curves(spring: SpringLaw, damper: DamperLaw) -> list[str]:
+def words_of_curves(stops: Stops | None, spring: SpringLaw, damper: DamperLaw) -> list[str]:
     """Return how curves go on at their ends, and which points of a spring are left out."""
-    told = []
-    named = [name for name, law in (("spring", spring), ("damper", damper)) if law.curve]
+    told = [stops.words()] if stops else []
+    curves = {"spring": spring.curve if stops is None else (), "damper": damper.curve}
+    named = [name for name, curve in curves.items() if curve]
     if named:
         told.append(
             f"{' and '.join(named)}: beyond its curve the force goes on straight, where that of "

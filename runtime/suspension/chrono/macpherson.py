@@ -1,5 +1,6 @@
 """The template MacPhersonStrut."""
 
+import math
 from collections.abc import Mapping
 from typing import Any, ClassVar, Literal
 
@@ -71,6 +72,8 @@ class MacPhersonStrut(SuspensionFile, StrutPoints):
         "[bodies.control_arm]": "Control Arm",
         "[strut] spring_": "Spring",
         "[spring]": "Spring",
+        "[bump_stop]": "Spring > Minimum Length",
+        "[rebound_stop]": "Spring > Maximum Length",
         "[strut] damper_": "Shock",
         "[damper]": "Shock",
     }
@@ -97,15 +100,17 @@ class MacPhersonStrut(SuspensionFile, StrutPoints):
         return told
 
     def forces(self) -> dict[str, Any]:
-        """Return the strut with its spring and damper."""
+        """Return the strut with its spring and damper, and the stops."""
         spring, damper = spring_law(self.spring), damper_law(self.spring, self.shock)
-        length = float(np.linalg.norm(np.subtract(self.spring.chassis, self.spring.upright)))
+        length = math.dist(self.spring.chassis, self.spring.upright)
+        stops = self.spring.stops()
         strut = {"length_max_mm": round(millimetres(length + _STROKE), 3)}
         if spring.curve:
             own = {"spring": spring.section()}
         else:
             own, of_strut = {}, spring.section()
             strut |= {f"spring_{key}": value for key, value in of_strut.items()}
+        own |= stops.sections(length) if stops else {}
         if damper.curve:
             return {"strut": strut, "damper": damper.section()} | own
         return {"strut": strut | {"damper_rate_N_s_per_m": damper.rate}} | own
@@ -113,7 +118,8 @@ class MacPhersonStrut(SuspensionFile, StrutPoints):
     def left_open(self) -> list[str]:
         """Say what stroke the strut has, and along which line the damper acts."""
         told = [f"strut: {1e3 * _STROKE:g} mm longer when fully extended than at design"]
-        told += words_of_curves(spring_law(self.spring), damper_law(self.spring, self.shock))
+        laws = spring_law(self.spring), damper_law(self.spring, self.shock)
+        told += words_of_curves(self.spring.stops(), *laws)
         ends = np.subtract(self.shock.chassis, self.spring.chassis)
         if self.shock.dampers() and np.linalg.norm(ends) > ON_THE_LINE:
             told.append(

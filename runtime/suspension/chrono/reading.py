@@ -1,7 +1,7 @@
 """A file of Project Chrono as a suspension."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -11,7 +11,7 @@ from ..fitting import ground
 from ..kinds import Suspension
 from .double_wishbone import DoubleWishbone, WishbonePoints
 from .json_file import content
-from .keys import checked, listed, others, shown
+from .keys import Unread, checked, listed, others, shown
 from .macpherson import MacPhersonStrut, StrutPoints
 from .points_only import with_points
 from .suspension_file import PointsFile, SuspensionFile
@@ -113,11 +113,15 @@ def _whole(
     except InputError as error:
         raise _by_its_keys(error, given.SOURCES, path) from None
     assumed = (*given.assumptions(wheel), *ground(suspension), *wheel.assumed)
-    return Imported(suspension, assumed, (*_left_out(type(given), data), *wheel.left_out))
+    left_out = (*_left_out(type(given), data, given.without_effect()), *wheel.left_out)
+    return Imported(suspension, assumed, left_out)
 
 
-def _left_out(model: type[PointsFile], data: dict[str, Any]) -> tuple[str, ...]:
-    return tuple(listed((place, value) for place, value, _ in others(model, data)))
+def _left_out(
+    model: type[PointsFile], data: dict[str, Any], without_effect: Sequence[Unread] = ()
+) -> tuple[str, ...]:
+    unread = [(place, value) for place, value, _ in others(model, data)]
+    return tuple(listed([*unread, *without_effect]))
 
 
 def _by_its_keys(error: InputError, sources: Mapping[str, str], path: str | Path) -> InputError:

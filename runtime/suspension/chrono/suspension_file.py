@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import Field
 
 from .forces import Shock, Spring, problems_of
-from .keys import Part
+from .keys import Part, Unread
 from .parts import Axle, Body, Centre, ControlArm, Ends, Finite, Point, Spindle, millimetres
 from .tires import TYRE_RATE, USUAL, Tire
 
@@ -99,6 +99,10 @@ class SuspensionFile(PointsFile):
     @abstractmethod
     def left_open(self) -> list[str]:
         """Return what the template leaves open, and what is otherwise here."""
+
+    def without_effect(self) -> list[Unread]:
+        """Return the keys that Chrono does not use beside the others, with their values."""
+        return [*self.spring.without_effect(), *self.shock.without_effect()]
 
     def problems(self) -> list[str]:
         """Say what in the file has no place in a suspension of this project."""

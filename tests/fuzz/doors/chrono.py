@@ -29,7 +29,14 @@ def _uncommented(name: str) -> dict[str, Any]:
     return found
 
 
-FILES = tuple(_uncommented(f"{name}.json") for name in ("MacPhersonStrut", "DoubleWishbone"))
+def _with_stops(data: dict[str, Any]) -> dict[str, Any]:
+    """Return a file whose spring has stops."""
+    spring = data["Spring"] | {"Minimum Length": 0.3, "Maximum Length": 0.55}
+    return data | {"Spring": spring}
+
+
+PLAIN = tuple(_uncommented(f"{name}.json") for name in ("MacPhersonStrut", "DoubleWishbone"))
+FILES = PLAIN + tuple(map(_with_stops, PLAIN))
 TIRE = _uncommented("RigidTire.json")
 SHORT = 150
 BUSH = {"Stiffness Linear": 7e7, "Damping Linear": 3.5e4, "DOF": {"Stiffness Linear": 0.5}}
