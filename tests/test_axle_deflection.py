@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 from kintrafo import Axle, InputError, Model, PositionError, Suspension, axles, loads
+from kintrafo.assembly.pair import Pair
 from kintrafo.core.arguments import Arguments
 from kintrafo.report import elastokinematics_chapter
 from kintrafo.study.axles.on_bushes import axle_on, softs_of
-from kintrafo.study.axles.pair import Pair
 from kintrafo.study.loads.elastic.bars import Bars, Foot
 from kintrafo.study.loads.elastic.places import Places
 from kintrafo.suspension.axle.bar import HalfBar

@@ -18,8 +18,8 @@ from kintrafo import (
     roads,
     simulate,
 )
+from kintrafo.assembly.pair import Pair
 from kintrafo.study.axles import ride
-from kintrafo.study.axles.pair import Pair
 from kintrafo.suspension.points import carried
 from kintrafo.suspension.positions import arm_angles, design_height
 from kintrafo.suspension.reach import at_rest

@@ -21,16 +21,16 @@ from kintrafo import (
     loads,
     rigid_axles,
 )
+from kintrafo.assembly import wheel
+from kintrafo.assembly.poses import Poses
 from kintrafo.core.arguments import Arguments
 from kintrafo.core.vectors import unit_vector
 from kintrafo.study.axles.on_bushes import softs_of
-from kintrafo.study.characteristics import wheel
 from kintrafo.study.loads.elastic.connections import Soft
 from kintrafo.study.loads.elastic.deflection import BY_NAME, unit_load
 from kintrafo.study.loads.elastic.equilibrium import Equilibrium, State
 from kintrafo.study.loads.elastic.held import at_height, on_bushes, soft_of, suspension_on
 from kintrafo.study.loads.elastic.places import Angles, Distances, Lengths, Places, Radii, Twists
-from kintrafo.study.loads.poses import Poses
 from kintrafo.suspension.input.curve import Curve
 from kintrafo.suspension.positions import design_height
 from kintrafo.suspension.reach import at_rest

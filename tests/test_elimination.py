@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from kintrafo import Model, Suspension, arm_angles
+from kintrafo.assembly.poses import Poses
 from kintrafo.core.elimination import eliminated
 from kintrafo.study.loads.balance import balanced, balanced_at_many, dense
-from kintrafo.study.loads.poses import Poses
 from kintrafo.study.loads.reactions import Equations
 from kintrafo.suspension.reach import at_rest
 

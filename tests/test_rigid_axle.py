@@ -23,8 +23,8 @@ from kintrafo import (
     rigid_axles,
     roads,
 )
+from kintrafo.assembly.beam import Beam
 from kintrafo.study.rigid import formulas
-from kintrafo.study.rigid.beam import Beam
 from kintrafo.study.rigid.catalogue import MEASURES
 from kintrafo.study.scenario import Scenario
 from scipy.interpolate import PchipInterpolator

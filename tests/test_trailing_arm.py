@@ -25,8 +25,9 @@ from kintrafo import (
     state_at_height,
     travel_range,
 )
+from kintrafo.assembly.usual import usual_rack
 from kintrafo.study.compare import compare
-from kintrafo.study.sweep import positions, usual_rack
+from kintrafo.study.sweep import positions
 from kintrafo.study.variation import sensitivity
 from kintrafo.suspension.positions import design_height
 from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)

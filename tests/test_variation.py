@@ -22,8 +22,8 @@ from kintrafo import (
     scenario,
     variation,
 )
+from kintrafo.assembly.from_model import gaps
 from kintrafo.core.quantities import display_of
-from kintrafo.study.characteristics.from_model import gaps
 from kintrafo.study.variation.curves import Curves, changed, model_of
 from kintrafo.study.variation.places import places_of
 from kintrafo.suspension.starter import packaged

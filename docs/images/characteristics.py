@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from kintrafo import Model, Suspension
+from kintrafo.assembly import wheel
+from kintrafo.assembly.from_model import corner
 from kintrafo.plots.figures import BLUE, GREEN, ORANGE, STYLE
-from kintrafo.study.characteristics import wheel
-from kintrafo.study.characteristics.from_model import corner
 from kintrafo.suspension.points import hardpoints
 from matplotlib import rc_context
 from matplotlib.axes import Axes

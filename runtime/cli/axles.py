@@ -16,9 +16,9 @@ from .outputs import Outputs
 if TYPE_CHECKING:
     from xarray import Dataset
 
+    from ..assembly.motions import Extent
     from ..simulation.result import Simulation
     from ..study.axles.checkup import AxleCheckup
-    from ..study.axles.motions import Extent
     from ..suspension.axle import Axle
 
 # Beside the tables at design: what changes over roll, over steering, and over one wheel's travel.

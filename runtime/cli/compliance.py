@@ -137,8 +137,8 @@ def _found(
     of: "Model | Axle | RigidAxle", bushes: Mapping[str, Any] | None, where: _Where
 ) -> "Dataset":
     """Return the compliance of what a file describes."""
+    from ..assembly.motions import Extent, travels
     from ..study import axles, loads, rigid, sweep
-    from ..study.axles.motions import Extent, travels
     from ..study.rigid.datasets import usual
     from ..suspension.axle import Axle
     from ..suspension.rigid import RigidAxle

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
     from xarray import Dataset
 
+    from ..assembly.motions import Extent
     from ..report import Chapter
-    from ..study.axles.motions import Extent
     from ..study.rigid.checkup import RigidAxleCheckup
     from ..study.variation.goals import Goal
     from ..suspension.rigid import RigidAxle

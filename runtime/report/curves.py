@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ..assembly.from_model import gaps
 from ..study import characteristics
 from ..study.characteristics.catalogue import AT_STOPS
-from ..study.characteristics.from_model import gaps
 from ..study.characteristics.groups import group_of
 from ..suspension.model import Model
 from ..suspension.positions import arm_angles, design_height

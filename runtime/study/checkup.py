@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..assembly import wheel
+from ..assembly.from_model import corner
 from ..core.arguments import Arguments
 from ..core.vectors import distance_from_line
 from ..suspension.facts import Extended
@@ -16,8 +18,6 @@ from ..suspension.plausibility import USUAL_HOP, plausibility
 from ..suspension.positions import PositionError, Range, design_height, equilibrium, travel_range
 from ..suspension.starter import packaged
 from . import paper
-from .characteristics import wheel
-from .characteristics.from_model import corner
 
 __all__ = [
     "USUAL_HOP",

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..assembly.usual import usual_rack, usual_travel
 from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..suspension.model import Model
@@ -15,7 +16,7 @@ from . import characteristics
 from .characteristics.datasets import DATA_SET
 from .loads.compliance import COMPLIANCES, compliance
 from .loads.flexibility import HELD, Held
-from .sweep import RACK, usual_rack, usual_travel
+from .sweep import RACK
 
 Array = NDArray[np.float64]
 Over = Literal["travel", "rack"]

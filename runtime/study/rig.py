@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..assembly.quantity import RACK, ROLL, TRAVEL, Quantity
 from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.suggestions import nearest
@@ -15,9 +16,7 @@ from ..core.units import in_si
 from ..suspension.model import Model
 from ..suspension.rigid.model import RigidAxleModel
 from . import characteristics, rigid
-from .axles.datasets import ROLL
-from .characteristics.catalogue import Quantity
-from .characteristics.datasets import ALONG, DATA_SET, KNOWN, RACK, TRAVEL
+from .characteristics.datasets import ALONG, DATA_SET, KNOWN
 from .compare import on_bushes
 from .loads.compliance import COMPLIANCES
 from .loads.flexibility import HELD, Held

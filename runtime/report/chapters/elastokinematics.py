@@ -4,9 +4,10 @@ from collections.abc import Sequence
 
 import xarray as xr
 
+from ...assembly.quantity import RACK
 from ...core.arguments import Arguments
 from ...core.quantities import long_name
-from ...study.characteristics.datasets import DATA_SET, RACK
+from ...study.characteristics.datasets import DATA_SET
 from ...study.loads.sheets import deflections, deflections_of_axle
 from ...study.variation.goals import Goal, check_goals
 from .chapter import Chapter, Picture

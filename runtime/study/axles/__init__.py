@@ -23,6 +23,7 @@
 What a single wheel does is in `kintrafo.characteristics`. Definitions and signs: docs/axles.md.
 """
 
+from ...assembly.motions import MOTIONS, Extent
 from .along import loads_along
 from .cases import standard_cases
 from .compare import compare, over
@@ -31,7 +32,6 @@ from .datasets import bump, by_side, roll, single, steer
 from .deflection import deflection
 from .elastokinematics import elastokinematics
 from .loads import static_loads
-from .motions import MOTIONS, Extent
 
 __all__ = [
     "MOTIONS",

@@ -5,14 +5,19 @@ from functools import partial
 import numpy as np
 import xarray as xr
 
+from ...assembly.axle_coupling import (
+    SIDES,
+    Between,
+    pull_of_bar,
+    torque_of_bar,
+)
+from ...assembly.poses import Poses
 from ...core.arguments import Arguments
 from ...simulation.result import Simulation
 from ...suspension.axle.equations import AxleModel
 from ...suspension.corner import Array
 from ..loads.along import is_motion_of, moving_loads, over_time
-from ..loads.poses import Poses
 from ..recording import TIME
-from .between import SIDES, Between, pull_of_bar, torque_of_bar
 from .loads import with_shared
 
 

@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from typing import Any
 
+from ...assembly.axle_coupling import SIDES
 from ...core.arguments import Arguments
 from ..loads.cases import Case, cases_of
-from .between import SIDES
 
 _RACK = "rack_mm"
 

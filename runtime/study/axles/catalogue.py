@@ -5,16 +5,16 @@ from dataclasses import dataclass, replace
 from functools import partial
 from math import pi
 
+from ...assembly import wheel
+from ...assembly.from_model import vehicle
+from ...assembly.pair import Pair
+from ...assembly.quantity import Quantity
 from ...core.quantities import Display
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array
 from ..characteristics import catalogue as of_wheels
-from ..characteristics import wheel
-from ..characteristics.catalogue import Quantity
-from ..characteristics.from_model import vehicle
 from . import pitching, rolling
-from .pair import Pair
 
 SIDES = (LEFT, RIGHT)
 

@@ -5,6 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from ...assembly import motions
+from ...assembly.motions import Extent
 from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.quantities import display_of
@@ -14,9 +16,7 @@ from ...suspension.positions import PositionError
 from ..checkup import Checkup
 from ..checkup import as_dict as of_side_as_dict
 from ..checkup import checkup as of_side
-from . import motions
 from .datasets import bump, roll, steer
-from .motions import Extent
 
 # Read at design over parallel travel, and what stands before the value.
 _AT_DESIGN = {

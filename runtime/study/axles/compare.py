@@ -5,14 +5,14 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
+from ...assembly import motions
+from ...assembly.motions import MOTIONS, Extent
 from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...suspension.axle import Axle
 from ...suspension.corner import Array
 from ..characteristics.datasets import DATA_SET
-from . import motions
 from .datasets import bump, roll, single, steer
-from .motions import MOTIONS, Extent
 
 
 def over(

@@ -7,6 +7,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ...assembly import motions
+from ...assembly.axle_coupling import SIDES, pull_of_bar
+from ...assembly.from_model import corner
+from ...assembly.motions import Extent
+from ...assembly.poses import Poses, wheel_axes
+from ...assembly.quantity import TRAVEL
+from ...assembly.soft_lines import soft_lines
 from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
 from ...core.quantities import variable
@@ -23,8 +30,6 @@ from ...suspension.bushes import (
 from ...suspension.corner import Array, RoadWheel
 from ...suspension.positions import arm_angles, design_height
 from ...suspension.reach import at_rest
-from ..characteristics.datasets import TRAVEL
-from ..characteristics.from_model import corner
 from ..loads.compliance import (
     LOADED,
     MOVED,
@@ -34,11 +39,7 @@ from ..loads.compliance import (
     quantities_under,
     told,
 )
-from ..loads.flexibility import HELD, Held, Side, flexibility, refuse_without_rate, soft_lines
-from ..loads.poses import Poses, wheel_axes
-from . import motions
-from .between import SIDES, pull_of_bar
-from .motions import Extent
+from ..loads.flexibility import HELD, Held, Side, flexibility, refuse_without_rate
 
 
 @dataclass(frozen=True)

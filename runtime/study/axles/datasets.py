@@ -5,6 +5,12 @@ from collections.abc import Iterable
 import numpy as np
 import xarray as xr
 
+from ...assembly import motions
+from ...assembly.motions import Extent
+from ...assembly.pair import Pair
+from ...assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
+from ...assembly.wheel import steer as steer_angle
+from ...assembly.wheel import steer_gradient
 from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.named_types import ArrayLike
@@ -14,31 +20,9 @@ from ...suspension.corner import Array
 from ...suspension.positions import PositionError
 from ..characteristics import axle as of_both
 from ..characteristics import catalogue as of_wheels
-from ..characteristics.catalogue import Quantity
-from ..characteristics.datasets import RACK, TRAVEL
-from ..characteristics.wheel import steer as steer_angle
-from ..characteristics.wheel import steer_gradient
-from . import motions
 from .catalogue import OVER_STEERING, OVER_TRAVEL, Measure
-from .motions import Extent
-from .pair import Pair
 
-ROLL = Quantity(
-    "roll_angle",
-    "rad",
-    "roll angle",
-    "inclination of the line through the wheel centres, which move oppositely, to the plane of the "
-    "body's x and y axes, from that at design",
-    "positive with the right side down",
-)
 _SIDES = xr.Variable("data_set", [LEFT, RIGHT], {"long_name": "side"})
-STEERING_WHEEL = Quantity(
-    "steering_wheel_angle",
-    "rad",
-    "steering-wheel angle",
-    "angle of the steering wheel from its middle position",
-    "positive to the left",
-)
 
 
 def bump(axle: Axle, travel: ArrayLike | None = None, *, rack_position: float = 0.0) -> xr.Dataset:

@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ...assembly.axle_coupling import SIDES
+from ...assembly.pair import Pair
 from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
 from ...core.quantities import variable
@@ -26,10 +28,8 @@ from ..loads.elastic.deflection import (
 from ..loads.elastic.equilibrium import Equilibrium, State
 from ..loads.elastic.held import HARDPOINTS, Hardpoints, at_height, gives_way
 from ..loads.flexibility import HELD, Held, refuse_without_rate
-from .between import SIDES
 from .compliance import LOADINGS, WORDS, compliance
 from .on_bushes import axle_on, softs_of
-from .pair import Pair
 
 WHEELS = {
     "parallel": "both wheels, in one direction",

@@ -6,25 +6,24 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ...assembly import motions, wheel
+from ...assembly.axle_coupling import SIDES
+from ...assembly.motions import MOTIONS, Extent
+from ...assembly.pair import Pair
+from ...assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
 from ...core.quantities import Display, variable
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array, RoadWheel
-from ..characteristics import wheel
-from ..characteristics.catalogue import Quantity
-from ..characteristics.datasets import DATA_SET, KNOWN, RACK, TRAVEL
+from ..characteristics.datasets import DATA_SET, KNOWN
 from ..loads.elastic.elastokinematics import CONTACT_RATE, CURVES
 from ..loads.elastic.equilibrium import LOADS, Equilibrium, State
 from ..loads.elastic.held import HARDPOINTS, Hardpoints, at_height, on_bushes
-from . import motions
-from .between import SIDES
 from .catalogue import of_side
-from .datasets import ROLL, STEERING_WHEEL, rack_of
-from .motions import MOTIONS, Extent
+from .datasets import rack_of
 from .on_bushes import RIGID, axle_on, levers, softs_of
-from .pair import Pair
 
 _IN_ROLL = Quantity(
     "roll_stiffness_at_contacts",

@@ -7,6 +7,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ...assembly.axle_coupling import (
+    SIDES,
+    Between,
+    pull_of_bar,
+    rules_of,
+)
+from ...assembly.coupling import STEERING
+from ...assembly.load import RACK, Load
+from ...assembly.poses import Poses
 from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...core.vectors import unit_vector
@@ -14,14 +23,10 @@ from ...suspension.axle import Axle
 from ...suspension.corner import Array
 from ...suspension.positions import PositionError, arm_angles, design_height, equilibrium
 from ...suspension.reach import at_rest
-from ..loads.between import STEERING
 from ..loads.cases import GREATEST, Case
 from ..loads.dataset import CASE
-from ..loads.poses import Poses
-from ..loads.reactions import RACK, Load
 from ..loads.standing import standing
 from ..loads.static import Side, dataset_of_cases, in_parts_of_it
-from .between import SIDES, Between, pull_of_bar, rules_of
 from .cases import cases_of_sides, standard_cases, tables_of
 from .standing import Wheel, balanced
 

@@ -5,6 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from ...assembly.anti_roll_bar import Bar
+from ...assembly.axle_coupling import SIDES, pull_of_bar, torque_of_bar
+from ...assembly.pair import Pair
+from ...assembly.poses import Poses
 from ...core.arguments import Arguments
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
@@ -12,13 +16,10 @@ from ...suspension.bushes import Bush, softness_of_rack
 from ...suspension.corner import Array
 from ...suspension.positions import arm_angles, design_height
 from ...suspension.reach import at_rest
-from ..loads.elastic.connections import GUIDE, Bar, Soft
+from ..loads.elastic.connections import GUIDE, Soft
 from ..loads.elastic.equilibrium import Equilibrium
 from ..loads.elastic.held import Hardpoints, at_design, carried_at
-from ..loads.poses import Poses
-from .between import SIDES, pull_of_bar, torque_of_bar
 from .compliance import described_of
-from .pair import Pair
 
 RIGID = Soft({}, 0.0, {})
 

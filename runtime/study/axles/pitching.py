@@ -10,9 +10,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ...assembly import wheel
+from ...assembly.pair import Pair
 from ...suspension.corner import Array
-from ..characteristics import wheel
-from .pair import Pair
 
 Formula = Callable[[Pair, str], Array]
 

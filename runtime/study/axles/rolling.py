@@ -9,11 +9,11 @@ travels. A roll of the body by phi (positive about the x axis: right side down) 
 
 import numpy as np
 
+from ...assembly import wheel
+from ...assembly.line import inclination_rate
+from ...assembly.pair import Pair
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array, Corner
-from ..characteristics import wheel
-from .line import inclination_rate
-from .pair import Pair
 
 _SENSE = {LEFT: 1.0, RIGHT: -1.0}
 """In which direction each side's angle twists the bar."""

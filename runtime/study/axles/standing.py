@@ -13,16 +13,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import root
 
+from ...assembly.axle_coupling import SIDES, pull_of_bar, turn_of_half
+from ...assembly.poses import CONTACT, Poses
 from ...equations.errors import ModelError
 from ...suspension.axle import Axle
 from ...suspension.corner import Array
 from ...suspension.model import Model
 from ...suspension.positions import PositionError
 from ...suspension.reach import at_rest, travel_range
-from ..loads.poses import CONTACT, Poses
 from ..loads.standing import GRID, holding_forces, not_carried
 from ..loads.swing import Swing
-from .between import SIDES, pull_of_bar, turn_of_half
 
 Outside = Callable[[Poses], Array]
 """What acts on a wheel in some positions, (n, 12), as `Case.vector`."""

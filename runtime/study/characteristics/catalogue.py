@@ -1,65 +1,10 @@
 """The catalogue of characteristics: name, unit, definition, sign and formula of each."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from ...assembly import wheel
+from ...assembly.quantity import Quantity
+from ...core.quantities import Display
 
-from ...core.quantities import Display, display_of
-from ...suspension.corner import Array, Corner, Vehicle
-from . import wheel
-
-_DEG_PER_MM = display_of({"units": "rad"}).factor * 1e-3
 _PERCENT = Display("%", 100.0)
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """What a characteristic is called and means.
-
-    Attributes
-    ----------
-    name : str
-        Name of the variable.
-    units : str
-        SI unit; "1" for a pure number.
-    long_name, definition, sign : str
-        In words; the definition in one line.
-    formula : callable or None
-        Takes a `Corner`; None for those of a whole axle.
-    needs : tuple of str
-        Attributes of `Vehicle` without which it is not defined.
-    display : Display or None
-        Unit for a person, where it is not the usual one.
-    """
-
-    name: str
-    units: str
-    long_name: str
-    definition: str
-    sign: str
-    formula: Callable[[Corner], Array] | None = None
-    needs: tuple[str, ...] = ()
-    display: Display | None = None
-
-    def known_to(self, vehicle: Vehicle) -> bool:
-        """Return whether everything that it needs is given."""
-        return all(getattr(vehicle, name) is not None for name in self.needs)
-
-    def attributes(self) -> dict[str, Any]:
-        """Return the attributes of the variable in a dataset."""
-        shown = self.display or _display(self.units)
-        return {
-            "units": self.units,
-            "long_name": self.long_name,
-            "definition": self.definition,
-            "sign": self.sign,
-            "display_units": shown.units,
-            "display_factor": shown.factor,
-        }
-
-
-def _display(units: str) -> Display:
-    return Display("deg/mm", _DEG_PER_MM) if units == "rad/m" else display_of({"units": units})
 
 
 _GROUND = ("tyre_radius",)

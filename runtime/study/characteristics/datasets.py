@@ -5,32 +5,17 @@ from collections.abc import Container, Iterable
 import numpy as np
 import xarray as xr
 
+from ...assembly.from_model import corner
+from ...assembly.quantity import RACK, TRAVEL, Quantity
+from ...assembly.usual import usual_rack, usual_travel
+from ...assembly.wheel import steer, steer_gradient, toe
 from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
 from ...suspension.corner import Array, Corner
 from ...suspension.kinds import Suspension
 from ...suspension.model import Model
 from ...suspension.positions import PositionError, arm_angles, design_height
-from ..sweep import usual_rack, usual_travel
 from . import axle, catalogue
-from .catalogue import Quantity
-from .from_model import corner
-from .wheel import steer, steer_gradient, toe
-
-TRAVEL = Quantity(
-    "wheel_travel",
-    "m",
-    "wheel travel",
-    "height of the wheel centre above its design height",
-    "positive in bump",
-)
-RACK = Quantity(
-    "rack_position",
-    "m",
-    "rack displacement",
-    "displacement of the rack along its axis from its middle position",
-    "positive along the rack's axis",
-)
 
 DATA_SET = "data_set"
 """The dimension of several sets of curves beside each other."""

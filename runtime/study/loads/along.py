@@ -7,6 +7,15 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ...assembly.coupling import Between, alone, rules_of
+from ...assembly.load import RACK, Load, known
+from ...assembly.poses import (
+    CENTER,
+    CONTACT,
+    Poses,
+    touching,
+    wheel_axes,
+)
 from ...core.arguments import Arguments
 from ...core.memory import refuse_beyond
 from ...core.quantities import variable
@@ -17,11 +26,9 @@ from ...suspension.model import Model
 from ...systems.inputs import rates_of
 from ...systems.system import System
 from ..recording import TIME
-from .between import Between, alone, rules_of
 from .dataset import dataset_of, joined
 from .inertia import Twists, tensor_of_part, tensor_of_wheel
-from .poses import CENTER, CONTACT, Poses, touching, wheel_axes
-from .reactions import RACK, Equations, Load, known
+from .reactions import Equations
 
 Array = NDArray[np.float64]
 

@@ -8,6 +8,19 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ...assembly import wheel
+from ...assembly.from_model import corner
+from ...assembly.poses import (
+    CENTER,
+    CONTACT,
+    Poses,
+    rotated,
+    touching,
+    wheel_axes,
+)
+from ...assembly.quantity import TRAVEL, Quantity
+from ...assembly.soft_lines import soft_lines
+from ...assembly.usual import usual_travel
 from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
 from ...core.quantities import Display, display_of, variable
@@ -17,13 +30,7 @@ from ...suspension.corner import Motion, RoadWheel
 from ...suspension.model import Model
 from ...suspension.positions import arm_angles, design_height
 from ...suspension.reach import at_rest
-from ..characteristics import wheel
-from ..characteristics.catalogue import Quantity
-from ..characteristics.datasets import TRAVEL
-from ..characteristics.from_model import corner
-from ..sweep import usual_travel
-from .flexibility import HELD, Held, Side, flexibility, refuse_without_rate, soft_lines
-from .poses import CENTER, CONTACT, Poses, rotated, touching, wheel_axes
+from .flexibility import HELD, Held, Side, flexibility, refuse_without_rate
 
 Array = NDArray[np.float64]
 Vector = tuple[float, float, float]

@@ -8,15 +8,15 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ...assembly.coupling import Between, Place, alone
+from ...assembly.load import Load
+from ...assembly.poses import Poses
 from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...core.vectors import cross
 from ...suspension.reach import PositionError
 from ...suspension.structure import GROUND
-from .between import Between, Place, alone
 from .mounts import totals, with_totals
-from .poses import Poses
-from .reactions import Load
 
 Array = NDArray[np.float64]
 

@@ -6,22 +6,27 @@ carries another is an energy; what statics does not decide gives the least of it
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import root
 
+from ...assembly.load import Load
+from ...assembly.poses import (
+    CONTACT,
+    Assembled,
+    rotated,
+    touching,
+)
+from ...assembly.soft_lines import SoftLines
 from ...core.arguments import Arguments
-from ...core.errors import InputError
 from ...suspension.bushes import Bush
-from ...suspension.corner import Corner, RoadWheel
+from ...suspension.corner import RoadWheel
 from ...suspension.input.vehicle import Tyre
 from ...suspension.structure import GROUND, Joint
-from ..characteristics import wheel
-from .poses import CONTACT, Assembled, rotated, touching
-from .reactions import Equations, Load
+from .reactions import Equations
 
 Array = NDArray[np.float64]
 Held = Literal["height", "tyre", "spring", "locked"]
@@ -37,23 +42,6 @@ HELD = {
 _VERTICAL, _COMPONENTS = 2, 6
 # What is softer than the rest by this, rounding of it, is rigid.
 _RIGID = 1e-12
-
-
-@dataclass(frozen=True)
-class SoftLines:
-    """How springs and stops give way along their lines; arrays over n positions.
-
-    Attributes
-    ----------
-    springs : ndarray, shape (n, springs, springs)
-        By how much each spring becomes shorter by a unit force along each [m/N].
-    stops : ndarray, shape (n, dampers)
-        The same of the stops beside each damper by themselves; infinite where none acts. None of
-        them, where a file has no stops.
-    """
-
-    springs: Array
-    stops: Array
 
 
 @dataclass(frozen=True)
@@ -338,24 +326,3 @@ def _released(
     result: Array = flexibility - flexibility[:, :, rows] @ forces
     others = slice(None) if keep else np.delete(np.arange(result.shape[-1]), rows)
     return result[:, others][:, :, others]
-
-
-def soft_lines(there: Corner) -> SoftLines:
-    """Return how spring and stops of a suspension give way for a unit force along each.
-
-    With what their own force does as their direction changes.
-    """
-    rates = wheel.wheel_rate(replace(there, stops=()))
-    if not (rates > 0.0).all():
-        at = 1e3 * (there.center - there.design_center)[rates.argmin(), 2]
-        problem = (
-            f"at a wheel travel of {at:.1f} mm the spring has a rate of {rates.min():.4g} N/m at "
-            "the wheel: nothing holds it. Enter a rate, or another travel."
-        )
-        raise InputError([problem], "compliance")
-    spring = (there.spring.stroke.slope**2 / rates)[:, None, None]
-    if not there.stops:
-        return SoftLines(spring, np.zeros((len(rates), 0)))
-    with np.errstate(divide="ignore"):
-        stops = there.damper.slope**2 / (wheel.wheel_rate(there) - rates)
-    return SoftLines(spring, stops[:, None])

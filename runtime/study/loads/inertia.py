@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...assembly.load import Load
 from ...core.vectors import cross
 from ...systems.system import System
-from .reactions import Load
 
 Array = NDArray[np.float64]
 

@@ -10,9 +10,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ...assembly.load import Load
+from ...assembly.poses import wrench_about
 from ...core.quantities import variable
-from .poses import wrench_about
-from .reactions import Load
 
 Array = NDArray[np.float64]
 

@@ -5,9 +5,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ...assembly.load import Load
+from ...assembly.poses import CENTER, CONTACT
 from .cases import Case
-from .poses import CENTER, CONTACT
-from .reactions import Load
 
 Array = NDArray[np.float64]
 
@@ -20,7 +20,7 @@ def outside_loads(cases: Sequence[Case], axes: Array, points: Mapping[str, Array
     cases : sequence of Case
         One for each position.
     axes : ndarray, shape (n, 3, 3)
-        Of the tyre, see `kintrafo.study.loads.poses.road_axes`.
+        Of the tyre, see `kintrafo.assembly.poses.road_axes`.
     points : mapping
         The ``contact`` and the ``wheel_center``, each (n, 3) [m].
 

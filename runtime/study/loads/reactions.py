@@ -1,45 +1,27 @@
 """The forces in the joints: Newton and Euler for every part, linear in what the joints carry."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...assembly.load import Load, along_line
+from ...assembly.poses import (
+    CONTACT,
+    Assembled,
+    touching,
+    wrench_about,
+)
 from ...core.vectors import cross
 from ...suspension.corner import UP
 from ...suspension.reach import PositionError
-from ...suspension.structure import GROUND, Joint, Line
+from ...suspension.structure import GROUND, Joint
 from .balance import DEAD_POINT, balanced, balanced_at_many, dense
-from .poses import CONTACT, Assembled, touching, wrench_about
 
 Array = NDArray[np.float64]
 
 # From so many positions on, one elimination for all of them takes less time than one for each.
 _MANY = 200
-RACK = "rack"
-
-
-@dataclass(frozen=True)
-class Load:
-    """A force and a moment on a part.
-
-    Attributes
-    ----------
-    part, point : str
-        On which part, and where: a hardpoint, ``contact``, or ``mass`` for its centre of mass.
-    by : str
-        What exerts it: another part, or ``spring``, ``damper``, ``road``, ``gravity``.
-    force, moment, at : ndarray, shape (..., 3)
-        Chassis axes, the moment about the point [N], [N m], [m].
-    """
-
-    part: str
-    point: str
-    by: str
-    force: Array
-    moment: Array
-    at: Array
 
 
 class Equations:
@@ -163,7 +145,7 @@ class Equations:
     def pushed(self, line: str) -> list[Load]:
         """Return a unit force along a line, on both of its parts."""
         (found,) = (known for known in self.lines if known.name == line)
-        return _along(self.poses, found, np.ones(self.poses.states.shape[:-1]))
+        return along_line(self.poses, found, np.ones(self.poses.states.shape[:-1]))
 
     def carried(self, unknowns: Array) -> list[Load]:
         """Return what the joints carry, on both of the parts of each."""
@@ -190,29 +172,6 @@ class Equations:
             carried = unknowns[:, column : column + units.shape[-1]]
             column += units.shape[-1]
             yield np.einsum("npru,nuc->nprc", units, carried)
-
-
-def known(poses: Assembled) -> list[Load]:
-    """Return what acts without anybody's doing: weights, spring, damper and stops."""
-    structure, still = poses.structure, np.zeros(3)
-    weights, forces = poses.weights(), poses.forces_along_lines()
-    loads = [
-        Load(part, "mass", "gravity", weights[part], still, poses.centers[part])
-        for part in (*structure.parts, RACK)
-        if part in weights and weights[part].any()
-    ]
-    for line in structure.lines:
-        loads += _along(poses, line, forces[line.name])
-    return loads
-
-
-def _along(poses: Assembled, line: Line, force: Array) -> list[Load]:
-    points = poses.points
-    push = force[..., None] * line.direction(points)
-    ends = ((line.first, line.at[0], -push), (line.second, line.at[1], push))
-    return [
-        Load(part, point, line.name, end, np.zeros(3), points[point]) for part, point, end in ends
-    ]
 
 
 def _on_both(joint: Joint, point: str, wrench: Array, at: Array) -> list[Load]:

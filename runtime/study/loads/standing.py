@@ -7,14 +7,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize.elementwise import find_root
 
+from ...assembly.load import known
+from ...assembly.poses import CENTER, CONTACT, Poses
 from ...suspension.model import Model
 from ...suspension.positions import PositionError, arm_angles, design_height
 from ...suspension.reach import at_rest, travel_range
 from .balance import DEAD_POINT
 from .cases import Case
 from .outside import outside_loads
-from .poses import CENTER, CONTACT, Poses
-from .reactions import Equations, known
+from .reactions import Equations
 from .swing import Swing
 
 Array = NDArray[np.float64]

@@ -8,6 +8,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ...assembly.coupling import Between, alone, rules_of
+from ...assembly.load import Load, known
+from ...assembly.poses import CENTER, Poses
 from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...suspension.corner import UP
@@ -15,12 +18,10 @@ from ...suspension.model import Model
 from ...suspension.positions import PositionError, design_height, equilibrium
 from ...suspension.reach import at_rest
 from .balance import DEAD_POINT
-from .between import Between, alone, rules_of
 from .cases import GREATEST, Case, cases_of, standard_cases
 from .dataset import CASE, dataset_of, joined, over_cases, refuse_if_none
 from .outside import outside_loads
-from .poses import CENTER, Poses
-from .reactions import Equations, Load, known
+from .reactions import Equations
 from .standing import standing
 
 Array = NDArray[np.float64]

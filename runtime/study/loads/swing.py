@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...assembly.load import Load
+from ...assembly.poses import Poses
 from ...core.vectors import cross
 from ...suspension.structure import GROUND
-from .poses import Poses
-from .reactions import Load
 
 Array = NDArray[np.float64]
 

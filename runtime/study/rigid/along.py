@@ -6,6 +6,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ...assembly.beam import SENSE, SIDES
+from ...assembly.load import Load
+from ...assembly.parts import MASSIVE, PARAMETERS, Parts
+from ...assembly.poses import CENTER
 from ...core.arguments import Arguments
 from ...simulation.result import Simulation
 from ...suspension.rigid.model import RigidAxleModel
@@ -14,13 +18,9 @@ from ...suspension.wheel_loads import UNITS
 from ..loads.along import is_motion_of, of_inputs, over_time
 from ..loads.dataset import of_side
 from ..loads.inertia import Twists, tensor_of_part, tensor_of_wheel
-from ..loads.poses import CENTER
-from ..loads.reactions import Load
 from ..recording import TIME
 from .balance import Balance
-from .beam import SENSE, SIDES
 from .loads import dataset_of_parts
-from .parts import MASSIVE, PARAMETERS, Parts
 
 Array = NDArray[np.float64]
 

@@ -10,14 +10,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ...assembly.beam import SIDES
+from ...assembly.load import Load
+from ...assembly.parts import Parts
+from ...assembly.poses import CENTER, CONTACT, wrench_about
 from ...suspension.corner import UP
 from ...suspension.reach import PositionError
 from ...suspension.rigid.structure import BEAM, CHASSIS
 from ..loads.balance import DEAD_POINT, balanced
-from ..loads.poses import CENTER, CONTACT, wrench_about
-from ..loads.reactions import Load
-from .beam import SIDES
-from .parts import Parts
 
 Array = NDArray[np.float64]
 

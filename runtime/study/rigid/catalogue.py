@@ -5,14 +5,15 @@ from dataclasses import dataclass
 from functools import partial
 from math import pi
 
+from ...assembly.beam import SIDES, Beam
+from ...assembly.quantity import Quantity
 from ...core.quantities import Display
 from ...suspension.corner import Array
 from ...suspension.rigid.axle import RigidAxle
 from ...suspension.rigid.model import HEAVE, ROLL
 from ..axles.catalogue import of_side
-from ..characteristics.catalogue import CORNER, Quantity
+from ..characteristics.catalogue import CORNER
 from . import formulas
-from .beam import SIDES, Beam
 
 _PER_DEGREE = Display("N m/deg", pi / 180.0)
 _ANGLES = Display("deg/deg", 1.0)

@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from ...assembly.beam import SIDES, parameters_of
+from ...assembly.usual import USUAL_TRAVEL
 from ...core.arguments import Arguments
 from ...core.quantities import display_of
 from ...suspension.axle.axle import RIGHT
@@ -24,8 +26,6 @@ from ...suspension.rigid.axle import RigidAxle
 from ...suspension.rigid.file import Rod
 from ...suspension.rigid.model import HEAVE, ROLL, RigidAxleModel, equilibrium
 from ...systems.linearisation import linearise
-from ..sweep import USUAL_TRAVEL
-from .beam import SIDES, parameters_of
 from .datasets import bump
 
 # Read at design over parallel travel, and what stands before the value.

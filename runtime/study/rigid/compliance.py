@@ -6,8 +6,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ...assembly.beam import Beam
+from ...assembly.motions import Extent
+from ...assembly.parts import Parts
+from ...assembly.poses import touching
+from ...assembly.quantity import TRAVEL, Quantity
+from ...assembly.soft_lines import lines_by_rates, lines_of_beam
 from ...core.arguments import Arguments
-from ...core.errors import InputError
 from ...core.named_types import ArrayLike
 from ...core.quantities import Display, display_of
 from ...core.vectors import cross
@@ -16,16 +21,10 @@ from ...suspension.corner import Array, RoadWheel
 from ...suspension.rigid.axle import RigidAxle
 from ..axles.compliance import COMPLIANCES as OF_WHEELS
 from ..axles.compliance import LOADINGS, WORDS, Together, dataset_of_both, under_loads
-from ..axles.motions import Extent
-from ..characteristics.catalogue import Quantity
-from ..characteristics.datasets import TRAVEL
 from ..loads.compliance import RIG_LOADS, RigLoad
-from ..loads.flexibility import HELD, Held, Side, SoftLines, flexibility, refuse_without_rate
-from ..loads.poses import touching
-from .beam import SIDES, Beam
+from ..loads.flexibility import HELD, Held, Side, flexibility, refuse_without_rate
 from .datasets import usual
 from .on_bushes import guided
-from .parts import Parts
 
 
 def compliance(
@@ -97,7 +96,7 @@ def compliance(
     parts = Parts.of(model, beam.states)
     lines = None
     if held != "locked":
-        lines = _lines_by_rates(beam) if axle.overheld else _soft_lines(beam, travels)
+        lines = lines_by_rates(beam) if axle.overheld else lines_of_beam(beam, travels)
     rate = 0.0 if axle.anti_roll_bar is None else model.parameters["bar_rate"]
     bar = parts.bar_by_torque() if rate else None
     side = Side(parts, bushes, lines, bar)
@@ -109,43 +108,6 @@ def compliance(
         (fifth,) = {*axle.rods} - {*axle.guides}
         without += ["what springs do as they turn", f"what {fifth} does to where the axle is"]
     return found.assign_attrs(left_out=" and ".join(filter(None, without)))
-
-
-def _lines_by_rates(beam: Beam) -> SoftLines:
-    """Return how springs and stops give way by their rates alone.
-
-    Five rods have no motion with which the directions of forces would change.
-    """
-    rates = np.stack([beam.rate_of_spring(side) for side in SIDES], axis=1)
-    if not (rates > 0.0).all():
-        problem = (
-            "[spring] has a rate of 0 N/m there: nothing holds the axle. Enter a rate, or a curve "
-            "that rises."
-        )
-        raise InputError([problem], "compliance")
-    stops = np.stack([beam.rate_of_stops(side) for side in SIDES], axis=1)
-    with np.errstate(divide="ignore"):
-        return SoftLines(np.eye(2) / rates[:, None, :], 1.0 / np.abs(stops))
-
-
-def _soft_lines(beam: Beam, travels: Array) -> SoftLines:
-    """Return how springs and stops give way along their lines, for a unit force along each."""
-    growth = np.stack([beam.growth(f"{side}_spring") for side in SIDES], axis=1)
-    rates = np.stack([beam.rate_of_stops(side) for side in SIDES], axis=1)
-    by_stops = np.stack([beam.growth(f"{side}_damper") for side in SIDES], axis=1)
-    # in heave and roll; what remains without the stops is of the springs
-    stiffness = -beam.of_springs[1] - by_stops.mT @ (rates[..., None] * by_stops)
-    least = np.linalg.eigvalsh(0.5 * (stiffness + stiffness.mT))[:, 0]
-    if not (least > 0.0).all():
-        at = 1e3 * float(travels[least.argmin()])
-        problem = (
-            f"at a wheel travel of {at:.1f} mm the springs do not hold the axle: in heave or in "
-            "roll they give way by themselves. Enter a rate, or another travel."
-        )
-        raise InputError([problem], "compliance")
-    with np.errstate(divide="ignore"):
-        stops = 1.0 / np.abs(rates)
-    return SoftLines(growth @ np.linalg.solve(stiffness, growth.mT), stops)
 
 
 # -- the axle -------------------------------------------------------------------------------------

@@ -5,6 +5,11 @@ from collections.abc import Container, Mapping
 import numpy as np
 import xarray as xr
 
+from ...assembly.beam import Beam
+from ...assembly.motions import MOTIONS as OF_ALL_AXLES
+from ...assembly.motions import USUAL_ROLL, USUAL_ROLL_STEP, Extent
+from ...assembly.quantity import ROLL, TRAVEL, Quantity
+from ...assembly.usual import USUAL_TRAVEL, grid
 from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.named_types import ArrayLike
@@ -13,13 +18,7 @@ from ...suspension.corner import Array
 from ...suspension.reach import PositionError
 from ...suspension.rigid.axle import RigidAxle
 from ...suspension.rigid.model import RigidAxleModel
-from ..axles.datasets import ROLL
-from ..axles.motions import MOTIONS as OF_ALL_AXLES
-from ..axles.motions import USUAL_ROLL, USUAL_ROLL_STEP, Extent
-from ..characteristics.catalogue import Quantity
-from ..characteristics.datasets import DATA_SET, TRAVEL
-from ..sweep import USUAL_TRAVEL, grid
-from .beam import Beam
+from ..characteristics.datasets import DATA_SET
 from .catalogue import MEASURES
 
 MOTIONS = {name: words for name, words in OF_ALL_AXLES.items() if name != "steer"}

@@ -6,14 +6,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ...assembly.motions import Extent
+from ...assembly.quantity import ROLL, TRAVEL, Quantity
 from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
 from ...suspension.rigid.axle import RigidAxle
-from ..axles.datasets import ROLL
 from ..axles.elastokinematics import on_both, over_motion
-from ..axles.motions import Extent
-from ..characteristics.catalogue import Quantity
-from ..characteristics.datasets import DATA_SET, TRAVEL
+from ..characteristics.datasets import DATA_SET
 from ..loads.elastic.held import HARDPOINTS, Hardpoints, at_height
 from .catalogue import MEASURES
 from .datasets import MOTIONS, travels_along, usual

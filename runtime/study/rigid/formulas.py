@@ -8,10 +8,10 @@ Unsprung weight is left out.
 
 import numpy as np
 
+from ...assembly.beam import SENSE, SIDES, Beam
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array
 from ...suspension.rigid.model import HEAVE, ROLL
-from .beam import SENSE, SIDES, Beam
 
 # -- guidance -------------------------------------------------------------------------------------
 

@@ -8,6 +8,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ...assembly.beam import SIDES
+from ...assembly.coupling import Place
+from ...assembly.load import Load
+from ...assembly.parts import MIDDLE, Parts
 from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...suspension.axle.file import Held
@@ -16,14 +20,10 @@ from ...suspension.reach import PositionError
 from ...suspension.rigid.axle import RigidAxle
 from ...suspension.rigid.model import RigidAxleModel, equilibrium
 from ..axles import cases as of_axles
-from ..loads.between import Place
 from ..loads.cases import GREATEST, Case
 from ..loads.dataset import CASE, dataset_of, over_cases, refuse_if_none
-from ..loads.reactions import Load
 from ..loads.static import in_parts_of_it
 from .balance import Balance
-from .beam import SIDES
-from .parts import MIDDLE, Parts
 from .standing import outside_of, standing
 
 Array = NDArray[np.float64]

@@ -5,6 +5,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ...assembly.anti_roll_bar import RollBar
+from ...assembly.beam import SIDES
+from ...assembly.parts import Parts
 from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...suspension.bushes import described_bushings
@@ -12,11 +15,9 @@ from ...suspension.corner import Array
 from ...suspension.rigid.axle import RigidAxle
 from ...suspension.rigid.model import RigidAxleModel
 from ...suspension.rigid.structure import BEAM
-from ..loads.elastic.connections import RollBar, Soft
+from ..loads.elastic.connections import Soft
 from ..loads.elastic.equilibrium import Equilibrium, State
 from ..loads.elastic.held import Hardpoints, carried_at
-from .beam import SIDES
-from .parts import Parts
 
 RIGID = Soft({}, 0.0, {})
 

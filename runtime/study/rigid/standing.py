@@ -10,17 +10,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...assembly.beam import SIDES
+from ...assembly.load import Load
+from ...assembly.parts import Parts
+from ...assembly.poses import CENTER, CONTACT
 from ...suspension.reach import PositionError
 from ...suspension.rigid.model import RigidAxleModel
 from ..loads.balance import DEAD_POINT
 from ..loads.cases import Case
 from ..loads.dataset import of_side
 from ..loads.outside import outside_loads
-from ..loads.poses import CENTER, CONTACT
-from ..loads.reactions import Load
 from .balance import Balance
-from .beam import SIDES
-from .parts import Parts
 
 Array = NDArray[np.float64]
 Booleans = NDArray[np.bool_]

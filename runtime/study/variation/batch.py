@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...assembly.from_model import corner
 from ...core.errors import KintrafoError
 from ...core.threads import shared_out
 from ...equations.errors import ClosureError
@@ -22,7 +23,6 @@ from ...suspension.fleet import Fleet
 from ...suspension.fleet_positions import fleet_angles
 from ...suspension.kinds import Suspension
 from ..characteristics import datasets
-from ..characteristics.from_model import corner
 from ..loads.flexibility import HELD
 from .curves import Curves, changed
 from .places import Place

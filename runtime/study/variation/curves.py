@@ -7,10 +7,10 @@ from typing import Any, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ...assembly.quantity import Quantity
 from ...core.arguments import Arguments
 from ...suspension.kinds import Suspension
 from ...suspension.rigid import RigidAxle
-from ..characteristics.catalogue import Quantity
 from ..loads.flexibility import HELD
 from .places import Place
 from .ways import (

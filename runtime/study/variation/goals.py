@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...assembly.quantity import Quantity
 from ...core.arguments import Arguments
 from ...core.quantities import bracketed, display_of
 from ...suspension.axle import Axle
 from ...suspension.input.toml_file import read_sections
 from ...suspension.kinds import Suspension
 from ...suspension.rigid import RigidAxle
-from ..characteristics.catalogue import Quantity
 from ..loads.flexibility import HELD
 from .curves import Curves, Together
 from .ways import (

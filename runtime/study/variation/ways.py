@@ -12,6 +12,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ...assembly.motions import Extent, rolls, travels
+from ...assembly.quantity import ROLL, TRAVEL, Quantity
+from ...assembly.usual import usual_rack, usual_travel
 from ...core.arguments import Arguments
 from ...core.quantities import display_of
 from ...suspension.axle import Axle
@@ -22,18 +25,7 @@ from ...suspension.rigid.model import RigidAxleModel
 from .. import axles, rigid
 from ..axles.catalogue import OVER_TRAVEL, SIDES
 from ..axles.compliance import described_of
-from ..axles.datasets import ROLL
-from ..axles.motions import Extent, rolls, travels
-from ..characteristics.catalogue import Quantity
-from ..characteristics.datasets import (
-    ALONG,
-    KNOWN,
-    TRAVEL,
-    over_rack,
-    over_travel,
-    steering,
-    travel,
-)
+from ..characteristics.datasets import ALONG, KNOWN, over_rack, over_travel, steering, travel
 from ..characteristics.datasets import refuse_of_steering as refuse_of_suspension
 from ..loads.compliance import COMPLIANCES, compliance
 from ..loads.flexibility import HELD, Held
@@ -41,7 +33,6 @@ from ..rigid.catalogue import MEASURES
 from ..rigid.compliance import COMPLIANCES as OF_BOTH
 from ..rigid.datasets import usual, values_over
 from ..sheet import has_bushes
-from ..sweep import usual_rack, usual_travel
 
 Array = NDArray[np.float64]
 Subject = Suspension | RigidAxle

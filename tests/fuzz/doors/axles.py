@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 from kintrafo import Axle, Suspension, axles, loads
-from kintrafo.study.axles import motions
+from kintrafo.assembly import motions
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
 

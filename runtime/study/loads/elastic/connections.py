@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ....assembly.anti_roll_bar import Bar, RollBar
+from ....assembly.poses import Assembled
 from ....core.vectors import cross
 from ....suspension.axle.bar import HalfBar
 from ....suspension.bushes import RACK, Bush
 from ....suspension.points import carried as placed
 from ....suspension.structure import Fixed, Joint, Line, frame
-from ..poses import Assembled
 from .bars import Bars, Foot, Inclinations
 from .laws import Bent, Coil, Law, Stops, Straight
 from .places import Angles, Distances, Lengths, Measured, Places, Radii, Twists
@@ -52,41 +53,6 @@ class Soft:
     bushes: Mapping[str, Bush]
     rack: float
     carried: Carried
-
-
-@dataclass(frozen=True)
-class Bar:
-    """An anti-roll bar between two sides.
-
-    Attributes
-    ----------
-    halves : tuple of HalfBar
-        By side.
-    rate : float
-        Torque by the twist, the first half less the second one [N m/rad].
-    free_twist : float
-        The twist without a torque [rad].
-    """
-
-    halves: tuple[HalfBar, HalfBar]
-    rate: float
-    free_twist: float
-
-
-@dataclass(frozen=True)
-class RollBar:
-    """An anti-roll bar, by what it does to a rigid axle.
-
-    Attributes
-    ----------
-    body : str
-        The axle.
-    rate : float
-        Moment by the inclination of what points left at design [N m/rad].
-    """
-
-    body: str
-    rate: float
 
 
 class Connections:

@@ -8,13 +8,14 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ....assembly import wheel
+from ....assembly.poses import CENTER, CONTACT
 from ....core.arguments import Arguments
 from ....core.named_types import ArrayLike
 from ....core.quantities import attributes, variable
 from ....suspension.corner import RoadWheel
 from ....suspension.model import Model
 from ....suspension.reach import PositionError
-from ...characteristics import wheel
 from ...characteristics.datasets import DATA_SET
 from ..compliance import (
     RIG_LOADS,
@@ -25,7 +26,6 @@ from ..compliance import (
     sense_of,
 )
 from ..flexibility import HELD, Held, refuse_without_rate
-from ..poses import CENTER, CONTACT
 from .equilibrium import Equilibrium, State
 from .held import (
     HARDPOINTS,

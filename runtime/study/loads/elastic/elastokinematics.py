@@ -7,14 +7,14 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ....assembly import wheel
+from ....assembly.quantity import RACK, TRAVEL, Quantity
+from ....assembly.usual import usual_travel
 from ....core.arguments import Arguments
 from ....core.named_types import ArrayLike
 from ....core.quantities import variable
 from ....suspension.model import Model
-from ...characteristics import wheel
-from ...characteristics.catalogue import Quantity
-from ...characteristics.datasets import DATA_SET, KNOWN, RACK, TRAVEL
-from ...sweep import usual_travel
+from ...characteristics.datasets import DATA_SET, KNOWN
 from .connections import Soft
 from .equilibrium import LOADS, Equilibrium, State
 from .held import HARDPOINTS, Hardpoints, at_height, on_bushes, soft_of, suspension_on

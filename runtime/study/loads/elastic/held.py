@@ -7,6 +7,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ....assembly.load import Load, known
+from ....assembly.poses import Assembled, Poses
+from ....assembly.quantity import TRAVEL, Quantity
 from ....core.arguments import Arguments
 from ....core.quantities import display_of
 from ....suspension.bushes import RACK, Bush, described_bushings, softness_of_rack
@@ -14,11 +17,8 @@ from ....suspension.corner import RoadWheel
 from ....suspension.model import Model
 from ....suspension.positions import arm_angles, design_height
 from ....suspension.reach import PositionError, at_rest
-from ...characteristics.catalogue import Quantity
-from ...characteristics.datasets import TRAVEL
 from ..flexibility import shared
-from ..poses import Assembled, Poses
-from ..reactions import Equations, Load, known
+from ..reactions import Equations
 from .connections import GUIDE, Carried, Soft
 from .equilibrium import LOADS, Equilibrium, State
 

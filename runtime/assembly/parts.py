@@ -11,17 +11,22 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.vectors import cross
-from ...suspension.corner import UP, RoadWheel, Vehicle
-from ...suspension.rigid.axle import RigidAxle
-from ...suspension.rigid.model import RigidAxleModel
-from ...suspension.rigid.structure import BEAM, CHASSIS
-from ...suspension.structure import Line, Structure
-from ...systems.allowed import Allowed
-from ..characteristics.wheel import lowest_point, upward_across
-from ..loads.poses import CENTER, CONTACT, forces_along, road_axes
-from ..loads.reactions import Load, known
+from ..core.vectors import cross
+from ..suspension.corner import UP, RoadWheel, Vehicle
+from ..suspension.rigid.axle import RigidAxle
+from ..suspension.rigid.model import RigidAxleModel
+from ..suspension.rigid.structure import BEAM, CHASSIS
+from ..suspension.structure import Line, Structure
+from ..systems.allowed import Allowed
 from .beam import SENSE, SIDES, parameters_of
+from .load import Load, known
+from .poses import (
+    CENTER,
+    CONTACT,
+    forces_along,
+    road_axes,
+)
+from .wheel import lowest_point, upward_across
 
 Array = NDArray[np.float64]
 

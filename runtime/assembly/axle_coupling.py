@@ -5,14 +5,20 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...core.vectors import cross, unit_vector
-from ...suspension.axle import Axle
-from ...suspension.axle.axle import LEFT, RIGHT
-from ...suspension.corner import Array
-from ...suspension.points import carried
-from ..loads.between import STILL, Place, on_both, on_the_rack, sum_of
-from ..loads.poses import Poses
-from ..loads.reactions import Load
+from ..core.vectors import cross, unit_vector
+from ..suspension.axle import Axle
+from ..suspension.axle.axle import LEFT, RIGHT
+from ..suspension.corner import Array
+from ..suspension.points import carried
+from .coupling import (
+    STILL,
+    Place,
+    on_both,
+    on_the_rack,
+    sum_of,
+)
+from .load import Load
+from .poses import Poses
 
 SIDES = (LEFT, RIGHT)
 BAR, LINK = "anti_roll_bar", "drop_link"

@@ -8,15 +8,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.named_types import ArrayLike
-from ...core.vectors import cross
-from ...suspension.axle import Axle
-from ...suspension.axle.axle import LEFT, RIGHT
-from ...suspension.corner import Array
-from ...suspension.model import Model
-from ...suspension.points import carried
-from ...suspension.positions import arm_angles, design_height
-from ...suspension.reach import at_rest
+from ..core.named_types import ArrayLike
+from ..core.vectors import cross
+from ..suspension.axle import Axle
+from ..suspension.axle.axle import LEFT, RIGHT
+from ..suspension.corner import Array
+from ..suspension.model import Model
+from ..suspension.points import carried
+from ..suspension.positions import arm_angles, design_height
+from ..suspension.reach import at_rest
 
 _CENTER = "wheel_center"
 

@@ -4,18 +4,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.errors import InputError
-from ...core.named_types import ArrayLike
-from ...core.vectors import cross
-from ...suspension.axle import Axle
-from ...suspension.axle.axle import LEFT, RIGHT
-from ...suspension.axle.bar import HalfBar
-from ...suspension.corner import Array, Corner
-from ...suspension.model import Model
-from ...suspension.points import carried
-from ...suspension.positions import arm_angles, design_height
-from ...suspension.reach import at_rest, height_and_slope
-from ..characteristics.from_model import corner
+from ..core.errors import InputError
+from ..core.named_types import ArrayLike
+from ..core.vectors import cross
+from ..suspension.axle import Axle
+from ..suspension.axle.axle import LEFT, RIGHT
+from ..suspension.axle.bar import HalfBar
+from ..suspension.corner import Array, Corner
+from ..suspension.model import Model
+from ..suspension.points import carried
+from ..suspension.positions import arm_angles, design_height
+from ..suspension.reach import at_rest, height_and_slope
+from .from_model import corner
 
 # The slope of a half's angle over travel is exact; its change is a difference of fourth order over
 # this step of the arm's angle [rad]: an error of the fourth power of that, and rounding over it.

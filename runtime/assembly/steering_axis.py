@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...suspension.corner import Array, Motion
+from ..suspension.corner import Array, Motion
 
 # Half the distance of the two points that stand for an axis without points of its own [m].
 _HALF = 0.1

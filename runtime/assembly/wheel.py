@@ -7,8 +7,15 @@ bound (the length of a swing arm about an instant centre far away) becomes infin
 
 import numpy as np
 
-from ...core.vectors import cross
-from ...suspension.corner import UP, Array, Corner, Motion, RoadWheel, SteeringAxis
+from ..core.vectors import cross
+from ..suspension.corner import (
+    UP,
+    Array,
+    Corner,
+    Motion,
+    RoadWheel,
+    SteeringAxis,
+)
 
 # -- angles of the wheel --------------------------------------------------------------------------
 

@@ -8,17 +8,23 @@ from typing import Any
 
 import numpy as np
 
-from ...core.columns import Column, spread
-from ...core.named_types import ArrayLike
-from ...core.vectors import cross, turned
-from ...suspension.corner import Array, Corner, Motion, SteeringAxis, Vehicle
-from ...suspension.input.units import in_metres
-from ...suspension.kinds import Suspension
-from ...suspension.model import Model
-from ...suspension.points import hardpoints
-from ...suspension.reach import at_rest
-from ...suspension.strokes import Strokes
-from ...systems.inputs import rates_of
+from ..core.columns import Column, spread
+from ..core.named_types import ArrayLike
+from ..core.vectors import cross, turned
+from ..suspension.corner import (
+    Array,
+    Corner,
+    Motion,
+    SteeringAxis,
+    Vehicle,
+)
+from ..suspension.input.units import in_metres
+from ..suspension.kinds import Suspension
+from ..suspension.model import Model
+from ..suspension.points import hardpoints
+from ..suspension.reach import at_rest
+from ..suspension.strokes import Strokes
+from ..systems.inputs import rates_of
 from .steering_axis import AxisOfPoints, AxisOfTheScrew, of_the_screw
 
 # Of a spring that can be said to hold the wheel when it is locked.

@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...suspension.kinds import Suspension
+from ..suspension.kinds import Suspension
+from .load import RACK, Load
 from .poses import Poses, wrench_about
-from .reactions import RACK, Load
 
 Array = NDArray[np.float64]
 

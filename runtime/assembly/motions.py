@@ -4,14 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.arguments import Arguments
-from ...core.errors import InputError
-from ...suspension.axle import Axle
-from ...suspension.axle.axle import LEFT, RIGHT
-from ...suspension.corner import Array
-from ...suspension.positions import PositionError, design_height, travel_range
-from ..sweep import grid, usual_rack, usual_travel
+from ..core.arguments import Arguments
+from ..core.errors import InputError
+from ..suspension.axle import Axle
+from ..suspension.axle.axle import LEFT, RIGHT
+from ..suspension.corner import Array
+from ..suspension.positions import PositionError, design_height, travel_range
 from .line import Line
+from .usual import grid, usual_rack, usual_travel
 
 MOTIONS = {
     "bump": "both wheels rise and fall together",

@@ -12,13 +12,13 @@ from functools import cached_property
 
 import numpy as np
 
-from ...core.vectors import cross
-from ...suspension.axle.axle import LEFT, RIGHT
-from ...suspension.corner import UP, Array
-from ...suspension.rigid.axle import RigidAxle
-from ...suspension.rigid.model import HEAVE, ROLL, RigidAxleModel
-from ...suspension.spring_table import rate_at
-from ..characteristics.wheel import lowest_point, lowest_point_rate
+from ..core.vectors import cross
+from ..suspension.axle.axle import LEFT, RIGHT
+from ..suspension.corner import UP, Array
+from ..suspension.rigid.axle import RigidAxle
+from ..suspension.rigid.model import HEAVE, ROLL, RigidAxleModel
+from ..suspension.spring_table import rate_at
+from .wheel import lowest_point, lowest_point_rate
 
 SIDES = (LEFT, RIGHT)
 SENSE = {LEFT: 1.0, RIGHT: -1.0}

@@ -8,15 +8,15 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.vectors import cross, unit_vector
-from ...suspension.corner import UP, RoadWheel
-from ...suspension.model import Model
-from ...suspension.points import hardpoints
-from ...suspension.structure import Line, Structure
-from ...systems.allowed import Allowed
-from ...systems.system import System
-from ..characteristics.from_model import design_axis, vehicle
-from ..characteristics.wheel import lowest_point, upward_across
+from ..core.vectors import cross, unit_vector
+from ..suspension.corner import UP, RoadWheel
+from ..suspension.model import Model
+from ..suspension.points import hardpoints
+from ..suspension.structure import Line, Structure
+from ..systems.allowed import Allowed
+from ..systems.system import System
+from .from_model import design_axis, vehicle
+from .wheel import lowest_point, upward_across
 
 Array = NDArray[np.float64]
 

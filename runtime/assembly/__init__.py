@@ -1,0 +1,1 @@
+"""What has wheels: corner, axle and rigid axle, behind one protocol."""
