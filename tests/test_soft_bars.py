@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 from kintrafo import Axle, InputError, axles
-from kintrafo.assembly.motions import Extent
+from kintrafo.assembly.rig import Extent
 from kintrafo.suspension.axle.bar import AntiRollBar
 
 STRAIGHT: dict[str, Any] = {

@@ -1,7 +1,5 @@
 """Where a rig puts the wheels of an axle: the usual positions of each motion."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..core.arguments import Arguments
@@ -11,6 +9,7 @@ from ..suspension.axle.axle import LEFT, RIGHT
 from ..suspension.corner import Array
 from ..suspension.positions import PositionError, design_height, travel_range
 from .line import Line
+from .rig import Extent
 from .usual import grid, usual_rack, usual_travel
 
 MOTIONS = {
@@ -32,29 +31,6 @@ _CLEARANCE = 0.02
 # Heights of wheels are met to their rounding, 1e-16 m of a metre: a step as small changes nothing.
 _CLOSE = 1e-15
 _MOST_STEPS = 100
-
-
-@dataclass(frozen=True)
-class Extent:
-    """How far a motion goes, where it is not the usual; all positive.
-
-    Attributes
-    ----------
-    rebound, bump : float or None
-        Wheel travel [m].
-    roll : float or None
-        To either side [rad].
-    rack : float or None
-        To either side [m].
-    step : float
-        Distance of the positions, of wheel travel and rack [m].
-    """
-
-    rebound: float | None = None
-    bump: float | None = None
-    roll: float | None = None
-    rack: float | None = None
-    step: float = 0.002
 
 
 def track(axle: Axle) -> float:
@@ -124,6 +100,11 @@ def steering_angles(axle: Axle, extent: Extent) -> Array | None:
         )
         raise InputError([problem], "axle")
     return grid(*ends, USUAL_ANGLE_STEP)
+
+
+def turns_the_rack(axle: Axle) -> bool:
+    """Return whether its files say how the steering wheel moves the rack."""
+    return axle.steering is not None or travel_per_turn(axle) is not None
 
 
 def travel_per_turn(axle: Axle) -> float | None:

@@ -65,7 +65,7 @@ def lines_by_rates(beam: Beam) -> SoftLines:
         return SoftLines(np.eye(2) / rates[:, None, :], 1.0 / np.abs(stops))
 
 
-def lines_of_beam(beam: Beam, travels: Array) -> SoftLines:
+def lines_of_beam(beam: Beam) -> SoftLines:
     """Return how springs and stops give way along their lines, for a unit force along each."""
     growth = np.stack([beam.growth(f"{side}_spring") for side in SIDES], axis=1)
     rates = np.stack([beam.rate_of_stops(side) for side in SIDES], axis=1)
@@ -74,7 +74,7 @@ def lines_of_beam(beam: Beam, travels: Array) -> SoftLines:
     stiffness = -beam.of_springs[1] - by_stops.mT @ (rates[..., None] * by_stops)
     least = np.linalg.eigvalsh(0.5 * (stiffness + stiffness.mT))[:, 0]
     if not (least > 0.0).all():
-        at = 1e3 * float(travels[least.argmin()])
+        at = 1e3 * float(beam.coordinate("heave")[least.argmin()])
         problem = (
             f"at a wheel travel of {at:.1f} mm the springs do not hold the axle: in heave or in "
             "roll they give way by themselves. Enter a rate, or another travel."

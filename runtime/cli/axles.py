@@ -16,7 +16,7 @@ from .outputs import Outputs
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from ..assembly.motions import Extent
+    from ..assembly.rig import Extent
     from ..simulation.result import Simulation
     from ..study.axles.checkup import AxleCheckup
     from ..suspension.axle import Axle

@@ -67,7 +67,8 @@ def command(
     Data files and pages are written twice, with _travel and _rack behind their names. Of an axle
     they go over the motions of a rig, with _bump, _roll, _left and _steer.
     """
-    from ..assembly.motions import MOTIONS, Extent
+    from ..assembly.motions import MOTIONS
+    from ..assembly.rig import Extent
     from ..study import characteristics, export, sweep
     from ..study.characteristics.datasets import refuse_of_steering
     from ..suspension.axle import Axle

@@ -137,7 +137,8 @@ def _found(
     of: "Model | Axle | RigidAxle", bushes: Mapping[str, Any] | None, where: _Where
 ) -> "Dataset":
     """Return the compliance of what a file describes."""
-    from ..assembly.motions import Extent, travels
+    from ..assembly.motions import travels
+    from ..assembly.rig import Extent
     from ..study import axles, loads, rigid, sweep
     from ..study.rigid.datasets import usual
     from ..suspension.axle import Axle

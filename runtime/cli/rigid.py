@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from xarray import Dataset
 
-    from ..assembly.motions import Extent
+    from ..assembly.rig import Extent
     from ..report import Chapter
     from ..study.rigid.checkup import RigidAxleCheckup
     from ..study.variation.goals import Goal

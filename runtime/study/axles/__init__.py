@@ -23,7 +23,8 @@
 What a single wheel does is in `kintrafo.characteristics`. Definitions and signs: docs/axles.md.
 """
 
-from ...assembly.motions import MOTIONS, Extent
+from ...assembly.motions import MOTIONS
+from ...assembly.rig import Extent
 from .along import loads_along
 from .cases import standard_cases
 from .compare import compare, over

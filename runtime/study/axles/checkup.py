@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ...assembly import motions
-from ...assembly.motions import Extent
+from ...assembly.rig import Extent
 from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.quantities import display_of

@@ -6,7 +6,8 @@ import numpy as np
 import xarray as xr
 
 from ...assembly import motions
-from ...assembly.motions import MOTIONS, Extent
+from ...assembly.motions import MOTIONS
+from ...assembly.rig import Extent
 from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...suspension.axle import Axle

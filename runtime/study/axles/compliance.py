@@ -10,9 +10,9 @@ import xarray as xr
 from ...assembly import motions
 from ...assembly.axle_coupling import SIDES, pull_of_bar
 from ...assembly.from_model import corner
-from ...assembly.motions import Extent
 from ...assembly.poses import Poses, wheel_axes
 from ...assembly.quantity import TRAVEL
+from ...assembly.rig import Extent
 from ...assembly.soft_lines import soft_lines
 from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike

@@ -6,13 +6,13 @@ import numpy as np
 import xarray as xr
 
 from ...assembly import motions
-from ...assembly.motions import Extent
 from ...assembly.pair import Pair
 from ...assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
+from ...assembly.rig import Extent
+from ...assembly.steering_wheel import rack_of
 from ...assembly.wheel import steer as steer_angle
 from ...assembly.wheel import steer_gradient
 from ...core.arguments import Arguments
-from ...core.errors import InputError
 from ...core.named_types import ArrayLike
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
@@ -266,31 +266,6 @@ def _refuse_angles(given: Arguments, axle: Axle, angles: Array) -> None:
         problem = axle.steering.beyond(angles)
         if problem:
             given.refuse(problem)
-
-
-def rack_of(axle: Axle, angles: Array) -> tuple[Array, Array]:
-    """Return rack displacements at angles, and the travel for a turn there, with its sign [m]."""
-    if axle.steering is not None:
-        rises = axle.steering.rack_mm[-1] > axle.steering.rack_mm[0]
-        if (1.0 if rises else -1.0) * _sense_of_rack(axle) < 0.0:
-            problem = (
-                f"[steering] rack_mm {'rises' if rises else 'falls'} with the angle, and that "
-                "steers to the right: angles of the steering wheel are positive to the left. "
-                "Change the sign of angle_deg or of rack_mm."
-            )
-            raise InputError([problem], "axle")
-        return axle.steering.rack(angles), axle.steering.travel_per_turn(angles)
-    amount = motions.travel_per_turn(axle)
-    assert amount is not None
-    # the files give it without sign: the wheel turned to the left steers to the left
-    per_turn = amount * _sense_of_rack(axle)
-    return angles * per_turn / (2.0 * np.pi), np.full_like(angles, per_turn)
-
-
-def _sense_of_rack(axle: Axle) -> float:
-    """Return +1 where a positive displacement of the rack steers to the left, or -1."""
-    design = Pair.at(axle, 0.0, 0.0, 0.0)
-    return float(np.sign(sum(steer_gradient(corner) for corner in design.corners.values())))
 
 
 def _of_both(pair: Pair, per_turn: Array | None) -> dict[Quantity, Array]:

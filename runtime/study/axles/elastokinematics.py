@@ -8,9 +8,11 @@ import xarray as xr
 
 from ...assembly import motions, wheel
 from ...assembly.axle_coupling import SIDES
-from ...assembly.motions import MOTIONS, Extent
+from ...assembly.motions import MOTIONS
 from ...assembly.pair import Pair
 from ...assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
+from ...assembly.rig import Extent
+from ...assembly.steering_wheel import rack_of
 from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
 from ...core.quantities import Display, variable
@@ -22,7 +24,6 @@ from ..loads.elastic.elastokinematics import CONTACT_RATE, CURVES
 from ..loads.elastic.equilibrium import LOADS, Equilibrium, State
 from ..loads.elastic.held import HARDPOINTS, Hardpoints, at_height, on_bushes
 from .catalogue import of_side
-from .datasets import rack_of
 from .on_bushes import RIGID, axle_on, levers, softs_of
 
 _IN_ROLL = Quantity(

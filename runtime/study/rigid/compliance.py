@@ -7,10 +7,10 @@ import numpy as np
 import xarray as xr
 
 from ...assembly.beam import Beam
-from ...assembly.motions import Extent
 from ...assembly.parts import Parts
 from ...assembly.poses import touching
 from ...assembly.quantity import TRAVEL, Quantity
+from ...assembly.rig import Extent
 from ...assembly.soft_lines import lines_by_rates, lines_of_beam
 from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
@@ -96,7 +96,7 @@ def compliance(
     parts = Parts.of(model, beam.states)
     lines = None
     if held != "locked":
-        lines = lines_by_rates(beam) if axle.overheld else lines_of_beam(beam, travels)
+        lines = lines_by_rates(beam) if axle.overheld else lines_of_beam(beam)
     rate = 0.0 if axle.anti_roll_bar is None else model.parameters["bar_rate"]
     bar = parts.bar_by_torque() if rate else None
     side = Side(parts, bushes, lines, bar)

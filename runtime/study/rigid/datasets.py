@@ -7,8 +7,9 @@ import xarray as xr
 
 from ...assembly.beam import Beam
 from ...assembly.motions import MOTIONS as OF_ALL_AXLES
-from ...assembly.motions import USUAL_ROLL, USUAL_ROLL_STEP, Extent
+from ...assembly.motions import USUAL_ROLL, USUAL_ROLL_STEP
 from ...assembly.quantity import ROLL, TRAVEL, Quantity
+from ...assembly.rig import Extent
 from ...assembly.usual import USUAL_TRAVEL, grid
 from ...core.arguments import Arguments
 from ...core.errors import InputError

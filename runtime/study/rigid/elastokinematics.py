@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ...assembly.motions import Extent
 from ...assembly.quantity import ROLL, TRAVEL, Quantity
+from ...assembly.rig import Extent
 from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
 from ...suspension.rigid.axle import RigidAxle

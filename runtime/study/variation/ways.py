@@ -12,8 +12,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...assembly.motions import Extent, rolls, travels
+from ...assembly.motions import rolls, travels
 from ...assembly.quantity import ROLL, TRAVEL, Quantity
+from ...assembly.rig import Extent
 from ...assembly.usual import usual_rack, usual_travel
 from ...core.arguments import Arguments
 from ...core.quantities import display_of

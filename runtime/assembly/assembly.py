@@ -1,0 +1,216 @@
+"""The protocol that every analysis is written for: an assembly has wheels."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from ..core.arguments import Arguments
+from ..suspension.bushes import Bush
+from ..suspension.corner import Array
+from ..suspension.input.vehicle import Tyre
+from .anti_roll_bar import Bar, RollBar
+from .load import Load
+from .poses import Assembled
+from .quantity import RACK, Quantity
+from .rig import Extent, RigMotion, RigPosition
+from .soft_lines import SoftLines
+
+
+@dataclass(frozen=True)
+class Bushings:
+    """The bushes of an assembly, and how far its rack gives way.
+
+    Attributes
+    ----------
+    by_suffix : mapping of str to list of Bush
+        By what ends the names of the parts that they are between, as of `Assembly.poses`.
+    rack : float
+        Displacement of the rack along its axis by a unit force [m/N]; zero where it is held.
+    """
+
+    by_suffix: Mapping[str, list[Bush]]
+    rack: float
+
+    @property
+    def every(self) -> list[Bush]:
+        """All bushes."""
+        return [bush for bushes in self.by_suffix.values() for bush in bushes]
+
+
+class Assembly(ABC):
+    """A corner, an axle or a rigid axle.
+
+    Its parts may be in several groups that only an anti-roll bar and a rack join, as the two sides
+    of an axle are: whatever is of a group is by the suffix of the names of its parts, ``""``,
+    ``"_left"`` or ``"_right"``.
+
+    Attributes
+    ----------
+    wheels : tuple of str
+        The names of the wheels, 'left' and 'right', or the side of a corner; those of the groups
+        in turn.
+    motions : mapping of str to RigMotion
+        What a rig can do with it, the usual motion first.
+    """
+
+    wheels: tuple[str, ...]
+    motions: Mapping[str, RigMotion]
+
+    NEEDED: ClassVar[str] = (
+        "a kintrafo.Suspension or Model, an Axle, or a RigidAxle is needed; "
+        "kintrafo.load reads each of them"
+    )
+
+    # -- what it is -------------------------------------------------------------------------------
+
+    @property
+    @abstractmethod
+    def subject(self) -> Any:
+        """What was read from a file: a Suspension, an Axle or a RigidAxle."""
+
+    @property
+    @abstractmethod
+    def steered(self) -> bool:
+        """Whether it has a rack."""
+
+    @property
+    @abstractmethod
+    def tyres(self) -> Sequence[Tyre]:
+        """The tyres, by wheel."""
+
+    @property
+    @abstractmethod
+    def tyre_radii(self) -> Sequence[float | None]:
+        """The radii of the wheels as thin discs [m]; None where nothing says it."""
+
+    @property
+    def moves_rigidly(self) -> bool:
+        """Whether it moves with rigid joints: five rods hold a rigid axle."""
+        return True
+
+    @property
+    def simplified(self) -> Sequence[str]:
+        """What linear compliance leaves out, in words."""
+        return ()
+
+    @property
+    def on_a_beam(self) -> bool:
+        """Whether one body carries both wheels, so that it has a steer angle of its own."""
+        return False
+
+    # -- where a rig holds it ---------------------------------------------------------------------
+
+    @abstractmethod
+    def usual(
+        self, motion: str, extent: Extent | None = None, *, travel: float = 0.0, rack: float = 0.0
+    ) -> Array:
+        """Return the usual positions of a motion, zero included, in SI units.
+
+        Parameters
+        ----------
+        motion : str
+        extent : Extent, optional
+            How far it goes, where that is not the usual.
+        travel, rack : float, optional
+            What is held meanwhile [m].
+        """
+
+    @abstractmethod
+    def position(
+        self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
+    ) -> RigPosition:
+        """Return where wheels and rack are along a motion.
+
+        Parameters
+        ----------
+        motion : str
+        along : ndarray, shape (n,)
+            What varies, see `RigMotion`.
+        travel : float, optional
+            Height of the wheels above design where the motion is one of the steering [m].
+        rack : float, optional
+            Displacement of the rack in other motions [m].
+
+        Raises
+        ------
+        PositionError
+            If a position is out of reach.
+        """
+
+    def at_travel(self, travels: Array, rack: float = 0.0) -> RigPosition:
+        """Return where all wheels are at some heights above design [m], in parallel."""
+        return RigPosition(dict.fromkeys(self.wheels, travels), np.asarray(rack, float))
+
+    def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
+        """Return what a motion holds, for the coordinates of its results."""
+        del motion, travel
+        return {RACK: rack} if self.steered else {}
+
+    @abstractmethod
+    def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
+        """Refuse what cannot be held in a motion: a travel, or a rack that it moves itself."""
+
+    # -- its parts --------------------------------------------------------------------------------
+
+    @abstractmethod
+    def poses(self, position: RigPosition) -> dict[str, Assembled]:
+        """Return its parts with rigid joints, by the suffixes of their names.
+
+        Raises
+        ------
+        PositionError
+            If a position is out of reach; the message states the range.
+        InputError
+            If a drop link does not reach.
+        """
+
+    @abstractmethod
+    def soft_lines(self, poses: Mapping[str, Assembled]) -> dict[str, SoftLines]:
+        """Return how springs and stops give way for a unit force along each.
+
+        Raises
+        ------
+        InputError
+            If the springs hold no wheel there.
+        """
+
+    # -- bushes -----------------------------------------------------------------------------------
+
+    @abstractmethod
+    def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
+        """Return bushes as a caller describes them, or those of the file.
+
+        Parameters
+        ----------
+        given : Arguments
+            Gets what is wrong.
+        bushings : mapping or None
+            By hardpoint; of an axle those of one side, and the other has their image.
+        """
+
+    @property
+    @abstractmethod
+    def has_bushes(self) -> bool:
+        """Whether its file has bushes."""
+
+    # -- what couples the wheels ------------------------------------------------------------------
+
+    BAR_SIGN: ClassVar[str] = ""
+    """When the torque of the anti-roll bar is positive."""
+
+    @property
+    def bar(self) -> Bar | RollBar | None:
+        """The anti-roll bar, if it has one."""
+        return None
+
+    def bar_loads(self, poses: Mapping[str, Assembled]) -> dict[str, Load]:
+        """Return what a unit torque of the bar does to each group; empty without a bar."""
+        del poses
+        return {}
+
+    def bar_torque(self, poses: Mapping[str, Assembled]) -> Array:
+        """Return the torque of the bar with rigid joints, (n,) [N m]; zero without one."""
+        return np.zeros(len(next(iter(poses.values())).states))

@@ -1,0 +1,196 @@
+"""An axle as an assembly: two corners, with a rack and an anti-roll bar between them."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..core.arguments import Arguments
+from ..core.errors import InputError
+from ..suspension.axle import Axle
+from ..suspension.axle.axle import LEFT, RIGHT
+from ..suspension.bushes import described_bushings, mirrored_bushings, softness_of_rack
+from ..suspension.corner import Array
+from ..suspension.input.vehicle import Tyre
+from . import motions
+from .anti_roll_bar import Bar
+from .assembly import Assembly, Bushings
+from .axle_coupling import pull_of_bar, torque_of_bar, turn_of_half
+from .corner import lines_of, poses_of
+from .load import Load
+from .poses import Assembled
+from .quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
+from .rig import Extent, RigMotion, RigPosition
+from .soft_lines import SoftLines
+from .steering_wheel import rack_of
+
+SIDES = (LEFT, RIGHT)
+
+
+class AxleAssembly(Assembly):
+    """An axle of two corners.
+
+    Parameters
+    ----------
+    axle : Axle
+    """
+
+    wheels = SIDES
+    BAR_SIGN = "positive with the left half turned the farther"
+
+    def __init__(self, axle: Axle) -> None:
+        self.axle = axle
+        over = STEERING_WHEEL if motions.turns_the_rack(axle) else RACK
+        steering = {"steer": RigMotion(over, motions.MOTIONS["steer"], "steering")}
+        self.motions = motions_of_two(motions.MOTIONS) | (steering if self.steered else {})
+
+    @property
+    def subject(self) -> Axle:
+        """The axle."""
+        return self.axle
+
+    @property
+    def steered(self) -> bool:
+        """Whether it has a rack."""
+        return self.axle.steered()
+
+    @property
+    def tyres(self) -> Sequence[Tyre]:
+        """The tyres, the left one first."""
+        return [side.tyre for side in self.axle.sides.values()]
+
+    @property
+    def tyre_radii(self) -> Sequence[float | None]:
+        """The radii of the wheels [m]."""
+        return [side.tyre_radius() for side in self.axle.sides.values()]
+
+    @property
+    def has_bushes(self) -> bool:
+        """Whether the file of a side has bushes."""
+        return any(side.bushings for side in self.axle.sides.values())
+
+    def usual(
+        self, motion: str, extent: Extent | None = None, *, travel: float = 0.0, rack: float = 0.0
+    ) -> Array:
+        """Return the usual positions of a motion, zero included [m] or [rad]."""
+        del travel, rack
+        far = extent or Extent()
+        if motion == "roll":
+            return motions.rolls(self.axle, far)
+        if motion == "steer":
+            angles = motions.steering_angles(self.axle, far)
+            return motions.racks(self.axle, far) if angles is None else angles
+        return motions.travels(self.axle, far, (motion,) if motion in SIDES else SIDES)
+
+    def position(
+        self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
+    ) -> RigPosition:
+        """Return where wheels and rack are along a motion."""
+        if motion == "steer":
+            turns = self.motions["steer"].along is STEERING_WHEEL
+            racks = rack_of(self.axle, along)[0] if turns else along
+            return RigPosition(dict.fromkeys(SIDES, np.full_like(along, travel)), racks)
+        if motion == "roll":
+            left, right = motions.opposite(self.axle, along, rack)
+        else:
+            left, right = (
+                along if motion in ("bump", side) else np.zeros_like(along) for side in SIDES
+            )
+        return RigPosition({LEFT: left, RIGHT: right}, np.asarray(rack, float))
+
+    def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
+        """Return what a motion holds."""
+        return {TRAVEL: travel} if motion == "steer" else super().held_in(motion, travel, rack)
+
+    def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
+        """Refuse a rack that the motion moves, and a travel that is for steering."""
+        if motion == "steer" and rack:
+            given.refuse("rack_position: the motion 'steer' moves the rack. Leave it out.")
+        if motion != "steer" and travel:
+            given.refuse("travel: it is for the motion 'steer'; others move the wheels by along.")
+
+    def poses(self, position: RigPosition) -> dict[str, Assembled]:
+        """Return the parts of both sides with rigid joints."""
+        found: dict[str, Assembled] = {}
+        for side, model in self.axle.models.items():
+            poses = poses_of(model, position.travels[side], position.rack)
+            if self.axle.halves:
+                _, turn = turn_of_half(self.axle, side, poses)
+                refuse_loose_link(side, turn, np.asarray(position.travels[side]))
+            found[f"_{side}"] = poses
+        return found
+
+    def soft_lines(self, poses: Mapping[str, Assembled]) -> dict[str, SoftLines]:
+        """Return how springs and stops of both sides give way."""
+        return {suffix: lines_of(each) for suffix, each in poses.items()}
+
+    def described_bushings(
+        self, given: Arguments, bushings: Mapping[str, Any] | None
+    ) -> dict[str, dict[str, Any]]:
+        """Return what is said of the bushes of both sides: the files', or what is given, mirrored.
+
+        What is wrong of the latter is told of the side that it is given for.
+        """
+        if bushings is None:
+            return {
+                side: described_bushings(given, None, suspension.bushings)
+                for side, suspension in self.axle.sides.items()
+            }
+        one = self.axle.bar_side
+        other = LEFT if one == RIGHT else RIGHT
+        described = described_bushings(given, bushings, None)
+        with_one = Arguments("compliance")
+        self.axle.sides[one].bushes(with_one, described)
+        return {one: described, other: {} if with_one.refused else mirrored_bushings(described)}
+
+    def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
+        """Return bushes of both sides, and how far their rack gives way."""
+        described = self.described_bushings(given, bushings)
+        found = {f"_{side}": self.axle.sides[side].bushes(given, described[side]) for side in SIDES}
+        return Bushings(found, softness_of_rack(given, described[self.axle.bar_side]))
+
+    @property
+    def bar(self) -> Bar | None:
+        """The anti-roll bar, if it has one."""
+        if self.axle.bar is None:
+            return None
+        halves = self.axle.halves[LEFT], self.axle.halves[RIGHT]
+        return Bar(halves, self.axle.bar.rate(), self.axle.bar.free_twist())
+
+    def bar_loads(self, poses: Mapping[str, Any]) -> dict[str, Load]:
+        """Return the pull of the drop link of each side by a unit torque of the bar."""
+        if not self.axle.halves:
+            return {}
+        return {f"_{side}": pull_of_bar(self.axle, side, poses[f"_{side}"]) for side in SIDES}
+
+    def bar_torque(self, poses: Mapping[str, Any]) -> Array:
+        """Return the torque of the bar with rigid joints, (n,) [N m]."""
+        return torque_of_bar(self.axle, poses) if self.axle.halves else super().bar_torque(poses)
+
+
+def motions_of_two(words: Mapping[str, str]) -> dict[str, RigMotion]:
+    """Return the motions of a rig with two wheels but for steering."""
+    return {
+        "bump": RigMotion(TRAVEL, words["bump"], "parallel wheel travel"),
+        "roll": RigMotion(ROLL, words["roll"], "roll"),
+        LEFT: RigMotion(TRAVEL, words[LEFT], "travel of the left wheel"),
+        RIGHT: RigMotion(TRAVEL, words[RIGHT], "travel of the right wheel"),
+    }
+
+
+def refuse_loose_link(side: str, turn: Array, travels: Array) -> None:
+    """Refuse positions in which the drop link of a side does not reach its lever.
+
+    Raises
+    ------
+    InputError
+    """
+    lost = ~np.isfinite(turn)
+    if lost.any():
+        there = np.broadcast_to(travels, lost.shape)[lost]
+        first = 1e3 * float(there[np.abs(there).argmin()])
+        problem = (
+            f"[anti_roll_bar] the {side} drop link does not reach its lever at {first:+.4g} mm of "
+            "wheel travel. Choose less travel, or move link_top, link_foot or bush."
+        )
+        raise InputError([problem], "axle")

@@ -1,0 +1,133 @@
+"""A corner as an assembly: one wheel."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..core.arguments import Arguments
+from ..suspension.bushes import described_bushings, softness_of_rack
+from ..suspension.corner import Array
+from ..suspension.input.vehicle import Tyre
+from ..suspension.kinds import Suspension
+from ..suspension.model import Model
+from ..suspension.positions import arm_angles, design_height
+from ..suspension.reach import at_rest
+from .assembly import Assembly, Bushings
+from .from_model import corner
+from .poses import Assembled, Poses
+from .quantity import RACK, TRAVEL, Quantity
+from .rig import Extent, RigMotion, RigPosition
+from .soft_lines import SoftLines, soft_lines
+from .usual import usual_rack, usual_travel
+
+_TRAVEL = {"travel": RigMotion(TRAVEL, "the wheel rises and falls", "wheel travel")}
+_RACK = {"rack": RigMotion(RACK, "the rack moves, the wheel at one height", "the rack")}
+
+
+class CornerAssembly(Assembly):
+    """A corner.
+
+    Parameters
+    ----------
+    model : Model
+    """
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self.wheels = (model.suspension.vehicle.side,)
+        self.motions = _TRAVEL | _RACK if self.steered else _TRAVEL
+
+    @property
+    def subject(self) -> Suspension:
+        """The suspension."""
+        return self.model.suspension
+
+    @property
+    def steered(self) -> bool:
+        """Whether it has a rack."""
+        return self.subject.steered()
+
+    @property
+    def tyres(self) -> Sequence[Tyre]:
+        """The tyre."""
+        return (self.subject.tyre,)
+
+    @property
+    def tyre_radii(self) -> Sequence[float | None]:
+        """The radius of the wheel [m]."""
+        return (self.subject.tyre_radius(),)
+
+    @property
+    def has_bushes(self) -> bool:
+        """Whether its file has bushes."""
+        return bool(self.subject.bushings)
+
+    def usual(
+        self, motion: str, extent: Extent | None = None, *, travel: float = 0.0, rack: float = 0.0
+    ) -> Array:
+        """Return the usual positions of a motion, zero included [m]."""
+        far = extent or Extent()
+        if motion == "rack":
+            return usual_rack(self.model, extent=far.rack, step=far.step, travel=travel)
+        return usual_travel(
+            self.model, rebound=far.rebound, bump=far.bump, step=far.step, rack=rack
+        )
+
+    def position(
+        self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
+    ) -> RigPosition:
+        """Return where wheel and rack are along a motion."""
+        if motion == "rack":
+            return RigPosition({self.wheels[0]: np.full_like(along, travel)}, along)
+        return self.at_travel(along, rack)
+
+    def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
+        """Return what a motion holds."""
+        return {TRAVEL: travel} if motion == "rack" else super().held_in(motion, travel, rack)
+
+    def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
+        """Refuse a travel of the wheel in a motion that moves it, or a rack that is moved."""
+        if motion == "rack" and rack:
+            given.refuse("rack_position: the motion 'rack' moves the rack. Leave it out.")
+        if motion != "rack" and travel:
+            given.refuse("travel: the motion 'travel' moves the wheel by along. Leave it out.")
+
+    def poses(self, position: RigPosition) -> dict[str, Assembled]:
+        """Return its parts with rigid joints."""
+        return {"": poses_of(self.model, position.travels[self.wheels[0]], position.rack)}
+
+    def soft_lines(self, poses: Mapping[str, Assembled]) -> dict[str, SoftLines]:
+        """Return how spring and stops give way."""
+        return {suffix: lines_of(each) for suffix, each in poses.items()}
+
+    def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
+        """Return bushes as a caller describes them, or those of the file."""
+        described = described_bushings(given, bushings, self.subject.bushings)
+        found = self.subject.bushes(given, described)
+        return Bushings({"": found}, softness_of_rack(given, described))
+
+
+def poses_of(model: Model, travels: Array, rack: Array) -> Poses:
+    """Return the parts of a corner with rigid joints at wheel travels and places of the rack [m].
+
+    Raises
+    ------
+    PositionError
+        If the wheel cannot be there.
+    """
+    angles = arm_angles(model, design_height(model) + travels, rack)
+    return Poses.of(model, *at_rest(model, angles, rack))
+
+
+def lines_of(poses: Assembled) -> SoftLines:
+    """Return how spring and stops of a corner give way."""
+    model: Model = poses.model
+    angles = poses.states[..., model.state_names.index(model.names.arm)]
+    if model.free_rack:
+        racks = poses.states[..., model.state_names.index(model.names.rack)]
+    elif model.suspension.steered():
+        racks = poses.inputs[..., model.input_names.index("rack_position")]
+    else:
+        racks = np.zeros_like(angles)
+    return soft_lines(corner(model, angles, racks))

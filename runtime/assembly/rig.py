@@ -1,0 +1,65 @@
+"""What a rig does to wheels and rack: its motions, and the positions along them."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ..suspension.corner import Array
+from .quantity import Quantity
+
+
+@dataclass(frozen=True)
+class RigMotion:
+    """A motion of a rig.
+
+    Attributes
+    ----------
+    along : Quantity
+        What varies: wheel travel, roll angle, steering-wheel angle or rack displacement.
+    words : str
+        What it is, 'both wheels rise and fall together'.
+    title : str
+        What curves are over, 'parallel wheel travel'.
+    """
+
+    along: Quantity
+    words: str
+    title: str
+
+
+@dataclass(frozen=True)
+class RigPosition:
+    """Where a rig holds the wheels and the rack, in n positions.
+
+    Attributes
+    ----------
+    travels : mapping of str to ndarray, each of shape (n,)
+        Heights of the wheel centres above design by the names of the wheels [m].
+    rack : ndarray, shape () or (n,)
+        Displacement of the rack [m]; zero where there is none.
+    """
+
+    travels: Mapping[str, Array]
+    rack: Array
+
+
+@dataclass(frozen=True)
+class Extent:
+    """How far a motion goes, where it is not the usual; all positive.
+
+    Attributes
+    ----------
+    rebound, bump : float or None
+        Wheel travel [m].
+    roll : float or None
+        To either side [rad].
+    rack : float or None
+        To either side [m].
+    step : float
+        Distance of the positions, of wheel travel and rack [m].
+    """
+
+    rebound: float | None = None
+    bump: float | None = None
+    roll: float | None = None
+    rack: float | None = None
+    step: float = 0.002

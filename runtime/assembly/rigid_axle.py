@@ -1,0 +1,183 @@
+"""A rigid axle as an assembly: one beam carries both wheels."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..core.arguments import Arguments
+from ..suspension.bushes import described_bushings
+from ..suspension.corner import Array
+from ..suspension.input.vehicle import Tyre
+from ..suspension.reach import PositionError
+from ..suspension.rigid.axle import RigidAxle
+from ..suspension.rigid.model import RigidAxleModel
+from ..suspension.rigid.structure import BEAM
+from .anti_roll_bar import RollBar
+from .assembly import Assembly, Bushings
+from .axle import motions_of_two
+from .beam import SIDES, Beam
+from .load import Load
+from .motions import MOTIONS, USUAL_ROLL, USUAL_ROLL_STEP
+from .parts import Parts
+from .poses import Assembled
+from .rig import Extent, RigPosition
+from .soft_lines import SoftLines, lines_by_rates, lines_of_beam
+from .usual import USUAL_TRAVEL, grid
+
+# What each wheel travels per metre of what varies; in roll it is the half track times the sine.
+_SHARES = {"bump": (1.0, 1.0), "left": (1.0, 0.0), "right": (0.0, 1.0)}
+_MOST_ROLL = np.pi / 4.0
+# A sweep that is not told otherwise keeps clear of the ends of the motion by this part of them.
+_CLEARANCE = 0.02
+
+
+class RigidAxleAssembly(Assembly):
+    """A rigid axle.
+
+    Parameters
+    ----------
+    axle : RigidAxle
+    model : RigidAxleModel, optional
+        Its equations, where there are some already.
+    """
+
+    wheels = SIDES
+    motions = motions_of_two(MOTIONS)
+    BAR_SIGN = "positive with the left wheel up"
+
+    def __init__(self, axle: RigidAxle, model: RigidAxleModel | None = None) -> None:
+        self.axle = axle
+        self.model = RigidAxleModel(axle, guided=axle.overheld) if model is None else model
+
+    @property
+    def subject(self) -> RigidAxle:
+        """The axle."""
+        return self.axle
+
+    @property
+    def steered(self) -> bool:
+        """No rack steers it."""
+        return False
+
+    @property
+    def tyres(self) -> Sequence[Tyre]:
+        """The tyres."""
+        return [self.axle.tyre] * len(SIDES)
+
+    @property
+    def tyre_radii(self) -> Sequence[float | None]:
+        """The radii of the wheels [m]."""
+        return [self.axle.tyre_radius()] * len(SIDES)
+
+    @property
+    def has_bushes(self) -> bool:
+        """Whether its file has bushes."""
+        return bool(self.axle.bushings)
+
+    @property
+    def moves_rigidly(self) -> bool:
+        """Whether it moves with rigid joints: five rods let it move only by their bushes."""
+        return not self.axle.overheld
+
+    @property
+    def simplified(self) -> Sequence[str]:
+        """What linear compliance leaves out of an axle on five rods, in words."""
+        if not self.axle.overheld:
+            return ()
+        (fifth,) = {*self.axle.rods} - {*self.axle.guides}
+        return "what springs do as they turn", f"what {fifth} does to where the axle is"
+
+    @property
+    def on_a_beam(self) -> bool:
+        """One body carries both wheels."""
+        return True
+
+    def usual(
+        self, motion: str, extent: Extent | None = None, *, travel: float = 0.0, rack: float = 0.0
+    ) -> Array:
+        """Return the usual positions of a motion, zero included [m] or [rad]."""
+        del travel, rack
+        far = extent or Extent()
+        if motion == "roll":
+            with Arguments("roll") as given:
+                amount = 0.0 if far.roll is None else far.roll
+                given.number("roll", amount, "rad", least=0.0, below=_MOST_ROLL)
+            most = self._ends(motion, USUAL_ROLL) if far.roll is None else [-amount, amount]
+            both = min(-most[0], most[1])
+            return grid(-both, both, USUAL_ROLL_STEP)
+        with Arguments("wheel travel") as given:
+            for name in ("rebound", "bump"):
+                value = getattr(far, name)
+                given.number(name, 0.0 if value is None else value, "m", least=0.0)
+        low, high = self._ends(motion, USUAL_TRAVEL)
+        low = low if far.rebound is None else -far.rebound
+        high = high if far.bump is None else far.bump
+        return grid(low, high, far.step)
+
+    def _ends(self, motion: str, most: float) -> list[float]:
+        """Return how far a motion goes either way, at most so far and clear of its ends."""
+        ends = []
+        for value in (-most, most):
+            left, right = self._travels(motion, np.array(value))
+            part = self.model.farthest(float(left), float(right))
+            ends.append(value if part == 1.0 else (1.0 - _CLEARANCE) * part * value)
+        return ends
+
+    def _travels(self, motion: str, along: Array) -> tuple[Array, Array]:
+        """Return the travels of the left and the right wheel along a motion [m]."""
+        if motion == "roll":
+            half = self.axle.half_track * np.sin(along)
+            return -half, half
+        left, right = _SHARES[motion]
+        return left * along, right * along
+
+    def position(
+        self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
+    ) -> RigPosition:
+        """Return where the wheels are along a motion."""
+        del travel, rack
+        if motion == "roll" and np.abs(along).max(initial=0.0) >= _MOST_ROLL:
+            worst = np.degrees(np.abs(along).max())
+            message = f"roll of {worst:.4g} deg: less than 45 deg is needed; Python's unit is rad."
+            raise PositionError(message)
+        travels = self._travels(motion, along)
+        return RigPosition(dict(zip(SIDES, travels, strict=True)), np.zeros(()))
+
+    def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
+        """Refuse a travel that is for steering, and a rack."""
+        if rack:
+            given.refuse("rack_position: a rigid axle has no rack. Leave it out.")
+        if travel:
+            given.refuse(f"travel: the motion {motion!r} moves the wheels by along. Leave it out.")
+
+    def poses(self, position: RigPosition) -> dict[str, Assembled]:
+        """Return its parts with rigid joints."""
+        left, right = (position.travels[side] for side in SIDES)
+        return {"": Parts.of(self.model, self.model.states_at(left, right))}
+
+    def soft_lines(self, poses: Mapping[str, Assembled]) -> dict[str, SoftLines]:
+        """Return how springs and stops give way."""
+        beam = Beam(self.model, poses[""].states)
+        return {"": lines_by_rates(beam) if self.axle.overheld else lines_of_beam(beam)}
+
+    def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
+        """Return bushes as a caller describes them, or those of the file."""
+        described = described_bushings(given, bushings, self.axle.bushings)
+        return Bushings({"": self.axle.bushes(given, described)}, 0.0)
+
+    @property
+    def bar(self) -> RollBar | None:
+        """The anti-roll bar, if it has one."""
+        if self.axle.anti_roll_bar is None:
+            return None
+        return RollBar(BEAM, self.model.parameters["bar_rate"])
+
+    def bar_loads(self, poses: Mapping[str, Any]) -> dict[str, Load]:
+        """Return the couple of a unit torque of the bar."""
+        return {"": poses[""].bar_by_torque()} if self.bar and self.bar.rate else {}
+
+    def bar_torque(self, poses: Mapping[str, Any]) -> Array:
+        """Return the torque of the bar, (n,) [N m]."""
+        torque: Array = poses[""].torque_of_bar()
+        return torque
