@@ -22,11 +22,12 @@ from kintrafo import (
     rigid_axles,
     roads,
 )
+from kintrafo.assembly import motions as motions
 from kintrafo.assembly import wheel
 from kintrafo.assembly.from_model import corner as corner_of
 from kintrafo.assembly.pair import Pair
 from kintrafo.report import Chapter, axle_chapter
-from kintrafo.study.axles import checkup, motions, ride
+from kintrafo.study.axles import checkup, ride
 from kintrafo.study.axles import rolling as formulas
 from kintrafo.study.compare import differences
 from kintrafo.study.scenario import Scenario

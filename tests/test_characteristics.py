@@ -27,8 +27,9 @@ from kintrafo import (
     travel_range,
     variation,
 )
+from kintrafo.assembly import wheel
 from kintrafo.assembly.from_model import corner, vehicle
-from kintrafo.study.characteristics import axle, wheel
+from kintrafo.study.characteristics import axle
 from kintrafo.suspension.corner import RoadWheel
 from oracle.constraints import KNUCKLE
 from oracle.newton import Mechanism, observe, solve_pose_at_height
