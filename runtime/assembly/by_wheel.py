@@ -1,0 +1,83 @@
+"""The dimension of the wheels in results, and tables that have none.
+
+Results have what each wheel has over the dimension ``wheel``; those of a corner, which has one
+wheel, over a coordinate without a dimension. Tables of a spreadsheet have a column for each: there
+the name of the wheel ends that of the column.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+
+from ..core.arguments import Arguments
+from ..suspension.corner import Array
+from .quantity import Quantity
+
+WHEEL = "wheel"
+"""The dimension."""
+
+_ATTRIBUTES = {"long_name": "wheel"}
+
+
+def wheel_coordinate(wheels: Sequence[str]) -> xr.Variable:
+    """Return the names of wheels as a coordinate, without a dimension if there is one wheel."""
+    if len(wheels) == 1:
+        return xr.Variable((), wheels[0], _ATTRIBUTES)
+    return xr.Variable(WHEEL, list(wheels), _ATTRIBUTES)
+
+
+def of_wheels(
+    quantity: Quantity, dims: str | Sequence[str], values: Sequence[Array]
+) -> xr.Variable:
+    """Return what each wheel has as one variable.
+
+    Parameters
+    ----------
+    quantity : Quantity
+        What it is.
+    dims : str or sequence of str
+        Further dimensions.
+    values : sequence of ndarray
+        By wheel, in the order of `Assembly.wheels`.
+    """
+    further = (dims,) if isinstance(dims, str) else tuple(dims)
+    if len(values) == 1:
+        return xr.Variable(further, values[0], quantity.attributes())
+    return xr.Variable((WHEEL, *further), np.stack(values), quantity.attributes())
+
+
+def flat(dataset: xr.Dataset) -> xr.Dataset:
+    """Return a dataset without the dimension of the wheels, as tables have it.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From an analysis.
+
+    Returns
+    -------
+    xarray.Dataset
+        Where there is ``camber`` over ``wheel`` there are ``camber_left`` and ``camber_right``; all
+        else is as it is. The wheel of a corner is no longer named.
+
+    Examples
+    --------
+    >>> both = xr.Dataset({"camber": ("wheel", [0.1, 0.2])}, {"wheel": ["left", "right"]})
+    >>> {name: float(value) for name, value in flat(both).items()}
+    {'camber_left': 0.1, 'camber_right': 0.2}
+    """
+    with Arguments("flat") as given:
+        given.dataset(dataset)
+    if WHEEL not in dataset.dims:
+        return dataset.drop_vars(WHEEL, errors="ignore")
+    found: dict[str, xr.DataArray] = {}
+    for name, data in dataset.items():
+        if WHEEL not in data.dims:
+            found[str(name)] = data
+            continue
+        for wheel in map(str, dataset[WHEEL].values):
+            own = data.sel({WHEEL: wheel}, drop=True)
+            words = f"{data.attrs.get('long_name', name)}, {wheel}"
+            found[f"{name}_{wheel}"] = own.assign_attrs(long_name=words)
+    return xr.Dataset(found, dataset.drop_vars(WHEEL).coords, dataset.attrs)
