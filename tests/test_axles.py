@@ -22,8 +22,7 @@ from kintrafo import (
     rigid_axles,
     roads,
 )
-from kintrafo.assembly import motions as motions
-from kintrafo.assembly import wheel
+from kintrafo.assembly import motions, wheel
 from kintrafo.assembly.from_model import corner as corner_of
 from kintrafo.assembly.pair import Pair
 from kintrafo.report import Chapter, axle_chapter
