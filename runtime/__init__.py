@@ -15,6 +15,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .assembly.equilibrium import equilibrium
     from .core.errors import InputError, KintrafoError
     from .equations.errors import ClosureError, ModelError, ParameterError
     from .report.animation import animate
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
         PositionError,
         Range,
         arm_angles,
-        equilibrium,
         road_under_load,
         state_at_height,
         travel_range,
@@ -106,6 +106,7 @@ __all__ = [
 # Names are loaded when they are first used: the generator is part of this package, and must run
 # where no model has been generated or compiled yet.
 _MODULES = {
+    ".assembly.equilibrium": ("equilibrium",),
     ".core.errors": ("InputError", "KintrafoError"),
     ".simulation.events": ("SignalEvent",),
     ".equations.errors": ("ClosureError", "ModelError", "ParameterError"),
@@ -132,7 +133,6 @@ _MODULES = {
         "PositionError",
         "Range",
         "arm_angles",
-        "equilibrium",
         "road_under_load",
         "state_at_height",
         "travel_range",

@@ -21,10 +21,8 @@ from kintrafo import (
 )
 from kintrafo.core.errors import InputError
 from kintrafo.study import variation
-from kintrafo.study.axles.ride import equilibrium as rest_of_axle
 from kintrafo.study.scenario import Scenario
 from kintrafo.suspension.reach import at_rest
-from kintrafo.suspension.rigid.model import equilibrium as rest_of_rigid
 from kintrafo.suspension.starter import write_starter
 
 KINDS = (
@@ -158,7 +156,7 @@ def test_an_axle_says_so_of_the_side():
     car = limited("reference_car", "min", -0.002)[0].suspension
     model = AxleModel(replace(Axle.load("reference_axle"), right=car.mirrored(), left=car))
     raised = {"left_road_height": STEP["road_height"]}
-    found = simulate(model, (0.0, 0.3), rest_of_axle(model), inputs=raised)
+    found = simulate(model, (0.0, 0.3), equilibrium(model), inputs=raised)
     # the bar also lifts the other wheel from its road
     told = [str(one) for one in found.validity if "length_min_mm" in one.bound.words]
     assert told[0].startswith("the left strut is beyond its least length, [strut] length_min_mm")
@@ -167,10 +165,10 @@ def test_an_axle_says_so_of_the_side():
 def test_a_rigid_axle_says_so_and_does_not_rest_beyond():
     axle = RigidAxle.load("rigid_axle")
     plain = RigidAxleModel(axle)
-    length = float(plain.signal("left_damper_length", rest_of_rigid(plain)))
+    length = float(plain.signal("left_damper_length", equilibrium(plain)))
     model = RigidAxleModel(axle.with_changes({"damper.length_min_mm": 1e3 * (length - 0.002)}))
     raised = {"left_road_height": STEP["road_height"]}
-    found = simulate(model, (0.0, 0.3), rest_of_rigid(model), inputs=raised)
+    found = simulate(model, (0.0, 0.3), equilibrium(model), inputs=raised)
     assert "left_damper_length" in [one.bound.signal for one in found.validity]
     with pytest.raises(PositionError, match="the left damper is beyond its least length"):
-        rest_of_rigid(model, road_height={"left": 0.04, "right": 0.04})
+        equilibrium(model, road_height={"left": 0.04, "right": 0.04})

@@ -12,7 +12,7 @@ import pytest
 from kintrafo import KintrafoError
 from kintrafo.core.arguments import Arguments, shown
 from kintrafo.generated import four_bar
-from kintrafo.study.scenario import Scenario
+from kintrafo.study.scenario import Scenario, run
 
 CAR = kintrafo.Model("reference_car")
 SYSTEM = kintrafo.System(four_bar)
@@ -37,7 +37,7 @@ SPAN = (0.0, 0.01)
             r"inputs = array\(\[0., 1., 2.\]\): a dict",
         ),
         (
-            lambda: Scenario(inputs=None).start(CAR),
+            lambda: run(CAR, Scenario(inputs=None)),
             "inputs = None: a dict of input names",
         ),
         (

@@ -14,12 +14,12 @@ from kintrafo import (
     Suspension,
     System,
     axles,
+    equilibrium,
     loads,
     roads,
     simulate,
 )
 from kintrafo.assembly.pair import Pair
-from kintrafo.study.axles import ride
 from kintrafo.suspension.points import carried
 from kintrafo.suspension.positions import arm_angles, design_height
 from kintrafo.suspension.reach import at_rest
@@ -202,7 +202,7 @@ def test_rest_is_that_of_the_whole_axle() -> None:
         pytest.skip("no C compiler")
     found = axles.static_loads(BENT, {"a": {"contact_g": [0.0, 0.0, 1.0]}})
     model = AxleModel(BENT)
-    rest = ride.equilibrium(model)
+    rest = equilibrium(model)
     for side in SIDES:
         force = float(model.signal(f"{side}_rear_tyre_force", rest))
         # the tyre pushes in the plane of the wheel, at most 2 deg from upright
@@ -238,7 +238,7 @@ def test_a_motion_needs_nothing_else() -> None:
         pytest.skip("no C compiler")
     model = AxleModel(AXLE)
     road = {"left_road_height": roads.step(0.03, at=0.05, end=0.3)}
-    motion = simulate(model, (0.0, 0.3), ride.equilibrium(model), inputs=road)
+    motion = simulate(model, (0.0, 0.3), equilibrium(model), inputs=road)
     found = axles.loads_along(model, motion)
     largest = float(abs(found["force"]).max())
     for side in SIDES:

@@ -18,6 +18,7 @@ from kintrafo import (
     RigidAxle,
     Suspension,
     axles,
+    equilibrium,
     loads,
     rigid_axles,
     roads,
@@ -26,10 +27,10 @@ from kintrafo.assembly import motions, wheel
 from kintrafo.assembly.from_model import corner as corner_of
 from kintrafo.assembly.pair import Pair
 from kintrafo.report import Chapter, axle_chapter
-from kintrafo.study.axles import checkup, ride
+from kintrafo.study.axles import checkup
 from kintrafo.study.axles import rolling as formulas
 from kintrafo.study.compare import differences
-from kintrafo.study.scenario import Scenario
+from kintrafo.study.scenario import Scenario, by_wheel, run
 from kintrafo.study.variation.ways import values_of
 from kintrafo.suspension.axle.bar import AntiRollBar
 from kintrafo.suspension.axle.steering import SteeringCurve
@@ -169,7 +170,7 @@ def test_the_bar_and_the_forces_are_those_of_the_whole_axle(compiled: AxleModel)
 
 
 def test_an_axle_rests_where_nothing_pulls(compiled: AxleModel) -> None:
-    state = ride.equilibrium(compiled, road_height={"left": 0.02}, rack_position=0.01)
+    state = equilibrium(compiled, road_height={"left": 0.02}, rack_position=0.01)
     rates = compiled.evaluate("rhs", state, state.inputs)
     assert np.abs(rates).max() < 1e-8
     assert compiled.eigenvalues(state, state.inputs).real.max() < 1e-8
@@ -178,8 +179,8 @@ def test_an_axle_rests_where_nothing_pulls(compiled: AxleModel) -> None:
 def test_a_road_under_one_wheel_moves_both(compiled: AxleModel) -> None:
     road = roads.step(0.02, at=0.05, end=1.5)
     scenario = Scenario(duration=1.5, inputs={"road_height": road})
-    result, motion = ride.run(compiled, scenario, wheels="right", rtol=1e-9, atol=1e-11)
-    rest = ride.equilibrium(compiled, road_height={"right": 0.02})
+    result, motion = run(compiled, scenario, wheels="right", rtol=1e-9, atol=1e-11)
+    rest = equilibrium(compiled, road_height={"right": 0.02})
     arms = [i for i, name in enumerate(compiled.state_names) if "arm" in name or "beta1" in name]
     # a wheel hop dies out: its damping is a fifth of the critical at 12 Hz
     np.testing.assert_allclose(result.y[arms, -1], rest[arms], atol=1e-8)
@@ -188,8 +189,8 @@ def test_a_road_under_one_wheel_moves_both(compiled: AxleModel) -> None:
     assert float(centre[-1] - centre[0]) > 1e-4
     assert centre.attrs["long_name"].endswith(", left")
     assert [len(times) for times in result.t_events] == [0, 0, 0, 0]
-    drawn = ride.by_side(motion)
-    assert drawn["road_height"].dims == ("data_set", "time")
+    drawn = by_wheel(compiled, motion)
+    assert drawn["road_height"].dims == ("wheel", "time")
 
 
 # -- against differences ------------------------------------------------------------------------

@@ -21,9 +21,9 @@ from kintrafo import (
     sweep,
     travel_range,
 )
+from kintrafo.assembly.rest import nearest
 from kintrafo.suspension.points import hardpoints
 from kintrafo.suspension.positions import (
-    _stable_root,
     arm_angles,
     design_height,
     road_under_load,
@@ -439,7 +439,7 @@ def test_two_positions_of_rest_within_a_step_are_seen(gap):
         place = (np.asarray(angle) - middle) / (high - low)
         return place * (gap - place)
 
-    root = _stable_root(moment, reach, high)
+    root = nearest(moment, reach, high)
     assert root == pytest.approx(middle, abs=1e-12)
 
 

@@ -20,13 +20,14 @@ from kintrafo import (
     RigidAxle,
     RigidAxleModel,
     Suspension,
+    equilibrium,
     rigid_axles,
     roads,
 )
 from kintrafo.assembly.beam import Beam
 from kintrafo.study.rigid import formulas
 from kintrafo.study.rigid.catalogue import MEASURES
-from kintrafo.study.scenario import Scenario
+from kintrafo.study.scenario import Scenario, run
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import fsolve
 from scipy.spatial.transform import Rotation
@@ -402,7 +403,7 @@ def test_the_mirror_image_is_the_mirror_image() -> None:
 @pytest.mark.parametrize("road", [0.0, 0.06])
 def test_it_stands_on_its_wheels(road: float) -> None:
     """What springs and weight ask for is what the tyres do, in the planes of their wheels."""
-    rest = rigid_axles.equilibrium(MODEL, road_height={"left": road})
+    rest = equilibrium(MODEL, road_height={"left": road})
     at, found, up = rest[:2], Found(AXLE), np.array([0.0, 0.0, 1.0])
     turn = found.pose(*at)[1]
     axis = turn.apply([0.0, 1.0, 0.0])
@@ -445,8 +446,8 @@ def test_hop_and_tramp_are_those_of_the_book() -> None:
 def test_a_step_under_one_wheel_ends_where_it_rests() -> None:
     step = roads.step(0.02, at=0.05, end=1.5)
     scenario = Scenario(duration=1.5, inputs={"road_height": step})
-    result, motion = rigid_axles.run(MODEL, scenario, wheels="left", rtol=1e-8, atol=1e-10)
-    rest = rigid_axles.equilibrium(MODEL, road_height={"left": 0.02})
+    result, motion = run(MODEL, scenario, wheels="left", rtol=1e-8, atol=1e-10)
+    rest = equilibrium(MODEL, road_height={"left": 0.02})
     # what is left of a tramp of 13 Hz with a damping of 0.23 after 1.4 s
     np.testing.assert_allclose(result.y[:2, -1], rest[:2], rtol=0.0, atol=1e-7)
     assert motion["left_axle_camber"].attrs["long_name"] == "camber, left"
@@ -456,9 +457,7 @@ def test_a_step_under_one_wheel_ends_where_it_rests() -> None:
 def test_a_wheel_leaves_the_ground_if_it_may() -> None:
     free = RigidAxleModel(AXLE.with_changes({"tyre.lifts_off": True}))
     step = roads.step(-0.06, at=0.05, end=0.5)
-    result, motion = rigid_axles.run(
-        free, Scenario(duration=0.5, inputs={"road_height": step}), wheels="right"
-    )
+    result, motion = run(free, Scenario(duration=0.5, inputs={"road_height": step}), wheels="right")
     leaves, touches = result.t_events[2], result.t_events[3]
     assert len(leaves) > 0
     assert len(touches) == len(leaves)
@@ -707,7 +706,7 @@ def test_positions_beyond_reach_are_refused() -> None:
     with pytest.raises(InputError, match="finite"):
         rigid_axles.bump(AXLE, [math.nan])
     with pytest.raises(PositionError, match="no stable equilibrium"):
-        rigid_axles.equilibrium(
+        equilibrium(
             RigidAxleModel(
                 AXLE.with_changes({"tyre.rate_N_per_m": 0.0, "spring.rate_N_per_m": 1.0})
             )

@@ -17,6 +17,7 @@ from kintrafo import (
     PositionError,
     RigidAxle,
     RigidAxleModel,
+    equilibrium,
     loads,
     rigid_axles,
     roads,
@@ -24,7 +25,7 @@ from kintrafo import (
 )
 from kintrafo.plots.loads import free_bodies
 from kintrafo.study.loads.sheets import overview
-from kintrafo.study.scenario import Scenario
+from kintrafo.study.scenario import Scenario, run
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 from test_rigid_axle import AXLE, LEFT, LOPSIDED, MODEL, TRIANGULATED, Found, each_axle, slopes
 
@@ -281,7 +282,7 @@ def test_a_stop_that_is_hardly_touched_is_found(pressed: float, rate: float) -> 
 
 def test_rest_on_the_road_is_the_static_load() -> None:
     found = rigid_axles.static_loads(AXLE).sel(case="static")
-    rest = rigid_axles.equilibrium(MODEL)
+    rest = equilibrium(MODEL)
     for side in SIDES:
         force = float(MODEL.signal(f"{side}_axle_tyre_force", rest))
         # but for the cosine of what rounding of its file inclines it
@@ -343,7 +344,7 @@ def motion() -> tuple[RigidAxleModel, Any, xr.Dataset]:
     axle = LOPSIDED.with_changes({"damper.friction_N": 60.0})
     model = RigidAxleModel(axle)
     inputs = {"left_road_height": roads.step(0.03, at=0.02, end=0.08)}
-    rest = rigid_axles.equilibrium(model, spin_rate=40.0)
+    rest = equilibrium(model, spin_rate=40.0)
     times = np.arange(0.0, 0.08, APART)
     moving = simulate(model, (0.0, 0.08), rest, inputs=inputs, t_eval=times, rtol=1e-11, atol=1e-13)
     return model, moving, rigid_axles.loads_along(model, moving)
@@ -613,7 +614,7 @@ def test_the_report_has_the_load_cases(kintrafo: Any, tmp_path: Path) -> None:  
 
 
 def test_a_ride_has_its_loads() -> None:
-    moving, _ = rigid_axles.run(MODEL, Scenario(duration=0.02))
+    moving, _ = run(MODEL, Scenario(duration=0.02))
     found = rigid_axles.loads_along(MODEL, moving)
     heave, roll = moving.y[0, -1], moving.y[1, -1]
     ways = {"left": heave + 0.78 * math.sin(roll), "right": heave - 0.78 * math.sin(roll)}

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from kintrafo import Axle, InputError, Model, RigidAxle, rig, rigid_axles, roads, variation
-from kintrafo.study.scenario import Scenario
+from kintrafo.study.scenario import Scenario, run
 from kintrafo.suspension.rigid.model import RigidAxleModel
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 from test_rigid_axle import AXLE, Found
@@ -156,7 +156,7 @@ def test_motions_over_a_road_are_those_of_one_after_the_other() -> None:
     assert found["success"].all()
     for rate in rates:
         model = RigidAxleModel(AXLE.with_changes({place: rate}))
-        _, alone = rigid_axles.run(model, bump, rtol=1e-6, atol=1e-9)
+        _, alone = run(model, bump, rtol=1e-6, atol=1e-9)
         ours = float(found[f"{signal}_max"].sel({place: rate}))
         # the tolerances of both, of stiff tyres
         assert ours == pytest.approx(float(alone[signal].max()), rel=1e-4)

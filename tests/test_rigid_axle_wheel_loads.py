@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import InputError, RigidAxleModel, rigid_axles, simulate
-from kintrafo.study.scenario import Scenario
+from kintrafo import InputError, RigidAxleModel, equilibrium, rigid_axles, simulate
+from kintrafo.study.scenario import Scenario, run
 from kintrafo.suspension.wheel_loads import UNITS
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 from test_rigid_axle import AXLE, LOPSIDED, Found
@@ -38,7 +38,7 @@ def test_rest_is_that_of_a_load_case() -> None:
     wanted = rigid_axles.static_loads(LOPSIDED, {"case": CASE})
     free = LOPSIDED.with_changes({"tyre.rate_N_per_m": 0.0})
     model, given = RigidAxleModel(free, wheel_loads=True), inputs_of(CASE)
-    rest = rigid_axles.equilibrium(model, inputs=given)
+    rest = equilibrium(model, inputs=given)
     for side in SIDES:
         height = float(model.signal(f"{side}_axle_wheel_center_z", rest))
         travel = height - LOPSIDED.center[2]
@@ -111,7 +111,7 @@ def test_every_part_is_in_balance_along_a_motion() -> None:
         "right_wheel_moment_z": (time, [0.0, 0.0, 80.0]),
         "left_center_force_z": (time, [0.0, 900.0, 0.0]),
     }
-    start = rigid_axles.equilibrium(MODEL, spin_rate=30.0)
+    start = equilibrium(MODEL, spin_rate=30.0)
     motion = simulate(MODEL, (0.0, 0.05), start, inputs=inputs, t_eval=np.linspace(0.0, 0.05, 6))
     found = rigid_axles.loads_along(MODEL, motion)
     most = abs(found["force"]).max()
@@ -129,15 +129,15 @@ def test_a_ride_under_loads_and_what_is_refused() -> None:
     model = RigidAxleModel(AXLE, wheel_loads=True)
     again = pickle.loads(pickle.dumps(model))
     assert again.wheel_loads
-    result, _ = rigid_axles.run(model, Scenario(duration=0.05, inputs=braked), wheels="left")
+    result, _ = run(model, Scenario(duration=0.05, inputs=braked), wheels="left")
     # at rest from the beginning: one brake alone steers and rolls the axle, and it stays
     assert np.ptp(result.y[:2], axis=1).max() < 1e-6
     assert abs(result.y[1, 0]) > 1e-5
     plain = Scenario(duration=0.01)
-    ways = [rigid_axles.run(m, plain)[0].y[:, -1] for m in (model, RigidAxleModel(AXLE))]
+    ways = [run(m, plain)[0].y[:, -1] for m in (model, RigidAxleModel(AXLE))]
     np.testing.assert_allclose(ways[0], ways[1], atol=1e-12)
     with pytest.raises(InputError, match="wheel_loads=True"):
-        rigid_axles.run(RigidAxleModel(AXLE), replace(plain, inputs=braked))
+        run(RigidAxleModel(AXLE), replace(plain, inputs=braked))
     low = {f"hardpoints.{name}": [p[0], p[1], p[2] - 330.0] for name, p in
            AXLE.to_dict()["hardpoints"].items() if name != "unit"}  # fmt: skip
     low |= {f"rods.{name}.{end}": [p[0], p[1], p[2] - 330.0]

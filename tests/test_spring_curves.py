@@ -23,7 +23,6 @@ from kintrafo.suspension import data
 from kintrafo.suspension.plausibility import plausibility
 from kintrafo.suspension.rigid import data as rigid_data
 from kintrafo.suspension.rigid.model import RigidAxleModel
-from kintrafo.suspension.rigid.model import equilibrium as equilibrium_of_axle
 from kintrafo.suspension.spring_table import force_and_rate, rate_at
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, interp1d
 from scipy.optimize import brentq
@@ -469,7 +468,7 @@ def test_springs_of_a_rigid_axle():
     models = [RigidAxleModel(one) for one in (bent, straight)]
     found, expected = (np.sort_complex(m.eigenvalues(m.design_state)) for m in models)
     np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-6)
-    rest = equilibrium_of_axle(models[0])
+    rest = kintrafo.equilibrium(models[0])
     signals = models[0].signals(rest)
     for side in ("left", "right"):
         free = bent.length("spring", side) + compression_of("cubic", force)

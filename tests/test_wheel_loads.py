@@ -19,11 +19,11 @@ from kintrafo import (
 from kintrafo.generator import DeclarationError, Direction, Input
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.suspension import with_wheel_loads
-from kintrafo.study.axles import loads_along, ride
+from kintrafo.study.axles import loads_along
 from kintrafo.study.checkup import checkup
 from kintrafo.study.loads.along import in_motion
 from kintrafo.study.measurement import measured
-from kintrafo.study.scenario import Scenario
+from kintrafo.study.scenario import Scenario, run
 from kintrafo.suspension.positions import design_height
 from kintrafo.suspension.wheel_loads import UNITS
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
@@ -91,13 +91,13 @@ def test_both_sides_of_an_axle_do_what_one_does() -> None:
     braked = {"contact_force_x": -2000.0, "hub_torque": -600.0}
     alone = equilibrium(corner, inputs=braked)
     both = {f"{side}_{name}": value for side in ("left", "right") for name, value in braked.items()}
-    rest = ride.equilibrium(model, inputs=both)
+    rest = equilibrium(model, inputs=both)
     height = float(corner.signal("wheel_center_z", alone))
     for side in ("left", "right"):
         found = float(model.signal(f"{side}_front_wheel_center_z", rest))
         assert found == pytest.approx(height, abs=1e-9)
     scenario = Scenario(duration=0.1, inputs=braked)
-    result, motion = ride.run(model, scenario, wheels="left")
+    result, motion = run(model, scenario, wheels="left")
     twist = motion["bar_spring_moment"].values
     # at rest from the beginning; the brake holds the wheel, but for its camber
     assert np.ptp(twist) < 0.01 * abs(twist[0]) > 0.0
@@ -105,7 +105,7 @@ def test_both_sides_of_an_axle_do_what_one_does() -> None:
     for side in ("left", "right"):
         assert abs(of_parts[f"holding_force_{side}"]).max() < 1e-9 * abs(of_parts["force"]).max()
     with pytest.raises(InputError, match="contact_force_x and left_contact_force_x are given"):
-        ride.run(model, replace(scenario, inputs={**braked, "left_contact_force_x": 0.0}))
+        run(model, replace(scenario, inputs={**braked, "left_contact_force_x": 0.0}))
 
 
 def test_measured_loads_are_driven(kintrafo, tmp_path: Path) -> None:  # noqa: F811

@@ -12,11 +12,13 @@ from ..suspension.bushes import Bush
 from ..suspension.corner import Array
 from ..suspension.input.vehicle import Tyre
 from .anti_roll_bar import Bar, RollBar
+from .held import Held
 from .load import Load
 from .poses import Assembled
 from .quantity import RACK, Quantity
 from .rig import Extent, RigMotion, RigPosition
 from .soft_lines import SoftLines
+from .wheel_names import WheelNames
 
 
 @dataclass(frozen=True)
@@ -54,10 +56,14 @@ class Assembly(ABC):
         in turn.
     motions : mapping of str to RigMotion
         What a rig can do with it, the usual motion first.
+    model : Model, AxleModel or RigidAxleModel
+        Its equations of motion; those of an axle are derived and compiled when they are first
+        needed.
     """
 
     wheels: tuple[str, ...]
     motions: Mapping[str, RigMotion]
+    model: Any
 
     NEEDED: ClassVar[str] = (
         "a kintrafo.Suspension or Model, an Axle, or a RigidAxle is needed; "
@@ -152,6 +158,44 @@ class Assembly(ABC):
     @abstractmethod
     def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
         """Refuse what cannot be held in a motion: a travel, or a rack that it moves itself."""
+
+    # -- its equations of motion ------------------------------------------------------------------
+
+    @property
+    @abstractmethod
+    def coordinates(self) -> tuple[str, ...]:
+        """The states that move the wheels up and down, by name."""
+
+    @abstractmethod
+    def names_of(self, wheel: str) -> WheelNames:
+        """Return what the equations call what belongs to a wheel."""
+
+    def at_rest(self, coordinates: Array, rack: float) -> tuple[Array, Array]:
+        """Return states and inputs without rates, (..., states) and (..., inputs).
+
+        Parameters
+        ----------
+        coordinates : ndarray, shape (..., coordinates)
+        rack : float
+            Displacement of the rack, if there is one [m].
+        """
+        model, lead = self.model, coordinates.shape[:-1]
+        states = np.broadcast_to(model.design_state, (*lead, model.design_state.size)).copy()
+        states[..., [model.state_names.index(name) for name in self.coordinates]] = coordinates
+        inputs = np.zeros((*lead, len(model.input_names)))
+        if self.steered:
+            inputs[..., model.input_names.index("rack_position")] = rack
+        return states, inputs
+
+    @abstractmethod
+    def coordinates_at_rest(self, held: Held) -> Array:
+        """Return the coordinates of the stable state of rest, shape (coordinates,).
+
+        Raises
+        ------
+        PositionError
+            If there is none.
+        """
 
     # -- its parts --------------------------------------------------------------------------------
 

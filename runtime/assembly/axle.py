@@ -1,6 +1,7 @@
 """An axle as an assembly: two corners, with a rack and an anti-roll bar between them."""
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..suspension.axle import Axle
 from ..suspension.axle.axle import LEFT, RIGHT
+from ..suspension.axle.equations import AxleModel
 from ..suspension.bushes import described_bushings, mirrored_bushings, softness_of_rack
 from ..suspension.corner import Array
 from ..suspension.input.vehicle import Tyre
@@ -16,15 +18,22 @@ from . import motions
 from .anti_roll_bar import Bar
 from .assembly import Assembly, Bushings
 from .axle_coupling import pull_of_bar, torque_of_bar, turn_of_half
-from .corner import lines_of, poses_of
+from .corner import CornerAssembly, lines_of, poses_of
+from .held import Held
 from .load import Load
 from .poses import Assembled
 from .quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
+from .rest import settled
 from .rig import Extent, RigMotion, RigPosition
 from .soft_lines import SoftLines
 from .steering_wheel import rack_of
+from .wheel_names import WheelNames
 
 SIDES = (LEFT, RIGHT)
+_NO_REST = (
+    "the axle has no stable equilibrium near that of its sides. Check the anti-roll bar's "
+    "free_twist_deg and rate, or the heights of the road."
+)
 
 
 class AxleAssembly(Assembly):
@@ -33,13 +42,15 @@ class AxleAssembly(Assembly):
     Parameters
     ----------
     axle : Axle
+    model : AxleModel, optional
+        Its equations, where there are some already.
     """
 
     wheels = SIDES
     BAR_SIGN = "positive with the left half turned the farther"
 
-    def __init__(self, axle: Axle) -> None:
-        self.axle = axle
+    def __init__(self, axle: Axle, model: AxleModel | None = None) -> None:
+        self.axle, self._model = axle, model
         over = STEERING_WHEEL if motions.turns_the_rack(axle) else RACK
         steering = {"steer": RigMotion(over, motions.MOTIONS["steer"], "steering")}
         self.motions = motions_of_two(motions.MOTIONS) | (steering if self.steered else {})
@@ -108,6 +119,29 @@ class AxleAssembly(Assembly):
             given.refuse("rack_position: the motion 'steer' moves the rack. Leave it out.")
         if motion != "steer" and travel:
             given.refuse("travel: it is for the motion 'steer'; others move the wheels by along.")
+
+    @cached_property
+    def model(self) -> AxleModel:
+        """Its equations, derived and compiled when they are first needed."""
+        return AxleModel(self.axle) if self._model is None else self._model
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The angles of the arms."""
+        return tuple(f"{side}_{model.names.arm}" for side, model in self.axle.models.items())
+
+    def names_of(self, wheel: str) -> WheelNames:
+        """Return what its equations call what belongs to a wheel."""
+        names, prefix = self.axle.models[wheel].names, f"{wheel}_"
+        signals = f"{prefix}{self.axle.end}_"
+        return WheelNames(prefix, signals, f"{prefix}{names.spin}", f"{prefix}{names.actuator}")
+
+    def coordinates_at_rest(self, held: Held) -> Array:
+        """Return the arm angles of the state of rest nearest to that of the sides without a bar."""
+        alone = held.without_inputs()
+        sides = [CornerAssembly(model) for model in self.axle.models.values()]
+        near = np.concatenate([side.coordinates_at_rest(alone) for side in sides])
+        return settled(self, held, near, _NO_REST)
 
     def poses(self, position: RigPosition) -> dict[str, Assembled]:
         """Return the parts of both sides with rigid joints."""

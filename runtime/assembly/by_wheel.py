@@ -81,3 +81,31 @@ def flat(dataset: xr.Dataset) -> xr.Dataset:
             words = f"{data.attrs.get('long_name', name)}, {wheel}"
             found[f"{name}_{wheel}"] = own.assign_attrs(long_name=words)
     return xr.Dataset(found, dataset.drop_vars(WHEEL).coords, dataset.attrs)
+
+
+def together(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
+    """Return a dataset in which what each wheel has is one variable over the wheels.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        With names that begin with that of a wheel, ``left_road_height``, as in equations of motion.
+    wheels : sequence of str
+
+    Returns
+    -------
+    xarray.Dataset
+        With ``road_height`` over ``wheel`` where there is one of each wheel.
+    """
+    found: dict[str, xr.DataArray | xr.Variable] = {}
+    for name, data in dataset.items():
+        wheel, _, stem = str(name).partition("_")
+        names = [f"{wheel}_{stem}" for wheel in wheels]
+        if wheel not in wheels or not all(each in dataset for each in names):
+            found[str(name)] = data
+        elif stem not in found:
+            words = str(data.attrs["long_name"]).removesuffix(f", {wheel}")
+            values = np.stack([dataset[each].values for each in names])
+            attributes = data.attrs | {"long_name": words}
+            found[stem] = xr.Variable((WHEEL, *data.dims), values, attributes)
+    return xr.Dataset(found, {**dataset.coords, WHEEL: wheel_coordinate(wheels)}, dataset.attrs)

@@ -6,20 +6,24 @@ from typing import Any
 import numpy as np
 
 from ..core.arguments import Arguments
+from ..core.named_types import ArrayLike
 from ..suspension.bushes import described_bushings, softness_of_rack
 from ..suspension.corner import Array
 from ..suspension.input.vehicle import Tyre
 from ..suspension.kinds import Suspension
 from ..suspension.model import Model
 from ..suspension.positions import arm_angles, design_height
-from ..suspension.reach import at_rest
+from ..suspension.reach import at_rest, travel_range
 from .assembly import Assembly, Bushings
 from .from_model import corner
+from .held import Held
 from .poses import Assembled, Poses
 from .quantity import RACK, TRAVEL, Quantity
+from .rest import forces_of, nearest
 from .rig import Extent, RigMotion, RigPosition
 from .soft_lines import SoftLines, soft_lines
 from .usual import usual_rack, usual_travel
+from .wheel_names import WheelNames
 
 _TRAVEL = {"travel": RigMotion(TRAVEL, "the wheel rises and falls", "wheel travel")}
 _RACK = {"rack": RigMotion(RACK, "the rack moves, the wheel at one height", "the rack")}
@@ -34,7 +38,7 @@ class CornerAssembly(Assembly):
     """
 
     def __init__(self, model: Model) -> None:
-        self.model = model
+        self.model: Model = model
         self.wheels = (model.suspension.vehicle.side,)
         self.motions = _TRAVEL | _RACK if self.steered else _TRAVEL
 
@@ -92,6 +96,29 @@ class CornerAssembly(Assembly):
             given.refuse("rack_position: the motion 'rack' moves the rack. Leave it out.")
         if motion != "rack" and travel:
             given.refuse("travel: the motion 'travel' moves the wheel by along. Leave it out.")
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The angle of the arm."""
+        return (self.model.names.arm,)
+
+    def names_of(self, wheel: str) -> WheelNames:
+        """Return what its equations call what belongs to its wheel."""
+        del wheel
+        return WheelNames("", "", self.model.names.spin, self.model.names.actuator)
+
+    def at_rest(self, coordinates: Array, rack: float) -> tuple[Array, Array]:
+        """Return states and inputs without rates; a free rack is a state."""
+        return at_rest(self.model, coordinates[..., 0], rack)
+
+    def coordinates_at_rest(self, held: Held) -> Array:
+        """Return the arm angle of the stable state of rest that is nearest to design."""
+        forces, reach = forces_of(self, held), travel_range(self.model, held.rack)
+
+        def moment(angle: ArrayLike) -> Array:
+            return forces(np.asarray(angle)[..., None])[..., 0]
+
+        return np.array([nearest(moment, reach, self.model.design_state[0])])
 
     def poses(self, position: RigPosition) -> dict[str, Assembled]:
         """Return its parts with rigid joints."""

@@ -34,10 +34,56 @@ _ASSEMBLIES: dict[type, Callable[[Any], Assembly]] = {
     Model: CornerAssembly,
     Suspension: _of_suspension,
     Axle: AxleAssembly,
-    AxleModel: lambda model: AxleAssembly(model.axle),
+    AxleModel: lambda model: AxleAssembly(model.axle, model),
     RigidAxle: RigidAxleAssembly,
     RigidAxleModel: lambda model: RigidAxleAssembly(model.axle, model),
 }
+
+
+def model_of(
+    subject: Suspension | Axle | RigidAxle,
+    *,
+    wheel_loads: bool = False,
+    progress: Callable[[str], None] | None = None,
+) -> Model | AxleModel | RigidAxleModel:
+    """Return the equations of motion of what a file describes, in which all mass counts.
+
+    Parameters
+    ----------
+    subject : Suspension, Axle or RigidAxle
+    wheel_loads : bool, optional
+        Whether what acts on the wheels are inputs.
+    progress : callable, optional
+        Called with what is being done, in a few words, where equations are derived.
+    """
+    if isinstance(subject, Axle):
+        return AxleModel(subject, progress=progress, wheel_loads=wheel_loads)
+    if isinstance(subject, RigidAxle):
+        return RigidAxleModel(subject, wheel_loads=wheel_loads)
+    free_rack = bool(subject.neglected_masses())
+    return Model(subject, free_rack=free_rack, wheel_loads=wheel_loads)
+
+
+MODELS = (Model, AxleModel, RigidAxleModel)
+"""The equations of motion of the assemblies."""
+
+_MODEL_NEEDED = (
+    'a kintrafo.Model of a suspension, such as Model("reference_car"), an AxleModel or a '
+    "RigidAxleModel is needed; where another mechanism is at rest, kintrafo.rest says"
+)
+
+
+def given_model(given: Arguments, model: Any) -> Assembly:
+    """Return the assembly of equations of motion, or refuse what is not one's.
+
+    Parameters
+    ----------
+    given : Arguments
+    model : Model, AxleModel or RigidAxleModel
+    """
+    given.kind("model", model, MODELS, _MODEL_NEEDED)
+    # what is refused is never seen, see `Arguments`
+    return assembly_of(model) if isinstance(model, MODELS) else None  # type: ignore[return-value]
 
 
 def given_assembly(given: Arguments, subject: Any, name: str = "subject") -> Assembly:

@@ -11,25 +11,32 @@ from ..suspension.corner import Array
 from ..suspension.input.vehicle import Tyre
 from ..suspension.reach import PositionError
 from ..suspension.rigid.axle import RigidAxle
-from ..suspension.rigid.model import RigidAxleModel
+from ..suspension.rigid.model import HEAVE, ROLL, RigidAxleModel
 from ..suspension.rigid.structure import BEAM
 from .anti_roll_bar import RollBar
 from .assembly import Assembly, Bushings
 from .axle import motions_of_two
 from .beam import SIDES, Beam
+from .held import Held
 from .load import Load
 from .motions import MOTIONS, USUAL_ROLL, USUAL_ROLL_STEP
 from .parts import Parts
 from .poses import Assembled
+from .rest import settled
 from .rig import Extent, RigPosition
 from .soft_lines import SoftLines, lines_by_rates, lines_of_beam
 from .usual import USUAL_TRAVEL, grid
+from .wheel_names import WheelNames
 
 # What each wheel travels per metre of what varies; in roll it is the half track times the sine.
 _SHARES = {"bump": (1.0, 1.0), "left": (1.0, 0.0), "right": (0.0, 1.0)}
 _MOST_ROLL = np.pi / 4.0
 # A sweep that is not told otherwise keeps clear of the ends of the motion by this part of them.
 _CLEARANCE = 0.02
+_NO_REST = (
+    "the axle has no stable equilibrium near its design position. Check the springs' rate and "
+    "free length, the tyres' rate and free height, the load of the wheels, or the road."
+)
 
 
 class RigidAxleAssembly(Assembly):
@@ -150,6 +157,26 @@ class RigidAxleAssembly(Assembly):
             given.refuse("rack_position: a rigid axle has no rack. Leave it out.")
         if travel:
             given.refuse(f"travel: the motion {motion!r} moves the wheels by along. Leave it out.")
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Heave and roll of the axle."""
+        return HEAVE, ROLL
+
+    def names_of(self, wheel: str) -> WheelNames:
+        """Return what its equations call what belongs to a wheel."""
+        prefix = f"{wheel}_"
+        return WheelNames(
+            prefix, f"{prefix}axle_", f"{prefix}spin_angle", f"{prefix}spring_actuator"
+        )
+
+    def coordinates_at_rest(self, held: Held) -> Array:
+        """Return heave and roll of the state of rest near the design position [m] and [rad]."""
+        heave, roll = found = settled(self, held, np.zeros(2), _NO_REST)
+        rise = self.axle.half_track * np.sin(roll)
+        if self.model.farthest(heave + rise, heave - rise) < 1.0:
+            raise PositionError(_NO_REST)
+        return found
 
     def poses(self, position: RigPosition) -> dict[str, Assembled]:
         """Return its parts with rigid joints."""

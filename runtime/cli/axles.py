@@ -1,23 +1,21 @@
 """What the commands do with the file of an axle."""
 
-from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.markup import escape
 from rich.table import Table
 
 from .axle_curves import tell
-from .console import console, problems
+from .console import console
 from .outputs import Outputs
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
     from ..assembly.rig import Extent
-    from ..simulation.result import Simulation
     from ..study.axles.checkup import AxleCheckup
     from ..suspension.axle import Axle
 
@@ -41,8 +39,6 @@ _OF_ONE_WHEEL = (
     "track",
     "roll_center_height",
 )
-# On the page of curves of a simulation, for both sides.
-_DRAWN = ("wheel_center_z", "wheel_acceleration", "tyre_force", "camber", "toe")
 
 
 def is_axle(file: str) -> bool:
@@ -119,50 +115,3 @@ def print_look(found: "AxleCheckup", file: str) -> None:
     for name, text in found.rows.items():
         table.add_row(name, escape(text))
     console.print(table)
-
-
-class Ride(NamedTuple):
-    """What ``kintrafo simulate`` simulates.
-
-    Attributes
-    ----------
-    model : Model or AxleModel
-    run : callable
-        Takes the model, a scenario and options of `kintrafo.simulate`.
-    curves : sequence of str
-        What stands in the table and on the page, in this order.
-    loads : callable
-        Takes the model and the result, and returns the loads on every part.
-    drawn : callable
-        Takes the motion, and returns it as it is drawn.
-    wheels : sequence of str
-        What begins the names of their events, in the order of the result.
-    """
-
-    model: Any
-    run: Callable[..., tuple["Simulation", "Dataset"]]
-    curves: Sequence[str]
-    loads: Callable[[Any, "Simulation"], "Dataset"]
-    drawn: Callable[["Dataset"], "Dataset"] = lambda motion: motion
-    wheels: Sequence[str] = ("",)
-
-
-def ride(file: str, wheels: str, *, wheel_loads: bool) -> Ride:
-    """Return an axle to be simulated over a road under one wheel or both."""
-    from ..study import axles
-    from ..study.axles import ride as study
-    from ..suspension.axle import Axle
-    from ..suspension.axle.equations import AxleModel
-
-    axle = Axle.load(file)
-    with problems.status("preparing the equations of the axle") as status:
-        model = AxleModel(
-            axle,
-            progress=lambda text: status.update(f"the axle: {text}"),
-            wheel_loads=wheel_loads,
-        )
-    stems = ("road_height", *(f"{axle.end}_{part}" for part in _DRAWN))
-    of_wheels = [f"{side}_{stem}" for stem in stems for side in ("left", "right")]
-    curves = ("rack_position", *of_wheels, "bar_angle", "bar_spring_moment")
-    played = partial(study.run, wheels=wheels)
-    return Ride(model, played, curves, axles.loads_along, study.by_side, wheels=("left_", "right_"))

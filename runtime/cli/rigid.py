@@ -1,6 +1,5 @@
 """What the commands do with the file of a rigid axle."""
 
-from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,13 +9,12 @@ from rich.markup import escape
 from rich.table import Table
 
 from .axle_curves import tell
-from .axles import Ride
 from .console import console
 from .options import among
 from .outputs import Outputs
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from xarray import Dataset
 
@@ -38,18 +36,6 @@ _TOLD = {
     ),
 }
 _OF_ONE_WHEEL = ("wheel_force_left", "wheel_force_right", "axle_steer", "axle_lateral")
-# On the page of curves of a simulation, of both sides and of the axle.
-_OF_SIDES = (
-    "road_height",
-    "axle_wheel_center_z",
-    "axle_wheel_acceleration",
-    "axle_tyre_force",
-    "spring_spring_force",
-    "damper_damper_force",
-    "axle_camber",
-    "axle_steer",
-)
-_OF_AXLE = ("heave", "roll", "bar_spring_moment")
 
 
 def is_rigid_axle(file: str) -> bool:
@@ -126,20 +112,6 @@ def compared(files: list[str], motion: str) -> "tuple[Dataset, str, dict[str, Ri
     return study.compare(found, over=motion), motion, found
 
 
-def ride(file: str, wheels: str, refused: Mapping[str, Any], *, wheel_loads: bool) -> Ride:
-    """Return a rigid axle to be simulated over a road under one wheel or both."""
-    from ..study import rigid as study
-    from ..study.axles.ride import by_side
-    from ..suspension.rigid.model import RigidAxleModel
-
-    _refuse(refused)
-    of_sides = [f"{side}_{stem}" for stem in _OF_SIDES for side in ("left", "right")]
-    played = partial(study.run, wheels=wheels)
-    model = RigidAxleModel(file, wheel_loads=wheel_loads)
-    curves = (*of_sides, *_OF_AXLE)
-    return Ride(model, played, curves, study.loads_along, by_side, wheels=("left_", "right_"))
-
-
 def loads(file: str) -> "tuple[Callable[..., Dataset], Mapping[str, Any]]":
     """Return what finds the loads of a rigid axle, and its usual cases."""
     from ..study import rigid as study
@@ -173,10 +145,3 @@ def report(
     return write_chapters(
         target, title=heading, chapters=chapters, data=axle, force=force, inputs=inputs
     )
-
-
-def _refuse(options: Mapping[str, Any]) -> None:
-    """Refuse options that the files of rigid axles do not have."""
-    for option, value in options.items():
-        if value is not None:
-            raise typer.BadParameter(f"{option} is not for the file of a rigid axle")

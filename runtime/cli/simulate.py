@@ -1,7 +1,6 @@
 """``kintrafo simulate``: the motion over a road."""
 
 import math
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -10,10 +9,9 @@ from rich.markup import escape
 from rich.table import Table
 
 from ..core.tabulated import number
-from . import axles, rigid
 from .console import console, print_json, problems, say
 from .exits import Exit
-from .options import File, Force, Json, load
+from .options import File, Force, Json
 from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, title_of
 from .scenarios import scenario_of
 from .simulation_options import (
@@ -38,6 +36,7 @@ from .simulation_options import (
     Step,
     Wheels,
 )
+from .subject import model_of
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -55,7 +54,8 @@ EXAMPLES = (
     "kintrafo simulate rigid_axle --road-step 20 --wheels left",
 )
 
-# On the page of curves, in this order; what stands still is left out.
+# On the page of curves, of each wheel and of what couples them, in this order; what stands still is
+# left out.
 _DRAWN = (
     "road_height",
     "rack_position",
@@ -63,11 +63,18 @@ _DRAWN = (
     "wheel_acceleration",
     "tyre_force",
     "spring_force",
+    "spring_spring_force",
     "damper_force",
+    "damper_damper_force",
     "strut_length",
     "spring_length",
     "camber",
     "toe",
+    "axle_steer",
+    "heave",
+    "roll",
+    "bar_angle",
+    "bar_spring_moment",
 )
 
 
@@ -116,7 +123,6 @@ def command(
     axle are derived and compiled when they are first needed, which takes some seconds.
     """
     from ..core.files import refuse
-    from ..suspension.model import Model
     from ..suspension.wheel_loads import UNITS
 
     read_here = [Path(file), *([] if measured is None else [measured])]
@@ -138,16 +144,8 @@ def command(
         duration=duration,
         output_step=output_step,
     )
-    on_wheels = not UNITS.keys().isdisjoint(scenario.inputs)
-    of_one = {"--height": height}
-    if rigid.is_rigid_axle(file):
-        ride = rigid.ride(file, wheels or "both", of_one, wheel_loads=on_wheels)
-    else:
-        ride = _ride(file, wheels, of_one, wheel_loads=on_wheels)
-        if "rack_position" in scenario.inputs:
-            _refuse_without_rack(ride.model)
-    if isinstance(ride.model, Model) and ride.model.free_rack:
-        _tell_of_the_free_rack(file, scenario.inputs)
+    model = model_of(file, wheel_loads=not UNITS.keys().isdisjoint(scenario.inputs))
+    run = _Run(model, file, scenario, wheels)
     options = {
         "method": method,
         "step": None if step is None else step / 1e3,
@@ -156,19 +154,19 @@ def command(
         "max_step": math.inf if max_step is None else max_step / 1e3,
         "max_steps": max_steps,
     }
-    result, motion = _played(ride, scenario, options, outputs, title_of(file), silent=json)
-    written = _written(ride, motion, outputs, title_of(file))
+    result, motion = _played(run, options, outputs, silent=json)
+    written = _written(run, motion, outputs, title_of(file))
     if loads:
         from ..study import loads as study
 
-        found = ride.loads(ride.model, result)
+        found = _loads_along(model, result)
         written += on_parts.write_data(found, rows=study.table(found), sheets=study.workbook(found))
     left = result.validity
     if json:
-        print_json(_summary(result, motion, ride.wheels))
+        print_json(_summary(result, motion, run))
     else:
-        console.print(_table(motion, file, ride.curves))
-        for line in _told(result, ride.wheels):
+        console.print(_table(motion, run))
+        for line in _told(result, run):
             say(line)
         name_files(written)
     for excursion in left:
@@ -178,26 +176,48 @@ def command(
         raise typer.Exit(Exit.REFUSED)
 
 
-def _ride(
-    file: str, wheels: str | None, of_one: dict[str, Any], *, wheel_loads: bool
-) -> axles.Ride:
-    """Return what is simulated, and how: a suspension, or an axle."""
-    if axles.is_axle(file):
-        axles.refuse_options("the file of one suspension", of_one)
-        return axles.ride(file, wheels or "both", wheel_loads=wheel_loads)
-    from ..study.loads import along
-    from ..study.scenario import run
+class _Run:
+    """What is simulated, checked against the options that not every file has."""
 
-    axles.refuse_options("the file of an axle", {"--wheels": wheels})
-    return axles.Ride(load(file, wheel_loads=wheel_loads), run, _DRAWN, along)
+    def __init__(self, model: Any, file: str, scenario: "Scenario", wheels: str | None) -> None:
+        from ..assembly.of import assembly_of
+
+        self.model, self.file, self.scenario = model, file, scenario
+        assembly = assembly_of(model)
+        assert assembly is not None
+        self.names = {wheel: assembly.names_of(wheel) for wheel in assembly.wheels}
+        if len(self.names) > 1 and scenario.height is not None:
+            raise typer.BadParameter("--height is only for the file of one suspension")
+        if len(self.names) == 1 and wheels is not None:
+            raise typer.BadParameter("--wheels is only for the file of an axle")
+        self.wheels = wheels or "both"
+        if getattr(model, "free_rack", False):
+            _tell_of_the_free_rack(file, scenario.inputs)
+
+    def curves(self, motion: "Dataset") -> list[str]:
+        """Return the names of what is shown of a motion, in order."""
+        starts = ("", *(s for n in self.names.values() for s in (n.prefix, n.signals)))
+        names = dict.fromkeys(f"{start}{stem}" for stem in _DRAWN for start in starts)
+        return [name for name in names if name in motion]
+
+    def drawn(self, motion: "Dataset") -> "Dataset":
+        """Return a motion as it is drawn: both wheels beside each other."""
+        from ..study.scenario import by_wheel
+
+        together = by_wheel(self.model, motion)
+        return together.rename(wheel="data_set") if "wheel" in together.dims else together
 
 
-def _refuse_without_rack(model: Any) -> None:
-    """Refuse to move a rack where there is none."""
+def _loads_along(model: Any, result: "Simulation") -> "Dataset":
+    from ..study import axles, loads, rigid
+    from ..suspension.axle.equations import AxleModel
     from ..suspension.model import Model
 
-    one = model.suspension if isinstance(model, Model) else model.axle.right
-    one.refuse_without_rack("a motion of the rack")
+    if isinstance(model, Model):
+        return loads.along(model, result)
+    if isinstance(model, AxleModel):
+        return axles.loads_along(model, result)
+    return rigid.loads_along(model, result)
 
 
 def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:
@@ -212,42 +232,40 @@ def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:
 
 
 def _played(
-    ride: axles.Ride,
-    scenario: "Scenario",
-    options: dict[str, Any],
-    outputs: Outputs,
-    title: str,
-    *,
-    silent: bool,
+    run: _Run, options: dict[str, Any], outputs: Outputs, *, silent: bool
 ) -> "tuple[Simulation, Dataset]":
     """Simulate; where that cannot be finished, write the motion up to there."""
     from ..simulation.result import SimulationError
-    from ..study.recording import dataset_of
+    from ..study import scenario
 
     try:
         with problems.status("integrating"):
-            return ride.run(ride.model, scenario, **options)
+            return scenario.run(run.model, run.scenario, wheels=run.wheels, **options)
     except SimulationError as error:
         if error.partial is not None and error.partial.t.size > 1:
-            motion = dataset_of(ride.model, error.partial)
-            written = _written(ride, motion, outputs, f"{title}, unfinished")
+            motion = scenario.motion_of(run.model, error.partial)
+            written = _written(run, motion, outputs, f"{title_of(run.file)}, unfinished")
             name_files(() if silent else written)
         reason = error.reason.replace("max_steps", "--max-steps").replace("rtol", "--rtol")
         raise SimulationError(reason, error.time, error.state, error.partial) from error
 
 
-def _written(ride: axles.Ride, motion: "Dataset", outputs: Outputs, title: str) -> list[Path]:
+def _written(run: _Run, motion: "Dataset", outputs: Outputs, title: str) -> list[Path]:
     """Write the motion; its page has the curves that are not constant."""
-    drawn = ride.drawn(motion)
-    names = dict.fromkeys(n for c in ride.curves for n in (c, c.removeprefix("left_")))
-    known = [name for name in names if name in drawn]
+    drawn = run.drawn(motion)
+    together = [name.removeprefix(f"{next(iter(run.names))}_") for name in run.curves(motion)]
+    known = [name for name in dict.fromkeys([*run.curves(motion), *together]) if name in drawn]
     varying = [n for n in known if float(drawn[n].max() - drawn[n].min()) > 0.0]
     return outputs.write(motion, title=title, names=varying, drawn=drawn)
 
 
-def _crossings(result: "Simulation", wheels: Sequence[str]) -> dict[str, list[float]]:
+def _crossings(result: "Simulation", run: _Run) -> dict[str, list[float]]:
     """Return the times at which each wheel left the ground, and at which it came back."""
-    names = [f"{w}wheel_{what}_ground" for w in wheels for what in ("leaves", "touches")]
+    names = [
+        f"{own.prefix}wheel_{what}_ground"
+        for own in run.names.values()
+        for what in ("leaves", "touches")
+    ]
     if not result.t_events:
         return {name: [] for name in names}
     return {n: [float(t) for t in at] for n, at in zip(names, result.t_events, strict=True)}
@@ -258,14 +276,14 @@ def _counts(result: "Simulation") -> dict[str, int]:
     return {name: int(result[name]) for name in names if name in result}
 
 
-def _summary(result: "Simulation", motion: "Dataset", wheels: Sequence[str]) -> dict[str, Any]:
+def _summary(result: "Simulation", motion: "Dataset", run: _Run) -> dict[str, Any]:
     from ..study.recording import statistics
 
     return {
         "duration": float(result.t[-1]),
         "message": result.message,
         "solver": {"name": result.solver, **_counts(result)},
-        **_crossings(result, wheels),
+        **_crossings(result, run),
         "validity": [
             vars(found) | {"bound": vars(found.bound), "text": str(found)}
             for found in result.validity
@@ -277,16 +295,16 @@ def _summary(result: "Simulation", motion: "Dataset", wheels: Sequence[str]) -> 
     }
 
 
-def _table(motion: "Dataset", file: str, curves: Sequence[str]) -> Table:
+def _table(motion: "Dataset", run: _Run) -> Table:
     from ..core.quantities import bracketed, display_of, long_name
     from ..study.recording import statistics
 
-    table = Table(title=f"{escape(file)}: motion from 0 s to {float(motion['time'][-1]):g} s")
+    table = Table(title=f"{escape(run.file)}: motion from 0 s to {float(motion['time'][-1]):g} s")
     table.add_column("signal")
     for column in ("smallest", "largest", "mean", "rms about it", "last"):
         table.add_column(column, justify="right")
     found = statistics(motion)
-    for name in (name for name in curves if name in motion):
+    for name in run.curves(motion):
         data = motion[name]
         factor = display_of(data.attrs).factor
         values = vars(found[name]).values()
@@ -295,18 +313,18 @@ def _table(motion: "Dataset", file: str, curves: Sequence[str]) -> Table:
     return table
 
 
-def _told(result: "Simulation", wheels: Sequence[str]) -> list[str]:
+def _told(result: "Simulation", run: _Run) -> list[str]:
     """Return what happened, and what it took."""
-    crossings, counts = _crossings(result, wheels), _counts(result)
+    crossings, counts = _crossings(result, run), _counts(result)
     lines = [f"{result.solver}: " + ", ".join(f"{v} {_WORDS[n]}" for n, v in counts.items())]
-    for wheel in wheels:
-        left = crossings[f"{wheel}wheel_leaves_ground"]
+    for prefix in (own.prefix for own in run.names.values()):
+        left = crossings[f"{prefix}wheel_leaves_ground"]
         if not left:
             continue
         times = ", ".join(f"{time:.4g} s" for time in left[:5])
         more = ", ..." if len(left) > 5 else ""
         often = "once" if len(left) == 1 else f"{len(left)} times"
-        which = f"The {wheel.replace('_', ' ')}wheel"
+        which = f"The {prefix.replace('_', ' ')}wheel"
         lines.append(f"{which} leaves the ground {often}: {times}{more}")
     return lines
 

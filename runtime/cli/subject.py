@@ -3,13 +3,16 @@
 from typing import TYPE_CHECKING
 
 from . import rigid
+from .console import problems
 from .options import load as load_model
 
 if TYPE_CHECKING:
     from ..suspension.axle import Axle
+    from ..suspension.axle.equations import AxleModel
     from ..suspension.kinds import Suspension
     from ..suspension.model import Model
     from ..suspension.rigid import RigidAxle
+    from ..suspension.rigid.model import RigidAxleModel
 
 
 def described_by(file: str) -> "Model | Axle | RigidAxle":
@@ -19,6 +22,28 @@ def described_by(file: str) -> "Model | Axle | RigidAxle":
 
     found = load(file)
     return load_model(file) if isinstance(found, Suspension) else found
+
+
+def model_of(file: str, *, wheel_loads: bool = False) -> "Model | AxleModel | RigidAxleModel":
+    """Return the equations of motion of what a file describes.
+
+    Parameters
+    ----------
+    file : str
+        Path of a TOML file, or name of a packaged data set.
+    wheel_loads
+        Whether what acts on the wheels are inputs.
+    """
+    from ..assembly.of import model_of as of_subject
+    from ..suspension.loading import load
+
+    subject = load(file)
+    with problems.status("preparing the equations") as status:
+        return of_subject(
+            subject,
+            wheel_loads=wheel_loads,
+            progress=lambda text: status.update(f"the equations: {text}"),
+        )
 
 
 def studied(file: str) -> "Suspension | RigidAxle":

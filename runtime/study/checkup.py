@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..assembly import wheel
+from ..assembly.equilibrium import equilibrium
 from ..assembly.from_model import corner
 from ..core.arguments import Arguments
 from ..core.vectors import distance_from_line
@@ -15,7 +16,7 @@ from ..suspension.facts import Extended
 from ..suspension.kinds import Suspension
 from ..suspension.model import Model
 from ..suspension.plausibility import USUAL_HOP, plausibility
-from ..suspension.positions import PositionError, Range, design_height, equilibrium, travel_range
+from ..suspension.positions import PositionError, Range, design_height, travel_range
 from ..suspension.starter import packaged
 from . import paper
 

@@ -11,10 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..assembly.equilibrium import equilibrium
 from ..simulation.result import Simulation
 from ..simulation.simulate import simulate
 from ..suspension.model import Model
-from ..suspension.positions import arm_angles, equilibrium, state_at_height
+from ..suspension.positions import arm_angles, state_at_height
 from ..suspension.reach import at_rest
 from ..systems.linearisation import linearise
 from ..systems.modes import Mode

@@ -1,23 +1,39 @@
-"""One run of a suspension over a road: where it starts, what road and rack do, for how long."""
+"""One run over a road: where it starts, what road and rack do, for how long."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
+from ..assembly.assembly import Assembly
+from ..assembly.by_wheel import together
+from ..assembly.equilibrium import equilibrium, refuse_missing_loads
+from ..assembly.of import assembly_of, given_model
 from ..core.arguments import Arguments
+from ..core.errors import InputError
 from ..simulation.courses import Signal
 from ..simulation.result import Simulation
 from ..simulation.signals import time_inputs
 from ..simulation.simulate import simulate
+from ..suspension.axle.equations import AxleModel
 from ..suspension.model import Model
-from ..suspension.positions import equilibrium, state_at_height
+from ..suspension.positions import state_at_height
+from ..suspension.rigid.model import RigidAxleModel
 from ..suspension.wheel_loads import UNITS
+from ..systems.state import State
 from .recording import dataset_of
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 Array = NDArray[np.float64]
+
+BOTH = "both"
+"""Under all wheels."""
+
+_RACK = "rack_position"
 
 # More output than this is a mistake in the step, and would fill the memory.
 _MOST_OUTPUTS = 5_000_000
@@ -25,7 +41,7 @@ _MOST_OUTPUTS = 5_000_000
 
 @dataclass(frozen=True)
 class Scenario:
-    """What happens to a suspension in a simulation.
+    """What happens to a corner, an axle or a rigid axle in a simulation.
 
     Attributes
     ----------
@@ -34,10 +50,10 @@ class Scenario:
     output_step : float
         Time between outputs [s].
     height : float, optional
-        Height of the wheel centre at the start, chassis axes [m]; by default that of the
-        equilibrium on the road as it is at the start.
+        Height of the wheel centre of a corner at the start, chassis axes [m]; by default that of
+        the equilibrium on the road as it is at the start, where axles start.
     spin_rate : float
-        Rate of the wheel relative to the knuckle, positive rolling forward [rad/s].
+        Rate of the wheels relative to their carriers, positive rolling forward [rad/s].
     inputs : dict
         Inputs by name, as `kintrafo.simulate` takes them; see `kintrafo.roads`.
     """
@@ -65,41 +81,31 @@ class Scenario:
         times[-1] = duration
         return times
 
-    def start(self, model: Model) -> Array:
-        """Return the state at the start, with road and rack as they are then."""
-        with Arguments("simulation") as checked:
-            checked.mapping("inputs", self.inputs, "input names, what they do")
-        given = time_inputs(model, self.inputs, (0.0, self.duration))
-        at_start = given.at(0.0, given.segments[0])
-        known = dict(zip(model.input_names, map(float, at_start), strict=True))
-        rack = known.get("rack_position", 0.0)
-        if self.height is not None:
-            return state_at_height(model, self.height, rack_position=rack, spin_rate=self.spin_rate)
-        return equilibrium(
-            model,
-            rack_position=rack,
-            road_height=known["road_height"],
-            strut_force=known[model.names.actuator],
-            spin_rate=self.spin_rate,
-            inputs={name: known[name] for name in UNITS if name in self.inputs},
-        )
 
-
-def run(model: Model, scenario: Scenario, **options: Any) -> tuple[Simulation, xr.Dataset]:
+def run(
+    model: Model | AxleModel | RigidAxleModel,
+    scenario: Scenario,
+    *,
+    wheels: str = BOTH,
+    **options: Any,
+) -> "tuple[Simulation, xr.Dataset]":
     """Simulate a scenario.
 
     Parameters
     ----------
-    model : Model
+    model : Model, AxleModel or RigidAxleModel
     scenario : Scenario
+        Its ``road_height``, and loads on a wheel, are those of the wheels that are named; the
+        others have a level road. Inputs of an axle may be given by their own names as well.
+    wheels : {'both', 'left', 'right'}, optional
     **options : Any
         Of `kintrafo.simulate`: ``method``, ``rtol``, ``atol``, ...
 
     Returns
     -------
     Simulation
-        With the times at which the wheel left the ground in ``t_events[0]``, and at which it came
-        back in ``t_events[1]``.
+        With the times at which the first wheel left the ground in ``t_events[0]``, and at which it
+        came back in ``t_events[1]``; those of the second wheel behind them, the left one first.
     xarray.Dataset
         Signals, states and inputs over time, see `kintrafo.study.recording.dataset_of`.
 
@@ -110,23 +116,128 @@ def run(model: Model, scenario: Scenario, **options: Any) -> tuple[Simulation, x
 
     Examples
     --------
-    >>> from kintrafo import roads
+    >>> from kintrafo import Model, RigidAxleModel, roads
     >>> bump = roads.step(0.02, at=0.1, end=1.0)
     >>> result, motion = run(Model("reference_car"), Scenario(inputs={"road_height": bump}))
     >>> round(float(motion["wheel_center_z"][-1] - motion["wheel_center_z"][0]), 4)
     0.0178
+    >>> over = Scenario(inputs={"road_height": bump})
+    >>> _, motion = run(RigidAxleModel("rigid_axle"), over, wheels="left")
+    >>> float(motion["right_road_height"].max())
+    0.0
+    """
+    start, inputs = started(model, scenario, wheels=wheels)
+    assembly = assembly_of(model)
+    assert assembly is not None
+    events = [name for wheel in assembly.wheels for name in assembly.names_of(wheel).events]
+    span, times = (0.0, scenario.duration), scenario.times()
+    result = simulate(model, span, start, inputs=inputs, t_eval=times, events=events, **options)
+    return result, motion_of(model, result)
+
+
+def motion_of(model: Model | AxleModel | RigidAxleModel, result: Simulation) -> "xr.Dataset":
+    """Return signals, states and inputs of a simulation; those of an axle name their wheel.
+
+    Parameters
+    ----------
+    model : Model, AxleModel or RigidAxleModel
+        The one that was simulated.
+    result : Simulation
+
+    Returns
+    -------
+    xarray.Dataset
+        See `kintrafo.study.recording.dataset_of`.
+    """
+    with Arguments("motion_of") as given:
+        assembly = given_model(given, model)
+    motion = dataset_of(model, result)
+    for data in motion.values():
+        for wheel in assembly.wheels:
+            if assembly.names_of(wheel).prefix and str(data.name).startswith(f"{wheel}_"):
+                data.attrs["long_name"] = f"{data.attrs['long_name']}, {wheel}"
+    return motion
+
+
+def by_wheel(model: Model | AxleModel | RigidAxleModel, motion: "xr.Dataset") -> "xr.Dataset":
+    """Return a motion in which what each wheel has is over the dimension ``wheel``, to be drawn.
+
+    Parameters
+    ----------
+    model : Model, AxleModel or RigidAxleModel
+    motion : xarray.Dataset
+        From `run`.
+
+    Returns
+    -------
+    xarray.Dataset
+        That of a corner is as it was. Of ``left_road_height`` and ``right_road_height`` there is
+        ``road_height``.
+    """
+    with Arguments("by_wheel") as given:
+        assembly = given_model(given, model)
+        given.dataset(motion)
+    if len(assembly.wheels) == 1:
+        return motion
+    return together(motion, assembly.wheels)
+
+
+def started(
+    model: Model | AxleModel | RigidAxleModel, scenario: Scenario, *, wheels: str = BOTH
+) -> tuple[State, dict[str, Signal]]:
+    """Return the state that a scenario starts from, and its inputs by the names of the model.
+
+    Arguments and errors as of `run`.
     """
     with Arguments("simulation") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+        assembly = given_model(given, model)
         given.kind("scenario", scenario, Scenario, "a Scenario is needed")
-    times = scenario.times()
-    result = simulate(
+        if not given.refused:
+            given.among("wheels", wheels, dict.fromkeys((BOTH, *assembly.wheels)))
+            _refuse_unusable(given, assembly, scenario)
+    chosen = assembly.wheels if wheels == BOTH else (wheels,)
+    inputs = _by_wheel(assembly, scenario.inputs, chosen)
+    courses = time_inputs(model, inputs, (0.0, scenario.duration))
+    at_start = map(float, courses.at(0.0, courses.segments[0]))
+    first = dict(zip(model.input_names, at_start, strict=True))
+    rack, spin = first.get(_RACK, 0.0), scenario.spin_rate
+    if scenario.height is not None:
+        corner: Model = assembly.model
+        return state_at_height(corner, scenario.height, rack_position=rack, spin_rate=spin), inputs
+    roads = {wheel: assembly.names_of(wheel).road for wheel in assembly.wheels}
+    further = inputs.keys() - {_RACK, *roads.values()}
+    start = equilibrium(
         model,
-        (0.0, scenario.duration),
-        scenario.start(model),
-        inputs=scenario.inputs,
-        t_eval=times,
-        events=("wheel_leaves_ground", "wheel_touches_ground"),
-        **options,
+        rack_position=rack,
+        road_height={wheel: first[road] for wheel, road in roads.items()},
+        spin_rate=spin,
+        inputs={name: first[name] for name in model.input_names if name in further},
     )
-    return result, dataset_of(model, result)
+    return start, inputs
+
+
+def _refuse_unusable(given: Arguments, assembly: Assembly, scenario: Scenario) -> None:
+    """Refuse a start and inputs that the assembly does not have."""
+    inputs = given.mapping("inputs", scenario.inputs, "input names, what they do")
+    if scenario.height is not None and len(assembly.wheels) > 1:
+        given.refuse("height: an axle starts from rest. Leave it out.")
+    if _RACK in inputs and not assembly.steered:
+        given.refuse(f"{_RACK}: it has no rack, and nothing steers its wheels. Leave that out.")
+    refuse_missing_loads(given, assembly, inputs)
+
+
+def _by_wheel(
+    assembly: Assembly, given: Mapping[str, Signal], wheels: Sequence[str]
+) -> dict[str, Signal]:
+    """Return inputs by the names of the model: what is given for one wheel, for each of these."""
+    inputs, prefixes = dict(given), [assembly.names_of(wheel).prefix for wheel in wheels]
+    for name in ("road_height", *UNITS):
+        named = [f"{prefix}{name}" for prefix in prefixes]
+        if name not in inputs or named == [name]:
+            continue
+        twice = [other for other in named if other in inputs]
+        if twice:
+            problem = f"{name} and {', '.join(twice)} are given. Give one of them for a wheel."
+            raise InputError([problem], "simulation")
+        inputs |= dict.fromkeys(named, inputs.pop(name))
+    return inputs

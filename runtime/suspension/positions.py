@@ -1,16 +1,16 @@
-"""Positions of a suspension: at a given wheel height, and at rest under its forces."""
+"""Positions of a suspension at given wheel heights."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq, minimize_scalar
 
 from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.named_types import ArrayLike
 from ..systems.state import State
+from .input.vehicle import Tyre
 from .model import Model
 from .reach import (
     Branch,
@@ -21,14 +21,12 @@ from .reach import (
     height_and_slope,
     travel_range,
 )
-from .wheel_loads import UNITS
 
 __all__ = [
     "PositionError",
     "Range",
     "arm_angles",
     "design_height",
-    "equilibrium",
     "road_under_load",
     "state_at_height",
     "travel_range",
@@ -36,7 +34,6 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-_ELSE = "; where an axle or a mechanism is at rest, kintrafo.rest says"
 # Newton's method needs five steps where the height is smooth; where it takes longer, every other
 # step halves the bracket, which is two degrees at first.
 _NEWTON_STEPS = 10
@@ -47,7 +44,6 @@ _ROUNDING = 1e-12
 # Where a rounding of the arm's angle moves the wheel by more than that, by so many of them.
 _ROUNDINGS = 8.0
 _EPSILON = float(np.finfo(np.float64).eps)
-_STEP = np.deg2rad(0.5)  # of the search for an equilibrium [rad]
 
 
 def design_height(model: Model) -> float:
@@ -152,97 +148,6 @@ def state_at_height(
     return _spinning(model, State.of(state, inputs, model.names_of_states), spin_rate)
 
 
-def equilibrium(
-    model: Model,
-    *,
-    rack_position: float = 0.0,
-    road_height: float = 0.0,
-    wheel_load: float | None = None,
-    strut_force: float = 0.0,
-    spin_rate: float = 0.0,
-    inputs: Mapping[str, float] | None = None,
-) -> State:
-    """Return the stable state of rest under spring, tyre and weight.
-
-    Parameters
-    ----------
-    model : Model
-    rack_position : float, optional
-        Displacement at which the rack is held [m]. With a free rack, what holds it there is minus
-        the third generalised force (``forces`` of the compiled module).
-    road_height : float, optional
-        Height of the road under the tyre [m].
-    wheel_load : float, optional
-        Instead of a road: the vertical force that the road exerts on the wheel, positive up [N].
-        `road_under_load` returns where the road then is.
-    strut_force : float, optional
-        Actuator force in the strut, or beside the spring of a double wishbone, positive when it
-        pushes chassis and wheel apart [N].
-    spin_rate : float, optional
-        Rate of the wheel relative to the knuckle [rad/s].
-    inputs : mapping of str to float, optional
-        Further inputs by name, in SI units: loads on the wheel of a model with ``wheel_loads``.
-        The wheel is braked by its carrier: where no ``hub_torque`` is given, the state carries that
-        which holds the wheel.
-
-    Returns
-    -------
-    State
-        With zero rates but that of the wheel's spin. It carries the inputs that keep it at rest
-        (road, rack, actuator force): ``model.signals(rest)`` are those of rest, and
-        ``simulate(model, t_span, rest)`` stays there.
-
-    Raises
-    ------
-    PositionError
-        If there is no stable equilibrium within the travel.
-
-    Examples
-    --------
-    >>> model = Model("reference_car")
-    >>> round(float(model.signal("wheel_center_z", equilibrium(model))), 10)
-    0.3
-    >>> round(float(model.signal("wheel_center_z", equilibrium(model, wheel_load=3000.0))), 4)
-    0.2665
-    """
-    with Arguments("equilibrium") as given:
-        given.kind("model", model, Model, f"{Model.NEEDED}{_ELSE}")
-        rack_position = given.number("rack_position", rack_position, "m")
-        road_height = given.number("road_height", road_height, "m")
-        strut_force = given.number("strut_force", strut_force, "N")
-        spin_rate = given.number("spin_rate", spin_rate, "rad/s")
-        further = _further(given, model, inputs)
-        if wheel_load is not None:
-            wheel_load = _load(given, wheel_load)
-            if road_height != 0.0:
-                given.refuse(
-                    "road_height and wheel_load are both given. Give the one that is known."
-                )
-
-    def at(arm_angle: ArrayLike) -> tuple[Array, Array]:
-        states, held = at_rest(model, arm_angle, rack_position)
-        road = held[..., model.input_names.index("road_height")]
-        if wheel_load is None:
-            road[...] = road_height
-        else:
-            road[...] = road_under_load(model, wheel_load, states, held)
-        held[..., model.input_names.index(model.names.actuator)] = strut_force
-        for name, value in further.items():
-            held[..., model.input_names.index(name)] = value
-        return states, held
-
-    def moment(arm_angle: ArrayLike) -> Array:
-        return model.evaluate("forces", *at(arm_angle))[..., 0]
-
-    angle = _stable_root(moment, travel_range(model, rack_position), model.design_state[0])
-    state, held = at(angle)
-    if model.wheel_loads and "hub_torque" not in further:
-        spin = model.state_names.index(model.names.spin)
-        brake = -model.evaluate("forces", state, held)[spin]
-        held[model.input_names.index("hub_torque")] = brake
-    return _spinning(model, State.of(state, held, model.names_of_states), spin_rate)
-
-
 def road_under_load(
     model: Model, wheel_load: float, state: ArrayLike, inputs: ArrayLike | None = None
 ) -> Array:
@@ -268,33 +173,28 @@ def road_under_load(
     """
     with Arguments("wheel load") as given:
         given.kind("model", model, Model, Model.NEEDED)
-        wheel_load = _load(given, wheel_load)
-    tyre = model.suspension.tyre.parameters()
-    if tyre["tyre_rate"] == 0.0:
+        advice = "A road only pushes."
+        wheel_load = given.number("wheel_load", wheel_load, "N", least=0.0, advice=advice)
+    height: Array = model.signal("wheel_center_z", state, inputs)
+    return road_below(height, model.suspension.tyre, wheel_load)
+
+
+def road_below(height: Array, tyre: Tyre, load: float) -> Array:
+    """Return how high the road is that loads the tyre of a wheel at some heights so much [m].
+
+    Raises
+    ------
+    InputError
+        If the tyre has no stiffness.
+    """
+    values = tyre.parameters()
+    if values["tyre_rate"] == 0.0:
         problem = (
             "[tyre] rate_N_per_m = 0 N/m: a tyre without stiffness carries no load. Enter its rate."
         )
         raise InputError([problem], "wheel load")
-    deflection = wheel_load / tyre["tyre_rate"]
-    height: Array = model.signal("wheel_center_z", state, inputs)
-    return height + deflection - tyre["tyre_free_height"]
-
-
-def _further(
-    given: Arguments, model: Model, inputs: Mapping[str, float] | None
-) -> dict[str, float]:
-    """Return the inputs that have no argument of their own."""
-    values = given.mapping("inputs", inputs or {}, "input names and values")
-    if values and isinstance(model, Model) and not model.wheel_loads:
-        given.refuse("inputs: this model has none of them. Make it with wheel_loads=True.")
-    return {
-        given.among("input", name, UNITS): given.number(str(name), value, UNITS.get(name, ""))
-        for name, value in values.items()
-    }
-
-
-def _load(given: Arguments, wheel_load: float) -> float:
-    return given.number("wheel_load", wheel_load, "N", least=0.0, advice="A road only pushes.")
+    road: Array = height + load / values["tyre_rate"] - values["tyre_free_height"]
+    return road
 
 
 def _spinning(model: Model, state: State, spin_rate: float) -> State:
@@ -388,52 +288,3 @@ def _refuse_missed(model: Model, heights: Array, racks: Array, found: Array, err
         "a dead point. Choose another height, or correct the hardpoints."
     )
     raise PositionError(message)
-
-
-def _with_dips(
-    moment: Callable[[ArrayLike], Array], grid: Array, values: Array
-) -> tuple[Array, Array]:
-    """Add where the moment comes to zero and goes back between neighbours of a grid.
-
-    Two roots within a step leave no change of sign, but a least amount beside them.
-    """
-    amounts = np.abs(values)
-    lower = (amounts[1:-1] <= amounts[:-2]) & (amounts[1:-1] <= amounts[2:])
-    same = (values[:-2] * values[1:-1] > 0.0) & (values[1:-1] * values[2:] > 0.0)
-    added = []
-    for place in np.flatnonzero(lower & same):
-        sign = np.sign(values[place])
-        least = minimize_scalar(
-            lambda a, sign=sign: float(sign * moment(a)),
-            bounds=(min(grid[place], grid[place + 2]), max(grid[place], grid[place + 2])),
-            method="bounded",
-            options={"xatol": 1e-9},
-        )
-        if least.fun <= 0.0:
-            added.append(float(least.x))
-    falling = grid[0] > grid[-1]
-    together = np.sort(np.concatenate((grid, added)))
-    together = together[::-1] if falling else together
-    return together, moment(together) if added else values
-
-
-def _stable_root(moment: Callable[[ArrayLike], Array], reach: Range, design: float) -> float:
-    """Return the arm angle nearest to design at which the moment vanishes and pushes back."""
-    low, high = reach.arm_angle
-    grid = np.linspace(low, high, 1 + round(abs(high - low) / _STEP))
-    grid, values = _with_dips(moment, grid, moment(grid))
-    # from low to high wheel position the angle falls: a stable moment goes from below to above zero
-    stable = np.flatnonzero((values[:-1] <= 0.0) & (values[1:] > 0.0))
-    if stable.size == 0:
-        message = (
-            "no stable equilibrium between wheel heights "
-            f"{reach.height[0] * 1e3:.1f} mm and {reach.height[1] * 1e3:.1f} mm: the moment about "
-            f"the arm's hinge is {values[0]:.4g} N m at the lower and {values[-1]:.4g} N m at the "
-            "upper end. Check the spring's rate and free state, tyre rate and free height, or the "
-            "wheel load."
-        )
-        raise PositionError(message)
-    nearest = stable[np.argmin(np.abs(grid[stable] - design))]
-    ends = float(grid[nearest]), float(grid[nearest + 1])
-    # to the last digits
-    return float(brentq(lambda a: float(moment(a)), *ends, xtol=1e-15, rtol=4 * _EPSILON))

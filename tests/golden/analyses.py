@@ -31,7 +31,6 @@ from kintrafo import (
     variation,
 )
 from kintrafo.study.axles import checkup as axle_checkup
-from kintrafo.study.axles import ride
 
 from .subjects import AXLES, BUSHES, CORNERS, RIGID_AXLES
 
@@ -114,12 +113,12 @@ def _of_axle(axle: Axle, bushes: Any) -> Analyses:
 
 def _of_axle_in_motion(model: AxleModel) -> Analyses:
     def run() -> tuple[Any, xr.Dataset]:
-        return ride.run(model, _step(), wheels="left", method="DormandPrince")
+        return scenario.run(model, _step(), wheels="left", method="DormandPrince")
 
     return {
         "simulation": lambda: run()[1],
         "loads in motion": lambda: axles.loads_along(model, run()[0]),
-        "linearisation": lambda: _linearised(model, ride.equilibrium(model)),
+        "linearisation": lambda: _linearised(model, kintrafo.equilibrium(model)),
     }
 
 
@@ -127,7 +126,7 @@ def _of_rigid_axle(axle: RigidAxle, bushes: Any) -> Analyses:
     model = RigidAxleModel(axle)
 
     def run() -> tuple[Any, xr.Dataset]:
-        return rigid_axles.run(model, _step(), wheels="left", method="DormandPrince")
+        return scenario.run(model, _step(), wheels="left", method="DormandPrince")
 
     return {
         "check": lambda: _facts(asdict(rigid_axles.checkup(axle))),
@@ -142,7 +141,7 @@ def _of_rigid_axle(axle: RigidAxle, bushes: Any) -> Analyses:
         "sheet": partial(sheet.sheet, axle, bushes),
         "simulation": lambda: run()[1],
         "loads in motion": lambda: rigid_axles.loads_along(model, run()[0]),
-        "linearisation": lambda: _linearised(model, rigid_axles.equilibrium(model)),
+        "linearisation": lambda: _linearised(model, kintrafo.equilibrium(model)),
         "sensitivity": partial(variation.sensitivity, axle, positions=TRAVEL[1:4]),
     } | _giving_way(rigid_axles, axle, bushes)
 

@@ -18,7 +18,6 @@
     `standing`   where both wheels stand, the bar between them
     `between`    what both sides load: bar, drop links, rack
     `checkup`    a first look
-    `ride`       at rest and over a road, by the equations of the whole axle
 
 What a single wheel does is in `kintrafo.characteristics`. Definitions and signs: docs/axles.md.
 """

@@ -14,6 +14,7 @@ from ...assembly.axle_coupling import (
     rules_of,
 )
 from ...assembly.coupling import STEERING
+from ...assembly.equilibrium import equilibrium
 from ...assembly.load import RACK, Load
 from ...assembly.poses import Poses
 from ...core.arguments import Arguments
@@ -21,7 +22,7 @@ from ...core.quantities import variable
 from ...core.vectors import unit_vector
 from ...suspension.axle import Axle
 from ...suspension.corner import Array
-from ...suspension.positions import PositionError, arm_angles, design_height, equilibrium
+from ...suspension.positions import PositionError, arm_angles, design_height
 from ...suspension.reach import at_rest
 from ..loads.cases import GREATEST, Case
 from ..loads.dataset import CASE

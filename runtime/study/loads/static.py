@@ -9,13 +9,14 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ...assembly.coupling import Between, alone, rules_of
+from ...assembly.equilibrium import equilibrium
 from ...assembly.load import Load, known
 from ...assembly.poses import CENTER, Poses
 from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...suspension.corner import UP
 from ...suspension.model import Model
-from ...suspension.positions import PositionError, design_height, equilibrium
+from ...suspension.positions import PositionError, design_height
 from ...suspension.reach import at_rest
 from .balance import DEAD_POINT
 from .cases import GREATEST, Case, cases_of, standard_cases

@@ -5,7 +5,6 @@
     `catalogue` name, unit, definition and sign of each
     `datasets`  the labelled arrays over bump, roll and one wheel's travel
     `checkup`   a first look
-    `ride`      over a road
     `parts`     the parts at many positions, and what acts on them by itself
     `balance`   what rods, bearings and the road carry
     `standing`  where both wheels stand under load cases
@@ -19,7 +18,6 @@
 Definitions and signs: docs/rigid-axle.md.
 """
 
-from ...suspension.rigid.model import equilibrium
 from .along import loads_along
 from .checkup import checkup
 from .compliance import compliance
@@ -27,7 +25,6 @@ from .datasets import MOTIONS, bump, compare, over, roll, single
 from .deflection import deflection
 from .elastokinematics import elastokinematics
 from .loads import standard_cases, static_loads
-from .ride import run
 
 __all__ = [
     "MOTIONS",
@@ -37,11 +34,9 @@ __all__ = [
     "compliance",
     "deflection",
     "elastokinematics",
-    "equilibrium",
     "loads_along",
     "over",
     "roll",
-    "run",
     "single",
     "standard_cases",
     "static_loads",

@@ -50,10 +50,9 @@ def loads_along(model: RigidAxleModel, result: Simulation) -> xr.Dataset:
 
     Examples
     --------
-    >>> from kintrafo import rigid_axles
-    >>> from kintrafo.study.scenario import Scenario
+    >>> from kintrafo.study.scenario import Scenario, run
     >>> model = RigidAxleModel("rigid_axle")
-    >>> motion, _ = rigid_axles.run(model, Scenario(duration=0.05))
+    >>> motion, _ = run(model, Scenario(duration=0.05))
     >>> found = loads_along(model, motion)
     >>> bool(abs(found["holding_force_left"]).max() < 1e-5)
     True

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ...assembly.beam import SIDES, parameters_of
+from ...assembly.equilibrium import equilibrium
 from ...assembly.usual import USUAL_TRAVEL
 from ...core.arguments import Arguments
 from ...core.quantities import display_of
@@ -24,7 +25,7 @@ from ...suspension.plausibility import (
 from ...suspension.reach import PositionError
 from ...suspension.rigid.axle import RigidAxle
 from ...suspension.rigid.file import Rod
-from ...suspension.rigid.model import HEAVE, ROLL, RigidAxleModel, equilibrium
+from ...suspension.rigid.model import HEAVE, ROLL, RigidAxleModel
 from ...systems.linearisation import linearise
 from .datasets import bump
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ...assembly.beam import SIDES
 from ...assembly.coupling import Place
+from ...assembly.equilibrium import equilibrium
 from ...assembly.load import Load
 from ...assembly.parts import MIDDLE, Parts
 from ...core.arguments import Arguments
@@ -18,7 +19,7 @@ from ...suspension.axle.file import Held
 from ...suspension.corner import UP
 from ...suspension.reach import PositionError
 from ...suspension.rigid.axle import RigidAxle
-from ...suspension.rigid.model import RigidAxleModel, equilibrium
+from ...suspension.rigid.model import RigidAxleModel
 from ..axles import cases as of_axles
 from ..loads.cases import GREATEST, Case
 from ..loads.dataset import CASE, dataset_of, over_cases, refuse_if_none

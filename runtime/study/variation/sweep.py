@@ -15,8 +15,7 @@ from ...suspension.rigid.model import RigidAxleModel
 from ...suspension.wheel_loads import UNITS
 from ..ensembles import ensemble
 from ..ensembles.variants import without_mass
-from ..rigid.ride import started
-from ..scenario import Scenario
+from ..scenario import Scenario, started
 from .curves import changed, refuse_bushes
 from .places import Place, matching
 from .ways import Subject, check_subject, model_of
@@ -167,10 +166,8 @@ class _Cars:
             self._reasons[car] = str(error)
 
     def _start(self, model: Model | RigidAxleModel) -> Array:
-        if isinstance(model, Model):
-            return np.array(self._scenario.start(model))
         start, self.inputs = started(model, self._scenario)
-        return start
+        return np.array(start)
 
     def _check_equations(self, model: Model | RigidAxleModel) -> None:
         if model.equations is not self.model.equations:

@@ -1,26 +1,21 @@
 """The equations of motion of a rigid axle, and the positions that it takes."""
 
-from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import root
 
 from ...core.arguments import Arguments, shown
 from ...core.errors import InputError
 from ...core.named_types import ArrayLike
-from ...equations.errors import ModelError
 from ...generated import rigid_axle as equations
 from ...systems.allowed import Allowed
-from ...systems.state import State
 from ...systems.system import System
 from ..attitudes import attitudes
-from ..axle.axle import LEFT, RIGHT
 from ..corner import Array
-from ..reach import PositionError, refuse_beyond
+from ..reach import PositionError
 from ..swing import GOAL, Seen, march
 from ..wheel_loads import with_wheel_loads
 from .axle import SIDES, RigidAxle
@@ -39,8 +34,6 @@ _OVERHELD = (
     "rods are rigid. How it moves on its bushes is told by `kintrafo deflection` and `compliance`. "
     "For all else leave one of the rods out."
 )
-# What is left of the forces at rest, over the stiffness times a metre, or a radian.
-_AT_REST = 1e-9
 
 
 class RigidAxleModel(System):
@@ -262,93 +255,3 @@ def _axle_of(given: Any) -> RigidAxle:
         return given
     problem = f"a RigidAxle, a name or a path is needed, not {shown(given)}."
     raise InputError([problem], "RigidAxleModel")
-
-
-def equilibrium(
-    model: RigidAxleModel,
-    *,
-    road_height: Mapping[str, float] | None = None,
-    spin_rate: float = 0.0,
-    inputs: Mapping[str, float] | None = None,
-) -> State:
-    """Return the state of a rigid axle at rest on its wheels, the body held.
-
-    Parameters
-    ----------
-    model : RigidAxleModel
-    road_height : mapping of str to float, optional
-        Height of the road under the wheels 'left' and 'right' [m], zero where it is not given.
-    spin_rate : float, optional
-        Rate of both wheels relative to the axle, positive rolling forward [rad/s].
-    inputs : mapping of str to float, optional
-        Further inputs by name, such as ``left_spring_actuator`` [N]. With loads on the wheels the
-        state carries the ``left_hub_torque`` and the right one that hold them, unless one is given.
-
-    Returns
-    -------
-    State
-        Near the design position.
-
-    Raises
-    ------
-    PositionError
-        If there is no stable one.
-
-    Examples
-    --------
-    >>> model = RigidAxleModel("rigid_axle")
-    >>> rest = equilibrium(model)
-    >>> bool(abs(model.signal("left_axle_wheel_center_z", rest) - 0.36) < 1e-4)
-    True
-    """
-    with Arguments("equilibrium") as given:
-        given.kind("model", model, RigidAxleModel, RigidAxleModel.NEEDED)
-        spin = given.number("spin_rate", spin_rate, "rad/s")
-        roads = dict(given.mapping("road_height", road_height or {}, "sides and heights"))
-        for side, height in roads.items():
-            given.among("side", side, SIDES)
-            roads[side] = given.number(f"road_height of the {side} wheel", height, "m")
-        further = given.mapping("inputs", inputs or {}, "input names and values")
-    heights = {f"{side}_road_height": height for side, height in roads.items()}
-    held = model.inputs({**further, **heights})
-    places = [model.state_names.index(name) for name in (HEAVE, ROLL)]
-
-    def at(coordinates: ArrayLike) -> Array:
-        state = model.design_state.copy()
-        state[places] = coordinates
-        return state
-
-    def forces(coordinates: ArrayLike) -> Array:
-        return np.asarray(model.evaluate("forces", at(coordinates), held)[:2])
-
-    message = (
-        "the axle has no stable equilibrium near its design position. Check the springs' rate and "
-        "free length, the tyres' rate and free height, the load of the wheels, or the road."
-    )
-    try:
-        found = root(forces, np.zeros(2), options={"xtol": 1e-14}).x
-        left, slopes = forces(found), _slopes(forces, found)
-    except ModelError:
-        raise PositionError(message) from None
-    # nothing is nearer to zero than the stiffness times the rounding of a coordinate
-    small = _AT_REST * max(float(np.abs(slopes).max()), 1.0)
-    if not np.abs(left).max() <= small or not (np.linalg.eigvals(slopes).real < 0.0).all():
-        raise PositionError(message)
-    state = at(found)
-    refuse_beyond(model, state, held)
-    rise = model.axle.half_track * np.sin(found[1])
-    if model.farthest(found[0] + rise, found[0] - rise) < 1.0:
-        raise PositionError(message)
-    for side in (LEFT, RIGHT):
-        if model.wheel_loads and f"{side}_hub_torque" not in further:
-            place = model.state_names.index(f"{side}_spin_angle")
-            brake = -model.evaluate("forces", state, held)[place]
-            held[model.input_names.index(f"{side}_hub_torque")] = brake
-        state[model.state_names.index(f"{side}_spin_angle_rate")] = spin
-    return State.of(state, held, model.names_of_states)
-
-
-def _slopes(forces: Callable[[ArrayLike], Array], at: Array, step: float = 1e-6) -> Array:
-    """Return the derivatives of the forces by the coordinates."""
-    columns = [forces(at + d) - forces(at - d) for d in step * np.eye(at.size)]
-    return np.stack(columns, -1) / (2.0 * step)

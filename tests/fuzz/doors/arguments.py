@@ -56,7 +56,7 @@ _BAR = {
     "rate_Nm_per_deg": None, "diameter_mm": 20.0, "length_mm": 800.0, "inner_diameter_mm": 0.0,
 }  # fmt: skip
 _RIGID = kintrafo.RigidAxle.load("rigid_axle")
-_RIDE, _ = rigid_axles.run(kintrafo.RigidAxleModel(_RIGID), scenario.Scenario(duration=0.01))
+_RIDE, _ = scenario.run(kintrafo.RigidAxleModel(_RIGID), scenario.Scenario(duration=0.01))
 # On these two goals of compliance are told, with what holds the wheels as one of their keys.
 _BUSHES = {"arm_rear": {"radial_N_per_mm": 1e3}}
 _SOFT = _CAR.suspension.with_changes({"bushings": _BUSHES})

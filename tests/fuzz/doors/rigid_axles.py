@@ -8,7 +8,7 @@ Loads that come back balance each other, and where they do not there is a reason
 from __future__ import annotations
 
 import numpy as np
-from kintrafo import PositionError, RigidAxle, RigidAxleModel, rigid_axles
+from kintrafo import PositionError, RigidAxle, RigidAxleModel, equilibrium, rigid_axles
 
 from ..attempts import WrongError
 
@@ -38,7 +38,7 @@ def attempt(random):
     curves = rigid_axles.bump(axle, [0.0])
     if not np.isfinite(curves["axle_steer"]).all():
         raise WrongError(f"axle steer {curves['axle_steer'].values} at design")
-    rigid_axles.equilibrium(model)
+    equilibrium(model)
     _check_loads(axle, random)
 
 

@@ -1,0 +1,41 @@
+"""What the equations of motion of an assembly call what belongs to one wheel."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class WheelNames:
+    """Names of one wheel in the equations of motion.
+
+    Attributes
+    ----------
+    prefix : str
+        Begins the names of its inputs: empty for a corner, ``left_`` for an axle.
+    signals : str
+        Begins the names of its signals and events: ``left_front_`` for an axle.
+    spin : str
+        State: the angle of the wheel about its axis.
+    actuator : str
+        Input: the force of the actuator beside its spring.
+    """
+
+    prefix: str
+    signals: str
+    spin: str
+    actuator: str
+
+    @property
+    def road(self) -> str:
+        """Input: the height of the road under the wheel."""
+        return f"{self.prefix}road_height"
+
+    @property
+    def hub_torque(self) -> str:
+        """Input of a model with loads on the wheel: the torque of the brake at the hub."""
+        return f"{self.prefix}hub_torque"
+
+    @property
+    def events(self) -> tuple[str, str]:
+        """The events at which the wheel leaves the ground, and at which it comes back."""
+        leaves, touches = (f"{self.signals}wheel_{what}_ground" for what in ("leaves", "touches"))
+        return leaves, touches

@@ -1,0 +1,91 @@
+"""The state of rest of a corner, an axle and a rigid axle: the same arguments do the same."""
+
+import kintrafo
+import numpy as np
+import pytest
+from kintrafo import Axle, AxleModel, InputError, Model, RigidAxleModel, equilibrium
+from kintrafo.study.scenario import Scenario, run
+
+MODELS = {
+    "corner": Model("reference_car"),
+    "axle": AxleModel(Axle.load("reference_axle")),
+    "rigid axle": RigidAxleModel("rigid_axle"),
+}
+CENTERS = {
+    "corner": {"right": ("", "")},
+    "axle": {side: (f"{side}_", f"{side}_front_") for side in ("left", "right")},
+    "rigid axle": {side: (f"{side}_", f"{side}_axle_") for side in ("left", "right")},
+}
+# A rounding of an angle of 1 rad moves a wheel by 1e-16 m.
+EXACT = 1e-10
+
+each = pytest.mark.parametrize("name", MODELS)
+
+
+def of_wheels(name: str, rest: kintrafo.State) -> tuple[np.ndarray, np.ndarray]:
+    """Return heights of wheel centres and of the roads below them."""
+    model, names = MODELS[name], CENTERS[name].values()
+    heights = [float(model.signal(f"{signals}wheel_center_z", rest)) for _, signals in names]
+    places = [model.input_names.index(f"{prefix}road_height") for prefix, _ in names]
+    return np.array(heights), rest.inputs[places]
+
+
+@each
+def test_a_wheel_load_is_the_deflection_of_the_tyre_times_its_rate(name: str) -> None:
+    rest = equilibrium(MODELS[name], wheel_load=3000.0)
+    heights, roads = of_wheels(name, rest)
+    tyre = MODELS[name].parameters
+    left = tyre.get("tyre_free_height") - (heights - roads)
+    np.testing.assert_allclose(tyre["tyre_rate"] * left, 3000.0, rtol=1e-9)
+
+
+@each
+def test_the_road_of_a_loaded_wheel_makes_the_same_rest(name: str) -> None:
+    loaded = equilibrium(MODELS[name], wheel_load=3000.0)
+    _, roads = of_wheels(name, loaded)
+    road = dict(zip(CENTERS[name], map(float, roads), strict=True))
+    np.testing.assert_allclose(equilibrium(MODELS[name], road_height=road), loaded, atol=EXACT)
+
+
+@each
+def test_a_road_that_is_the_same_under_all_wheels_is_a_number(name: str) -> None:
+    by_wheel = dict.fromkeys(CENTERS[name], 0.01)
+    found = [equilibrium(MODELS[name], road_height=road) for road in (0.01, by_wheel)]
+    np.testing.assert_array_equal(*found)
+
+
+@each
+def test_a_run_with_actuators_begins_at_rest(name: str) -> None:
+    model = MODELS[name]
+    pushing = [name for name in model.input_names if name.endswith(("actuator", "strut_force"))]
+    _, motion = run(model, Scenario(duration=0.05, inputs=dict.fromkeys(pushing, 300.0)))
+    for _, signals in CENTERS[name].values():
+        height = motion[f"{signals}wheel_center_z"]
+        # tolerances of the simulation
+        assert float(height.max() - height.min()) < 1e-7
+    assert pushing
+
+
+@each
+def test_what_cannot_be_is_refused(name: str) -> None:
+    model = MODELS[name]
+    with pytest.raises(InputError, match="both given"):
+        equilibrium(model, wheel_load=3000.0, road_height=0.01)
+    with pytest.raises(InputError, match="wheel 'front' is not known"):
+        equilibrium(model, road_height={"front": 0.01})
+    with pytest.raises(InputError, match="wheel_load of the right wheel = -1 N"):
+        equilibrium(model, wheel_load={"right": -1.0})
+    with pytest.raises(InputError, match=r"no loads on the wheels .*wheel_loads=True"):
+        equilibrium(model, inputs={f"{next(iter(CENTERS[name].values()))[0]}shaft_torque": 1.0})
+    with pytest.raises(InputError, match="'road' is not known"):
+        equilibrium(model, inputs={"road": 1.0})
+    with pytest.raises(InputError, match="wheels 'front' is not known"):
+        run(model, Scenario(), wheels="front")
+
+
+def test_a_rack_that_is_not_there_is_refused() -> None:
+    model = MODELS["rigid axle"]
+    with pytest.raises(InputError, match=r"rack_position = 10 mm: it has no rack"):
+        equilibrium(model, rack_position=0.01)
+    with pytest.raises(InputError, match=r"rack_position: it has no rack"):
+        run(model, Scenario(inputs={"rack_position": 0.01}))
