@@ -393,7 +393,7 @@ KNEE = replace(
 )
 """The same without iteration, and with all its masses."""
 
-_SIX_BAR = [
+STEPHENSON_PINS = [
     ("crank_hinge", "ground", "crank", (0.0, 0.0)),
     ("crank_pin", "crank", "coupler", (0.02, 0.15)),
     ("rocker_pin", "coupler", "rocker", (0.3, 0.25)),
@@ -402,13 +402,14 @@ _SIX_BAR = [
     ("arm_pin", "link", "arm", (0.4, 0.45)),
     ("arm_hinge", "ground", "arm", (0.55, 0.2)),
 ]
-STEPHENSON = planar("stephenson", _SIX_BAR, ("arm_hinge",), ("coupler", (0.15, 0.25)))
+"""Name, the two bodies, and where it is in the plane, of the hinges of `STEPHENSON`."""
+STEPHENSON = planar("stephenson", STEPHENSON_PINS, ("arm_hinge",), ("coupler", (0.15, 0.25)))
 """A six-bar linkage that is driven from its far side: the coupler is held by three."""
 
 IN_A_ROW = planar(
     "in_a_row",
     [
-        *_SIX_BAR,
+        *STEPHENSON_PINS,
         ("next_crank_hinge", "ground", "next_crank", (-0.5, 0.0)),
         ("next_crank_pin", "next_crank", "next_coupler", (-0.48, 0.15)),
         ("next_rocker_pin", "next_coupler", "next_rocker", (-0.2, 0.25)),

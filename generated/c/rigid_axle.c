@@ -114,8 +114,8 @@ enum { UNKNOWNS = 4, ELEMENTS = 16, DRIVEN = 2 };
 struct loops {
     int unknowns, elements, driven;
     const unsigned char *turns;
-    void (*once)(const double *given, const double *now, const double *from, const double *step,
-                 const double *held, double *out);
+    void (*once)(const double *given, const double *now, const double *way, const double *from,
+                 const double *step, const double *held, double *out);
 };
 
 #ifdef KINTRAFO_LANES
@@ -137,7 +137,8 @@ static int follow(const struct loops *loops, const double *given, const double *
     const int n = loops->unknowns, place = n + loops->elements;
     double from[UNKNOWNS] = {0.0}, step[UNKNOWNS] = {0.0}, held[ELEMENTS] = {0.0};
     double base[UNKNOWNS] = {0.0}, left[UNKNOWNS] = {0.0}, slope[UNKNOWNS] = {0.0};
-    double gone[UNKNOWNS] = {0.0}, now[DRIVEN] = {0.0}, out[2 * UNKNOWNS + ELEMENTS + 3];
+    double gone[UNKNOWNS] = {0.0}, now[DRIVEN] = {0.0}, way[DRIVEN] = {0.0};
+    double out[2 * UNKNOWNS + ELEMENTS + 3];
     double farthest = 0.0, side = 1.0;
     for (int c = 0; c < loops->driven; ++c) {
         farthest = fmax(farthest, fabs(end[c] - start[c]) / unit[c]);
@@ -149,14 +150,15 @@ static int follow(const struct loops *loops, const double *given, const double *
     for (int i = 0; i < ITERATIONS; ++i) {
         for (int c = 0; c < loops->driven; ++c) {
             now[c] = target < 1.0 ? start[c] + target * (end[c] - start[c]) : end[c];
+            way[c] = (target - part) * (end[c] - start[c]);
         }
-        loops->once(given, now, from, step, held, out);
+        loops->once(given, now, way, from, step, held, out);
         const double *correction = out + place + 2, changed = correction[n];
-        const double change = square(correction, n), way = square(gone, n);
-        const double enough = target < 1.0 ? CLOSE * CLOSE * way : 0.0;
+        const double change = square(correction, n), moved = square(gone, n);
+        const double enough = target < 1.0 ? CLOSE * CLOSE * moved : 0.0;
         const int close = change <= fmax(enough, CONVERGED * CONVERGED);
         const int stalled = change <= STALLED * STALLED && change > before / 4.0;
-        const int steady = !started || (changed <= TURNED * TURNED && way <= LONGEST * LONGEST
+        const int steady = !started || (changed <= TURNED * TURNED && moved <= LONGEST * LONGEST
                                         && change <= LONGEST * LONGEST);
         const double room = 0.7 * TURNED / sqrt(changed);
         if (steady && (close || stalled)) { /* the stage is done */
@@ -227,7 +229,7 @@ static double follow_turns(const struct loops *loops, const double *given, const
 }
 #endif
 
-static void loops_through_sway_frame_once(const double *given, const double *now,
+static void loops_through_sway_frame_once(const double *given, const double *now, const double *way,
                                           const double *from, const double *step,
                                           const double *held, double *out)
 {
@@ -277,6 +279,7 @@ static void loops_through_sway_frame_once(const double *given, const double *now
     const double constant_20 = given[43];
     const double heave_now = now[0];
     const double roll_now = now[1];
+    (void)way;
     const double sway_guide_coordinate_from = from[0];
     const double shift_guide_coordinate_from = from[1];
     const double yaw_hinge_coordinate_from = from[2];

@@ -124,6 +124,8 @@ class Driven:
     ----------
     now
         Its name in the block, where it stands for the coordinate of a stage.
+    way
+        The name of how far it goes in that stage.
     start, end
         At the design position, and in a call.
     unit
@@ -133,6 +135,7 @@ class Driven:
     """
 
     now: sp.Symbol
+    way: sp.Symbol
     start: sp.Expr
     end: sp.Symbol
     unit: sp.Expr

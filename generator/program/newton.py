@@ -17,8 +17,9 @@ moves along this way.
 continued), and where J has changed by less than half of itself since the stage before, ``|J0^-1 J -
 1| <= 1/2`` (of more equations than unknowns: J0^-1 is the pseudoinverse). J cannot become singular
 in between then, so that no other branch meets this one; and where J differs from one matrix by less
-than that, g has one root, so that there is no other one to go to. Both are free of scales. A stage
-that is not accepted is tried again, shorter. Where stages become as short as nothing, the branch
+than that, g has one root, so that there is no other one to go to. Both are free of scales. What is
+placed before in closed form has to close all the way, too (`Derivation._failing`). A stage that is
+not accepted is tried again, shorter. Where stages become as short as nothing, the branch
 ends: a dead point.
 
 After `ITERATIONS`, or where a branch ends, the block says that it is lost (`LOST`) and returns what
@@ -40,7 +41,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from .function import Block, Driven, Estimate
-from .functions import Guarded, IsPositive
+from .functions import Frozen, Guarded, IsPositive, Positive
 from .program import Program
 from .steps import ancestors
 
@@ -94,7 +95,12 @@ class Derivation:
         self.program = Program(around.constants)
         self._driven = {
             end: Driven(
-                self._own(f"{end}_now"), start, end, around.define(f"{end}_unit", unit), turns
+                self._own(f"{end}_now"),
+                self._own(f"{end}_way"),
+                start,
+                end,
+                around.define(f"{end}_unit", unit),
+                turns,
             )
             for end, start, unit, turns in driven
         }
@@ -178,13 +184,30 @@ class Derivation:
             for j, column in enumerate(columns):
                 kept = _dot(line, column) - (1 if i == j else 0)
                 squares.append(self.program.define(f"kept_{i + 1}{j + 1}", kept) ** 2)
-        margins = {
-            sp.Add(guarded.args[0], -guarded.args[1])
-            for step in self.program.steps.values()
-            for guarded in step.expression.atoms(Guarded)
-        }
-        failing = [1 - IsPositive(margin) for margin in sorted(margins, key=str)]
-        return sp.Add(*squares, *failing)
+        return sp.Add(*squares, *self._failing())
+
+    def _failing(self) -> list[sp.Expr]:
+        """Return a summand for each margin of what is placed before: zero where it is positive.
+
+        A closed form that moves much faster than its coordinate can be behind a gap within a stage,
+        and look as before. So its margin has to be positive all the way back to where the stage
+        begins, too: by its value and slope at the end, and its curvature if that bends it down.
+        What else iterates follows a way of its own.
+        """
+        steps = [step.expression for step in self.program.steps.values()]
+        margins = [_margins(steps), _margins(e for e in steps if not isinstance(e, Frozen))]
+        ways = {d.now: d.way for d in self._driven.values()}
+        slopes = self.program.along(ways, margins[1], "slope")
+        slopes = [self.program.define(f"margin_{i}_slope", s) for i, s in enumerate(slopes, 1)]
+        bends = self.program.along(ways, slopes, "bend")
+        back = [m - s - Positive(-b) / 2 for m, s, b in zip(margins[1], slopes, bends, strict=True)]
+        return [1 - IsPositive(margin) for margin in dict.fromkeys([*margins[0], *back])]
+
+
+def _margins(expressions: Iterable[sp.Expr]) -> list[sp.Expr]:
+    """Return by how much the quantities that are guarded are over their floors."""
+    guarded = {g for e in expressions for g in e.atoms(Guarded)}
+    return sorted((g.args[0] - g.args[1] for g in guarded), key=str)
 
 
 # -- linear equations -----------------------------------------------------------------------------

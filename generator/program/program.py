@@ -172,6 +172,22 @@ class Program:
         if self.constants.contains(along):
             message = f"{along} is a parameter; see `directions` for derivatives by parameters"
             raise ValueError(message)
+        return self.along({along: sp.Integer(1)}, targets, label)
+
+    def along(
+        self, direction: Mapping[sp.Symbol, sp.Expr], targets: Iterable[sp.Expr], label: str
+    ) -> list[sp.Expr]:
+        """Differentiate expressions along a direction, step by step (forward mode).
+
+        Parameters
+        ----------
+        direction
+            Of each symbol that changes, by how much.
+        targets
+            Expressions in the names of the program.
+        label
+            Ends the names of the new steps: ``name__label``.
+        """
         targets = list(targets)
         moving = {
             symbol: step
@@ -179,7 +195,7 @@ class Program:
             if not isinstance(step.expression, Frozen)
         }
         needed = ancestors(moving, targets)
-        tangent: dict[sp.Symbol, sp.Expr] = {along: sp.Integer(1)}
+        tangent: dict[sp.Symbol, sp.Expr] = dict(direction)
         for step in [s for s in moving.values() if s.symbol in needed]:
             derivative = chain_rule(step.expression, tangent, step.symbol)
             if derivative != 0:

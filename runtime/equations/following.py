@@ -59,15 +59,17 @@ def _follow(
     started, arrived, at = np.zeros(count, bool), np.zeros(count, bool), np.arange(count)
     for _ in range(ITERATIONS):
         t = target[at]
-        now = np.where(t < 1.0, start[:, at] + t * (end[:, at] - start[:, at]), end[:, at])
-        out = once(given[:, at], now, move[:, at], step[:, at], held[:, at])
+        span = end[:, at] - start[:, at]
+        now = np.where(t < 1.0, start[:, at] + t * span, end[:, at])
+        way = (t - part[at]) * span
+        out = once(given[:, at], now, way, move[:, at], step[:, at], held[:, at])
         out = np.array([np.broadcast_to(value, at.shape) for value in out])
         correction, changed = out[place + 2 : -1], out[-1]
-        change, way = _square(correction), _square(gone[:, at])
-        enough = np.where(t < 1.0, CLOSE * CLOSE * way, 0.0)
+        change, moved = _square(correction), _square(gone[:, at])
+        enough = np.where(t < 1.0, CLOSE * CLOSE * moved, 0.0)
         close = change <= np.fmax(enough, CONVERGED * CONVERGED)
         stalled = (change <= STALLED * STALLED) & (change > before[at] / 4.0)
-        steady = (changed <= TURNED * TURNED) & (way <= LONGEST * LONGEST)
+        steady = (changed <= TURNED * TURNED) & (moved <= LONGEST * LONGEST)
         steady = steady & (change <= LONGEST * LONGEST) | ~started[at]
         room = 0.7 * TURNED / np.sqrt(changed)
         done = steady & (close | stalled)

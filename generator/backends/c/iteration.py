@@ -26,6 +26,7 @@ def once(block: Block) -> str:
     arrays = {
         "given": block.constants,
         "now": [d.now for d in block.driven],
+        "way": [d.way for d in block.driven],
         "from": block.estimate.base,
         "step": block.estimate.step,
         "held": [s for line in block.estimate.held for s in line],

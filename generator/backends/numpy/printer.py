@@ -130,6 +130,7 @@ def _block(block: Block) -> str:
     kinds = {
         "given": block.constants,
         "now": [d.now for d in block.driven],
+        "way": [d.way for d in block.driven],
         "base": block.estimate.base,
         "step": block.estimate.step,
         "held": [s for line in block.estimate.held for s in line],

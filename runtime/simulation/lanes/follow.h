@@ -30,7 +30,8 @@ static bits follow(const struct loops *loops, const real *given, const real *sta
     const real zero = {0.0}, one = SPREAD(1.0);
     real from[UNKNOWNS] = {{0.0}}, step[UNKNOWNS] = {{0.0}}, held[ELEMENTS] = {{0.0}};
     real base[UNKNOWNS] = {{0.0}}, left[UNKNOWNS] = {{0.0}}, slope[UNKNOWNS] = {{0.0}};
-    real gone[UNKNOWNS] = {{0.0}}, now[DRIVEN] = {{0.0}}, out[2 * UNKNOWNS + ELEMENTS + 3];
+    real gone[UNKNOWNS] = {{0.0}}, now[DRIVEN] = {{0.0}}, way[DRIVEN] = {{0.0}};
+    real out[2 * UNKNOWNS + ELEMENTS + 3];
     real farthest = zero, side = one;
     for (int c = 0; c < loops->driven; ++c) {
         farthest = greater(farthest, magnitude(end[c] - start[c]) / unit[c]);
@@ -44,14 +45,15 @@ static bits follow(const struct loops *loops, const real *given, const real *sta
         const bits last = ~(target < 1.0);
         for (int c = 0; c < loops->driven; ++c) {
             now[c] = choose(last, end[c], start[c] + target * (end[c] - start[c]));
+            way[c] = (target - part) * (end[c] - start[c]);
         }
-        loops->once(given, now, from, step, held, out);
+        loops->once(given, now, way, from, step, held, out);
         const real *correction = out + place + 2, changed = correction[n];
-        const real change = square(correction, n), way = square(gone, n);
-        const real enough = choose(last, zero, CLOSE * CLOSE * way);
+        const real change = square(correction, n), moved = square(gone, n);
+        const real enough = choose(last, zero, CLOSE * CLOSE * moved);
         const bits close = change <= greater(SPREAD(CONVERGED * CONVERGED), enough);
         const bits stalled = (change <= STALLED * STALLED) & (change > before / 4.0);
-        const bits steady = ~started | ((changed <= TURNED * TURNED) & (way <= LONGEST * LONGEST)
+        const bits steady = ~started | ((changed <= TURNED * TURNED) & (moved <= LONGEST * LONGEST)
                                         & (change <= LONGEST * LONGEST));
         const real room = 0.7 * TURNED / root(changed);
         const bits done = lanes & steady & (close | stalled), further = done & ~last;
