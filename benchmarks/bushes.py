@@ -19,7 +19,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 from exudyn.utilities import InertiaCuboid, ObjectGround
-from kintrafo import Model, loads
+from kintrafo import Model, compliance
 from numpy.typing import NDArray
 from scipy.optimize import root_scalar
 
@@ -159,7 +159,7 @@ def _bushes(peer: Peer) -> dict[str, dict[str, Any]]:
 
 
 def _ours(model: Model, peer: Peer, under: str, held: str) -> dict[str, Array]:
-    found = loads.deflection(
+    found = compliance.nonlinear(
         model, _bushes(peer), under, AMOUNTS, held=held, hardpoints="relaxed"
     ).sel(data_set="equilibrium")
     return {name: found[name].values for name in QUANTITIES}

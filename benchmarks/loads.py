@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from kintrafo import Model, equilibrium, loads, roads, simulate
+from kintrafo import Model, compliance, equilibrium, loads, roads, simulate
 from kintrafo.plots import curves
 from kintrafo.plots import loads as pictures
 
@@ -59,15 +59,17 @@ def main() -> None:
 
 
 def _compliance(model: Model) -> Callable[[], object]:
-    return lambda: loads.compliance(model, _bushes(model), TRAVELS)
+    return lambda: compliance.linear(model, _bushes(model), TRAVELS)
 
 
 def _elastokinematics(model: Model) -> Callable[[], object]:
-    return lambda: loads.elastokinematics(model, _bushes(model), TRAVELS)
+    return lambda: compliance.elastokinematics(model, _bushes(model), along=TRAVELS)
 
 
 def _deflection(model: Model) -> Callable[[], object]:
-    return lambda: loads.deflection(model, _bushes(model), "lateral", np.linspace(-5e3, 5e3, 20))
+    return lambda: compliance.nonlinear(
+        model, _bushes(model), "lateral", np.linspace(-5e3, 5e3, 20)
+    )
 
 
 def _bushes(model: Model) -> dict[str, Any]:
@@ -100,12 +102,12 @@ def _draw() -> None:
         )
         shutil.copyfile(written, IMAGES / "loads.png")
         car = MODELS["reference_car"]
-        sheet = loads.compliance(car, BUSHES["reference_car"])
+        sheet = compliance.linear(car, BUSHES["reference_car"])
         curves.write_overview(
             sheet.drop_dims(["moved", "by"]), path, title=f"reference car, {sheet.attrs['held']}"
         )
         shutil.copyfile(path, IMAGES / "compliance.png")
-        elastic = loads.elastokinematics(car, BUSHES["reference_car"])
+        elastic = compliance.elastokinematics(car, BUSHES["reference_car"])
         curves.write_overview(elastic, path, title="reference car", force=True)
         shutil.copyfile(path, IMAGES / "elastokinematic.png")
 

@@ -161,6 +161,7 @@ _INTERFACES = {
     "checkup": ".study.checkup",
     "chrono": ".suspension.chrono",
     "compare": ".study.compare",
+    "compliance": ".study.compliance",
     "excitation": ".study.excitation",
     "export": ".study.export",
     "loads": ".study.loads",

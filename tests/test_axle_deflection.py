@@ -6,13 +6,23 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, Model, PositionError, Suspension, axles, loads
+from kintrafo import (
+    Axle,
+    InputError,
+    Model,
+    PositionError,
+    Suspension,
+    axles,
+    compliance,
+)
+from kintrafo.assembly.axle import AxleAssembly
+from kintrafo.assembly.by_wheel import flat
 from kintrafo.assembly.pair import Pair
 from kintrafo.core.arguments import Arguments
 from kintrafo.report import elastokinematics_chapter
-from kintrafo.study.axles.on_bushes import axle_on, softs_of
-from kintrafo.study.loads.elastic.bars import Bars, Foot
-from kintrafo.study.loads.elastic.places import Places
+from kintrafo.study.compliance.bars import Bars, Foot
+from kintrafo.study.compliance.on_bushes import on_joints, softs_of
+from kintrafo.study.compliance.rigid_displacements import Places
 from kintrafo.suspension.axle.bar import HalfBar
 from kintrafo.suspension.bushes import mirrored_bushings
 from oracle.constraints import Pose
@@ -188,9 +198,10 @@ def test_nothing_is_left_of_the_potential(car: Suspension) -> None:
     """
     axle = axle_of(car, free_twist_deg=3.0)
     with Arguments("test") as given:
-        softs = softs_of(given, axle, SOFTER[car] | RACK, "relaxed")
-    nothing = np.zeros(1)
-    suspension = axle_on(Pair.at(axle, nothing, nothing, nothing), nothing, softs)
+        assembly = AxleAssembly(axle)
+        softs = softs_of(given, assembly, SOFTER[car] | RACK, "relaxed")
+    poses = assembly.poses(assembly.at_travel(np.zeros(1)))
+    suspension = on_joints(assembly, poses, softs)
     forces = {"left": [-3000.0, 500.0, 0.0], "right": [1500.0, 2500.0, 300.0]}
     load = np.array([[[0.0] * 6 + forces[side] for side in SIDES]])
     base = suspension.under(0.0 * load, "height", suspension.start)
@@ -230,10 +241,10 @@ def test_small_loads_are_those_of_the_unit_load_theorem(held: Any, wheels: str) 
     for size in (20.0, 2.0):
         for under in UNDER:
             amounts = np.array([size if under != "aligning" else 0.3 * size])
-            found = axles.deflection(
+            found = flat(compliance.nonlinear(
                 axle, BUSHES_OF[STRUT] | {"rack": {"axial_N_per_mm": 2500.0}}, under, amounts,
                 wheels=wheels, held=held, hardpoints="relaxed",
-            )  # fmt: skip
+            ))  # fmt: skip
             for side in SIDES:
                 toe = found[f"toe_change_{side}"].values
                 largest = max(abs(toe[1, 0]), 1e-8 * size)
@@ -249,12 +260,21 @@ def test_wheels_that_share_nothing_are_those_of_one_side(held: Any) -> None:
     """No bar, a rigid rack: each side by itself, its image among them, to rounding."""
     parts = 0.4, -1.0
     for under in ("lateral", "braking"):
-        both = axles.deflection(
-            without_bar(WISHBONES), BUSHES_OF[WISHBONES], under, [3000.0], wheels=parts, held=held
+        both = flat(
+            compliance.nonlinear(
+                without_bar(WISHBONES),
+                BUSHES_OF[WISHBONES],
+                under,
+                [3000.0],
+                wheels=parts,
+                held=held,
+            )
         )
         for part, side in zip(parts, SIDES, strict=True):
-            alone = loads.deflection(
-                Model(WISHBONES), BUSHES_OF[WISHBONES], under, [3000.0 * part], held=held
+            alone = flat(
+                compliance.nonlinear(
+                    Model(WISHBONES), BUSHES_OF[WISHBONES], under, [3000.0 * part], held=held
+                )
             )
             for name in ("toe_change", "camber_change", "displacement"):
                 # loads of 1e4 N in the last step of Newton's method: 1e-11 m or rad
@@ -267,8 +287,8 @@ def test_wheels_that_share_nothing_are_those_of_one_side(held: Any) -> None:
 @pytest.mark.parametrize("car", [WISHBONES, TRAILING], ids=lambda car: car.suspension)
 def test_curves_of_wheels_that_share_nothing_are_those_of_one_side(car: Suspension) -> None:
     travels = np.array([-0.04, 0.0, 0.03])
-    both = axles.elastokinematics(without_bar(car), BUSHES_OF[car], "left", travels)
-    alone = loads.elastokinematics(Model(car), BUSHES_OF[car], travels)
+    both = flat(compliance.elastokinematics(without_bar(car), BUSHES_OF[car], "left", travels))
+    alone = flat(compliance.elastokinematics(Model(car), BUSHES_OF[car], along=travels))
     for name in ("toe", "camber", "half_track_change", "wheelbase_change"):
         np.testing.assert_allclose(both[f"{name}_left"], alone[name], rtol=0.0, atol=1e-10)
         still = both[f"{name}_right"] - alone[name].sel(wheel_travel=0.0)
@@ -288,7 +308,7 @@ def test_loaded_bushes_leave_the_design_as_it_is() -> None:
             "anti_roll_bar": BAR_OF[STRUT] | {"free_twist_deg": 4.0},
         }
     )  # fmt: skip
-    found = axles.elastokinematics(axle, BUSHES_OF[STRUT] | RACK, "bump", [0.0, 0.03])
+    found = flat(compliance.elastokinematics(axle, BUSHES_OF[STRUT] | RACK, "bump", [0.0, 0.03]))
     at_design = found.sel(wheel_travel=0.0)
     torque = -axle.bar.rate() * axle.bar.free_twist()
     np.testing.assert_allclose(at_design["bar_torque"], torque, rtol=1e-9)
@@ -301,8 +321,10 @@ def test_loaded_bushes_leave_the_design_as_it_is() -> None:
         assert soft == pytest.approx(rigid, rel=1e-9)
         loads_of_wheels.append(soft)
     assert loads_of_wheels[1] - loads_of_wheels[0] > 100.0
-    relaxed = axles.elastokinematics(
-        axle, BUSHES_OF[STRUT] | RACK, "bump", [0.0], hardpoints="relaxed"
+    relaxed = flat(
+        compliance.elastokinematics(
+            axle, BUSHES_OF[STRUT] | RACK, "bump", [0.0], hardpoints="relaxed"
+        )
     )
     assert abs(np.diff(relaxed["toe_left"], axis=0)[0, 0]) > 1e-5
 
@@ -320,7 +342,7 @@ def test_rates_are_slopes_of_the_loads() -> None:
     by = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / (12.0 * step)
     stiffness = np.zeros((2, 2, 2))
     for column, moved in enumerate(SIDES):
-        found = axles.elastokinematics(axle, soft, moved, travels)
+        found = flat(compliance.elastokinematics(axle, soft, moved, travels))
         contact = Pair.at(
             axle, *(travels if side == moved else 0.0 * travels for side in SIDES), 0.0 * travels
         ).corners[moved]
@@ -333,7 +355,7 @@ def test_rates_are_slopes_of_the_loads() -> None:
             assert own == pytest.approx(stiffness[which, column, column], rel=1e-6)
     np.testing.assert_allclose(stiffness[:, 0, 1], stiffness[:, 1, 0], rtol=1e-6)
     assert (stiffness[:, 0, 1] < -1e3).all()  # the bar
-    roll = axles.elastokinematics(axle, soft, "roll", [0.0])
+    roll = flat(compliance.elastokinematics(axle, soft, "roll", [0.0]))
     pair = Pair.at(axle, 0.0, 0.0, 0.0)
     y = np.array([_contact(pair.corners[side])[1] for side in SIDES])
     # springs are relaxed, so that on the bushes the contacts are where they are with rigid joints
@@ -358,7 +380,7 @@ def test_mirrored_loads_are_answered_alike() -> None:
     axle, soft = axle_of(STRUT), BUSHES_OF[STRUT] | RACK
     for under in UNDER:
         one, other = (
-            axles.deflection(axle, soft, under, [500.0], wheels=parts)
+            flat(compliance.nonlinear(axle, soft, under, [500.0], wheels=parts))
             for parts in ([1.0, 0.3], [0.3, 1.0])
         )
         for name in ("toe_change", "camber_change", "displacement", "wheel_load"):
@@ -378,7 +400,7 @@ def test_mirrored_motions_are_answered_alike(motion: str) -> None:
     ends = np.array([-0.03, 0.03])
     if motion == "steer":
         ends *= 30.0  # of the steering wheel
-    found = axles.elastokinematics(axle, soft, motion, ends)
+    found = flat(compliance.elastokinematics(axle, soft, motion, ends))
     kinematic = axles.roll(axle, ends) if motion == "roll" else axles.steer(axle, ends)
     for name in ("toe", "camber", "wheel_load", "half_track_change"):
         left, right = (found[f"{name}_{side}"].values for side in SIDES)
@@ -392,11 +414,11 @@ def test_mirrored_motions_are_answered_alike(motion: str) -> None:
 
 def test_many_positions_are_looked_at_in_parts(monkeypatch: pytest.MonkeyPatch) -> None:
     axle, angles = axle_of(STRUT), np.deg2rad([-1.0, 0.5, 1.0])
-    whole = axles.elastokinematics(axle, RACK, "roll", angles)
+    whole = flat(compliance.elastokinematics(axle, RACK, "roll", angles))
     # the function has the name of its module
-    module = import_module("kintrafo.study.axles.elastokinematics")
+    module = import_module("kintrafo.study.compliance.elastokinematics")
     monkeypatch.setattr(module, "_TOGETHER", 2)
-    parts = axles.elastokinematics(axle, RACK, "roll", angles)
+    parts = flat(compliance.elastokinematics(axle, RACK, "roll", angles))
     assert parts.sizes == whole.sizes
     np.testing.assert_allclose(parts["toe_left"], whole["toe_left"], rtol=0.0, atol=1e-12)
     assert parts.attrs == whole.attrs
@@ -420,7 +442,7 @@ def test_many_positions_are_looked_at_in_parts(monkeypatch: pytest.MonkeyPatch) 
 def test_what_cannot_be_is_refused(given: dict[str, Any], words: str) -> None:
     usual = {"bushings": RACK, "under": "lateral", "amounts": [100.0]}
     with pytest.raises(InputError, match=words):
-        axles.deflection(axle_of(STRUT), **usual | given)
+        flat(compliance.nonlinear(axle_of(STRUT), **usual | given))
 
 
 def test_motions_that_cannot_be_are_refused() -> None:
@@ -430,39 +452,47 @@ def test_motions_that_cannot_be_are_refused() -> None:
         ("roll", [2.0], "45 deg"),
     ):
         with pytest.raises(InputError, match=words):
-            axles.elastokinematics(without_bar(TRAILING), BUSHES_OF[TRAILING], motion, along)
+            flat(
+                compliance.elastokinematics(
+                    without_bar(TRAILING), BUSHES_OF[TRAILING], motion, along
+                )
+            )
     for wrong in ({"motion": "roll", "travel": 0.01}, {"motion": "steer", "rack_position": 0.01}):
         with pytest.raises(InputError, match="the motion 'steer'"):
-            axles.elastokinematics(axle_of(STRUT), RACK, **wrong)
+            flat(compliance.elastokinematics(axle_of(STRUT), RACK, **wrong))
     weak = {"arm_inner": {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}}
     heavy = Axle.from_dict(
         {"axle": "rear", "side": TRAILING.with_changes({"spring.force_at_design_N": 4000.0})}
     )
     with pytest.raises(PositionError, match=r"at a roll angle of 1\.5 deg"):
-        axles.elastokinematics(heavy, weak, "roll", np.deg2rad([1.5]), hardpoints="relaxed")
+        flat(
+            compliance.elastokinematics(
+                heavy, weak, "roll", np.deg2rad([1.5]), hardpoints="relaxed"
+            )
+        )
 
 
 def test_loads_that_nothing_holds_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    module = import_module("kintrafo.study.loads.elastic.deflection")
+    module = import_module("kintrafo.study.compliance.nonlinear")
     monkeypatch.setattr(module, "_LEAST_STEP", 0.3)  # a short search for the greatest one
     weak = {"arm_rear": {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}}
     with pytest.raises(
         PositionError, match="no equilibrium that lasts was found under longitudinal"
     ):
-        axles.deflection(axle_of(STRUT), weak, "braking", [9e5])
+        flat(compliance.nonlinear(axle_of(STRUT), weak, "braking", [9e5]))
 
 
 # -- what is told ---------------------------------------------------------------------------------
 
 
 def test_tables_have_each_wheel_and_both() -> None:
-    found = axles.elastokinematics(axle_of(STRUT), RACK, "roll", [0.0, 0.02])
+    found = compliance.elastokinematics(axle_of(STRUT), RACK, "roll", [0.0, 0.02])
     chapter = elastokinematics_chapter(found)
     left, right, both = chapter.tables
     assert [table.title for table in (left, right, both)] == [
         "Over roll angle, left wheel", "Over roll angle, right wheel", "Over roll angle, both",
     ]  # fmt: skip
-    toe = np.rad2deg(found["toe_right"].values[1, 1])
+    toe = np.rad2deg(found["toe"].sel(wheel="right").values[1, 1])
     assert right.rows[1][2] == f"{toe:.4f}"
     stiffness = found["roll_stiffness_at_contacts"].values[0, 1] * np.pi / 180.0
     assert both.rows[1][1] == f"{stiffness:.4f}"
@@ -476,10 +506,10 @@ def test_tables_have_each_wheel_and_both() -> None:
     ("line", "words"),
     [
         ("reference_car --motion roll", "--motion is only for the file of an axle"),
-        ("reference_axle --wheels left", "--wheels go with --under"),
+        ("reference_axle --wheels left", "--wheels is only for --under"),
         ("reference_axle --motion roll --bump 10", "--bump is only for curves over wheel travel"),
-        ("reference_axle --under braking --motion bump", "are for curves over a motion"),
-        ("reference_axle --motion roll --at 5", "it is for the motion 'steer'"),
+        ("reference_axle --under braking --motion bump", "--motion is only for curves over"),
+        ("reference_axle --motion roll --at 5", "--at is only for the file of one suspension"),
     ],
 )
 def test_options_that_do_not_go_together_are_refused(
@@ -489,6 +519,6 @@ def test_options_that_do_not_go_together_are_refused(
 ) -> None:
     bushes = str(Path(__file__).parent / "data/studies/bushes.toml")
     file, *options = line.split()
-    code, _, err = kintrafo("deflection", file, bushes, *options)
+    code, _, err = kintrafo("compliance", file, bushes, "--nonlinear", *options)
     assert code == 2
     assert words in " ".join(err.replace("│", " ").split())

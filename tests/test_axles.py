@@ -18,12 +18,13 @@ from kintrafo import (
     RigidAxle,
     Suspension,
     axles,
+    compliance,
     equilibrium,
-    loads,
     rigid_axles,
     roads,
 )
 from kintrafo.assembly import motions, wheel
+from kintrafo.assembly.by_wheel import flat
 from kintrafo.assembly.from_model import corner as corner_of
 from kintrafo.assembly.pair import Pair
 from kintrafo.report import Chapter, axle_chapter
@@ -313,7 +314,7 @@ def test_roll_is_the_inclination_of_the_line_through_the_wheel_centres(
 
 def test_on_bushes_roll_is_the_same_inclination() -> None:
     angles, bushes = np.deg2rad([-3.0, 2.0]), {"arm_rear": {"axial_N_per_mm": 500.0}}
-    found = axles.elastokinematics(AXLE, bushes, "roll", angles, rack_position=0.01)
+    found = flat(compliance.elastokinematics(AXLE, bushes, "roll", angles, rack_position=0.01))
     expected = axles.roll(AXLE, angles, rack_position=0.01)
     np.testing.assert_allclose(
         found["camber_left"].sel(data_set="kinematic"), expected["camber_left"], atol=1e-15
@@ -750,8 +751,8 @@ PLAIN = Axle.from_dict({"axle": "front", "side": CAR})
 @pytest.mark.parametrize("held", ["height", "spring", "locked"])
 def test_wheels_that_share_nothing_give_way_by_themselves(held: Any) -> None:
     """Both blocks are those of one wheel, mirrored bushes on a mirrored car among them."""
-    found = axles.compliance(PLAIN, SOFT, [0.03], held=held)["flexibility"].values[0]
-    right = loads.compliance(Model(CAR), SOFT, [0.03], held=held)["flexibility"].values[0]
+    found = compliance.linear(PLAIN, SOFT, [0.03], held=held)["flexibility"].values[0]
+    right = compliance.linear(Model(CAR), SOFT, [0.03], held=held)["flexibility"].values[0]
     image = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
     np.testing.assert_allclose(found[6:, 6:], right, rtol=1e-9, atol=1e-15)
     np.testing.assert_allclose(
@@ -767,7 +768,7 @@ def test_a_soft_rack_steers_as_the_kinematics_say() -> None:
     """
     travel, step, force, softness = 0.03, 1e-5, 1000.0, 1.0 / 2.5e6
     axle = Axle.from_dict({"axle": "front", "side": WISHBONES})
-    found = axles.compliance(axle, RACK, [travel], held="locked").isel(wheel_travel=0)
+    found = flat(compliance.linear(axle, RACK, [travel], held="locked")).isel(wheel_travel=0)
     model = axle.models["right"]
     angle = arm_angles(model, design_height(model) + travel)
     knuckle = model.equations.BODIES.index("knuckle")
@@ -803,7 +804,7 @@ def test_a_soft_rack_steers_as_the_kinematics_say() -> None:
 def test_the_bar_couples_the_wheels_as_the_rig_says(axle: Axle) -> None:
     """Nothing else is soft: the heights of both contacts against rates of springs and bar."""
     travel = 0.02
-    found = axles.compliance(axle, {"rack": {"axial_N_per_mm": 1e11}}, [travel], held="spring")
+    found = compliance.linear(axle, {"rack": {"axial_N_per_mm": 1e11}}, [travel], held="spring")
     pair = Pair.at(axle, [travel], [travel], 0.0)
     slopes = [pair.halves["left"].slope[0], -pair.halves["right"].slope[0]]
     stiffness = axle.bar.rate() * np.outer(slopes, slopes)
@@ -820,7 +821,7 @@ def test_the_bar_couples_the_wheels_as_the_rig_says(axle: Axle) -> None:
 def test_the_matrix_of_an_axle_is_symmetric() -> None:
     soft = {name.replace("arm", "lower_arm"): table for name, table in SOFT.items()} | RACK
     for held in ("height", "spring", "locked"):
-        matrix = axles.compliance(BENT, soft, [-0.02, 0.03], held=held)["flexibility"].values
+        matrix = compliance.linear(BENT, soft, [-0.02, 0.03], held=held)["flexibility"].values
         np.testing.assert_allclose(matrix, matrix.mT, rtol=0.0, atol=1e-12 * abs(matrix).max())
         assert (np.linalg.eigvalsh(matrix) > -1e-12 * abs(matrix).max()).all()
 
@@ -838,4 +839,4 @@ def test_the_matrix_of_an_axle_is_symmetric() -> None:
 )
 def test_bushes_that_are_none_are_refused(bushes: Any, words: str) -> None:
     with pytest.raises(InputError, match=words):
-        axles.compliance(PLAIN, bushes, [0.0])
+        compliance.linear(PLAIN, bushes, [0.0])

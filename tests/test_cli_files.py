@@ -54,10 +54,14 @@ WRITING = {
     "animate": (["animate", CAR, "a.gif"], "a.gif"),
     "sheet": (["sheet", CAR, "-o", "a.csv"], "a.csv"),
     "compliance": (["compliance", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),
-    "deflection": (["deflection", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),
-    "deflection of an axle": (
+    "compliance --nonlinear": (
+        ["compliance", CAR, str(STUDIES / "bushes.toml"), "--nonlinear", "--plot", "a.svg"],
+        "a.svg",
+    ),
+    "compliance --nonlinear of an axle": (
         [
-            "deflection",
+            "compliance",
+            "--nonlinear",
             "reference_axle",
             str(STUDIES / "bushes.toml"),
             "--motion",

@@ -3,6 +3,7 @@
 import json
 import re
 import tomllib
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,11 +15,10 @@ from kintrafo import (
     Model,
     RigidAxle,
     Suspension,
-    axles,
     characteristics,
-    loads,
-    rigid_axles,
+    compliance,
 )
+from kintrafo.assembly.by_wheel import flat
 from kintrafo.report.tables import input_tables
 from kintrafo.suspension.kinds import KINDS
 from kintrafo.suspension.toml_writer import write_toml
@@ -49,7 +49,7 @@ def test_the_wheel_gives_way_as_springs_do(
     if some:
         kept = ("rear", "tie", "arm_outer")
         bushes = {name: bushes[name] for name in bushes if any(part in name for part in kept)}
-    found = loads.compliance(Model(car), bushes, [travel], rack_position=rack, held=held)
+    found = compliance.linear(Model(car), bushes, [travel], rack_position=rack, held=held)
     ours = found["flexibility"].values[0]
     springs = Stiffness(car, travel, rack)
     theirs = springs.flexibility(bushes, held)
@@ -70,7 +70,7 @@ def test_the_wheel_gives_way_as_springs_do(
 def test_signs_and_units() -> None:
     """A soft rear bush: braking and a lateral force turn the wheel as they turn the arm."""
     model = Model("reference_car")
-    found = loads.compliance(model, {"arm_rear": {"radial_N_per_mm": 1000.0}}, [0.0])
+    found = compliance.linear(model, {"arm_rear": {"radial_N_per_mm": 1000.0}}, [0.0])
     at = found.isel(wheel_travel=0)
     flexible = at["flexibility"].sel(moved="x", by="fx")
     # a right wheel: inward is to the left, as y is; its contact moves by what the force does
@@ -90,8 +90,8 @@ def test_the_other_side_is_the_mirror_image() -> None:
     bush = {"lower_arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": [900.0, 2000.0],
                                "axis": [1.0, 0.3, 0.2]}}  # fmt: skip
     mirrored = {"lower_arm_rear": bush["lower_arm_rear"] | {"axis": [1.0, -0.3, 0.2]}}
-    one = loads.compliance(model, bush, [-0.03, 0.04])
-    other = loads.compliance(model.mirror_image, mirrored, [-0.03, 0.04])
+    one = compliance.linear(model, bush, [-0.03, 0.04])
+    other = compliance.linear(model.mirror_image, mirrored, [-0.03, 0.04])
     for name in one:
         if name != "flexibility":
             np.testing.assert_allclose(other[name], one[name], rtol=1e-9, err_msg=str(name))
@@ -100,7 +100,7 @@ def test_the_other_side_is_the_mirror_image() -> None:
 def test_a_stiffer_bush_gives_less() -> None:
     model = Model("reference_car")
     soft, stiff, rigid = (
-        loads.compliance(model, {"arm_rear": {"radial_N_per_mm": k}}, [0.0], held="locked")
+        compliance.linear(model, {"arm_rear": {"radial_N_per_mm": k}}, [0.0], held="locked")
         for k in (1e3, 2e3, 1e11)
     )
     np.testing.assert_allclose(soft["flexibility"], 2.0 * stiff["flexibility"], rtol=1e-9)
@@ -110,7 +110,7 @@ def test_a_stiffer_bush_gives_less() -> None:
 def test_a_rod_gives_way_at_either_end() -> None:
     model = Model("reference_car")
     inner, outer = (
-        loads.compliance(model, {f"tie_rod_{end}": {"axial_N_per_mm": 500.0}}, [0.0])
+        compliance.linear(model, {f"tie_rod_{end}": {"axial_N_per_mm": 500.0}}, [0.0])
         for end in ("inner", "outer")
     )
     np.testing.assert_allclose(inner["flexibility"], outer["flexibility"], rtol=1e-9, atol=1e-18)
@@ -120,7 +120,7 @@ def test_a_locked_spring_needs_no_rate() -> None:
     car = Suspension.load("reference_car")
     bush = {"arm_rear": {"radial_N_per_mm": np.array([1e3, 2e3])}}
     one, other = (
-        loads.compliance(Model(c), bush, [0.0], held="locked")["flexibility"]
+        compliance.linear(Model(c), bush, [0.0], held="locked")["flexibility"]
         for c in (car, car.with_changes({"strut.spring_rate_N_per_m": 0.0}))
     )
     np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-18)
@@ -130,8 +130,8 @@ def test_height_and_spring() -> None:
     """The contact stays where it is; or goes with the spring, however stiff the bushes."""
     model = Model("reference_car")
     bush = {"arm_rear": {"radial_N_per_mm": 1e9}}
-    held = loads.compliance(model, bush, [0.0], held="height")["flexibility"][0]
-    free = loads.compliance(model, bush, [0.0], held="spring")["flexibility"][0]
+    held = compliance.linear(model, bush, [0.0], held="height")["flexibility"][0]
+    free = compliance.linear(model, bush, [0.0], held="spring")["flexibility"][0]
     assert abs(held.sel(moved="z").values).max() < 1e-18
     rate = float(characteristics.travel(model, [0.0])["wheel_rate"][0])
     # per travel of the wheel centre, and the contact rises with the camber's gain, too
@@ -141,7 +141,7 @@ def test_height_and_spring() -> None:
 def test_a_bearing_tilts_across_the_spin_axis_whatever_its_axis_is() -> None:
     model = Model(WISHBONES)
     plain, turned = (
-        loads.compliance(model, {"wheel_center": {"tilt_Nm_per_deg": 3000.0} | axis}, [0.0])
+        compliance.linear(model, {"wheel_center": {"tilt_Nm_per_deg": 3000.0} | axis}, [0.0])
         for axis in ({}, {"axis": [1.0, 0.0, 0.0]})
     )
     np.testing.assert_array_equal(plain["flexibility"], turned["flexibility"])
@@ -183,13 +183,13 @@ WRONG: list[tuple[Any, dict[str, Any], str]] = [
 @pytest.mark.parametrize(("bushings", "options", "words"), WRONG)
 def test_what_cannot_be_used(bushings: Any, options: dict[str, Any], words: str) -> None:
     with pytest.raises(InputError, match=words):
-        loads.compliance(Model("reference_car"), bushings, **options)
+        compliance.linear(Model("reference_car"), bushings, **options)
 
 
 def test_without_a_spring_nothing_holds_the_wheel() -> None:
     loose = Suspension.load("reference_car").with_changes({"strut.spring_rate_N_per_m": 0.0})
     with pytest.raises(InputError, match="nothing holds it"):
-        loads.compliance(Model(loose), {"arm_rear": {"radial_N_per_mm": 1e3}}, [0.0])
+        compliance.linear(Model(loose), {"arm_rear": {"radial_N_per_mm": 1e3}}, [0.0])
 
 
 # -- tyres ----------------------------------------------------------------------------------------
@@ -206,8 +206,8 @@ RODS = {"panhard_rod_chassis": {"axial_N_per_mm": 5000.0}}
 
 def test_a_contact_patch_moves_as_wheel_and_tyre_in_series() -> None:
     """Each by what it carries: the wheel's linkage, and the tyre's rate along the force."""
-    rigid = loads.compliance(Model("reference_car"), BUSH, [0.0])
-    found = loads.compliance(Model(SOFT_CAR), BUSH, [0.0])
+    rigid = compliance.linear(Model("reference_car"), BUSH, [0.0])
+    found = compliance.linear(Model(SOFT_CAR), BUSH, [0.0])
     assert {*found} - {*rigid} == {f"patch_displacement_by_{n}" for n in ("lateral", "braking")}
     for name in rigid:
         np.testing.assert_array_equal(found[name], rigid[name])
@@ -217,48 +217,41 @@ def test_a_contact_patch_moves_as_wheel_and_tyre_in_series() -> None:
         )
         assert patch == pytest.approx(wheel + 1.0 / rate, rel=1e-12)
         assert found[f"patch_displacement_by_{load}"].attrs["display_units"] == "mm/kN"
-        large = loads.deflection(Model(SOFT_CAR), BUSH, load, [-3000.0], held="spring")
+        large = compliance.nonlinear(Model(SOFT_CAR), BUSH, load, [-3000.0], held="spring")
         give = large["patch_displacement"] - large["displacement"]
         np.testing.assert_allclose(give, -3000.0 / rate, rtol=1e-9)
 
 
 @pytest.mark.parametrize(
-    ("module", "axle", "bushes"),
+    ("axle", "bushes"),
     [
-        (axles, Axle.from_dict({"axle": "front", "side": SOFT_CAR}), BUSH),
-        (rigid_axles, RigidAxle.load("rigid_axle").with_changes(ON_TYRES), RODS),
+        (Axle.from_dict({"axle": "front", "side": SOFT_CAR}), BUSH),
+        (RigidAxle.load("rigid_axle").with_changes(ON_TYRES), RODS),
     ],
 )
-def test_contact_patches_of_both_wheels_go_with_their_own_loads(
-    module: Any, axle: Any, bushes: Any
-) -> None:
+def test_contact_patches_of_both_wheels_go_with_their_own_loads(axle: Any, bushes: Any) -> None:
     """A force to the left is inward on the right wheel and outward on the left one."""
-    found = module.compliance(axle, bushes, [0.0])
+    found = flat(compliance.linear(axle, bushes, [0.0]))
     for how, inward in (("parallel", (-1.0, 1.0)), ("opposed", (1.0, 1.0))):
         for side, part in zip(("left", "right"), inward, strict=True):
             name = f"displacement_by_lateral_{how}_{side}"
             give = float(found[f"patch_{name}"][0] - found[name][0])
             assert give == pytest.approx(part / LATERAL, rel=1e-9), name
-    large = module.deflection(axle, bushes, "lateral", [2000.0], wheels=(0.5, -1.0))
+    large = flat(compliance.nonlinear(axle, bushes, "lateral", [2000.0], wheels=(0.5, -1.0)))
     for side, part in (("left", 0.5), ("right", -1.0)):
         give = large[f"patch_displacement_{side}"] - large[f"displacement_{side}"]
         np.testing.assert_allclose(give, 2000.0 * part / LATERAL, rtol=1e-9)
 
 
 def test_a_tyre_without_rate_holds_no_wheel() -> None:
-    flat = {"tyre.rate_N_per_m": 0.0}
-    car = Suspension.load("reference_car").with_changes(flat)
-    rigid = RigidAxle.load("rigid_axle").with_changes(flat)
+    free = {"tyre.rate_N_per_m": 0.0}
+    car = Suspension.load("reference_car").with_changes(free)
+    rigid = RigidAxle.load("rigid_axle").with_changes(free)
     both = Axle.from_dict({"axle": "front", "side": car})
-    doors: list[tuple[Any, Any, Any]] = [
-        (loads, Model(car), BUSH), (axles, both, BUSH), (rigid_axles, rigid, RODS),
-    ]  # fmt: skip
-    for module, subject, bushes in doors:
+    for subject, bushes in ((car, BUSH), (both, BUSH), (rigid, RODS)):
         for call in (
-            lambda m=module, s=subject, b=bushes: m.compliance(s, b, [0.0], held="tyre"),
-            lambda m=module, s=subject, b=bushes: m.deflection(
-                s, b, "lateral", [10.0], held="tyre"
-            ),
+            partial(compliance.linear, subject, bushes, [0.0], held="tyre"),
+            partial(compliance.nonlinear, subject, bushes, "lateral", [10.0], held="tyre"),
         ):
             with pytest.raises(InputError, match=r"\[tyre\] rate_N_per_m = 0 N/m"):
                 call()
@@ -276,19 +269,19 @@ WITH_BUSHES = Suspension.load("reference_car").with_changes({"bushings": OF_THE_
 
 def test_bushes_of_the_file_are_those_that_are_given() -> None:
     plain, soft = Model("reference_car"), Model(WITH_BUSHES)
-    assert loads.compliance(soft, None, [0.0]).equals(loads.compliance(plain, OF_THE_FILE, [0.0]))
+    assert compliance.linear(soft, None, [0.0]).equals(compliance.linear(plain, OF_THE_FILE, [0.0]))
     other = {"arm_rear": {"axial_N_per_mm": 100.0}}
-    assert loads.compliance(soft, other, [0.0]).equals(loads.compliance(plain, other, [0.0]))
+    assert compliance.linear(soft, other, [0.0]).equals(compliance.linear(plain, other, [0.0]))
     one, same = (
-        loads.deflection(model, bushes, "lateral", [1000.0])
+        compliance.nonlinear(model, bushes, "lateral", [1000.0])
         for model, bushes in ((soft, None), (plain, OF_THE_FILE))
     )
     assert one.equals(same)
-    assert loads.elastokinematics(soft, travel=[0.0]).equals(
-        loads.elastokinematics(plain, OF_THE_FILE, [0.0])
+    assert compliance.elastokinematics(soft, along=[0.0]).equals(
+        compliance.elastokinematics(plain, OF_THE_FILE, along=[0.0])
     )
     with pytest.raises(InputError, match="none are given, and the hardpoint file has none"):
-        loads.compliance(plain)
+        compliance.linear(plain)
 
 
 def test_bushes_are_written_and_mirrored(tmp_path: Path) -> None:
@@ -298,7 +291,7 @@ def test_bushes_are_written_and_mirrored(tmp_path: Path) -> None:
     assert image.bushings is not None
     assert image.bushings["arm_rear"]["axis"] == [0.1, -0.9, 0.0]
     assert image.mirrored() == WITH_BUSHES
-    here, there = (loads.compliance(Model(side), None, [0.0]) for side in (WITH_BUSHES, image))
+    here, there = (compliance.linear(Model(side), None, [0.0]) for side in (WITH_BUSHES, image))
     for name in ("toe_by_lateral", "camber_by_braking", "displacement_by_lateral"):
         np.testing.assert_allclose(here[name], there[name], rtol=1e-9)
     assert WITH_BUSHES.with_changes({"bushings.arm_rear": None}).bushings.keys() == {
@@ -314,7 +307,7 @@ def test_a_new_file_shows_how_bushes_are_written(kind: str) -> None:
     (lines,) = re.findall(r"(# \[bushings\..*?)\n\n", text, flags=re.DOTALL)
     described = tomllib.loads(re.sub(r"^# ", "", lines, flags=re.MULTILINE))
     soft = Suspension.from_dict(tomllib.loads(text) | described)
-    assert abs(float(loads.compliance(Model(soft), None, [0.0])["camber_by_lateral"][0])) > 0.0
+    assert abs(float(compliance.linear(Model(soft), None, [0.0])["camber_by_lateral"][0])) > 0.0
 
 
 def test_each_side_of_an_axle_has_its_own_bushes() -> None:
@@ -322,11 +315,11 @@ def test_each_side_of_an_axle_has_its_own_bushes() -> None:
     even = Axle.from_dict({"axle": "front", "side": WITH_BUSHES})
     odd = Axle.from_dict({"axle": "front", "right": WITH_BUSHES, "left": other})
     plain = Axle.from_dict({"axle": "front", "side": "reference_car"})
-    found = axles.compliance(even, None, [0.0])
-    assert found.equals(axles.compliance(plain, OF_THE_FILE, [0.0]))
-    uneven = axles.compliance(odd, None, [0.0])
-    assert abs(float(uneven["toe_by_braking_parallel_left"][0])) < 0.9 * abs(
-        float(found["toe_by_braking_parallel_left"][0])
+    found = compliance.linear(even, None, [0.0])
+    assert found.equals(compliance.linear(plain, OF_THE_FILE, [0.0]))
+    uneven = compliance.linear(odd, None, [0.0])
+    assert abs(float(uneven["toe_by_braking_parallel"].sel(wheel="left")[0])) < 0.9 * abs(
+        float(found["toe_by_braking_parallel"].sel(wheel="left")[0])
     )
     two = other.with_changes({"bushings.rack.axial_N_per_mm": 1.0})
     with pytest.raises(InputError, match=r"\[bushings.rack\] differs"):
@@ -359,7 +352,7 @@ def test_commands_take_bushes_from_the_file(kintrafo: Any, tmp_path: Path) -> No
     assert (code, "in place of any that soft.toml has" in err) == (0, True)
     code, out, _ = kintrafo("compliance", "soft.toml", "b.toml", "--json")
     assert (code, "toe_by_lateral" in json.loads(out)["variables"]) == (0, True)
-    assert kintrafo("deflection", "soft.toml", "--bump", 10, "--rebound", 10)[0] == 0
+    assert kintrafo("compliance", "soft.toml", "--nonlinear", "--bump", 10, "--rebound", 10)[0] == 0
     code, _, err = kintrafo("compliance", "reference_car")
     assert code == 2
     assert "hardpoint file has none" in " ".join(err.split())

@@ -3,6 +3,7 @@
 import re
 import tomllib
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -16,21 +17,28 @@ from kintrafo import (
     RigidAxle,
     Suspension,
     arm_angles,
-    axles,
     characteristics,
+    compliance,
     loads,
-    rigid_axles,
 )
 from kintrafo.assembly import wheel
+from kintrafo.assembly.corner import CornerAssembly
+from kintrafo.assembly.of import assembly_of
 from kintrafo.assembly.poses import Poses
 from kintrafo.core.arguments import Arguments
 from kintrafo.core.vectors import unit_vector
-from kintrafo.study.axles.on_bushes import softs_of
-from kintrafo.study.loads.elastic.connections import Soft
-from kintrafo.study.loads.elastic.deflection import BY_NAME, unit_load
-from kintrafo.study.loads.elastic.equilibrium import Equilibrium, State
-from kintrafo.study.loads.elastic.held import at_height, on_bushes, soft_of, suspension_on
-from kintrafo.study.loads.elastic.places import Angles, Distances, Lengths, Places, Radii, Twists
+from kintrafo.study.compliance.connections import Soft
+from kintrafo.study.compliance.equilibrium import Equilibrium, State
+from kintrafo.study.compliance.nonlinear import BY_NAME, unit_load
+from kintrafo.study.compliance.on_bushes import at_height, on_bushes, on_joints, softs_of
+from kintrafo.study.compliance.rigid_displacements import (
+    Angles,
+    Distances,
+    Lengths,
+    Places,
+    Radii,
+    Twists,
+)
 from kintrafo.suspension.input.curve import Curve
 from kintrafo.suspension.positions import design_height
 from kintrafo.suspension.reach import at_rest
@@ -253,7 +261,7 @@ def test_small_loads_are_those_of_the_unit_load_theorem(car: Suspension, held: A
     for size in (20.0, 2.0):
         for under in UNDER:
             amounts = np.array([size if under != "aligning" else 0.3 * size])
-            found = loads.deflection(
+            found = compliance.nonlinear(
                 model, BUSHES_OF[car], under, amounts, held=held, hardpoints="relaxed"
             )
             largest = max(abs(float(found["toe_change"][1, 0])), 1e-8 * size)
@@ -271,7 +279,7 @@ def test_loaded_bushes_leave_the_design_as_it_is(car: Suspension) -> None:
          "gravity.acceleration_m_per_s2": 9.81}
     )  # fmt: skip
     bushes = with_rack(car)
-    found = loads.elastokinematics(Model(heavy), bushes, [0.0, 0.03])
+    found = compliance.elastokinematics(Model(heavy), bushes, along=[0.0, 0.03])
     at_design = found.sel(wheel_travel=0.0)
     for name in ("toe", "camber", "half_track_change", "wheelbase_change"):
         kinematic, elastic = at_design[name].values
@@ -279,7 +287,7 @@ def test_loaded_bushes_leave_the_design_as_it_is(car: Suspension) -> None:
     rigid, soft = at_design["wheel_load"].values
     assert rigid > 2000.0
     assert soft == pytest.approx(rigid, rel=1e-9)
-    relaxed = loads.elastokinematics(Model(heavy), bushes, [0.0], hardpoints="relaxed")
+    relaxed = compliance.elastokinematics(Model(heavy), bushes, along=[0.0], hardpoints="relaxed")
     assert abs(np.diff(relaxed["toe"], axis=0)[0, 0]) > 1e-5
 
 
@@ -290,7 +298,7 @@ def test_torsion_of_the_arm_adds_to_the_wheel_rate(travel: float) -> None:
     stiffness = {"arm_front": {"torsion_Nm_per_deg": 2.0}, "arm_rear": {"torsion_Nm_per_deg": 3.0}}
     step = 1e-4
     travels = travel + step * np.array([-2.0, -1.0, 0.0, 1.0, 2.0])
-    found = loads.elastokinematics(model, stiffness, travels, hardpoints="relaxed")
+    found = compliance.elastokinematics(model, stiffness, along=travels, hardpoints="relaxed")
     np.testing.assert_allclose(*found["toe"].values, rtol=0.0, atol=1e-12)
     angles = arm_angles(model, design_height(model) + travels)
     poses = Poses.of(model, *at_rest(model, angles))
@@ -317,7 +325,7 @@ def test_what_resists_tilting_stiffens() -> None:
     for tilt in (0.0, 20.0, 1e6):
         resisting = {point: bush | {"tilt_Nm_per_deg": tilt} if tilt else bush
                      for point, bush in bushes.items()}  # fmt: skip
-        found = loads.deflection(model, resisting, "braking", [2000.0])
+        found = compliance.nonlinear(model, resisting, "braking", [2000.0])
         moved.append(float(found["displacement"][0, 0]))
     assert moved[0] > 1.02 * moved[1] > 1.02 * moved[2] > 0.0
 
@@ -329,7 +337,8 @@ def test_two_rates_against_tilting_have_axes() -> None:
     def moved(tilt: Any, radial_axis: list[float]) -> float:
         bush = {"axial_N_per_mm": 100.0, "radial_N_per_mm": 300.0, "axis": [1.0, 0.0, 0.0],
                 "tilt_Nm_per_deg": tilt, "radial_axis": radial_axis}  # fmt: skip
-        found = loads.deflection(model, dict.fromkeys(("arm_front", "arm_rear"), bush), "braking",
+        bushes = dict.fromkeys(("arm_front", "arm_rear"), bush)
+        found = compliance.nonlinear(model, bushes, "braking",
                                  [2000.0])  # fmt: skip
         return float(found["displacement"][0, 0])
 
@@ -352,9 +361,11 @@ def test_other_travels_change_nothing(car: Suspension, hardpoints: Any, camber: 
     )  # fmt: skip
     model, travels = Model(heavy), np.array([-0.04, -0.02, 0.0, 0.02])
     bushes = with_rack(car)
-    whole = loads.elastokinematics(model, bushes, travels, hardpoints=hardpoints)
+    whole = compliance.elastokinematics(model, bushes, along=travels, hardpoints=hardpoints)
     for order in ([3, 2, 1, 0], [2, 0, 3], [1]):
-        found = loads.elastokinematics(model, bushes, travels[order], hardpoints=hardpoints)
+        found = compliance.elastokinematics(
+            model, bushes, along=travels[order], hardpoints=hardpoints
+        )
         for name in whole:
             # forces of 1e4 N in the last step of Newton's method, 1e-9 m or rad
             atol = 1e-2 if name in ("wheel_load", "contact_rate") else 1e-9
@@ -364,9 +375,10 @@ def test_other_travels_change_nothing(car: Suspension, hardpoints: Any, camber: 
 def test_many_travels_are_looked_at_in_parts(monkeypatch: pytest.MonkeyPatch) -> None:
     model, travels = Model("reference_car"), np.linspace(-0.05, 0.05, 7)
     bushes = {"arm_rear": {"radial_N_per_mm": 1e3}}
-    whole = loads.elastokinematics(model, bushes, travels)
-    monkeypatch.setattr("kintrafo.study.loads.elastic.elastokinematics._TOGETHER", 3)
-    parts = loads.elastokinematics(model, bushes, travels)
+    whole = compliance.elastokinematics(model, bushes, along=travels)
+    module = import_module("kintrafo.study.compliance.elastokinematics")
+    monkeypatch.setattr(module, "_TOGETHER", 3)
+    parts = compliance.elastokinematics(model, bushes, along=travels)
     # which of two bearings holds the arm along its axis does not depend on the positions either
     assert parts.sizes == whole.sizes
     np.testing.assert_allclose(parts["toe"], whole["toe"], rtol=0.0, atol=1e-12)
@@ -378,7 +390,7 @@ def test_a_radial_curve_is_the_same_to_all_sides(hardpoints: Any) -> None:
     model = Model("reference_car")
     curve = {"mm": [0.0, 1.0, 3.0], "N": [0.0, 1200.0, 9000.0]}
     found = [
-        loads.deflection(
+        compliance.nonlinear(
             model,
             {"arm_rear": {"axial_N_per_mm": 500.0, "radial_curve": curve, "radial_axis": axis}},
             "braking",
@@ -404,7 +416,7 @@ def test_a_curve_goes_on_as_its_last_points_rise() -> None:
     assert (np.diff(curve.force(inside)) > 0.0).all()
     assert curve.force(np.array([curve.place(500.0)]))[0] == pytest.approx(500.0)
     flat = {"arm_rear": {"radial_curve": {"mm": [0.0, 1.0, 2.0], "N": [0.0, 9.0, 10.0]}}}
-    found = loads.elastokinematics(Model("reference_car"), flat, [0.0])
+    found = compliance.elastokinematics(Model("reference_car"), flat, along=[0.0])
     np.testing.assert_allclose(*found["toe"].values, rtol=0.0, atol=1e-9)
 
 
@@ -422,7 +434,7 @@ def test_a_curve_of_straight_lines() -> None:
     forces = np.where(fine < 1.0, 600.0 * fine, 600.0 + 2800.0 * (fine - 1.0))
     model = Model("reference_car")
     one, other = (
-        loads.deflection(
+        compliance.nonlinear(
             model, {"arm_rear": {"axial_N_per_mm": 500.0, "radial_curve": described}}, "lateral",
             [-5000.0, 2000.0, 6000.0],
         )["toe_change"].values[0]
@@ -434,7 +446,7 @@ def test_a_curve_of_straight_lines() -> None:
 
 def test_torsion_alone_has_no_linear_deflection() -> None:
     bushes = {"arm_rear": {"torsion_Nm_per_deg": 2.0}}
-    found = loads.deflection(Model("reference_car"), bushes, "braking", [1000.0], held="spring")
+    found = compliance.nonlinear(Model("reference_car"), bushes, "braking", [1000.0], held="spring")
     assert found["displacement"][1, 0] == 0.0
     assert abs(found["displacement"][0, 0]) > 1e-6
 
@@ -449,7 +461,9 @@ def test_stiff_bushes_are_rigid_joints() -> None:
             for point, b in BUSHES.items()
             if point != "wheel_center"
         }
-        found = loads.elastokinematics(model, bushes, [-0.05, 0.05], hardpoints="relaxed")
+        found = compliance.elastokinematics(
+            model, bushes, along=[-0.05, 0.05], hardpoints="relaxed"
+        )
         off.append(np.abs(np.diff(found["toe"], axis=0)).max())
     assert off[1] == pytest.approx(1e-3 * off[0], rel=0.05)
 
@@ -463,13 +477,13 @@ def test_a_curve_is_a_stiffness_where_it_is_straight() -> None:
     stiffer = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_curve": stiff}}
     amounts = [-6000.0, 100.0, 6000.0]
     first, second, third = (
-        loads.deflection(model, bushes, "lateral", amounts)["toe_change"].values
+        compliance.nonlinear(model, bushes, "lateral", amounts)["toe_change"].values
         for bushes in (straight, bent, stiffer)
     )
     np.testing.assert_allclose(first, second, rtol=1e-9)
     assert (np.abs(third[0, [0, 2]]) < 0.95 * np.abs(first[0, [0, 2]])).all()
     relaxed = [
-        loads.elastokinematics(model, bushes, [0.02], hardpoints="relaxed")["toe"].values
+        compliance.elastokinematics(model, bushes, along=[0.02], hardpoints="relaxed")["toe"].values
         for bushes in (straight, bent)
     ]
     np.testing.assert_allclose(*relaxed, rtol=1e-9)
@@ -481,7 +495,8 @@ def test_a_left_car_is_the_mirror_image() -> None:
               "rack": {"axial_N_per_mm": 2000.0}}  # fmt: skip
     for under in UNDER:
         one, other = (
-            loads.deflection(Model(side), bushes, under, [500.0]) for side in (car, car.mirrored())
+            compliance.nonlinear(Model(side), bushes, under, [500.0])
+            for side in (car, car.mirrored())
         )
         for name in one:
             np.testing.assert_allclose(one[name], other[name], rtol=1e-7, atol=1e-12)
@@ -492,7 +507,7 @@ def test_every_kind_is_told(name: str) -> None:
     model = Model(name)
     point = "arm_rear" if name == "offset_strut_car" else "lower_arm_rear"
     bushes = {point: {"axial_N_per_mm": 400.0, "radial_N_per_mm": 3000.0}}
-    found = loads.deflection(model, bushes, "lateral", [10.0])
+    found = compliance.nonlinear(model, bushes, "lateral", [10.0])
     # what the static load does in turned bushes is some per cent
     np.testing.assert_allclose(*found["toe_change"].values, rtol=0.05)
 
@@ -518,13 +533,13 @@ def test_no_load_presses_a_damper_in_farther_than_it_goes(side: str) -> None:
     stiff = {"arm_inner": {"axial_N_per_mm": 1e6, "radial_N_per_mm": 1e6}}
 
     def under(amounts: list[float]) -> Any:
-        return loads.deflection(model, stiff, "braking", amounts, held="spring")
+        return compliance.nonlinear(model, stiff, "braking", amounts, held="spring")
 
     assert under([-2.0 * most, 0.93 * most])["displacement"].shape == (2, 2)
     with pytest.raises(PositionError, match="the damper is beyond its least length"):
         under([0.0, 1.07 * most])
     # held at its height, the wheel does not press it in
-    loads.deflection(model, stiff, "braking", [2.0 * most])
+    compliance.nonlinear(model, stiff, "braking", [2.0 * most])
 
 
 def test_what_the_suspension_cannot_do_ends_a_command_with_1(
@@ -534,7 +549,7 @@ def test_what_the_suspension_cannot_do_ends_a_command_with_1(
     """As the page of the command line says of all that is no mistake in what was given."""
     soft = "[bushings.arm_rear]\naxial_N_per_mm = 1.0\nradial_N_per_mm = 1.0\n"
     (tmp_path / "soft.toml").write_text(soft, encoding="utf-8")
-    line = "deflection reference_car soft.toml --under braking --most 900000"
+    line = "compliance reference_car soft.toml --nonlinear --under braking --most 900000"
     code, _, err = kintrafo(*line.split())
     assert (code, "no equilibrium that lasts" in err) == (1, True)
     code, _, err = kintrafo(*line.replace("braking", "sideways").split())
@@ -545,11 +560,11 @@ def test_what_cannot_be_is_refused() -> None:
     model = Model("reference_car")
     bushes: dict[str, Any] = {"arm_rear": {"axial_N_per_mm": 500.0}}
     with pytest.raises(InputError, match="under"):
-        loads.deflection(model, bushes, "sideways", [1.0])
+        compliance.nonlinear(model, bushes, "sideways", [1.0])
     with pytest.raises(InputError, match="1e\\+06 N"):
-        loads.deflection(model, bushes, "lateral", [1e9])
+        compliance.nonlinear(model, bushes, "lateral", [1e9])
     with pytest.raises(PositionError, match="no equilibrium that lasts"):
-        loads.deflection(model, {"arm_rear": {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}},
+        compliance.nonlinear(model, {"arm_rear": {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}},
                          "braking", [9e5])  # fmt: skip
     for curve, words in (
         ({"mm": [0.0, 1.0]}, "two lists"),
@@ -558,26 +573,26 @@ def test_what_cannot_be_is_refused() -> None:
         ({"mm": [1.0, 2.0], "N": [1.0, 2.0]}, "0 mm, 0 N"),
     ):
         with pytest.raises(InputError, match=words):
-            loads.elastokinematics(model, {"arm_rear": {"axial_curve": curve}}, [0.0])
+            compliance.elastokinematics(model, {"arm_rear": {"axial_curve": curve}}, along=[0.0])
     for point, key in (("wheel_center", "torsion_Nm_per_deg"), ("arm_rear", "tilt_Nm_per_mm")):
         with pytest.raises(InputError, match=key):
-            loads.elastokinematics(model, {point: {key: 5.0}}, [0.0])
+            compliance.elastokinematics(model, {point: {key: 5.0}}, along=[0.0])
     too_close = {"mm": [-1.0, 0.0, 5e-324, 1.0], "N": [-5.0, 0.0, 1.0, 9.0]}
     with pytest.raises(InputError, match="both lists must rise, by 1e-06 at least"):
-        loads.compliance(model, {"arm_rear": {"axial_curve": too_close}})
+        compliance.linear(model, {"arm_rear": {"axial_curve": too_close}})
     one_sided = {"mm": [0.0, 1.0, 2.0], "N": [0.0, 1.0, 1000.0]}
     with pytest.raises(InputError, match="both sides of 0 mm"):
-        loads.compliance(model, {"arm_rear": {"axial_curve": one_sided}})
+        compliance.linear(model, {"arm_rear": {"axial_curve": one_sided}})
     for key in ("axial_curve", "radial_curve"):
         curve = {"mm": [-1.0, 0.0, 1.0], "N": [-5.0, 0.0, 9.0]}
         if key == "axial_curve":
-            loads.elastokinematics(model, {"arm_rear": {key: curve}}, [0.0])
+            compliance.elastokinematics(model, {"arm_rear": {key: curve}}, along=[0.0])
             continue
         with pytest.raises(InputError, match="the same to all sides"):
-            loads.elastokinematics(model, {"arm_rear": {key: curve}}, [0.0])
+            compliance.elastokinematics(model, {"arm_rear": {key: curve}}, along=[0.0])
     both = {"arm_rear": {"axial_N_per_mm": 1.0, "axial_curve": {"mm": [0, 1], "N": [0, 1]}}}
     with pytest.raises(InputError, match="Keep one"):
-        loads.compliance(model, both)
+        compliance.linear(model, both)
 
 
 # -- what the bearings of an arm carry where the hardpoints are ----------------------------------
@@ -629,11 +644,10 @@ def test_two_bearings_share_a_force_as_their_bushes_do(kind: str, on: str) -> No
         model = Model(car)
         bushes = {one: front, other: rear}
         with Arguments("test") as given:
-            if on == "suspension":
-                soft = soft_of(given, model, bushes, "loaded")
-            else:
-                axle = Axle.from_dict({"axle": "front", "side": car})
-                soft = softs_of(given, axle, bushes, "loaded")[car.vehicle.side]
+            axle = Axle.from_dict({"axle": "front", "side": car})
+            assembly: Any = assembly_of(model if on == "suspension" else axle)
+            suffix = "" if on == "suspension" else f"_{car.vehicle.side}"
+            soft = softs_of(given, assembly, bushes, "loaded")[suffix]
         forces = {at: soft.carried["chassis", arm, at][:3] for at in (one, other)}
         axis = unit_vector(car.hardpoints.metres(other) - car.hardpoints.metres(one))
         moved = {at: _given_way(soft.bushes[at], forces[at]) @ axis for at in forces}
@@ -658,7 +672,7 @@ def test_how_bearings_share_matters_to_the_toe() -> None:
         "arm_rear": {"axial_N_per_mm": _LOOSE, "radial_N_per_mm": 1000.0},
     }
     with Arguments("test") as given:
-        soft = soft_of(given, model, bushes, "loaded")
+        soft = softs_of(given, CornerAssembly(model), bushes, "loaded")[""]
     half, carried = dict(soft.carried), soft.carried
     keys = [("chassis", "control_arm", at) for at in ("arm_front", "arm_rear")]
     points = model.suspension.hardpoints
@@ -670,12 +684,14 @@ def test_how_bearings_share_matters_to_the_toe() -> None:
         half[key] = own
     toes = []
     for each in (soft, replace(soft, carried=half)):
-        suspension = suspension_on(model, np.zeros(1), 0.0, each)
+        corner = CornerAssembly(model)
+        poses = corner.poses(corner.at_travel(np.zeros(1)))
+        suspension = on_joints(corner, poses, {"": each})
         base = at_height(suspension, np.zeros(1))
         unit = unit_load(BY_NAME["lateral"], suspension.wheels[0])[:, None]
         state = suspension.under(4000.0 * unit, "height", base)
         toes.append(np.diff([wheel.toe(on_bushes(suspension, s)) for s in (base, state)], axis=0))
-    found = loads.deflection(model, bushes, "lateral", [4000.0])["toe_change"][0, 0]
+    found = compliance.nonlinear(model, bushes, "lateral", [4000.0])["toe_change"][0, 0]
     assert float(found) == pytest.approx(float(toes[0][0, 0]), rel=1e-9)
     assert abs(float(found) / float(toes[1][0, 0]) - 1.0) > 1e-5
 
@@ -692,11 +708,11 @@ def test_loads_that_no_rubber_carries_are_refused(subject: str, what: str) -> No
     car = Suspension.load("reference_car").with_changes(tyre)
     rods = {"panhard_rod_chassis": {"axial_N_per_mm": 500.0}}
     doors: dict[str, Any] = {
-        "suspension": lambda most: loads.deflection(Model(car), bushes, "lateral", [most]),
-        "axle": lambda most: axles.deflection(
+        "suspension": lambda most: compliance.nonlinear(Model(car), bushes, "lateral", [most]),
+        "axle": lambda most: compliance.nonlinear(
             Axle.from_dict({"axle": "front", "side": car}), bushes, "lateral", [most]
         ),
-        "rigid axle": lambda most: rigid_axles.deflection(
+        "rigid axle": lambda most: compliance.nonlinear(
             RigidAxle.load("rigid_axle").with_changes(tyre), rods, "lateral", [most]
         ),
     }
@@ -714,12 +730,14 @@ def test_wheels_that_lie_in_their_bushes_at_rest_are_refused() -> None:
     of, soft = "upper_arm_front", {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}
     bushes = {of: soft | {"axis": [0.0, 0.0, 1.0]}}
     with pytest.raises(PositionError, match=f"without another load the bush at {of} deflects by"):
-        loads.elastokinematics(Model("double_wishbone_car"), bushes, [0.0], hardpoints="relaxed")
+        compliance.elastokinematics(
+            Model("double_wishbone_car"), bushes, along=[0.0], hardpoints="relaxed"
+        )
 
 
 def test_the_two_rates_of_a_wheel_have_two_names() -> None:
-    found = loads.elastokinematics(
-        Model("reference_car"), {"arm_rear": {"axial_N_per_mm": 500.0}}, [0.0]
+    found = compliance.elastokinematics(
+        Model("reference_car"), {"arm_rear": {"axial_N_per_mm": 500.0}}, along=[0.0]
     )
     rate = found["contact_rate"]
     of_wheel = characteristics.travel(Model("reference_car"), [0.0])["wheel_rate"]
@@ -749,7 +767,7 @@ def _slope_over_first_order(changes: Any) -> float:
 def test_what_the_pages_say_of_small_loads_under_a_static_one() -> None:
     """Preloaded parts turn, which first order leaves out."""
     small = [-10.0, 10.0]
-    car = loads.deflection(
+    car = compliance.nonlinear(
         Model("reference_car"), _of_page("loads.md", "bushes.toml"), "lateral", small,
         held="spring",
     )  # fmt: skip
@@ -759,13 +777,13 @@ def test_what_the_pages_say_of_small_loads_under_a_static_one() -> None:
         "lateral": {
             "axle_steer_change": 1.19,
             "axle_lateral_change": 1.12,
-            "displacement_left": 1.15,
-            "camber_change_left": 1.15,
+            "displacement": 1.15,
+            "camber_change": 1.15,
         },
-        "braking": {"camber_change_left": 1.18},
+        "braking": {"camber_change": 1.18},
         "aligning": {"axle_lateral_change": 0.68},
     }.items():
-        rigid = rigid_axles.deflection(axle, bushes, under, small, held="spring")
+        rigid = compliance.nonlinear(axle, bushes, under, small, held="spring").sel(wheel="left")
         for name, ratio in ratios.items():
             found[f"{name} by {under}"] = _slope_over_first_order(rigid[name]), ratio
     for name, (ratio, of_page) in found.items():

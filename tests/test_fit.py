@@ -5,7 +5,14 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from kintrafo import InputError, Model, Suspension, characteristics, loads, variation
+from kintrafo import (
+    InputError,
+    Model,
+    Suspension,
+    characteristics,
+    compliance,
+    variation,
+)
 from kintrafo.core.quantities import display_of
 from kintrafo.study.variation.places import places_of
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
@@ -185,7 +192,7 @@ BY_LOAD = ["toe_by_lateral", "toe_by_braking", "camber_by_lateral", "displacemen
 
 def soft_rig(car: Suspension, held: Any = "height") -> xr.Dataset:
     """Return toe, and what a rig finds with loads on the wheel."""
-    by_load = loads.compliance(Model(car), None, TRAVEL, held=held)
+    by_load = compliance.linear(Model(car), None, TRAVEL, held=held)
     return by_load[BY_LOAD].merge(rig(car, names=["toe"]))
 
 
@@ -256,7 +263,7 @@ def test_the_command_fits_bushes(kintrafo: Any, tmp_path: Any) -> None:  # noqa:
     from kintrafo.suspension.toml_writer import write_toml
 
     write_toml(SOFT, tmp_path / "soft.toml")
-    everything = loads.compliance(Model(SOFT.with_changes({REAR: 300.0})), None, TRAVEL)
+    everything = compliance.linear(Model(SOFT.with_changes({REAR: 300.0})), None, TRAVEL)
     names = ["toe_by_lateral", "toe_by_aligning", "displacement_by_recession"]
     export.write(everything[names], tmp_path / "rig.csv")
     assert "toe_by_aligning [deg/100 N m]" in (tmp_path / "rig.csv").read_text(encoding="utf-8")

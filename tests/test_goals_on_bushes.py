@@ -16,10 +16,10 @@ from kintrafo import (
     RigidAxle,
     axles,
     characteristics,
-    loads,
-    rigid_axles,
+    compliance,
     variation,
 )
+from kintrafo.assembly.by_wheel import flat
 from kintrafo.report import elastokinematics_chapter
 from kintrafo.study.variation.ways import WAYS
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
@@ -44,11 +44,15 @@ def marks(chapter: Any) -> list[int]:
 
 
 FOUND = {
-    "a corner": (lambda: loads.elastokinematics(CAR, BUSHES, AT), "travel", CAR),
-    "an axle in bump": (lambda: axles.elastokinematics(AXLE, BUSHES, "bump", AT), "bump", AXLE),
-    "one wheel": (lambda: axles.elastokinematics(AXLE, BUSHES, "left", AT), "left", AXLE),
+    "a corner": (lambda: compliance.elastokinematics(CAR, BUSHES, along=AT), "travel", CAR),
+    "an axle in bump": (
+        lambda: compliance.elastokinematics(AXLE, BUSHES, "bump", AT),
+        "bump",
+        AXLE,
+    ),
+    "one wheel": (lambda: compliance.elastokinematics(AXLE, BUSHES, "left", AT), "left", AXLE),
     "a rigid axle in roll": (
-        lambda: rigid_axles.elastokinematics(RIGID, OF_RODS, "roll", AT),
+        lambda: compliance.elastokinematics(RIGID, OF_RODS, "roll", AT),
         "roll",
         RIGID,
     ),
@@ -77,7 +81,7 @@ def test_goals_are_drawn_where_the_curves_go(name: str) -> None:
 def test_what_can_be_wanted_of_curves_is_what_they_are(name: str) -> None:
     """The curves with rigid joints are those that goals are judged by, where words are the same."""
     make, over, subject = FOUND[name]
-    found = make().sel(data_set="kinematic")
+    found = flat(make()).sel(data_set="kinematic")
     of_model = (characteristics.travel if over == "travel" else axles.bump)(subject, AT)
     known = WAYS[over].known
     same = [n for n in map(str, found) if n in known and words(found[n]) == known[n].long_name]
@@ -100,12 +104,12 @@ def test_a_wheel_rate_at_the_contact_is_another() -> None:
 
 
 def test_goals_about_a_turned_rack_are_refused() -> None:
-    turned = loads.elastokinematics(CAR, BUSHES, AT, rack_position=0.01)
+    turned = compliance.elastokinematics(CAR, BUSHES, along=AT, rack_position=0.01)
     toe = wanted(("travel",), toe=TOE)
     with pytest.raises(InputError, match="rack in its middle, and here it is at 10 mm"):
         elastokinematics_chapter(turned, goals=toe)
     assert elastokinematics_chapter(turned).tables
-    both = axles.elastokinematics(AXLE, BUSHES, "bump", AT, rack_position=-0.01)
+    both = compliance.elastokinematics(AXLE, BUSHES, "bump", AT, rack_position=-0.01)
     with pytest.raises(InputError, match="here it is at -10 mm"):
         elastokinematics_chapter(both, goals=wanted(OF_AXLES, toe_left=TOE))
     del turned.attrs["over"]

@@ -13,11 +13,11 @@ from kintrafo import (
     RigidAxle,
     Suspension,
     axles,
-    loads,
+    compliance,
     report,
-    rigid_axles,
     variation,
 )
+from kintrafo.assembly.by_wheel import flat
 from kintrafo.cli import app
 from kintrafo.plots import curves
 from kintrafo.report import compliance_chapter, goals_chapter
@@ -53,7 +53,7 @@ def called(*words: str) -> Any:
 
 def under(car: Suspension, name: str, at: Any, held: Any = "height") -> Any:
     """Return a compliance in the unit for people, deg/kN."""
-    return np.rad2deg(loads.compliance(Model(car), None, at, held=held)[name].values) * 1e3
+    return np.rad2deg(compliance.linear(Model(car), None, at, held=held)[name].values) * 1e3
 
 
 @pytest.fixture
@@ -157,9 +157,7 @@ def test_many_cars_have_curves_of_compliance(subject: str) -> None:
     found = variation.cars(of, {place: rates}, names=[name], held="height", positions=[0.0, 0.02])
     for i, rate in enumerate(rates):
         changed = of.with_changes({place: rate})
-        study: Any = loads if subject == "car" else rigid_axles
-        model: Any = Model(changed) if subject == "car" else changed
-        expected = study.compliance(model, None, [0.0, 0.02])[name]
+        expected = compliance.linear(changed, None, [0.0, 0.02])[name]
         np.testing.assert_allclose(found[name][i], expected, rtol=1e-12)
 
 
@@ -243,8 +241,7 @@ def test_without_bushes_nothing_is_judged(goals: Path) -> None:
 )
 def test_goals_of_both_wheels(axle: Any, bushes: dict[str, Any]) -> None:
     name = "toe_by_lateral_opposed_left"
-    module: Any = axles if isinstance(axle, Axle) else rigid_axles
-    found = module.compliance(axle, bushes, [0.0, 0.02])
+    found = flat(compliance.linear(axle, bushes, [0.0, 0.02]))
     toe = np.rad2deg(found[name].values) * 1e3
     limits = {name: {"at_mm": [0.0, 20.0], "most": 0.01}}
     wanted = variation.goals({"limits": limits}, ["bump", "roll"])
@@ -264,18 +261,18 @@ def test_goals_of_both_wheels(axle: Any, bushes: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("of", "module", "name", "label"),
+    ("of", "name", "label"),
     [
-        (Model(CAR), loads, "toe_by_lateral", "limit"),
-        (with_bushes(Axle.load("reference_axle"), BUSHES), axles, "toe_by_lateral_opposed_left",
+        (Model(CAR), "toe_by_lateral", "limit"),
+        (with_bushes(Axle.load("reference_axle"), BUSHES), "toe_by_lateral_opposed_left",
          "limit, left"),
-        (with_bushes(RigidAxle.load("rigid_axle"), RODS), rigid_axles,
+        (with_bushes(RigidAxle.load("rigid_axle"), RODS),
          "toe_by_lateral_parallel_right", "limit, right"),
     ],
     ids=["suspension", "axle", "rigid axle"],
 )  # fmt: skip
 def test_the_chapter_of_compliance_draws_those_of_its_wheels(
-    of: Any, module: Any, name: str, label: str, monkeypatch: pytest.MonkeyPatch
+    of: Any, name: str, label: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Those with wheels that are held otherwise are in the chapter of goals alone."""
     panels: dict[str, Any] = {}
@@ -290,7 +287,7 @@ def test_the_chapter_of_compliance_draws_those_of_its_wheels(
     described = [{"at_mm": [-20, 20], "most": 0.3}, {"held": "locked", "most": 0.4}]
     ways = ["travel", "rack"] if isinstance(of, Model) else ["bump", "roll"]
     wanted = variation.goals({"limits": {name: described}}, ways)
-    compliance_chapter(module.compliance(of, None, [-0.02, 0.0, 0.02]), wanted)
+    compliance_chapter(compliance.linear(of, None, [-0.02, 0.0, 0.02]), wanted)
     marked = {
         curve: {line.get_label(): line.get_xydata().tolist() for line in axes.get_lines()
                 if line.get_label().startswith("limit")}
@@ -302,7 +299,7 @@ def test_the_chapter_of_compliance_draws_those_of_its_wheels(
     }
     with pytest.raises(InputError, match="there is no curve of camber_by_wind"):
         compliance_chapter(
-            module.compliance(of, None, [0.0]),
+            compliance.linear(of, None, [0.0]),
             [Limit("camber_by_wind", "height", np.zeros(1), 0.0, 1.0)],
         )
 

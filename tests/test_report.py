@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from kintrafo import InputError, Model, loads, state_at_height
+from kintrafo import InputError, Model, compliance, loads, state_at_height
 from kintrafo.report import compliance_chapter, elastokinematics_chapter, loads_chapter
 from kintrafo.report.curves import curves
 from kintrafo.report.encode import packed, rounded
@@ -437,8 +437,10 @@ def test_chapters_stand_in_the_page():
     assert kind == "data:image/png"
     assert len(base64.b64decode(coded)) > 5000
     bushes = {"arm_rear": {"radial_N_per_mm": 1200.0}}
-    soft = compliance_chapter(loads.compliance(model, bushes, [-0.01, 0.0, 0.01]))
-    bent = elastokinematics_chapter(loads.elastokinematics(model, bushes, [-0.01, 0.0, 0.01]))
+    soft = compliance_chapter(compliance.linear(model, bushes, [-0.01, 0.0, 0.01]))
+    bent = elastokinematics_chapter(
+        compliance.elastokinematics(model, bushes, along=[-0.01, 0.0, 0.01])
+    )
     text = render(model, chapters=[loaded, soft, bent])
     assert "<h2>Load cases</h2>" in text
     assert text.index("<h2>Load cases</h2>") < text.index("<h2>Compliance</h2>")

@@ -15,8 +15,8 @@ from kintrafo import (
     axles,
     characteristics,
     compare,
+    compliance,
     export,
-    loads,
     rig,
     rigid_axles,
 )
@@ -220,13 +220,13 @@ SOFT, SOFTER = (
 
 
 def test_compliance_of_several_is_compared() -> None:
-    """That of each is what `loads.compliance` gives; what holds the wheel matters."""
+    """That of each is what `compliance.linear` gives; what holds the wheel matters."""
     models = {"a": Model(SOFT), "b": Model(SOFTER)}
     travels = np.array([-0.02, 0.0, 0.02])
     for held in ("height", "spring"):
         found = compare.compare(models, travels, held=held)
         for name, model in models.items():
-            expected = loads.compliance(model, None, travels, held=held)
+            expected = compliance.linear(model, None, travels, held=held)
             for quantity in ("toe_by_lateral", "displacement_by_recession"):
                 np.testing.assert_array_equal(
                     found[quantity].sel(data_set=name), expected[quantity]

@@ -14,8 +14,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import InputError, PositionError, RigidAxle, RigidAxleModel, rigid_axles
-from kintrafo.study.loads.sheets import compliances_of_axle
+from kintrafo import (
+    InputError,
+    PositionError,
+    RigidAxle,
+    RigidAxleModel,
+    compliance,
+    rigid_axles,
+)
+from kintrafo.assembly.by_wheel import flat
+from kintrafo.study.compliance.tables import compliances_of_beam
 from kintrafo.study.sheet import sheet
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
@@ -201,7 +209,7 @@ def test_the_axle_gives_way_as_springs_do(
 ) -> None:
     """Forces by statics and least energy against stiffnesses and constraints, two theories."""
     axle = axle.with_changes(FREE)
-    found = rigid_axles.compliance(axle, OF[rods], [travel], held=held)
+    found = flat(compliance.linear(axle, OF[rods], [travel], held=held))
     theirs = stiffnesses(axle, OF[rods], travel, held)
     at = Placed(axle, travel)
     axes = np.zeros((12, 12))
@@ -243,7 +251,7 @@ def test_springs_that_carry_the_axle_are_as_soft_as_its_wheel_rate_and_roll_stif
     # without camber the contacts, fixed to the wheels, rise as the wheel centres do, but for what
     # toe and the axle's pitch turn: 2e-5
     axle = LOPSIDED.with_changes({"wheel.camber_deg": 0.0})
-    found = rigid_axles.compliance(axle, hard, [0.03], held="spring")["flexibility"][0]
+    found = flat(compliance.linear(axle, hard, [0.03], held="spring"))["flexibility"][0]
     kinematic = rigid_axles.bump(axle, [0.03])
     vertical = found.sel(moved=["z_left", "z_right"], by=["fz_left", "fz_right"]).values
     stiff = np.linalg.inv(vertical)
@@ -393,7 +401,7 @@ def test_motions_on_bushes_are_those_of_a_beam_on_springs(
     axle: RigidAxle, motion: str, along: float, hardpoints: Any
 ) -> None:
     bushes = None if axle is FIVE_STOPPED else EVERY_WAY
-    found = rigid_axles.elastokinematics(axle, bushes, motion, [along], hardpoints=hardpoints)
+    found = flat(compliance.elastokinematics(axle, bushes, motion, [along], hardpoints=hardpoints))
     heave, roll = along, 0.0
     if motion == "roll":
         heave, roll = 0.0, -along
@@ -439,7 +447,7 @@ def test_large_loads_move_it_as_a_beam_on_springs(
     on, design = OnSprings(axle, loaded=True), Placed(axle)
     heights = np.array([design.contacts[side][2] for side in SIDES])
     base, road = on.solve(np.zeros((2, 6)), heights, np.zeros(2))
-    found = rigid_axles.deflection(axle, bushes, under, [most], wheels=wheels, held=held)
+    found = flat(compliance.nonlinear(axle, bushes, under, [most], wheels=wheels, held=held))
     here = found.sel(data_set="equilibrium").isel(load=0)
     ends = None if held == "spring" else heights
     if held == "tyre":  # where tyres are that carry so much; whether they do is seen below
@@ -461,8 +469,10 @@ def test_first_order_is_what_small_loads_do(axle: RigidAxle) -> None:
     bushes = every_way(RATES_OF_FIVE if len(axle.rods) > len(RATES) else RATES)
     off = []
     for size in (200.0, 100.0):
-        found = rigid_axles.deflection(
-            axle, bushes, "lateral", [size], wheels=(-1.0, 0.6), hardpoints="relaxed"
+        found = flat(
+            compliance.nonlinear(
+                axle, bushes, "lateral", [size], wheels=(-1.0, 0.6), hardpoints="relaxed"
+            )
         )
         ours = found["axle_lateral_change"][:, 0].values
         steer = found["axle_steer_change"][:, 0].values
@@ -480,7 +490,7 @@ def test_five_rods_move_only_as_their_bushes_give_way() -> None:
     rates = []
     for times in (1.0, 10.0):
         bushes = every_way({point: times * rate for point, rate in RATES_OF_FIVE.items()})
-        found = rigid_axles.elastokinematics(FIVE, bushes, "roll", [0.0, 0.02])
+        found = flat(compliance.elastokinematics(FIVE, bushes, "roll", [0.0, 0.02]))
         rates.append(float(found["roll_stiffness_at_contacts"][0, 0]))
     # in roll the fifth rod strains the others
     assert rates[1] > 1.02 * rates[0]
@@ -514,23 +524,23 @@ WRONG: list[tuple[dict[str, Any], str]] = [
 @pytest.mark.parametrize(("bushes", "words"), WRONG)
 def test_bushes_that_cannot_be_are_refused_by_name(bushes: dict[str, Any], words: str) -> None:
     with pytest.raises(InputError, match=words):
-        rigid_axles.compliance(AXLE, bushes, [0.0])
+        flat(compliance.linear(AXLE, bushes, [0.0]))
 
 
 def test_what_else_cannot_be() -> None:
     soft = {"panhard_rod_axle": {"axial_N_per_mm": 900.0}}
     with pytest.raises(InputError, match="none are given, and the hardpoint file has none"):
-        rigid_axles.compliance(AXLE)
+        flat(compliance.linear(AXLE))
     with pytest.raises(PositionError):
-        rigid_axles.compliance(AXLE, soft, [0.9])
+        flat(compliance.linear(AXLE, soft, [0.9]))
     with pytest.raises(InputError, match="motion 'steer' is not known"):
-        rigid_axles.elastokinematics(AXLE, soft, "steer")
+        flat(compliance.elastokinematics(AXLE, soft, "steer"))
     with pytest.raises(InputError, match="under 'cornering' is not known"):
-        rigid_axles.deflection(AXLE, soft, "cornering", [1e3])
+        flat(compliance.nonlinear(AXLE, soft, "cornering", [1e3]))
     weak = AXLE.with_changes({"spring.rate_N_per_m": 0.0, "spring.force_at_design_N": None,
                               "spring.free_length_mm": 300.0})  # fmt: skip
     with pytest.raises(InputError, match="the springs do not hold the axle"):
-        rigid_axles.compliance(weak, soft, [0.0])
+        flat(compliance.linear(weak, soft, [0.0]))
     with pytest.raises(InputError, match=r"bushings.*panhard"):
         AXLE.with_changes({"bushings": {"panhard_rod": {"axial_N_per_mm": 900.0}}})
 
@@ -538,8 +548,8 @@ def test_what_else_cannot_be() -> None:
 def test_the_page_has_what_the_command_prints() -> None:
     page = PAGE.read_text(encoding="utf-8")
     (text,) = re.findall(r"```toml\n# axle_bushes\.toml\n(.*?)```", page, flags=re.DOTALL)
-    found = rigid_axles.compliance(AXLE, tomllib.loads(text)["bushings"], [0.0])
-    (table,) = compliances_of_axle(found, "")
+    found = flat(compliance.linear(AXLE, tomllib.loads(text)["bushings"], [0.0]))
+    (table,) = compliances_of_beam(found, "")
     rows = {"| " + " | ".join(row) + " |" for row in table.rows}
     printed = [line for line in page.splitlines() if re.search(r"\| (kN|100 N m) \|", line)]
     assert len(printed) == 5
@@ -550,7 +560,10 @@ def test_a_file_has_its_bushes(kintrafo: Any, tmp_path: Path) -> None:  # noqa: 
     """In the tables, the sheet and the report, as those that are given in their place."""
     soft = {"panhard_rod_axle": {"radial_N_per_mm": 900.0, "axis": [1.0, 0.0, 0.0]}}
     own = AXLE.with_changes({"bushings": soft})
-    one, other = rigid_axles.compliance(own, None, [0.0]), rigid_axles.compliance(AXLE, soft, [0.0])
+    one, other = (
+        flat(compliance.linear(own, None, [0.0])),
+        flat(compliance.linear(AXLE, soft, [0.0])),
+    )
     assert one.identical(other)
     text = "[bushings.panhard_rod_axle]\nradial_N_per_mm = 900.0\naxis = [1.0, 0.0, 0.0]\n"
     (tmp_path / "soft.toml").write_text(text, encoding="utf-8")
@@ -564,10 +577,10 @@ def test_a_file_has_its_bushes(kintrafo: Any, tmp_path: Path) -> None:  # noqa: 
     told = (tmp_path / "sheet.csv").read_text(encoding="utf-8")
     assert "axle_lateral_by_lateral_parallel" in told
     for more in (["--motion", "roll"], ["--under", "aligning", "--wheels", "opposed"]):
-        code, out, err = kintrafo("deflection", "rigid_axle", "soft.toml", *more)
+        code, out, err = kintrafo("compliance", "rigid_axle", "soft.toml", "--nonlinear", *more)
         assert code == 0, err
         assert "axle" in out
-    for options in (["compliance", "--rack", "5"], ["deflection", "--at", "5"]):
+    for options in (["compliance", "--rack", "5"], ["compliance", "--nonlinear", "--at", "5"]):
         code, _, err = kintrafo(options[0], "rigid_axle", "soft.toml", *options[1:])
         assert code != 0
         assert "only for" in err

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, Model, RigidAxle, axles, loads
+from kintrafo import Axle, InputError, Model, RigidAxle, axles, compliance
 from kintrafo.study.sheet import sheet, tabulated
 from kintrafo.suspension.positions import arm_angles, design_height
 from kintrafo.suspension.reach import at_rest
@@ -50,9 +50,9 @@ def test_only_what_has_a_side_of_the_vehicle_has_another_sign():
 def test_the_values_are_those_of_the_curves_at_design_in_the_units_for_people():
     axle = Axle.load("reference_axle")
     found = sheet(axle, BUSHES, held="spring")
-    curves = axles.compliance(axle, BUSHES, [0.0], held="spring")
+    curves = compliance.linear(axle, BUSHES, [0.0], held="spring")
     here = found["iso_8855"].sel(quantity="toe_by_braking_opposed_left")
-    toe = np.degrees(curves["toe_by_braking_opposed_left"].item()) * 1e3
+    toe = np.degrees(curves["toe_by_braking_opposed"].sel(wheel="left").item()) * 1e3
     assert here.item() == pytest.approx(toe, rel=1e-12)
     roll = axles.roll(axle, [0.0])["roll_stiffness"].item() * np.pi / 180.0
     assert found["iso_8855"].sel(quantity="roll_stiffness").item() == pytest.approx(roll)
@@ -67,7 +67,7 @@ def test_compliance_is_there_where_there_are_bushes():
     assert "compliance" not in sheet(model)["part"].values
     soft = Model(model.suspension.with_changes({"bushings": BUSHES}))
     np.testing.assert_array_equal(sheet(soft)["iso_8855"], sheet(model, BUSHES)["iso_8855"])
-    curves = loads.compliance(model, BUSHES, [0.0])
+    curves = compliance.linear(model, BUSHES, [0.0])
     inward = curves["displacement_by_lateral"].item() * 1e6
     found = sheet(soft)["iso_8855"].sel(quantity="displacement_by_lateral")
     assert found.item() == pytest.approx(inward, rel=1e-12)

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, axles
+from kintrafo import Axle, InputError, axles, compliance
 from kintrafo.assembly.rig import Extent
 from kintrafo.suspension.axle.bar import AntiRollBar
 
@@ -118,7 +118,7 @@ def test_the_matrix_of_both_contacts_has_the_bar() -> None:
     without = Axle.from_dict({"axle": "front", "side": STIFF.right})
 
     def stiffness(axle: Axle) -> np.ndarray:
-        found = axles.compliance(axle, bushes, [0.0], held="spring")["flexibility"].values[0]
+        found = compliance.linear(axle, bushes, [0.0], held="spring")["flexibility"].values[0]
         return np.linalg.inv(found[np.ix_(vertical, vertical)])
 
     by = 1e-3

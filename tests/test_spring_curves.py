@@ -15,8 +15,7 @@ from kintrafo import (
     Suspension,
     axles,
     characteristics,
-    loads,
-    rigid_axles,
+    compliance,
     variation,
 )
 from kintrafo.suspension import data
@@ -161,7 +160,7 @@ def test_an_axle_rolls_on_the_rates_where_its_springs_are():
         assert found == pytest.approx(expected, rel=1e-9)
         assert found > 1e4
     soft = [
-        axles.compliance(each, BUSH, [0.0], held="spring")["flexibility"] for each in (one, other)
+        compliance.linear(each, BUSH, [0.0], held="spring")["flexibility"] for each in (one, other)
     ]
     np.testing.assert_allclose(*soft, rtol=1e-8, atol=1e-14)
 
@@ -176,7 +175,7 @@ def test_compliance_is_that_of_the_rate_where_it_is(held):
     there = float(expected_curve("cubic")[1](compression_of("cubic", 4000.0)))
     tangent = Model(with_spring(name, rate_N_per_m=there, force_at_design_N=4000.0))
     one, other = (
-        loads.compliance(m, BUSH, [0.0], held=held)["flexibility"] for m in (model, tangent)
+        compliance.linear(m, BUSH, [0.0], held=held)["flexibility"] for m in (model, tangent)
     )
     np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-15)
 
@@ -450,7 +449,7 @@ def test_compliance_of_a_rigid_axle_is_that_of_the_rate_where_it_is(make):
     bushings = {"panhard_rod_chassis": {"axial_N_per_mm": 5000.0}}
     both = bushings | ({} if make is axle else make(**points, force_at_design_N=4e3).bushings)
     one, other = (
-        rigid_axles.compliance(make(**spring, force_at_design_N=4000.0), both, [0.0], held="spring")
+        compliance.linear(make(**spring, force_at_design_N=4000.0), both, [0.0], held="spring")
         for spring in (points, {"rate_N_per_m": there})
     )
     for name in one:

@@ -16,8 +16,8 @@ from kintrafo import (
     Suspension,
     arm_angles,
     characteristics,
+    compliance,
     export,
-    loads,
     roads,
     scenario,
     variation,
@@ -547,7 +547,7 @@ def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     soft = CAR.with_changes({"bushings": bushes})
     write_toml(soft, tmp_path / "soft_car.toml")
     softer = Model(soft.with_changes({"bushings.strut_top.radial_N_per_mm": 600.0}))
-    found_by_load = loads.compliance(softer)[["toe_by_lateral", "camber_by_lateral"]]
+    found_by_load = compliance.linear(softer)[["toe_by_lateral", "camber_by_lateral"]]
     export.write(found_by_load, tmp_path / "soft_rig.csv")
     found: dict[str, Any] = {}
     for block in re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL):

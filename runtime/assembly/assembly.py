@@ -107,6 +107,11 @@ class Assembly(ABC):
         """Whether one body carries both wheels, so that it has a steer angle of its own."""
         return False
 
+    @property
+    def usual_motion(self) -> str:
+        """The motion of a rig in which all wheels rise and fall together."""
+        return next(iter(self.motions))
+
     # -- where a rig holds it ---------------------------------------------------------------------
 
     @abstractmethod
@@ -196,6 +201,16 @@ class Assembly(ABC):
         PositionError
             If there is none.
         """
+
+    def refuse_unsteered(self, what: str) -> None:
+        """Refuse what moves a rack where there is none.
+
+        Raises
+        ------
+        InputError
+            That says so of the kind of suspension.
+        """
+        del what
 
     # -- its parts --------------------------------------------------------------------------------
 

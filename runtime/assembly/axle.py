@@ -143,6 +143,10 @@ class AxleAssembly(Assembly):
         near = np.concatenate([side.coordinates_at_rest(alone) for side in sides])
         return settled(self, held, near, _NO_REST)
 
+    def refuse_unsteered(self, what: str) -> None:
+        """Refuse what moves a rack where there is none."""
+        self.axle.right.refuse_without_rack(what)
+
     def poses(self, position: RigPosition) -> dict[str, Assembled]:
         """Return the parts of both sides with rigid joints."""
         found: dict[str, Assembled] = {}

@@ -10,13 +10,7 @@ from ..suspension.axle import Axle
 from ..suspension.axle.axle import LEFT, RIGHT
 from ..suspension.corner import Array
 from ..suspension.points import carried
-from .coupling import (
-    STILL,
-    Place,
-    on_both,
-    on_the_rack,
-    sum_of,
-)
+from .coupling import STILL, Place, on_both, on_the_rack, sum_of
 from .load import Load
 from .poses import Poses
 

@@ -6,6 +6,7 @@ the name of the wheel ends that of the column.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -14,8 +15,8 @@ from ..core.arguments import Arguments
 from ..suspension.corner import Array
 from .quantity import Quantity
 
-WHEEL = "wheel"
-"""The dimension."""
+WHEEL, DATA_SET = "wheel", "data_set"
+"""The dimension of the wheels, and that of several sets of curves beside each other."""
 
 _ATTRIBUTES = {"long_name": "wheel"}
 
@@ -45,6 +46,13 @@ def of_wheels(
     if len(values) == 1:
         return xr.Variable(further, values[0], quantity.attributes())
     return xr.Variable((WHEEL, *further), np.stack(values), quantity.attributes())
+
+
+def of_wheel(quantity: Quantity, wheel: str) -> Quantity:
+    """Return a quantity of each wheel as that of one, as a column of a flat table has it."""
+    return replace(
+        quantity, name=f"{quantity.name}_{wheel}", long_name=f"{quantity.long_name}, {wheel}"
+    )
 
 
 def flat(dataset: xr.Dataset) -> xr.Dataset:
@@ -80,7 +88,9 @@ def flat(dataset: xr.Dataset) -> xr.Dataset:
             own = data.sel({WHEEL: wheel}, drop=True)
             words = f"{data.attrs.get('long_name', name)}, {wheel}"
             found[f"{name}_{wheel}"] = own.assign_attrs(long_name=words)
-    return xr.Dataset(found, dataset.drop_vars(WHEEL).coords, dataset.attrs)
+    # of the variables first: their order of dimensions is that of the rows of a table
+    table = xr.Dataset(found, attrs=dataset.attrs)
+    return table.assign_coords({n: c for n, c in dataset.coords.items() if n != WHEEL})
 
 
 def together(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
@@ -109,3 +119,14 @@ def together(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
             attributes = data.attrs | {"long_name": words}
             found[stem] = xr.Variable((WHEEL, *data.dims), values, attributes)
     return xr.Dataset(found, {**dataset.coords, WHEEL: wheel_coordinate(wheels)}, dataset.attrs)
+
+
+def beside(dataset: xr.Dataset) -> xr.Dataset:
+    """Return a dataset whose wheels are sets of curves beside each other, as they are drawn."""
+    with Arguments("beside") as given:
+        given.dataset(dataset)
+    if WHEEL not in dataset.dims:
+        return dataset.drop_vars(WHEEL, errors="ignore")
+    return dataset.rename({WHEEL: DATA_SET}).assign_coords(
+        {DATA_SET: (DATA_SET, dataset[WHEEL].values, {"long_name": "side"})}
+    )

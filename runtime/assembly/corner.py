@@ -120,6 +120,10 @@ class CornerAssembly(Assembly):
 
         return np.array([nearest(moment, reach, self.model.design_state[0])])
 
+    def refuse_unsteered(self, what: str) -> None:
+        """Refuse what moves a rack where there is none."""
+        self.subject.refuse_without_rack(what)
+
     def poses(self, position: RigPosition) -> dict[str, Assembled]:
         """Return its parts with rigid joints."""
         return {"": poses_of(self.model, position.travels[self.wheels[0]], position.rack)}

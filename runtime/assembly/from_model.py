@@ -11,13 +11,7 @@ import numpy as np
 from ..core.columns import Column, spread
 from ..core.named_types import ArrayLike
 from ..core.vectors import cross, turned
-from ..suspension.corner import (
-    Array,
-    Corner,
-    Motion,
-    SteeringAxis,
-    Vehicle,
-)
+from ..suspension.corner import Array, Corner, Motion, SteeringAxis, Vehicle
 from ..suspension.input.units import in_metres
 from ..suspension.kinds import Suspension
 from ..suspension.model import Model

@@ -104,7 +104,7 @@ def steering_angles(axle: Axle, extent: Extent) -> Array | None:
 
 def turns_the_rack(axle: Axle) -> bool:
     """Return whether its files say how the steering wheel moves the rack."""
-    return axle.steering is not None or travel_per_turn(axle) is not None
+    return axle.steered() and (axle.steering is not None or travel_per_turn(axle) is not None)
 
 
 def travel_per_turn(axle: Axle) -> float | None:

@@ -20,12 +20,7 @@ from ..suspension.structure import Line, Structure
 from ..systems.allowed import Allowed
 from .beam import SENSE, SIDES, parameters_of
 from .load import Load, known
-from .poses import (
-    CENTER,
-    CONTACT,
-    forces_along,
-    road_axes,
-)
+from .poses import CENTER, CONTACT, forces_along, road_axes
 from .wheel import lowest_point, upward_across
 
 Array = NDArray[np.float64]

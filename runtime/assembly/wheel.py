@@ -8,14 +8,7 @@ bound (the length of a swing arm about an instant centre far away) becomes infin
 import numpy as np
 
 from ..core.vectors import cross
-from ..suspension.corner import (
-    UP,
-    Array,
-    Corner,
-    Motion,
-    RoadWheel,
-    SteeringAxis,
-)
+from ..suspension.corner import UP, Array, Corner, Motion, RoadWheel, SteeringAxis
 
 # -- angles of the wheel --------------------------------------------------------------------------
 

@@ -67,7 +67,7 @@ def command(
     [mm] and toe [deg] and so on in its first line: the others are compared with it.
     """
     from ..study import compare
-    from ..study.loads.compliance import COMPLIANCES
+    from ..study.compliance.linear import COMPLIANCES
     from ..study.variation.ways import ways_of
 
     outputs = Outputs.of(

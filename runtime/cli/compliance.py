@@ -1,4 +1,4 @@
-"""``kintrafo compliance``: how the wheels give way on their bushes."""
+"""``kintrafo compliance``: what bushes do to the wheels, to first order or by any amount."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,11 +15,12 @@ from .subject import described_by
 from .variation_options import At, with_position
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
     from xarray import Dataset
 
-    from ..suspension.axle import Axle
-    from ..suspension.model import Model
-    from ..suspension.rigid import RigidAxle
+    from ..assembly.assembly import Assembly
+    from ..assembly.rig import Extent
 
 EXAMPLES = (
     "kintrafo compliance my_car.toml bushes.toml",
@@ -27,7 +28,10 @@ EXAMPLES = (
     "kintrafo compliance my_car.toml bushes.toml --goals goals.toml --plot goals.png",
     "kintrafo compliance my_car.toml bushes.toml --of toe_by_lateral --plot lateral.png",
     "kintrafo compliance reference_axle bushes.toml",
-    "kintrafo compliance rigid_axle axle_bushes.toml",
+    "kintrafo compliance my_car.toml bushes.toml --nonlinear --plot curves.png",
+    "kintrafo compliance my_car.toml bushes.toml --nonlinear --under lateral --most 6000",
+    "kintrafo compliance rigid_axle axle_bushes.toml --nonlinear --motion roll --plot roll.png",
+    "kintrafo compliance reference_axle bushes.toml --nonlinear --under braking --wheels opposed",
 )
 
 Held = Literal["height", "tyre", "spring", "locked"]
@@ -39,26 +43,49 @@ Bushes = Annotated[
         show_default=False,
     ),
 ]
-
-
-class _Where(NamedTuple):
-    """At which positions, and what holds the wheels: lengths in m, but for `at` in mm."""
-
-    at: float
-    rack: float
-    rebound: float | None
-    bump: float | None
-    held: Held
+# Loads that a suspension meets, N and N m.
+_USUAL, _USUAL_TORQUE = 5000.0, 250.0
+_STEPS = 41
 
 
 def command(
     file: File,
     bushes: Bushes = None,
     *,
+    nonlinear: Annotated[
+        bool,
+        typer.Option(
+            "--nonlinear",
+            help="By equilibrium, by any amount: over a motion, or --under a load.",
+        ),
+    ] = False,
+    under: Annotated[
+        Literal["lateral", "braking", "recession", "aligning"] | None,
+        typer.Option(help="With --nonlinear: under which load."),
+    ] = None,
+    most: Annotated[
+        float | None,
+        typer.Option(metavar="N", help="Greatest load, N or N m. Default: 5000, aligning 250."),
+    ] = None,
+    wheels: Annotated[
+        Literal["parallel", "opposed", "left", "right"] | None,
+        typer.Option(help="Of an axle, which wheels have the load. Default: parallel."),
+    ] = None,
+    motion: Annotated[
+        Literal["bump", "roll", "left", "right", "steer"] | None,
+        typer.Option(help="With --nonlinear, of an axle: over which motion. Default: bump."),
+    ] = None,
+    hardpoints: Annotated[
+        Literal["loaded", "relaxed"] | None,
+        typer.Option(
+            help="With --nonlinear: whether the joints are at the hardpoints under the static load "
+            "at design, the default, or with relaxed bushes."
+        ),
+    ] = None,
     held: Annotated[
-        Held,
-        typer.Option(help="What holds the wheel: see docs/loads.md."),
-    ] = "height",
+        Held | None,
+        typer.Option(help="What holds the wheel: see docs/loads.md. Default: height."),
+    ] = None,
     at: At = 0.0,
     rack: Annotated[float, typer.Option(metavar="MM", help="Rack held there.")] = 0.0,
     rebound: Rebound = None,
@@ -70,62 +97,78 @@ def command(
     force: Force = False,
     json: Json = False,
 ) -> None:
-    """Tell toe, camber and displacement of the wheel per kN and per 100 N m, on its bushes.
+    """Print toe, camber and displacement of the wheels per kN and per 100 N m, on their bushes.
 
     The table is about one position; data files and curves go over wheel travel. Of an axle both
-    wheels are loaded, in one direction and oppositely.
+    wheels are loaded, in one direction and oppositely. With --nonlinear the equilibrium of all
+    parts, however far bushes deflect: over wheel travel, or over roll and steering of an axle, with
+    rigid joints and on the bushes; or under a load, beside what is in proportion to it.
     """
-    from ..study import export
-    from ..study.axles import by_side
-    from ..study.loads.sheets import compliances, compliances_of_axle
-    from ..study.variation.ways import ways_of, with_bushes
-    from ..suspension.model import Model
-
     if goals and rack:
         raise typer.BadParameter(wanted.ELSEWHERE)
     inputs: list[str | Path] = [file, *(read for read in (bushes, goals) if read is not None)]
     outputs = Outputs.of(out, plot, force=force, inputs=inputs)
-    where = _Where(at, rack / 1e3, metres(rebound), metres(bump), held)
-    on_bushes = described_by(file)
-    bushings = described(file, bushes)
-    found = _found(on_bushes, bushings, where)
-    curves = found.drop_dims(["moved", "by"])
-    alone = isinstance(on_bushes, Model)
-    drawn = curves if alone else by_side(curves)
-    names = named(of if alone else of_both(of), {held: drawn})[held]
-    subject = wanted.subject_of(on_bushes)
-    aims = wanted.read(goals, [held], ways_of(subject))
-    judged = wanted.judged({file: with_bushes(subject, bushings)}, aims) if aims else []
-    if outputs.drawn:
-        wanted.refuse_beyond(aims, {held: curves})
-    written = outputs.write_data(found, rows=curves)
-    if outputs.pages:
-        from ..plots import curves as plots
-
-        title = f"{title_of(file)}: compliance, {found.attrs['held']}"
-        written += [
-            plots.write_overview(drawn, path, names, title, goals=aims, force=force, inputs=inputs)
-            for path in outputs.pages
-        ]
-    if json:
-        print_json(export.as_dict(found) | ({"goals": judged} if aims else {}))
+    rig = _Rig.of(file, bushes, (at, rack), (rebound, bump))
+    loads = {"--most": most, "--wheels": wheels}
+    motions = {"--motion": motion}
+    if not nonlinear:
+        refuse_options(
+            "--nonlinear", {"--under": under, "--hardpoints": hardpoints} | loads | motions
+        )
+        _linear(rig, held or "height", outputs, of=of, goals=goals, json=json)
         return
-    title = f"{file}: compliance, at {at:g} mm of wheel travel"
-    told = only(of, curves)
-    of_wheels = compliances(told, title, at / 1e3)
-    for table in (of_wheels, *compliances_of_axle(told, f"{title}, the axle", at / 1e3)):
-        if table.rows:
-            print_table(table)
-    if aims:
-        console.print(wanted.table(judged, f"{file}: targets and limits of {goals}"))
-    without = found.attrs["left_out"]
-    say(f"{found.attrs['held']}; relaxed bushes, linear{without and f'; without {without}'}.")
-    name_files(written)
+    refuse_options("linear compliance", {"--of": of, "--goals": goals})
+    if len(rig.assembly.wheels) == 1:
+        refuse_options("the file of an axle", {"--wheels": wheels} | motions)
+    if under is None:
+        refuse_options("--under", loads | {"--held": held})
+        found = _over_motion(rig, motion, hardpoints or "loaded")
+    else:
+        refuse_options("curves over a motion", {"--rebound": rebound, "--bump": bump} | motions)
+        how = {"held": held or "height", "wheels": wheels, "hardpoints": hardpoints or "loaded"}
+        found = _under(rig, under, most, how)
+    _show_nonlinear(rig, found, outputs, json=json)
+
+
+class _Rig(NamedTuple):
+    """What is on the rig, and where: a file, its bushes, lengths in m."""
+
+    file: str
+    assembly: "Assembly"
+    bushings: Mapping[str, Any] | None
+    at: float
+    rack: float
+    extent: "Extent"
+
+    @classmethod
+    def of(
+        cls,
+        file: str,
+        bushes: Path | None,
+        where: tuple[float, float],
+        ends: tuple[float | None, float | None],
+    ) -> "_Rig":
+        """Return what is on the rig at a travel and a place of the rack, and its ends [mm]."""
+        from ..assembly.of import assembly_of
+        from ..assembly.rig import Extent
+
+        assembly: Any = assembly_of(described_by(file))
+        at, rack = where
+        if not assembly.steered:
+            refuse_options("files with a rack", {"--rack": rack or None})
+        rebound, bump = map(metres, ends)
+        extent = Extent(rebound=rebound, bump=bump)
+        return cls(file, assembly, described(file, bushes), at / 1e3, rack / 1e3, extent)
+
+    def travels(self) -> "NDArray[np.float64]":
+        """Return the wheel travels of curves, with that of the table [m]."""
+        usual = self.assembly.usual(self.assembly.usual_motion, self.extent, rack=self.rack)
+        return with_position(usual, 1e3 * self.at)
 
 
 def described(file: str, bushes: Path | None) -> dict[str, Any] | None:
     """Return the bushes of a file of their own, where one is given in place of those of the car."""
-    from ..study.loads import read_bushes
+    from ..study.compliance import read_bushes
 
     if bushes is None:
         return None
@@ -133,25 +176,91 @@ def described(file: str, bushes: Path | None) -> dict[str, Any] | None:
     return read_bushes(bushes)
 
 
-def _found(
-    of: "Model | Axle | RigidAxle", bushes: Mapping[str, Any] | None, where: _Where
-) -> "Dataset":
-    """Return the compliance of what a file describes."""
-    from ..assembly.motions import travels
-    from ..assembly.rig import Extent
-    from ..study import axles, loads, rigid, sweep
-    from ..study.rigid.datasets import usual
-    from ..suspension.axle import Axle
-    from ..suspension.rigid import RigidAxle
+def _linear(
+    rig: _Rig, held: Held, outputs: Outputs, *, of: list[str] | None, goals: Path | None, json: bool
+) -> None:
+    """Write and print compliance to first order."""
+    from ..assembly.by_wheel import beside, flat
+    from ..study import compliance, export
+    from ..study.compliance.tables import compliances, compliances_of_beam
+    from ..study.variation.ways import ways_of, with_bushes
 
-    extent = Extent(rebound=where.rebound, bump=where.bump)
-    if isinstance(of, RigidAxle):
-        refuse_options("files with a rack", {"--rack": where.rack or None})
-        usually = usual(of, "bump", extent)
-        return rigid.compliance(of, bushes, with_position(usually, where.at), held=where.held)
-    if isinstance(of, Axle):
-        usually = with_position(travels(of, extent), where.at)
-        return axles.compliance(of, bushes, usually, rack_position=where.rack, held=where.held)
-    usually = sweep.usual_travel(of, rebound=where.rebound, bump=where.bump, rack=where.rack)
-    usually = with_position(usually, where.at)
-    return loads.compliance(of, bushes, usually, rack_position=where.rack, held=where.held)
+    subject = rig.assembly.subject
+    found = compliance.linear(
+        rig.assembly, rig.bushings, rig.travels(), rack_position=rig.rack, held=held
+    )
+    curves = found.drop_dims(["moved", "by"])
+    columns, drawn = flat(curves), beside(curves)
+    names = named(of_both(of), {held: drawn})[held]
+    aims = wanted.read(goals, [held], ways_of(subject))
+    judged = wanted.judged({rig.file: with_bushes(subject, rig.bushings)}, aims) if aims else []
+    if outputs.drawn:
+        wanted.refuse_beyond(aims, {held: columns})
+    title = f"{title_of(rig.file)}: compliance, {found.attrs['held']}"
+    written = outputs.write(found, title=title, names=names, rows=columns, drawn=drawn, goals=aims)
+    if json:
+        print_json(export.as_dict(flat(found)) | ({"goals": judged} if aims else {}))
+        return
+    title = f"{rig.file}: compliance, at {1e3 * rig.at:g} mm of wheel travel"
+    shown = only(of, columns)
+    of_wheels = compliances(shown, title, rig.at)
+    for table in (of_wheels, *compliances_of_beam(shown, f"{title}, the axle", rig.at)):
+        if table.rows:
+            print_table(table)
+    if aims:
+        console.print(wanted.table(judged, f"{rig.file}: targets and limits of {goals}"))
+    without = found.attrs["left_out"]
+    say(f"{found.attrs['held']}; relaxed bushes, linear{without and f'; without {without}'}.")
+    name_files(written)
+
+
+def _over_motion(rig: _Rig, motion: str | None, hardpoints: Any) -> "Dataset":
+    """Return what bushes do over a motion."""
+    from ..study import compliance
+
+    if motion in ("roll", "steer"):
+        far = {"--rebound": rig.extent.rebound, "--bump": rig.extent.bump}
+        refuse_options("curves over wheel travel", far)
+    along = None
+    if len(rig.assembly.wheels) == 1:
+        along = rig.travels()
+    elif motion != "steer":
+        refuse_options("the file of one suspension, or a load", {"--at": rig.at or None})
+    return compliance.elastokinematics(
+        rig.assembly, rig.bushings, motion, along, extent=rig.extent,
+        travel=rig.at if motion == "steer" else 0.0, rack_position=rig.rack, hardpoints=hardpoints,
+    )  # fmt: skip
+
+
+def _under(rig: _Rig, under: str, most: float | None, how: Mapping[str, Any]) -> "Dataset":
+    """Return how far loads move the wheels."""
+    import numpy as np
+
+    from ..core.errors import InputError
+    from ..study import compliance
+
+    usual = _USUAL_TORQUE if under == "aligning" else _USUAL
+    greatest = usual if most is None else most
+    if not 0.0 < greatest < np.inf:
+        raise InputError([f"--most {greatest}: a load of more than 0 is needed."], "compliance")
+    amounts = np.linspace(-greatest, greatest, _STEPS)
+    where: Any = {"travel": rig.at, "rack_position": rig.rack}
+    return compliance.nonlinear(rig.assembly, rig.bushings, under, amounts, **where, **how)
+
+
+def _show_nonlinear(rig: _Rig, found: "Dataset", outputs: Outputs, *, json: bool) -> None:
+    """Write and print what bushes do by any amount."""
+    from ..assembly.by_wheel import flat
+    from ..study import export
+    from ..study.compliance.tables import deflections
+
+    columns = flat(found)
+    title = f"{title_of(rig.file)}: {found.attrs['title']}"
+    written = outputs.write(found, title=title, rows=columns, drawn=columns)
+    if json:
+        print_json(export.as_dict(columns))
+        return
+    for sheet in deflections(found, f"{rig.file}: {found.attrs['title']}"):
+        print_table(sheet)
+    say(f"{'; '.join(found.attrs[key] for key in ('held', 'hardpoints') if key in found.attrs)}.")
+    name_files(written)

@@ -55,7 +55,7 @@ def read(
         return []
     from ..core.errors import InputError
     from ..study import variation
-    from ..study.loads.flexibility import HELD
+    from ..study.compliance.flexibility import HELD
     from ..study.variation.ways import way
 
     looked_at = [over for over in ways if over in known or over in HELD]
@@ -93,7 +93,7 @@ def _said(goal: "Goal") -> str:
 
 
 def _over(over: str) -> str:
-    from ..study.loads.flexibility import HELD
+    from ..study.compliance.flexibility import HELD
 
     return f'with held = "{over}"' if over in HELD else f"over {over}"
 

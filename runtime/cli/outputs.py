@@ -121,6 +121,7 @@ class Outputs:
         title: str,
         names: Sequence[str] = (),
         suffix: str = "",
+        rows: "Dataset | None" = None,
         drawn: "Dataset | None" = None,
         goals: "Sequence[Goal]" = (),
     ) -> list[Path]:
@@ -135,12 +136,14 @@ class Outputs:
             The curves of the page; all of them by default.
         suffix : str, optional
             Goes behind the name of each file, where a command has several datasets.
+        rows : xarray.Dataset, optional
+            The data as tables have them, where that is another form.
         drawn : xarray.Dataset, optional
             The data as they are drawn, where that is another form of them.
         goals : sequence of Goal, optional
             Targets and limits that are drawn into the curves.
         """
-        written = self.write_data(dataset, suffix)
+        written = self.write_data(dataset, suffix, rows=rows)
         if self.drawn:
             rule: _Rule = {"force": self.force, "inputs": self.inputs}
             curves = dataset if drawn is None else drawn

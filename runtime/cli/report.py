@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..report import Chapter
-    from ..study.loads.flexibility import Held
+    from ..study.compliance.flexibility import Held
     from ..study.variation.goals import Goal
     from ..suspension.axle import Axle
     from ..suspension.model import Model
@@ -177,7 +177,7 @@ def _of_loads(file: str, cases: Path | None, *, wanted: bool) -> "list[Chapter]"
 
 def _aims(of: "Model | Axle | RigidAxle", path: Path | None) -> "list[Goal]":
     """Return the targets and limits of a file."""
-    from ..study.loads.flexibility import HELD
+    from ..study.compliance.flexibility import HELD
     from ..study.variation.ways import ways_of
     from ..suspension.kinds import Suspension
 
@@ -198,7 +198,7 @@ def _of_goals(
     of: "Model | Axle | RigidAxle", bushes: Path | None, goals: "Sequence[Goal]"
 ) -> "list[Chapter]":
     from ..report import goals_chapter
-    from ..study.loads import read_bushes
+    from ..study.compliance import read_bushes
     from ..study.variation.ways import model_of, with_bushes
     from ..suspension.kinds import Suspension
 
@@ -213,33 +213,25 @@ def _of_goals(
 def _of_bushes(
     of: "Model | Axle | RigidAxle", bushes: Path | None, goals: "Sequence[Goal]"
 ) -> "list[Chapter]":
+    from ..assembly.of import assembly_of
     from ..report import compliance_chapter, elastokinematics_chapter
     from ..report.chapters.curves import positions_of
-    from ..study import axles, rigid
-    from ..study import loads as study
-    from ..study.sheet import has_bushes
+    from ..study import compliance
     from ..study.variation.ways import judged_model
     from ..suspension.model import Model
-    from ..suspension.rigid import RigidAxle
 
-    if bushes is None and not has_bushes(of):
+    assembly: Any = assembly_of(of)
+    if bushes is None and not assembly.has_bushes:
         return []
-    described = None if bushes is None else study.read_bushes(bushes)
+    described = None if bushes is None else compliance.read_bushes(bushes)
     at = positions_of(of if isinstance(of, Model) else judged_model(of, [_HELD]), _HELD, goals)
-    if isinstance(of, Model):
-        return [
-            compliance_chapter(study.compliance(of, described, at, held=_HELD), goals),
-            elastokinematics_chapter(
-                study.elastokinematics(of, described, _as_far_as(of, "travel", goals)), goals=goals
-            ),
-        ]
-    over: Any = rigid if isinstance(of, RigidAxle) else axles
-    soft = (
-        over.elastokinematics(of, described, motion, _as_far_as(of, motion, goals))
-        for motion in ("bump", "roll")
-    )
+    motions = ["travel"] if len(assembly.wheels) == 1 else ["bump", "roll"]
+    soft = [
+        compliance.elastokinematics(assembly, described, motion, _as_far_as(of, motion, goals))
+        for motion in motions
+    ]
     return [
-        compliance_chapter(over.compliance(of, described, at, held=_HELD), goals),
+        compliance_chapter(compliance.linear(assembly, described, at, held=_HELD), goals),
         elastokinematics_chapter(*soft, goals=goals),
     ]
 
@@ -261,7 +253,7 @@ def _as_far_as(
 
 def _of_sheet(of: "Model | Axle | RigidAxle", bushes: Path | None) -> "list[Chapter]":
     from ..report import sheet_chapter
-    from ..study.loads import read_bushes
+    from ..study.compliance import read_bushes
     from ..study.sheet import sheet
 
     described = None if bushes is None else read_bushes(bushes)

@@ -14,8 +14,8 @@ from ..core.errors import InputError
 from ..suspension.model import Model
 from . import characteristics
 from .characteristics.datasets import DATA_SET
-from .loads.compliance import COMPLIANCES, compliance
-from .loads.flexibility import HELD, Held
+from .compliance.flexibility import HELD, Held
+from .compliance.linear import COMPLIANCES, linear
 from .sweep import RACK
 
 Array = NDArray[np.float64]
@@ -46,7 +46,7 @@ def compare(
         What varies.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
         With it, their compliance on the bushes of their files comes too, over wheel travel: what
-        holds the wheel under loads, see `kintrafo.loads.compliance`.
+        holds the wheel under loads, see `kintrafo.compliance.linear`.
     progress : callable, optional
         Called with the part that is done, up to 1.
 
@@ -114,7 +114,7 @@ def on_bushes(
     rack_position : float, optional
         [m]
     """
-    soft = compliance(model, None, travels, rack_position=rack_position, held=held)
+    soft = linear(model, None, travels, rack_position=rack_position, held=held)
     return found.assign({name: soft[name].variable for name in COMPLIANCES if name in soft})
 
 

@@ -18,8 +18,8 @@ from ..suspension.rigid.model import RigidAxleModel
 from . import characteristics, rigid
 from .characteristics.datasets import ALONG, DATA_SET, KNOWN
 from .compare import on_bushes
-from .loads.compliance import COMPLIANCES
-from .loads.flexibility import HELD, Held
+from .compliance.flexibility import HELD, Held
+from .compliance.linear import COMPLIANCES
 from .rigid.catalogue import MEASURES
 
 Array = NDArray[np.float64]
@@ -135,7 +135,7 @@ def beside(
     name : str, optional
         That of the measurement.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
-        What held the wheel when compliance was measured, see `kintrafo.loads.compliance`.
+        What held the wheel when compliance was measured, see `kintrafo.compliance.linear`.
 
     Returns
     -------

@@ -11,14 +11,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ..assembly.by_wheel import flat
 from ..core.arguments import Arguments
 from ..core.quantities import attributes, displayed, long_name, unit_or_stroke
 from ..core.tabulated import Tabulated, significant
 from ..suspension.axle import Axle
 from ..suspension.model import Model
 from ..suspension.rigid import RigidAxle
-from . import axles, characteristics, loads, rigid
-from .loads.flexibility import HELD, Held
+from . import axles, characteristics, compliance, rigid
+from .compliance.flexibility import HELD, Held
 from .loads.sheets import without_side
 
 QUANTITY = "quantity"
@@ -62,7 +63,7 @@ def sheet(
     subject : Model, Axle or RigidAxle
         Of what.
     bushings : mapping, optional
-        As of `kintrafo.loads.compliance`, in the place of those of the file. Where neither has
+        As of `kintrafo.compliance.linear`, in the place of those of the file. Where neither has
         any, the sheet has no compliance.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
         What holds a wheel under the loads of the compliance.
@@ -185,12 +186,7 @@ def _compliant(
     subject: Model | Axle | RigidAxle, bushings: Mapping[str, Any] | None, held: Held
 ) -> dict[str, tuple[str, xr.DataArray]]:
     """Return the compliances at design, by their names."""
-    if isinstance(subject, RigidAxle):
-        found = rigid.compliance(subject, bushings, [0.0], held=held)
-    elif isinstance(subject, Axle):
-        found = axles.compliance(subject, bushings, [0.0], held=held)
-    else:
-        found = loads.compliance(subject, bushings, [0.0], held=held)
+    found = flat(compliance.linear(subject, bushings, [0.0], held=held))
     curves = found.drop_dims(["moved", "by"])
     return {str(name): (_COMPLIANCE, data) for name, data in curves.items()}
 

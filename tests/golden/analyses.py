@@ -23,6 +23,7 @@ from kintrafo import (
     axles,
     characteristics,
     checkup,
+    compliance,
     loads,
     rigid_axles,
     scenario,
@@ -68,7 +69,7 @@ def _of_corner(suspension: Suspension, bushes: Any) -> Analyses:
         "travel": partial(characteristics.travel, model, TRAVEL),
         "positions": partial(sweep.positions, model, TRAVEL, RACK if steered else None),
         "static loads": partial(loads.static, model),
-        "elastokinematics": partial(loads.elastokinematics, model, bushes, TRAVEL),
+        "elastokinematics": partial(compliance.elastokinematics, model, bushes, along=TRAVEL),
         "sheet": partial(sheet.sheet, model, bushes),
         "simulation": lambda: scenario.run(model, _step(), method="DormandPrince")[1],
         "loads in motion": lambda: loads.along(
@@ -85,11 +86,11 @@ def _of_corner(suspension: Suspension, bushes: Any) -> Analyses:
         )
     for held in HELD:
         found[f"compliance, {held}"] = partial(
-            loads.compliance, model, bushes, TRAVEL[1:4], held=held
+            compliance.linear, model, bushes, TRAVEL[1:4], held=held
         )
     for under, amounts in AMOUNTS.items():
         found[f"deflection, {under}"] = partial(
-            loads.deflection, model, bushes, under, amounts, travel=0.01
+            compliance.nonlinear, model, bushes, under, amounts, travel=0.01
         )
     return found
 
@@ -102,13 +103,15 @@ def _of_axle(axle: Axle, bushes: Any) -> Analyses:
         "left": partial(axles.single, axle, TRAVEL, side="left"),
         "right": partial(axles.single, axle, TRAVEL, side="right"),
         "static loads": partial(axles.static_loads, axle),
-        "elastokinematics, bump": partial(axles.elastokinematics, axle, bushes, "bump", TRAVEL),
-        "elastokinematics, roll": partial(axles.elastokinematics, axle, bushes, "roll", ROLL),
+        "elastokinematics, bump": partial(
+            compliance.elastokinematics, axle, bushes, "bump", TRAVEL
+        ),
+        "elastokinematics, roll": partial(compliance.elastokinematics, axle, bushes, "roll", ROLL),
         "sheet": partial(sheet.sheet, axle, bushes),
     }
     if axle.steered:
         found["steer"] = partial(axles.steer, axle, rack=RACK)
-    return found | _giving_way(axles, axle, bushes)
+    return found | _compliance(axle, bushes)
 
 
 def _of_axle_in_motion(model: AxleModel) -> Analyses:
@@ -135,27 +138,27 @@ def _of_rigid_axle(axle: RigidAxle, bushes: Any) -> Analyses:
         "left": partial(rigid_axles.single, axle, TRAVEL, side="left"),
         "static loads": partial(rigid_axles.static_loads, axle),
         "elastokinematics, bump": partial(
-            rigid_axles.elastokinematics, axle, bushes, "bump", TRAVEL
+            compliance.elastokinematics, axle, bushes, "bump", TRAVEL
         ),
-        "elastokinematics, roll": partial(rigid_axles.elastokinematics, axle, bushes, "roll", ROLL),
+        "elastokinematics, roll": partial(compliance.elastokinematics, axle, bushes, "roll", ROLL),
         "sheet": partial(sheet.sheet, axle, bushes),
         "simulation": lambda: run()[1],
         "loads in motion": lambda: rigid_axles.loads_along(model, run()[0]),
         "linearisation": lambda: _linearised(model, kintrafo.equilibrium(model)),
         "sensitivity": partial(variation.sensitivity, axle, positions=TRAVEL[1:4]),
-    } | _giving_way(rigid_axles, axle, bushes)
+    } | _compliance(axle, bushes)
 
 
-def _giving_way(of: Any, axle: Axle | RigidAxle, bushes: Any) -> Analyses:
+def _compliance(axle: Axle | RigidAxle, bushes: Any) -> Analyses:
     """Return compliance and deflection of an axle of two corners, or of a rigid one."""
     found: Analyses = {
-        f"compliance, {held}": partial(of.compliance, axle, bushes, TRAVEL[1:4], held=held)
+        f"compliance, {held}": partial(compliance.linear, axle, bushes, TRAVEL[1:4], held=held)
         for held in HELD
     }
     for under, amounts in AMOUNTS.items():
         for wheels in ("parallel", "opposed"):
             found[f"deflection, {under}, {wheels}"] = partial(
-                of.deflection, axle, bushes, under, amounts, wheels=wheels
+                compliance.nonlinear, axle, bushes, under, amounts, wheels=wheels
             )
     return found
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from kintrafo.assembly.by_wheel import flat
 
 from .analyses import analyses
 from .commands import observed
@@ -39,7 +40,7 @@ def computed(name: str) -> dict[str, Any]:
     return {
         f"{analysis}: {variable}": _plain(dataset[variable])
         for analysis, compute in analyses(name).items()
-        for dataset in [compute()]
+        for dataset in [flat(compute())]
         for variable in sorted(map(str, dataset.variables))
     }
 

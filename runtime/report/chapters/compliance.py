@@ -4,11 +4,11 @@ from collections.abc import Sequence
 
 import xarray as xr
 
+from ...assembly.by_wheel import beside
 from ...core.arguments import Arguments
 from ...plots.curves import grouped
-from ...study.axles import by_side
-from ...study.loads.flexibility import HELD
-from ...study.loads.sheets import compliances, compliances_of_axle
+from ...study.compliance.flexibility import HELD
+from ...study.compliance.tables import compliances, compliances_of_beam
 from ...study.variation.goals import Goal, check_goals
 from .chapter import Chapter
 from .curves import pictures, with_wanted
@@ -20,8 +20,7 @@ def compliance_chapter(found: xr.Dataset, goals: Sequence[Goal] = ()) -> Chapter
     Parameters
     ----------
     found : xarray.Dataset
-        From `kintrafo.loads.compliance`, `kintrafo.axles.compliance` or
-        `kintrafo.rigid_axles.compliance`.
+        From `kintrafo.compliance.linear`.
     goals : sequence of Target and Limit, optional
         From `kintrafo.variation.goals`: those with what holds the wheels here are drawn into the
         curves. They are about the rack in its middle.
@@ -33,12 +32,12 @@ def compliance_chapter(found: xr.Dataset, goals: Sequence[Goal] = ()) -> Chapter
     with Arguments("compliance_chapter") as given:
         given.dataset(found, over="wheel_travel")
         check_goals(given, "goals", goals)
-    curves = by_side(found.drop_dims([name for name in ("moved", "by") if name in found.dims]))
+    curves = beside(found.drop_dims([name for name in ("moved", "by") if name in found.dims]))
     own = [goal for goal in goals if HELD.get(goal.over) == found.attrs["held"]]
     usual = [str(name) for group in grouped(curves, own).values() for name in group]
     names = with_wanted(curves, usual, own)
     title = "Compliance over wheel travel"
     drawn = pictures(curves, names, title, "Compliances over wheel travel", goals=own)
     words = f"By the unit-load theorem, linear, bushes relaxed: {found.attrs['held']}."
-    sheets = compliances(found, "At design"), *compliances_of_axle(found, "At design, the axle")
+    sheets = compliances(found, "At design"), *compliances_of_beam(found, "At design, the axle")
     return Chapter("Compliance", (words,), sheets, drawn)

@@ -4,11 +4,12 @@ from collections.abc import Sequence
 
 import xarray as xr
 
+from ...assembly.by_wheel import WHEEL, flat
 from ...assembly.quantity import RACK
 from ...core.arguments import Arguments
 from ...core.quantities import long_name
 from ...study.characteristics.datasets import DATA_SET
-from ...study.loads.sheets import deflections, deflections_of_axle
+from ...study.compliance.tables import deflections
 from ...study.variation.goals import Goal, check_goals
 from .chapter import Chapter, Picture
 from .curves import pictures
@@ -20,8 +21,7 @@ def elastokinematics_chapter(*found: xr.Dataset, goals: Sequence[Goal] = ()) -> 
     Parameters
     ----------
     *found : xarray.Dataset
-        From `kintrafo.loads.elastokinematics`, or those of some motions from
-        `kintrafo.axles.elastokinematics`.
+        From `kintrafo.compliance.elastokinematics`, each over another motion.
     goals : sequence of Target and Limit, optional
         From `kintrafo.variation.goals`: those about these curves are drawn into them. They are
         about rigid joints, and about the rack in its middle.
@@ -42,18 +42,15 @@ def elastokinematics_chapter(*found: xr.Dataset, goals: Sequence[Goal] = ()) -> 
             given.dataset(dataset, over=DATA_SET)
         check_goals(given, "goals", goals)
         if not given.refused:
-            wanted = [_about(given, dataset, goals) for dataset in found]
+            wanted = [_about(given, flat(dataset), goals) for dataset in found]
     sheets = []
     drawn: list[Picture] = []
     for dataset, own in zip(found, wanted, strict=True):
-        over = _over(dataset)
+        columns, over = flat(dataset), _over(dataset)
         title = f"Kinematic and elastokinematic, over {over}"
         words = f"Curves over {over} with rigid joints and on the bushes"
-        drawn += pictures(dataset, list(map(str, dataset)), title, words, goals=own)
-        if "toe_left" in dataset:
-            sheets += deflections_of_axle(dataset, f"Over {over}")
-        else:
-            sheets.append(deflections(dataset, f"Over {over}"))
+        drawn += pictures(columns, list(map(str, columns)), title, words, goals=own)
+        sheets += deflections(dataset, f"Over {over}")
     hardpoints = found[0].attrs["hardpoints"]
     words = f"By equilibrium of all parts, however far bushes give way: {hardpoints}."
     of_goals = ["Targets and limits are about the curves with rigid joints."] if any(wanted) else []
@@ -87,5 +84,5 @@ def _about(given: Arguments, dataset: xr.Dataset, goals: Sequence[Goal]) -> list
 
 
 def _over(dataset: xr.Dataset) -> str:
-    (name,) = (str(name) for name in dataset.sizes if name != DATA_SET)
+    (name,) = (str(name) for name in dataset.sizes if name not in (DATA_SET, WHEEL))
     return str(dataset[name].attrs["long_name"])

@@ -6,7 +6,7 @@ from ...core.arguments import Arguments
 from ...core.quantities import display_of
 from ...core.tabulated import Tabulated, significant
 from ...study.axles import by_side
-from ...study.loads.flexibility import HELD
+from ...study.compliance.flexibility import HELD
 from ...study.variation.goals import Goal, Verdict, judge, words_of
 from ...study.variation.ways import Looked, dataset_of, judged_model, way
 from ...suspension.axle import Axle

@@ -27,10 +27,7 @@ from ...assembly.rig import Extent
 from .along import loads_along
 from .cases import standard_cases
 from .compare import compare, over
-from .compliance import compliance
 from .datasets import bump, by_side, roll, single, steer
-from .deflection import deflection
-from .elastokinematics import elastokinematics
 from .loads import static_loads
 
 __all__ = [
@@ -39,9 +36,6 @@ __all__ = [
     "bump",
     "by_side",
     "compare",
-    "compliance",
-    "deflection",
-    "elastokinematics",
     "loads_along",
     "over",
     "roll",

@@ -20,10 +20,7 @@ Definitions and signs: docs/rigid-axle.md.
 
 from .along import loads_along
 from .checkup import checkup
-from .compliance import compliance
 from .datasets import MOTIONS, bump, compare, over, roll, single
-from .deflection import deflection
-from .elastokinematics import elastokinematics
 from .loads import standard_cases, static_loads
 
 __all__ = [
@@ -31,9 +28,6 @@ __all__ = [
     "bump",
     "checkup",
     "compare",
-    "compliance",
-    "deflection",
-    "elastokinematics",
     "loads_along",
     "over",
     "roll",

@@ -23,7 +23,7 @@ from ...suspension.fleet import Fleet
 from ...suspension.fleet_positions import fleet_angles
 from ...suspension.kinds import Suspension
 from ..characteristics import datasets
-from ..loads.flexibility import HELD
+from ..compliance.flexibility import HELD
 from .curves import Curves, changed
 from .places import Place
 from .ways import Subject, model_of

@@ -11,7 +11,7 @@ from ...core.arguments import Arguments, shown
 from ...core.named_types import ArrayLike
 from ...core.quantities import variable
 from ...core.suggestions import suggestion
-from ..loads.flexibility import Held
+from ..compliance.flexibility import Held
 from .batch import curves_of_many
 from .curves import Curves, curves_of, refuse_bushes
 from .places import Place, places_of
@@ -66,7 +66,7 @@ def cars(
     names : sequence of str, optional
         Characteristics; by default all.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
-        Instead of characteristics, compliance by the names of `kintrafo.loads.compliance`, over
+        Instead of characteristics, compliance by the names of `kintrafo.compliance.linear`, over
         wheel travel, the wheels held like that, see there; bushes of the file may vary, too.
     reductions : sequence of str, optional
         Keep 'min', 'max', 'mean' or 'range' of the curves instead of them, over the positions.

@@ -11,7 +11,7 @@ from ...assembly.quantity import Quantity
 from ...core.arguments import Arguments
 from ...suspension.kinds import Suspension
 from ...suspension.rigid import RigidAxle
-from ..loads.flexibility import HELD
+from ..compliance.flexibility import HELD
 from .places import Place
 from .ways import (
     Looked,

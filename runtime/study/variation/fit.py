@@ -12,7 +12,7 @@ from scipy.stats import chi2
 from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.quantities import display_of
-from ..loads.flexibility import HELD, Held
+from ..compliance.flexibility import HELD, Held
 from .goals import GREATEST, LEAST, Target, check_data
 from .places import Place, amounts
 from .search import Search, in_words, least
@@ -123,7 +123,7 @@ def fit(
     suspension : Suspension or RigidAxle
     measured : xarray.Dataset
         From `kintrafo.rig.measured_curves`; the steering straight ahead, or the wheel at design.
-        Compliance by the names of `kintrafo.loads.compliance` may be among the curves over wheel
+        Compliance by the names of `kintrafo.compliance.linear` may be among the curves over wheel
         travel, if the file has its bushes.
     tolerances : mapping of str to float or str
         How far values may be off to either side, as of `tolerance`: normally distributed with a
@@ -135,7 +135,7 @@ def fit(
     names : sequence of str, optional
         Which of the curves are to be explained; by default all.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
-        What held the wheel when compliance was measured, see `kintrafo.loads.compliance`.
+        What held the wheel when compliance was measured, see `kintrafo.compliance.linear`.
     progress : callable, optional
         Called after every step of the solver with the cost that is left, as a part of that at the
         start.

@@ -15,7 +15,7 @@ from ...suspension.axle import Axle
 from ...suspension.input.toml_file import read_sections
 from ...suspension.kinds import Suspension
 from ...suspension.rigid import RigidAxle
-from ..loads.flexibility import HELD
+from ..compliance.flexibility import HELD
 from .curves import Curves, Together
 from .ways import (
     OF_SUSPENSIONS,

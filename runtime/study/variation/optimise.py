@@ -88,7 +88,7 @@ def optimise(
         By characteristic: ``at_mm``, positions; ``value``, one for all or one for each; ``within``,
         a deviation that matters; ``over``, 'travel' or 'rack'. In mm and units for people. Or a
         list of several such. Of a file with bushes also by the names of
-        `kintrafo.loads.compliance`, with ``held``.
+        `kintrafo.compliance.linear`, with ``held``.
     limits : mapping, optional
         By characteristic: ``at_mm``, ``least``, ``most``, ``over``, or a list of several such.
     progress : callable, optional

@@ -11,7 +11,7 @@ from ...core.arguments import Arguments
 from ...core.errors import InputError, KintrafoError
 from ...core.named_types import ArrayLike
 from ...core.quantities import Display, display_of
-from ..loads.flexibility import HELD, Held
+from ..compliance.flexibility import HELD, Held
 from .batch import curves_of_many, moved_by
 from .curves import Curves, changed, curves_of, refuse_bushes
 from .places import Place, matching
@@ -76,7 +76,7 @@ def sensitivity(
     names : sequence of str, optional
         Characteristics; by default all.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
-        Instead of characteristics, compliance by the names of `kintrafo.loads.compliance`, over
+        Instead of characteristics, compliance by the names of `kintrafo.compliance.linear`, over
         wheel travel, the wheels held like that, see there; bushes of the file may vary, too.
     progress : callable, optional
         Called with the part that is done, up to 1.

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
 from ...core.quantities import variable
-from ..loads.flexibility import Held
+from ..compliance.flexibility import Held
 from .batch import curves_of_many, moved_by
 from .curves import Curves, curves_of, refuse_bushes
 from .goals import Limit, check_data, limits_of
@@ -79,7 +79,7 @@ def tolerance(
     names : sequence of str, optional
         Characteristics; by default all.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
-        Instead of characteristics, compliance by the names of `kintrafo.loads.compliance`, over
+        Instead of characteristics, compliance by the names of `kintrafo.compliance.linear`, over
         wheel travel, the wheels held like that, see there; bushes of the file may vary, too.
     progress : callable, optional
         Called with the part that is done, up to 1.

@@ -12,6 +12,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ...assembly.axle import AxleAssembly
+from ...assembly.by_wheel import flat
 from ...assembly.motions import rolls, travels
 from ...assembly.quantity import ROLL, TRAVEL, Quantity
 from ...assembly.rig import Extent
@@ -25,13 +27,11 @@ from ...suspension.rigid import RigidAxle
 from ...suspension.rigid.model import RigidAxleModel
 from .. import axles, rigid
 from ..axles.catalogue import OVER_TRAVEL, SIDES
-from ..axles.compliance import described_of
 from ..characteristics.datasets import ALONG, KNOWN, over_rack, over_travel, steering, travel
 from ..characteristics.datasets import refuse_of_steering as refuse_of_suspension
-from ..loads.compliance import COMPLIANCES, compliance
-from ..loads.flexibility import HELD, Held
+from ..compliance.flexibility import HELD, Held
+from ..compliance.linear import COMPLIANCES, COMPLIANCES_OF_AXLES, linear
 from ..rigid.catalogue import MEASURES
-from ..rigid.compliance import COMPLIANCES as OF_BOTH
 from ..rigid.datasets import usual, values_over
 from ..sheet import has_bushes
 
@@ -96,10 +96,15 @@ WAYS: dict[str, Way] = {
 OF_SUSPENSIONS = ("travel", "rack")
 """Those of a suspension."""
 
-UNDER_LOADS = {held: Way(TRAVEL, COMPLIANCES | OF_BOTH, "wheel travel") for held in HELD}
+UNDER_LOADS = {
+    held: Way(TRAVEL, COMPLIANCES | COMPLIANCES_OF_AXLES, "wheel travel") for held in HELD
+}
 """Compliance over wheel travel, of an axle over parallel travel, by what holds the wheels."""
 
-_COMPLIANCES_OVER: dict[str, Mapping[str, Quantity]] = {"travel": COMPLIANCES, "bump": OF_BOTH}
+_COMPLIANCES_OVER: dict[str, Mapping[str, Quantity]] = {
+    "travel": COMPLIANCES,
+    "bump": COMPLIANCES_OF_AXLES,
+}
 
 
 def way(over: str) -> Way:
@@ -178,12 +183,7 @@ def dataset_of(model: Looked, over: str, positions: Array) -> xr.Dataset:
 
 def _compliance(model: Looked, positions: Array, held: Held) -> xr.Dataset:
     """Return how wheels give way on the bushes of the files."""
-    if isinstance(model, Model):
-        found = compliance(model, None, positions, held=held)
-    elif isinstance(model, RigidAxleModel):
-        found = rigid.compliance(model.axle, None, positions, held=held)
-    else:
-        found = axles.compliance(model, None, positions, held=held)
+    found = flat(linear(model, None, positions, held=held))
     return found.drop_dims(["moved", "by"])
 
 
@@ -218,14 +218,14 @@ def with_bushes(subject: Subject | Axle, bushings: Mapping[str, Any] | None) -> 
     ----------
     subject : Suspension, Axle or RigidAxle
     bushings : mapping, optional
-        As of `kintrafo.loads.compliance`; of an axle as of `kintrafo.axles.compliance`.
+        As of `kintrafo.compliance.linear`.
     """
     if bushings is None:
         return subject
     if not isinstance(subject, Axle):
         return subject.with_changes({"bushings": dict(bushings)})
     with Arguments("compliance") as given:
-        described = described_of(given, subject, bushings)
+        described = AxleAssembly(subject).described_bushings(given, bushings)
     left, right = (
         subject.sides[side].with_changes({"bushings": described[side]}) for side in SIDES
     )

@@ -19,6 +19,7 @@ from kintrafo import (
     characteristics,
     checkup,
     compare,
+    compliance,
     excitation,
     export,
     loads,
@@ -142,52 +143,55 @@ CALLS = {
         {"travel_mm": 10.0, "contact_N": [100.0, 0.0, 0.0]},
     ),
     "compliance": (
-        loads.compliance,
+        compliance.linear,
         {
-            "model": _CAR, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "travel": [0.0],
+            "subject": _CAR, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "travel": [0.0],
             "rack_position": 0.0, "held": "height",
         },
     ),
     "bush": (
-        lambda **given: loads.compliance(_CAR, {"arm_rear": given}, [0.0]),
+        lambda **given: compliance.linear(_CAR, {"arm_rear": given}, [0.0]),
         {
             "axial_N_per_mm": 1e3, "radial_N_per_mm": [1e3, 2e3], "axis": [1.0, 0.1, 0.0],
             "radial_axis": [0.0, 0.0, 1.0],
         },
     ),
-    "loads.elastokinematics": (
-        loads.elastokinematics,
+    "compliance.elastokinematics": (
+        compliance.elastokinematics,
         {
-            "model": _CAR, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "travel": [0.0],
+            "subject": _CAR, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "along": [0.0],
             "rack_position": 0.0, "hardpoints": "loaded",
         },
     ),
-    "loads.deflection": (
-        loads.deflection,
+    "compliance.nonlinear": (
+        compliance.nonlinear,
         {
-            "model": _CAR, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "under": "lateral",
+            "subject": _CAR, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "under": "lateral",
             "amounts": [100.0], "travel": 0.0, "rack_position": 0.0, "held": "height",
             "hardpoints": "loaded",
         },
     ),
-    "axles.elastokinematics": (
-        axles.elastokinematics,
+    "compliance.elastokinematics of an axle": (
+        compliance.elastokinematics,
         {
-            "axle": _AXLE, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "motion": "roll",
+            "subject": _AXLE, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "motion": "roll",
             "along": [0.01], "extent": None, "travel": 0.0, "rack_position": 0.0,
             "hardpoints": "loaded",
         },
     ),
-    "axles.deflection": (
-        axles.deflection,
+    "compliance.nonlinear of an axle": (
+        compliance.nonlinear,
         {
-            "axle": _AXLE, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "under": "lateral",
-            "amounts": [100.0], "wheels": [1.0, -0.5], "travel": 0.0, "rack_position": 0.0,
+            "subject": _AXLE, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}},
+            "under": "lateral", "amounts": [100.0], "wheels": [1.0, -0.5], "travel": 0.0,
+            "rack_position": 0.0,
             "held": "height", "hardpoints": "loaded",
         },
     ),
     "curve of a bush": (
-        lambda **given: loads.elastokinematics(_CAR, {"arm_rear": {"axial_curve": given}}, [0.0]),
+        lambda **given: compliance.elastokinematics(
+            _CAR, {"arm_rear": {"axial_curve": given}}, along=[0.0]
+        ),
         {"mm": [-1.0, 0.0, 1.0], "N": [-100.0, 0.0, 300.0]},
     ),
     "rig.measured_curves": (rig.measured_curves, {"path": "no.csv"}),
@@ -432,7 +436,7 @@ CALLS = {
     ),
     "compliance_chapter": (
         kintrafo.report.compliance_chapter,
-        {"found": loads.compliance(kintrafo.Model(_SOFT), None, [0.0]), "goals": ()},
+        {"found": compliance.linear(kintrafo.Model(_SOFT), None, [0.0]), "goals": ()},
     ),
     "export.check_format": (export.check_format, {"path": "a.csv"}),
     "plots.check_formats": (plots.check_formats, {"paths": ["a.png"], "formats": ["svg"]}),
@@ -494,15 +498,15 @@ CALLS = {
     "rigid_axles.loads_along": (
         rigid_axles.loads_along, {"model": kintrafo.RigidAxleModel(_RIGID), "result": _RIDE}
     ),
-    "axles.compliance": (
-        axles.compliance,
+    "compliance.linear of an axle": (
+        compliance.linear,
         {
-            "axle": _AXLE, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "travel": [0.0],
+            "subject": _AXLE, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "travel": [0.0],
             "rack_position": 0.0, "held": "height",
         },
     ),
     "bush of an axle": (
-        lambda **given: axles.compliance(_AXLE, {"arm_rear": given}, [0.0]),
+        lambda **given: compliance.linear(_AXLE, {"arm_rear": given}, [0.0]),
         {
             "axial_N_per_mm": 1e3, "radial_N_per_mm": [1e3, 2e3], "axis": [1.0, 0.1, 0.0],
             "radial_axis": [0.0, 0.0, 1.0],
@@ -520,7 +524,7 @@ CALLS = {
         {"bushings": {"arm_rear": {"axial_curve": {"mm": [-1, 0, 1], "N": [-3, 0, 9]}}}},
     ),
     "rack": (
-        lambda **given: axles.compliance(_AXLE, {"rack": given}, [0.0]),
+        lambda **given: compliance.linear(_AXLE, {"rack": given}, [0.0]),
         {"axial_N_per_mm": 1e3},
     ),
     "axles.bump": (axles.bump, {"axle": _AXLE, "travel": [0.0, 0.01], "rack_position": 0.0}),

@@ -11,15 +11,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ....assembly.anti_roll_bar import Bar, RollBar
-from ....assembly.poses import Assembled
-from ....assembly.wheel import lowest_point
-from ....core.threads import in_one_thread
-from ....core.vectors import cross
-from ....suspension.corner import UP
-from ..flexibility import Held, rates_of_tyres
+from ...assembly.anti_roll_bar import Bar, RollBar
+from ...assembly.poses import Assembled
+from ...assembly.wheel import lowest_point
+from ...core.threads import in_one_thread
+from ...core.vectors import cross
+from ...suspension.corner import UP
 from .connections import Connections, Soft
-from .places import Measured, Places, cross_matrix
+from .flexibility import Held, rates_of_tyres
+from .rigid_displacements import Measured, Places, cross_matrix
 
 Array = NDArray[np.float64]
 

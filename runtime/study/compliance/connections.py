@@ -10,16 +10,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ....assembly.anti_roll_bar import Bar, RollBar
-from ....assembly.poses import Assembled
-from ....core.vectors import cross
-from ....suspension.axle.bar import HalfBar
-from ....suspension.bushes import RACK, Bush
-from ....suspension.points import carried as placed
-from ....suspension.structure import Fixed, Joint, Line, frame
+from ...assembly.anti_roll_bar import Bar, RollBar
+from ...assembly.poses import Assembled
+from ...core.vectors import cross
+from ...suspension.axle.bar import HalfBar
+from ...suspension.bushes import RACK, Bush
+from ...suspension.points import carried as placed
+from ...suspension.structure import Fixed, Joint, Line, frame
 from .bars import Bars, Foot, Inclinations
 from .laws import Bent, Coil, Law, Stops, Straight
-from .places import Angles, Distances, Lengths, Measured, Places, Radii, Twists
+from .rigid_displacements import Angles, Distances, Lengths, Measured, Places, Radii, Twists
 
 Array = NDArray[np.float64]
 Pair = tuple[int, int]

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.vectors import cross
-from ....suspension.axle.bar import HalfBar
-from ....suspension.corner import UP
-from .places import Angles, Measured, Places, cross_matrix, second_by_rotation
+from ...core.vectors import cross
+from ...suspension.axle.bar import HalfBar
+from ...suspension.corner import UP
+from .rigid_displacements import Angles, Measured, Places, cross_matrix, second_by_rotation
 
 Array = NDArray[np.float64]
 

@@ -14,19 +14,14 @@ from numpy.typing import NDArray
 from scipy.optimize import root
 
 from ...assembly.load import Load
-from ...assembly.poses import (
-    CONTACT,
-    Assembled,
-    rotated,
-    touching,
-)
+from ...assembly.poses import CONTACT, Assembled, rotated, touching
 from ...assembly.soft_lines import SoftLines
 from ...core.arguments import Arguments
 from ...suspension.bushes import Bush
 from ...suspension.corner import RoadWheel
 from ...suspension.input.vehicle import Tyre
 from ...suspension.structure import GROUND, Joint
-from .reactions import Equations
+from ..loads.reactions import Equations
 
 Array = NDArray[np.float64]
 Held = Literal["height", "tyre", "spring", "locked"]

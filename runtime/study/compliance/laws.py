@@ -7,8 +7,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ....suspension.input.curve import Curve
-from ....suspension.spring_table import force_and_rate
+from ...suspension.input.curve import Curve
+from ...suspension.spring_table import force_and_rate
 
 Array = NDArray[np.float64]
 
