@@ -77,7 +77,7 @@ def equilibrium(
     >>> axle = RigidAxleModel("rigid_axle")
     >>> at_rest = equilibrium(axle, road_height={"left": 0.02})
     >>> round(float(at_rest[axle.state_names.index("roll")]), 4)
-    0.0108
+    0.0114
     """
     with Arguments("equilibrium") as given:
         assembly = given_model(given, model)
