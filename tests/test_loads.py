@@ -1,5 +1,6 @@
 """Loads on parts: against multipliers, the compiled equations of motion, and statics by hand."""
 
+import csv
 import math
 import re
 import shlex
@@ -456,6 +457,24 @@ def test_couples_are_shown_without_a_force(kintrafo: Any, tmp_path: Path) -> Non
     far = [row for row in rows if row[1] == "far"]
     assert far
     assert all(row[5:14] == [""] * 9 and "too much" in ",".join(row[14:]) for row in far)
+
+
+@pytest.mark.parametrize("file", ["reference_car", "reference_axle", "rigid_axle"])
+def test_totals_are_shown_alone(kintrafo: Any, tmp_path: Path, file: str) -> None:  # noqa: F811
+    arguments = ("loads", file, "--case", "static", "--part", "total")
+    code, out, _ = kintrafo(*arguments, "-o", "a.csv", "--plot", "b.png", "--part", "wheel_left"
+                            if "axle" in file else "wheel")  # fmt: skip
+    assert code == 0
+    lines = (tmp_path / "a.csv").read_text(encoding="utf-8").splitlines()
+    rows = [row for row in csv.reader(lines) if row[1:3] == ["static", "total"]]
+    rows = [row for row in rows if any(map(float, row[5:11]))]
+    assert rows
+    for row in rows:
+        forces = [str(round(float(value))).replace("-0", "0") for value in row[5:8]]
+        assert re.search(rf"total, {re.escape(row[3])}, .*" + ".* ".join(forces), out)
+    code, _, err = kintrafo(*arguments, "--plot", "b.png")
+    assert code == 2
+    assert "total is no part that can be drawn" in " ".join(err.split())
 
 
 def test_extremes_are_printed(kintrafo: Any) -> None:  # noqa: F811

@@ -93,6 +93,7 @@ WRONG = {
         "# units: in\n" + HEAD + "ball_joint,1,2,3\n",
         "is in mm, and a row of units or a comment",
     ),
+    "another one below": (HEAD + "# in inches\nball_joint,1,2,3\n", "is in mm, and a row of units"),
     "row of units": (HEAD + ",in,in,in\nball_joint,1,2,3\n", "is in mm, and a row of units"),
     "unknown comment": ("# units: ells\npoint,x,y,z\nball_joint,1,2,3\n", "states units that"),
     "marks": ("point;x [mm];y [mm];z [mm]\nball_joint;1,5;2.5;3\n", "points and commas"),
@@ -102,6 +103,7 @@ WRONG = {
     "digits": (HEAD + "ball_joint,1_0,2,3\n", "three numbers are needed"),
     "twice": (HEAD + "a,1,2,3\na,1,2,3\n", "a is there twice"),
     "unknown": (HEAD + "bal_joint,1,2,3\n", r"bal_joint \(is it ball_joint\?\)"),
+    "none that is needed": (HEAD + "spring_seat,1,2,3\na,1,2,3\n", "none of its rows is a hardp"),
     "impossible": (HEAD + "ball_joint,170,-350,205\n", "two points of the control arm"),
 }
 
@@ -124,6 +126,9 @@ FORMS = {
     "row with a word": "point,x,y,z\nunits,{0},{0},{0}\n{1}",
     "comment": "# units: {0}\npoint,x,y,z\n{1}",
     "comment below": "point,x,y,z\n# all coordinates are in {0}\n{1}",
+    "word in a comment": "point,x,y,z\n# {0}\n{1}",
+    "comment that says in": "point,x,y,z\n# in {0}\n{1}",
+    "whole sentence": "point,x,y,z\n# points are given in {0}.\n{1}",
     "columns in a comment": "point,x,y,z\n#-,{0},{0},{0}\n{1}",
     "title": "My car\nLength unit,{0}\n\npoint,x,y,z\n{1}",
 }
@@ -330,3 +335,22 @@ def test_the_commands(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     code, _, _ = kintrafo("import-points", "points.csv", "new.toml", "new.toml", "--force")
     assert code == 2  # what is read is never replaced
     assert kintrafo("import-points", "points.txt", "new.toml", "x.toml")[0] == 2
+
+
+def test_a_table_of_another_car_is_doubted(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+    """Rows that are no hardpoints are named on stderr, where hardpoints are missing."""
+    other = HEAD + "wheel_center,5,-750,310\nlower_arm_front,1,2,3\nlower_arm_rear,1,2,4\n"
+    table(tmp_path, other, "other.csv")
+    code, _, err = kintrafo("import-points", "other.csv", "reference_car", "new.toml")
+    told = " ".join(err.split())
+    assert code == 0
+    assert "2 of 3 rows are no hardpoints: lower_arm_front, lower_arm_rear; and " in told
+    assert "arm_front, arm_rear, ball_joint, " in told
+    assert " stay as in the file. " in told
+    assert "--name arm_front=lower_arm_front" in told
+    assert kintrafo("export-points", "reference_car", "all.csv")[0] == 0
+    whole = (tmp_path / "all.csv").read_text(encoding="utf-8")
+    for text in (HEAD + "wheel_center,5,-750,310\n", whole + "cad_origin,0,0,0\n"):
+        table(tmp_path, text)
+        code, _, err = kintrafo("import-points", "points.csv", "reference_car", "x.toml", "--force")
+        assert (code, err) == (0, "")

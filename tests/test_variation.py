@@ -456,7 +456,7 @@ WRONG = [
     (lambda: variation.sensitivity(CAR, positions=[0.0, np.nan]), "finite number"),
     (lambda: variation.tolerance(CAR, {}), "one or more are needed"),
     (lambda: variation.tolerance(CAR, {ROD: -1.0}), "above 0 mm"),
-    (lambda: variation.tolerance(CAR, {ROD: 1.0}, count=1), "2 to 1e"),
+    (lambda: variation.tolerance(CAR, {ROD: 1.0}, count=1), r"count \(--cars\) = 1: a whole num"),
     (lambda: variation.tolerance(CAR, {ROD: 1.0}, distribution="even"), "normal, uniform"),
     (lambda: variation.tolerance(CAR, {ROD: 1.0}, count=100_000), "Name fewer, or fewer positions"),
     (lambda: variation.tolerance(CAR, {ROD: 1.0}, correlation=np.eye(2)), r"\(1, 1\) is needed"),

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from .console import say
+from .console import note, say
 from .options import File, Force
 
 EXAMPLES = (
@@ -70,7 +70,7 @@ def command(
     """
     from ..core.files import refuse
     from ..suspension.point_names import read_names
-    from ..suspension.point_table import as_words, merged, read_points, write_merged
+    from ..suspension.point_table import as_words, doubts, merged, read_points, write_merged
 
     inputs: list[str | Path] = [points, file]
     refuse([path], force=force, inputs=inputs, endings=[".toml"])
@@ -80,4 +80,6 @@ def command(
     say(f"  {write_merged(found, path, force=force, inputs=inputs)}")
     for head, text in as_words(found, table).items():
         say(f"  {head}: {text}")
+    if doubt := doubts(found):
+        note(f"note: {doubt}")
     say(f"Check it: kintrafo check {path}")

@@ -8,6 +8,7 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
+from ..core.errors import InputError
 from ..core.tabulated import whole
 from .axles import is_axle
 from .console import console, print_json, print_table, say
@@ -48,8 +49,7 @@ def command(
         typer.Option(
             metavar="NAME",
             help="Show loads on these parts: knuckle, chassis, knuckle_left of an axle, "
-            "beam of a rigid one. "
-            "May be repeated.",
+            "beam of a rigid one; total has the sums at the mounts. May be repeated.",
         ),
     ] = None,
     envelope: Annotated[
@@ -80,7 +80,7 @@ def command(
     """
     from ..study import export
     from ..study import loads as study
-    from ..study.loads.mounts import with_totals
+    from ..study.loads.mounts import ALL, with_totals
     from ..study.loads.sheets import overview
 
     inputs: list[str | Path] = [file, *([] if cases is None else [cases])]
@@ -92,7 +92,11 @@ def command(
     outputs = Outputs.of(out, None, force=force, inputs=inputs)
     pages = Outputs.of(None, plot, force=force, inputs=inputs, suffixes=suffixes)
     found = carried(named, static_load=described.get("static_load_N"))
-    parts = among(part, [*dict.fromkeys(found["part"].values)], "--part") if part else None
+    parts = among(part, dict.fromkeys(with_totals(found)["part"].values), "--part") if part else []
+    bodies = [name for name in parts if name != ALL]
+    if pages.pages and parts and not bodies:
+        problem = f"{ALL} is no part that can be drawn. Name one, or leave --plot out."
+        raise InputError([problem], "--part")
     written = outputs.write_data(found, rows=study.table(found), sheets=study.workbook(found))
     if pages.pages:
         from ..plots import loads as plots
@@ -103,7 +107,7 @@ def command(
                     found,
                     pages.pages,
                     name,
-                    parts,
+                    bodies,
                     title=title_of(file),
                     force=force,
                     inputs=inputs,
@@ -111,13 +115,13 @@ def command(
     if json:
         print_json(export.as_dict(found))
     else:
-        told = with_totals(found, several=True)
+        told = with_totals(found, several=ALL not in parts)
         for name in shown or ():
             console.print(_components(told, name, parts, file))
         if envelope:
             console.print(_extremes(told, study.envelope(told), parts, file))
         elif not shown:
-            print_table(overview(found, f"{file}: sizes of the forces [N]", parts or ()))
+            print_table(overview(found, f"{file}: sizes of the forces [N]", parts))
         _tell(found)
         name_files(written)
     if not _did_what_was_asked(found, [*described.get("cases", shown or ())]):
@@ -153,7 +157,7 @@ def _tell(found: "Dataset") -> None:
     say("; ".join(filter(None, (found.attrs["message"], found.attrs["rules"]))) + ".")
 
 
-def _components(found: "Dataset", case: str, parts: list[str] | None, file: str) -> Table:
+def _components(found: "Dataset", case: str, parts: list[str], file: str) -> Table:
     """Return forces and moments of one case."""
     from ..study.loads.sheets import shown_rows
 
@@ -162,13 +166,13 @@ def _components(found: "Dataset", case: str, parts: list[str] | None, file: str)
     table.add_column("on the part, at, by")
     for column in ("Fx [N]", "Fy", "Fz", "Mx [N m]", "My", "Mz"):
         table.add_column(escape(column), justify="right")
-    for i in shown_rows(found, parts or ()):
+    for i in shown_rows(found, parts):
         numbers = (*here["force"].values[i], *here["moment"].values[i])
         table.add_row(escape(_label(found, i)), *(whole(float(number)) for number in numbers))
     return table
 
 
-def _extremes(found: "Dataset", ends: "Dataset", parts: list[str] | None, file: str) -> Table:
+def _extremes(found: "Dataset", ends: "Dataset", parts: list[str], file: str) -> Table:
     """Return the least and the greatest of each component, with the cases in which they are."""
     from ..study.loads.sheets import shown_rows
 
@@ -176,7 +180,7 @@ def _extremes(found: "Dataset", ends: "Dataset", parts: list[str] | None, file: 
     table.add_column("on the part, at, by")
     for column in ("Fx", "Fy", "Fz"):
         table.add_column(column, justify="right")
-    for i in shown_rows(found, parts or ()):
+    for i in shown_rows(found, parts):
         cells = [
             "\n".join(
                 f"{ends[f'force_{end}_case'].values[i, axis]} "

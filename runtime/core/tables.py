@@ -33,7 +33,8 @@ _BETWEEN = re.compile(r"[\s_,/]+(?:in\s+)?")
 _STROKE_OR_NUMBER = re.compile(r"[\[(]?[\d.,eE+\s-]*[\])]?")
 # what states units, in a comment line
 _STATES = re.compile(
-    r"\W*(?:all\s+)?(?:units?|lengths?|coordinates?|dimensions?)\s*(?:are\s+|is\s+)?(?:in\b|[:=])(.*)",
+    r"\W*(?:all\s+)?(?:(?:units?|lengths?|coordinates?|dimensions?|points?|values?|everything)\s*)?"
+    r"(?:(?:are|is|given|measured|stated)\s+)*(?:in\s+|(?<=\w)\s*[:=])(.*)",
     re.IGNORECASE,
 )
 
@@ -146,7 +147,7 @@ class Table:
             units, others = row, others[1:]
         stated: list[str] = []
         for number, cells in comments:
-            if len(headings) > 1 and (row := _units_row(cells, len(headings))):
+            if len(headings) > 1 < len(cells) and (row := _units_row(cells, len(headings))):
                 units = [one or other for one, other in zip(units, row, strict=True)]
             else:
                 stated += _stated(source, number, ", ".join(map(str, cells)))

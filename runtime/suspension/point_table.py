@@ -7,7 +7,7 @@ columns, ``point, x [mm], y [mm], z [mm]``. CSV, Excel and the texts of some pro
 import csv
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -82,12 +82,15 @@ class Merged:
         Hardpoints that are as in the old file.
     left_out : tuple of str
         Rows of the table that are no hardpoints.
+    missing : tuple of str
+        Of `kept`, those that every such suspension has.
     """
 
     text: str
     read: dict[str, str]
     kept: tuple[str, ...]
     left_out: tuple[str, ...]
+    missing: tuple[str, ...] = field(default=(), kw_only=True)
 
 
 def read_points(
@@ -258,12 +261,14 @@ def merged(
     points = _of_side(table, old.vehicle.side, mirrored=mirrored)
     read = matched(points, old.suspension, called, table.source)
     left_out = [name for name in points if name not in read.values()]
-    if not read:
+    required = old.hardpoints.names()
+    if left_out and read.keys().isdisjoint(required):
         every = known(old.suspension)
         hints = {n: nearest(n, every) for n in left_out[:_MOST_HINTS]}
         near = ", ".join(f"{n} (is it {hint}?)" for n, hint in hints.items() if hint)
         problem = (
-            f"none of its rows is a hardpoint of a {old.TITLE}: {near or listed(left_out)}. "
+            f"none of its rows is a hardpoint that every {old.TITLE} has: "
+            f"{near or listed(left_out)}. "
             f"Known are: {', '.join(every)}. Say what the table calls them: --name "
             f"{every[0]}={short(left_out[0])} (names=)."
         )
@@ -286,7 +291,8 @@ def merged(
     )
     Suspension.from_dict(tomlkit.parse(text).unwrap(), source=source)
     kept = tuple(name for name in old.hardpoints.given() if name not in read)
-    return Merged(text, read, kept, tuple(left_out))
+    missing = tuple(name for name in required if name not in read)
+    return Merged(text, read, kept, tuple(left_out), missing=missing)
 
 
 def _of_side(table: PointTable, side: str, *, mirrored: bool) -> dict[str, Point]:
@@ -377,6 +383,23 @@ def write_points(
         writer.writerow(["point", *(f"{axis} [{points.unit}]" for axis in "xyz")])
         writer.writerows([name, *getattr(points, name)] for name in points.given())
     return Path(path)
+
+
+def doubts(found: Merged) -> str:
+    """Say which rows may be hardpoints that the table has not; empty if there is no doubt.
+
+    A table that leaves nothing out, or has every hardpoint that is needed, is as it is meant.
+    """
+    with Arguments("doubts") as given:
+        given.kind("found", found, Merged, "what merged returns is needed")
+    if not (found.left_out and found.missing):
+        return ""
+    rows = len(found.left_out) + len(found.read)
+    return (
+        f"{len(found.left_out)} of {rows} rows are no hardpoints: {listed(found.left_out)}; and "
+        f"{listed(found.missing)} stay as in the file. If a row is one of them, say so: --name "
+        f"{found.missing[0]}={short(found.left_out[0])} (names=)."
+    )
 
 
 def as_words(found: Merged, table: PointTable | None = None) -> Mapping[str, str]:

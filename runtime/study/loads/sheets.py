@@ -30,7 +30,8 @@ def overview(found: xr.Dataset, title: str, parts: Sequence[str] = ()) -> Tabula
         From `static`.
     title : str
     parts : sequence of str, optional
-        Loads on these parts, with all that act on them; by default each joint once.
+        Loads on these parts, with all that act on them; by default each joint once. The part
+        ``total`` has the sums at all mounts.
     """
     rows = [
         (_words(n), *(whole(float(load)) for load in found[n].values))
@@ -46,7 +47,7 @@ def overview(found: xr.Dataset, title: str, parts: Sequence[str] = ()) -> Tabula
     for rod in rods:
         pulls = found["rod_force"].sel(rod=rod).values
         rows.append((f"{rod}, pull", *(whole(float(pull)) for pull in pulls)))
-    found = with_totals(found, several=True)
+    found = with_totals(found, several=ALL not in parts)
     sizes = np.linalg.norm(found["force"].values, axis=-1)
     for i in shown_rows(found, parts):
         part, point, by = (str(found[name].values[i]) for name in ("part", "point", "by"))
@@ -72,7 +73,8 @@ def shown_rows(found: xr.Dataset, parts: Sequence[str] = ()) -> list[int]:
 
     Totals at mounts go with the loads on the chassis.
     """
-    given = [CHASSIS if part == ALL and parts else part for part in found["part"].values]
+    named = found["part"].values
+    given = [CHASSIS if name == ALL and parts and ALL not in parts else name for name in named]
     sizes = np.abs(found["force"].values) + np.abs(found["moment"].values)
     strong = np.nan_to_num(sizes).max(axis=(0, 2)) > 0.0
     if parts:

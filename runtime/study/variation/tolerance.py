@@ -114,7 +114,7 @@ def tolerance(
     with Arguments("tolerance") as given:
         check_subject(given, suspension)
         given.function("progress", progress)
-        count = given.whole("count", count, least=2, most=_MOST_CARS)
+        count = given.whole("count (--cars)", count, least=2, most=_MOST_CARS)
         seed = given.whole("seed", seed, least=0)
         given.among("distribution", distribution, ("normal", "uniform"))
         described = given.mapping("limits", {} if limits is None else limits, "names and limits")
