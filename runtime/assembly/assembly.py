@@ -78,6 +78,11 @@ class Assembly(ABC):
         """What was read from a file: a Suspension, an Axle or a RigidAxle."""
 
     @property
+    def sections(self) -> dict[str, dict[str, Any]]:
+        """The sections of its files, whose numbers studies vary, by what begins their places."""
+        return {"": self.subject.to_dict()}
+
+    @property
     @abstractmethod
     def steered(self) -> bool:
         """Whether it has a rack."""

@@ -61,6 +61,16 @@ class AxleAssembly(Assembly):
         return self.axle
 
     @property
+    def sections(self) -> dict[str, dict[str, Any]]:
+        """The sections of its own file, and of both sides: of one and its image, and of each."""
+        whole = self.axle.to_dict()
+        found = {f"{side}.": each.to_dict() for side, each in self.axle.sides.items()}
+        if "side" in whole:
+            found = {"side.": whole.pop("side")} | found
+        own = {name: values for name, values in whole.items() if name not in SIDES}
+        return found | {"": own}
+
+    @property
     def steered(self) -> bool:
         """Whether it has a rack."""
         return self.axle.steered()

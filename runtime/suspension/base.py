@@ -198,15 +198,20 @@ class Suspension(Section):
         except InputError as error:
             raise InputError(error.problems, source) from None
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
         """Return the sections as nested dictionaries, which `from_dict` takes back unchanged.
+
+        Parameters
+        ----------
+        exclude_defaults : bool, optional
+            Whether values that are as by default are left out.
 
         Returns
         -------
         dict
             A copy of all values, with the keys and units of the input file; points are lists.
         """
-        return self.model_dump(mode="json", exclude_none=True)
+        return self.model_dump(mode="json", exclude_none=True, exclude_defaults=exclude_defaults)
 
     def save(self, path: str | Path, *, force: bool = False) -> Path:
         """Write the input file that gives exactly this suspension.

@@ -1,11 +1,10 @@
-"""Write a suspension as the input file that it could have come from."""
+"""Write a suspension or an axle as the input file that it could have come from."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import tomlkit
-from pydantic import BaseModel
 
 from ..core.files import Paths, refuse, replacing
 from ..core.legible import legible
@@ -13,12 +12,19 @@ from ..core.legible import legible
 _ENDING = ".toml"
 
 
-def toml_text(suspension: BaseModel, head: Sequence[str] = ()) -> str:
+class Written(Protocol):
+    """What has the sections of an input file."""
+
+    def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
+        """Return the sections as nested dictionaries."""
+
+
+def toml_text(suspension: Written, head: Sequence[str] = ()) -> str:
     """Return the text of an input file that gives exactly this suspension.
 
     Parameters
     ----------
-    suspension : Suspension
+    suspension : Suspension, Axle or RigidAxle
     head : sequence of str, optional
         Lines of the comment that the file begins with.
 
@@ -37,16 +43,17 @@ def toml_text(suspension: BaseModel, head: Sequence[str] = ()) -> str:
     document = tomlkit.document()
     for line in head:
         document.add(tomlkit.comment(legible(line)) if line else tomlkit.nl())
-    sections = suspension.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
-    bodies = sections.pop("bodies")  # long, and least looked at: at the end
-    for name, value in (*sections.items(), ("bodies", bodies)):
+    sections = suspension.to_dict(exclude_defaults=True)
+    # long, and least looked at: at the end
+    last = {"bodies": sections.pop("bodies")} if "bodies" in sections else {}
+    for name, value in (sections | last).items():
         document.add(tomlkit.nl())
         document.add(name, _table(value) if isinstance(value, dict) else value)
     return tomlkit.dumps(document).strip("\n") + "\n"
 
 
 def write_toml(
-    suspension: BaseModel,
+    suspension: Written,
     path: str | Path,
     *,
     head: Sequence[str] = (),
@@ -57,7 +64,7 @@ def write_toml(
 
     Parameters
     ----------
-    suspension : Suspension
+    suspension : Suspension, Axle or RigidAxle
     path : str or Path
         A name that ends in ``.toml``.
     head : sequence of str, optional

@@ -115,7 +115,7 @@ def _some(
     reasons = [""] * count
     there = np.zeros(count, dtype=bool)
     alone = any(look.over in HELD for look in looks)
-    alone = alone or any(place.startswith("bushings.") for place in values)
+    alone = alone or any("bushings" in place.split(".")[:2] for place in values)
     if isinstance(suspension, Suspension) and count >= _FEWEST and not alone:
         there = _together(suspension, values, looks, found)
     for car in np.flatnonzero(~there).tolist():

@@ -146,7 +146,7 @@ def _held(given: Arguments, suspension: Subject, over: Any, held: Any) -> Any:
 
 def refuse_bushes(given: Arguments, places: Iterable[Place], overs: Iterable[str]) -> None:
     """Refuse bushes where no result is one of compliance, so that joints are rigid."""
-    soft = [place.name for place in places if place.name.startswith("bushings.")]
+    soft = [place.name for place in places if place.of_bushes]
     if soft and not any(over in HELD for over in overs):
         given.refuse(
             f"{', '.join(soft[:3])}{' ...' if soft[3:] else ''}: these results do not depend on "

@@ -4,13 +4,14 @@ import math
 import re
 import warnings
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...assembly.of import assembly_of
 from ...core.arguments import Arguments, shown
 from ...core.quantities import Display, attributes
 from ...core.suggestions import suggestion
@@ -25,8 +26,11 @@ _TO_SI = {"mm": 1e-3, "deg": _DEG, "N/mm^3": 1e9, "N/mm": 1e3, "N m/deg": 1.0 / 
 _SI = {"mm": "m", "deg": "rad", "N/mm^3": "N/m^3", "N/mm": "N/m", "N m/deg": "N m/rad", "": "1"}
 
 
+# What begins the values of one side of an axle whose image the other one is, and of each.
+_SIDE, _APART = "side.", ("right", "left")
 # Sections of points in the unit of the hardpoints: of a file, and of each rod of a rigid axle.
 _POINTS, _RODS = ("hardpoints.", "left_hardpoints."), "rods."
+_OF_A_BAR = ("bush", "link_top", "link_foot")
 
 
 @dataclass(frozen=True)
@@ -52,9 +56,15 @@ class Place:
     in_file: float = 1.0
 
     @property
+    def of_bushes(self) -> bool:
+        """Whether it is one of a bush."""
+        return "bushings" in self.name.split(".")[:2]
+
+    @property
     def words(self) -> str:
         """What it is called for a person: ``ball joint z``, ``strut spring rate``."""
-        return without_unit(self.name).removeprefix("hardpoints.").translate(_SPACES)
+        words = without_unit(self.name).removeprefix(_SIDE).replace("hardpoints.", "", 1)
+        return words.translate(_SPACES)
 
     @property
     def si_unit(self) -> str:
@@ -84,10 +94,29 @@ class Place:
 
 
 def places_of(suspension: Subject) -> dict[str, Place]:
-    """Return every number of a suspension's file, by name."""
-    data = suspension.to_dict()
-    in_file = 1e-3 if data["hardpoints"].pop("unit") == "m" else 1.0
-    return {place.name: place for place in _places(data, "", in_file)}
+    """Return every number of the files of a suspension or an axle, by name."""
+    return {
+        f"{begin}{place.name}": replace(place, name=f"{begin}{place.name}")
+        for begin, sections in _sections(suspension).items()
+        for place in _places(sections, "", _units_of_points(sections))
+    }
+
+
+def _sections(subject: Subject) -> dict[str, dict[str, Any]]:
+    assembly = assembly_of(subject)
+    assert assembly is not None  # callers have seen to it
+    return assembly.sections
+
+
+def _units_of_points(sections: dict[str, Any]) -> dict[str, float]:
+    """Return what millimetres are multiplied with in sections of points; takes their units out."""
+    factors = {
+        section: 1e-3 if sections[section].pop("unit") == "m" else 1.0
+        for section in ("hardpoints", "anti_roll_bar")
+        if "unit" in sections.get(section, {})
+    }
+    # other points are in the unit of the hardpoints
+    return {"": factors.get("hardpoints", 1.0)} | factors
 
 
 def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, Place]:
@@ -102,19 +131,22 @@ def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, 
         A number, or all within a section or a point; ``*`` stands for anything:
         ``hardpoints.*.z``.
     """
-    known, lists = places_of(suspension), {*_lists(suspension.to_dict())}
+    known = places_of(suspension)
+    lists = {
+        f"{begin}{name}" for begin, table in _sections(suspension).items() for name in _lists(table)
+    }
     wanted: set[str] = set()
     lost: dict[str, None] = {}
     texts = isinstance(patterns, list | tuple) and all(isinstance(p, str) for p in patterns)
     if not (texts and patterns):
         given.refuse(f"places = {shown(patterns)}: a list of places is needed.")
         return {}
-    for pattern in patterns:
-        found = {name for name in known if _fits(name, pattern)}
+    for pattern in (_of_both(pattern, known) for pattern in patterns):
+        found = {name for name in known if _fits(name, pattern) and _is_meant(name, pattern, known)}
         if not found and pattern in lists:
             given.refuse(f"{pattern} is a list, as of a curve; single numbers vary. Leave it out.")
         elif not found:
-            hint = _hint(suspension, pattern, known)
+            hint = _hint(pattern, known)
             given.refuse(f"{pattern} is no number of the input file, nor a section of it. {hint}")
         wanted |= found
         if found:
@@ -128,9 +160,26 @@ def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, 
     return {name: place for name, place in known.items() if name in wanted}
 
 
-def _hint(suspension: Subject, pattern: str, known: Mapping[str, Place]) -> str:
+def _of_both(pattern: str, known: Mapping[str, Place]) -> str:
+    """Return a pattern that names a value of a side, of an axle: that of one and its image."""
+    both = f"{_SIDE}{pattern}"
+    if any(_fits(name, pattern) for name in known):
+        return pattern
+    return both if any(_fits(name, both) for name in known) else pattern
+
+
+def _is_meant(name: str, pattern: str, known: Mapping[str, Place]) -> bool:
+    """Return whether a pattern means a value: of sides that are images, each only by its name."""
+    side = name.partition(".")[0]
+    if side not in _APART or not any(other.startswith(_SIDE) for other in known):
+        return True
+    return pattern.startswith(side)
+
+
+def _hint(pattern: str, known: Mapping[str, Place]) -> str:
     """Return what a pattern may have meant that names nothing of a file."""
-    if pattern.partition(".")[0] == "bushings" and not suspension.bushings:
+    has_bushes = any(place.of_bushes for place in known.values())
+    if "bushings" in pattern.split(".")[:2] and not has_bushes:
         return "The file has no [bushings]. Add them."
     levels = {".".join(name.split(".")[:depth]) for name in known for depth in (1, 2, 3)}
     return suggestion(pattern, sorted(levels)) if len(pattern) > 2 else "Name one of its sections."
@@ -181,12 +230,12 @@ def _lists(table: Mapping[str, Any], above: str = "") -> Iterator[str]:
         elif (
             isinstance(value, list | tuple)
             and not key.endswith("axis")
-            and not any(_places({key: value}, above, 1.0))
+            and not any(_places({key: value}, above, {"": 1.0}))
         ):
             yield f"{above}{key}"
 
 
-def _places(table: Mapping[str, Any], above: str, in_file: float) -> Iterator[Place]:
+def _places(table: Mapping[str, Any], above: str, in_file: Mapping[str, float]) -> Iterator[Place]:
     for key, value in table.items():
         name = f"{above}{key}"
         if isinstance(value, Mapping):
@@ -195,7 +244,9 @@ def _places(table: Mapping[str, Any], above: str, in_file: float) -> Iterator[Pl
         if above.startswith("bushings.") and key == "axis":
             continue  # a direction, whose length does not count
         of_points = above in _POINTS or above.startswith(_RODS)
-        unit, factor = ("mm", in_file) if of_points else (unit_of(key), 1.0)
+        of_points = of_points or (above == "anti_roll_bar." and key in _OF_A_BAR)
+        factor = in_file.get(above.rstrip("."), in_file[""])
+        unit, factor = ("mm", factor) if of_points else (unit_of(key), 1.0)
         if isinstance(value, list) and (of_points or key.endswith("com_mm") or key == "axis"):
             for axis, component in zip("xyz", value, strict=True):
                 yield Place(f"{name}.{axis}", unit, component / factor, factor)

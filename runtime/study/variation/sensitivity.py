@@ -119,7 +119,7 @@ def sensitivity(
             asked = [place for place in wanted if _is_asked_for(place, places)]
             refuse_bushes(given, asked, [curves.over])
     soft = curves.over in HELD
-    chosen = [place for place in wanted if soft or not place.name.startswith("bushings.")]
+    chosen = [place for place in wanted if soft or not place.of_bushes]
     left_out = dict.fromkeys([p.name for p in wanted if p not in chosen], _RIGID)
     refused: list[InputError] = []
 
@@ -149,8 +149,9 @@ _NAMED = 3
 
 def _is_asked_for(place: Place, patterns: Sequence[str]) -> bool:
     """Tell whether somebody wants this value, and has not just left it to a pattern or section."""
-    bush = place.name.startswith("bushings.")
-    return any(p == place.name or (bush and p.startswith("bushings")) for p in patterns)
+    return any(
+        p == place.name or (place.of_bushes and "bushings" in p.split(".")[:2]) for p in patterns
+    )
 
 
 def _message(left_out: Mapping[str, str]) -> str:

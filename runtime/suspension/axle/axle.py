@@ -19,8 +19,9 @@ from ..input.messages import messages_of
 from ..input.toml_file import read_toml
 from ..kinds import Suspension
 from ..model import Model
+from ..places import put
 from ..starter import NOT_A_RIGID_AXLE, RIGID_AXLE, RIGID_AXLES
-from .bar import AntiRollBar, HalfBar
+from .bar import AntiRollBar, HalfBar, mirrored_points
 from .file import SIDES, AxleFile, Brakes, Drive, End
 from .steering import SteeringCurve
 
@@ -163,6 +164,92 @@ class Axle:
         if problems:
             raise InputError(problems, source)
         return axle
+
+    def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
+        """Return the sections as nested dictionaries, which `from_dict` takes back unchanged.
+
+        Parameters
+        ----------
+        exclude_defaults : bool, optional
+            Whether values that are as by default are left out.
+
+        Returns
+        -------
+        dict
+            A copy of all values, with the keys and units of the file; the sections of a side are
+            nested in ``side``, or in ``right`` and ``left``, in place of the name of its file.
+        """
+        sides = {"side": self.sides[self.bar_side]} if self.symmetric else self._apart()
+        sections: dict[str, Any] = sides | {
+            "anti_roll_bar": self.bar,
+            "steering": self.steering,
+            "brakes": self.brakes,
+            "drive": self.drive,
+        }
+        how: Any = {"mode": "json", "exclude_none": True, "exclude_defaults": exclude_defaults}
+        written = {name: s.model_dump(**how) for name, s in sections.items() if s is not None}
+        return {KIND: self.end} | {name: values for name, values in written.items() if values}
+
+    def with_changes(self, changes: Mapping[str, Any]) -> Self:
+        """Return an axle that differs in some values; all checks are made again.
+
+        Parameters
+        ----------
+        changes : mapping of str to Any
+            For each place in the file, section and key with dots between them, the new value in
+            the file's unit: ``anti_roll_bar.rate_Nm_per_deg``; of a hardpoint file behind
+            ``side``, whose mirror image the other side stays, or behind ``right`` or ``left``,
+            which are apart from then on. None removes an optional key.
+
+        Raises
+        ------
+        InputError
+            If there is no such place, or no axle can be like this.
+
+        Examples
+        --------
+        >>> axle = Axle.load("reference_axle")
+        >>> lower = axle.with_changes({"left.hardpoints.ball_joint.z": 190.0})
+        >>> lower.left.hardpoints.ball_joint[2], lower.right.hardpoints.ball_joint[2]
+        (190.0, 200.0)
+        """
+        with Arguments("axle") as checked:
+            for key in checked.mapping("changes", changes, "places and values"):
+                checked.kind("key of changes", key, str, "a text is needed")
+            if not self.symmetric and any(key.startswith("side.") for key in changes):
+                checked.refuse("side: the file gives right and left. Name one of these.")
+        of_side: dict[str, dict[str, Any]] = {"side": {}, RIGHT: {}, LEFT: {}}
+        data, problems = self.to_dict(), list[str]()
+        for place, value in changes.items():
+            section, _, key = place.partition(".")
+            if section in of_side and key:
+                of_side[section][key] = value
+            elif problem := put(data, place, value):
+                problems.append(problem)
+        source = f"axle with changed {', '.join(changes)}"
+        if problems:
+            raise InputError(problems, source)
+        apart = self._changed(of_side)
+        if self.symmetric and not (of_side[RIGHT] or of_side[LEFT]):
+            apart = {"side": apart[self.bar_side]}
+        elif "anti_roll_bar" in data and self.bar_side == LEFT:  # whose points are the right side's
+            data["anti_roll_bar"] = mirrored_points(data["anti_roll_bar"])
+        return self.from_dict({n: v for n, v in data.items() if n not in SIDES} | apart, source)
+
+    def _changed(self, changes: Mapping[str, Mapping[str, Any]]) -> dict[str, Suspension]:
+        """Return both sides with changes of one and its image, then of each."""
+        sides = self._apart()
+        if changes["side"]:
+            one = sides[self.bar_side].with_changes(changes["side"])
+            sides = {side.vehicle.side: side for side in (one, one.mirrored())}
+        return {
+            side: sides[side].with_changes(changes[side]) if changes[side] else sides[side]
+            for side in (RIGHT, LEFT)
+        }
+
+    def _apart(self) -> dict[str, Suspension]:
+        """Return the sides as a file gives them that are no mirror images."""
+        return {RIGHT: self.right, LEFT: self.left}
 
     @property
     def sides(self) -> dict[str, Suspension]:

@@ -285,6 +285,16 @@ class AntiRollBar(Section):
         )
 
 
+def mirrored_points(section: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the section of a bar with the points of the other side, and its axis to the left."""
+    x, y, z = section["axis"]
+    points = {
+        name: [section[name][0], 0.0 - section[name][1], section[name][2]]
+        for name in ("bush", "link_top", "link_foot")
+    }
+    return {**section, **points, "axis": [0.0 - x, y, 0.0 - z]}
+
+
 @dataclass(frozen=True)
 class HalfBar:
     """Half a bar with its drop link, at design; chassis axes [m].

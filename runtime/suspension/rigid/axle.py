@@ -183,9 +183,15 @@ class RigidAxle(Section):
         except InputError as error:
             raise InputError(error.problems, source) from None
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the sections as nested dictionaries, which `from_dict` takes back unchanged."""
-        return self.model_dump(mode="json", exclude_none=True)
+    def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
+        """Return the sections as nested dictionaries, which `from_dict` takes back unchanged.
+
+        Parameters
+        ----------
+        exclude_defaults : bool, optional
+            Whether values that are as by default are left out.
+        """
+        return self.model_dump(mode="json", exclude_none=True, exclude_defaults=exclude_defaults)
 
     def with_changes(self, changes: Mapping[str, Any]) -> Self:
         """Return an axle that differs in some values; all checks are made again.
