@@ -9,7 +9,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from kintrafo import InputError, Model, System, ensemble, loads, simulate, state_at_height
+from kintrafo import (
+    Axle,
+    InputError,
+    Model,
+    RigidAxle,
+    System,
+    axles,
+    characteristics,
+    compare,
+    compliance,
+    ensemble,
+    loads,
+    rigid_axles,
+    simulate,
+    state_at_height,
+    sweep,
+)
 from kintrafo.core import memory
 from kintrafo.generated import slider_crank
 from kintrafo.simulation.lanes import library
@@ -91,6 +107,31 @@ def test_large_outputs_are_refused_at_once(monkeypatch, given, count):
         simulate(CAR, (0.0, 1.0), START, **given)
     crank = System(slider_crank)
     assert simulate(crank, (0.0, 1.0), crank.state(), t_eval=np.linspace(0.0, 1.0, 100)).success
+
+
+MANY = np.broadcast_to(0.0, 10**10)  # of no memory itself
+AXLE, RIGID = Axle.load("reference_axle"), RigidAxle.load("rigid_axle")
+CURVES = {
+    "travel": lambda: characteristics.travel(CAR, MANY),
+    "range": lambda: characteristics.travel(CAR, range(10**10)),
+    "steering": lambda: characteristics.steering(CAR, MANY),
+    "positions": lambda: sweep.positions(CAR, MANY),
+    "both": lambda: sweep.positions(CAR, np.zeros(10**5), np.zeros(10**5)),
+    "compare": lambda: compare.compare({"a": CAR}, positions=MANY),
+    "roll": lambda: axles.roll(AXLE, MANY),
+    "steer": lambda: axles.steer(AXLE, rack=MANY),
+    "rigid": lambda: rigid_axles.roll(RIGID, MANY),
+    "compliance": lambda: compliance.linear(CAR, travel=MANY),
+    "elastokinematics": lambda: compliance.elastokinematics(CAR, along=MANY),
+    "amounts": lambda: compliance.nonlinear(CAR, None, "lateral", MANY),
+}
+
+
+@pytest.mark.parametrize("what", CURVES)
+def test_curves_of_too_many_positions_are_refused_at_once(what):
+    """By every function that takes positions; 10 thousand millions need 41 TB."""
+    with pytest.raises(InputError, match=r"curves of 10,000,000,000 positions need 41 TB, and "):
+        CURVES[what]()
 
 
 def test_loads_along_a_long_motion_are_refused(monkeypatch):

@@ -1,17 +1,25 @@
 """How much memory there is, so that what does not fit is refused before it is begun."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence, Sized
 from contextlib import suppress
 from pathlib import Path
 
-from .arguments import Arguments
+import numpy as np
+from numpy.typing import NDArray
 
+from .arguments import Arguments
+from .named_types import ArrayLike
+
+Array = NDArray[np.float64]
+
+_EACH = 4096
+"""What curves take for each position, of the kinds that there are 800 to 5500 [bytes]."""
 _UNITS = (("TB", 1e12), ("GB", 1e9), ("MB", 1e6))
 
 
-def refuse_beyond(given: Arguments, needed: float, what: str, instead: str) -> None:
-    """Refuse what needs more memory than there is.
+def refuse_beyond(given: Arguments, needed: float, what: str, instead: str) -> bool:
+    """Refuse what needs more memory than there is, and return whether it does.
 
     Parameters
     ----------
@@ -26,6 +34,36 @@ def refuse_beyond(given: Arguments, needed: float, what: str, instead: str) -> N
     there = free()
     if needed > there:
         given.refuse(f"{what} need {_size(needed)}, and {_size(there)} are free. {instead}")
+    return needed > there
+
+
+def positions_given(
+    given: Arguments,
+    name: str,
+    values: ArrayLike,
+    unit: str,
+    *,
+    dimensions: Sequence[int] = (1,),
+    times: int = 1,
+) -> Array:
+    """Return positions as an array, or refuse those whose curves do not fit into memory.
+
+    Parameters
+    ----------
+    given : Arguments
+    name, values, unit
+        The argument.
+    dimensions : sequence of int, optional
+        How many dimensions it may have.
+    times : int, optional
+        How many positions there are for each of the values.
+    """
+    size = getattr(values, "size", None)
+    count = size if isinstance(size, int) else len(values) if isinstance(values, Sized) else 1
+    what = f"{name}: curves of {count * times:,} positions"
+    if refuse_beyond(given, float(_EACH) * count * times, what, "Ask for fewer."):
+        return np.ones(1)
+    return given.array(name, values, unit, dimensions=dimensions)
 
 
 def free() -> float:

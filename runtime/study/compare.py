@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..assembly.usual import usual_rack, usual_travel
 from ..core.arguments import Arguments
 from ..core.errors import InputError
+from ..core.memory import positions_given
 from ..suspension.model import Model
 from . import characteristics
 from .characteristics.datasets import DATA_SET
@@ -61,7 +62,7 @@ def compare(
         given.among("over", over, ("travel", "rack"))
         given.function("progress", progress)
         if positions is not None:
-            positions = given.array("positions", positions, "m", dimensions=[1])
+            positions = positions_given(given, "positions", positions, "m")
         if held is not None and not given.refused:
             given.among("held", held, HELD)
             _refuse_rigid(given, models, over)

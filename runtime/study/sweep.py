@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..assembly.usual import grid, usual_rack, usual_travel
 from ..core.arguments import Arguments
+from ..core.memory import positions_given
 from ..core.named_types import ArrayLike
 from ..core.quantities import variable
 from ..suspension.model import Model
@@ -63,8 +64,12 @@ def positions(
     """
     with Arguments("sweep") as given:
         given.kind("model", model, Model, Model.NEEDED)
-        travels = given.array("travel", 0.0 if travel is None else travel, "m", dimensions=[0, 1])
-        racks = given.array("rack", 0.0 if rack is None else rack, "m", dimensions=[0, 1])
+        travels = positions_given(
+            given, "travel", 0.0 if travel is None else travel, "m", dimensions=[0, 1]
+        )
+        racks = positions_given(
+            given, "rack", 0.0 if rack is None else rack, "m", dimensions=[0, 1], times=travels.size
+        )
     travels = usual_travel(model) if travel is None else travels
     if racks.ndim:
         model.suspension.refuse_without_rack("positions over the rack")

@@ -13,6 +13,7 @@ from ...assembly.steering_wheel import rack_of
 from ...assembly.wheel import steer as steer_angle
 from ...assembly.wheel import steer_gradient
 from ...core.arguments import Arguments
+from ...core.memory import positions_given
 from ...core.named_types import ArrayLike
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
@@ -176,8 +177,8 @@ def steer(
             axle.right.refuse_without_rack("the motion 'steer'")
         if angle is not None and rack is not None:
             given.refuse("angle and rack are both given. Give one of them.")
-        angles = None if angle is None else given.array("angle", angle, "rad", dimensions=[1])
-        racks = None if rack is None else given.array("rack", rack, "m", dimensions=[1])
+        angles = None if angle is None else positions_given(given, "angle", angle, "rad")
+        racks = None if rack is None else positions_given(given, "rack", rack, "m")
         if not given.refused and angles is not None:
             _refuse_angles(given, axle, angles)
     if angles is None and racks is None:
@@ -248,7 +249,7 @@ def _checked(
         rack = given.number("rack_position", rack_position, "m")
         if along is None:
             return rack, None
-        return rack, given.array(name, along, unit, dimensions=[1])
+        return rack, positions_given(given, name, along, unit)
 
 
 def _held(axle: Axle, rack: float) -> dict[Quantity, float]:

@@ -10,6 +10,7 @@ from ...assembly.quantity import RACK, TRAVEL, Quantity
 from ...assembly.usual import usual_rack, usual_travel
 from ...assembly.wheel import steer, steer_gradient, toe
 from ...core.arguments import Arguments
+from ...core.memory import positions_given
 from ...core.named_types import ArrayLike
 from ...suspension.corner import Array, Corner
 from ...suspension.kinds import Suspension
@@ -98,7 +99,7 @@ def travel(
         given.kind("model", model, Model, Model.NEEDED)
         rack_position = given.number("rack_position", rack_position, "m")
         if travel is not None:
-            travel = given.array("travel", travel, "m", dimensions=[1])
+            travel = positions_given(given, "travel", travel, "m")
     travels = usual_travel(model, rack=rack_position) if travel is None else travel
     data = over_travel(model, travels, rack_position)
     held = {RACK: rack_position} if model.suspension.steered() else {}
@@ -142,7 +143,7 @@ def steering(model: Model, rack: ArrayLike | None = None, *, travel: float = 0.0
         given.kind("model", model, Model, Model.NEEDED)
         travel = given.number("travel", travel, "m")
         if rack is not None:
-            rack = given.array("rack", rack, "m", dimensions=[1])
+            rack = positions_given(given, "rack", rack, "m")
     racks = usual_rack(model, travel=travel) if rack is None else rack
     return _dataset(over_rack(model, racks, travel), RACK, racks, {TRAVEL: travel})
 

@@ -13,6 +13,7 @@ from ...assembly.of import given_assembly
 from ...assembly.quantity import RACK, STEERING_WHEEL, Quantity
 from ...assembly.rig import Extent
 from ...core.arguments import Arguments
+from ...core.memory import positions_given
 from ...core.named_types import ArrayLike
 from ...core.quantities import Display, variable
 from ...suspension.corner import Array, RoadWheel
@@ -156,7 +157,7 @@ def elastokinematics(
         if not given.refused:
             over = assembly.motions[name].along
             if along is not None:
-                along = given.array("along", along, over.units, dimensions=[1])
+                along = positions_given(given, "along", along, over.units)
             assembly.refuse_holding(given, name, travel, rack_position)
         softs = softs_of(given, assembly, bushings, hardpoints)
     if along is None:

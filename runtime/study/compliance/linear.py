@@ -14,6 +14,7 @@ from ...assembly.of import given_assembly
 from ...assembly.poses import touching, wheel_axes
 from ...assembly.quantity import TRAVEL, Quantity
 from ...core.arguments import Arguments
+from ...core.memory import positions_given
 from ...core.named_types import ArrayLike
 from ...core.quantities import Display, display_of, variable
 from ...core.vectors import cross
@@ -132,7 +133,7 @@ def linear(
         rack_position = given.number("rack_position", rack_position, "m")
         given.among("held", held, HELD)
         if travel is not None:
-            travel = given.array("travel", travel, "m", dimensions=[1])
+            travel = positions_given(given, "travel", travel, "m")
         if not given.refused:
             assembly.refuse_holding(given, assembly.usual_motion, 0.0, rack_position)
             bushes = assembly.bushes(given, bushings)

@@ -15,6 +15,7 @@ from ...assembly.of import given_assembly
 from ...assembly.poses import CENTER, CONTACT
 from ...assembly.quantity import Quantity
 from ...core.arguments import Arguments
+from ...core.memory import positions_given
 from ...core.named_types import ArrayLike
 from ...core.quantities import attributes, variable
 from ...suspension.corner import RoadWheel
@@ -253,7 +254,7 @@ def _straight(
 
 def amounts_of(given: Arguments, amounts: ArrayLike) -> Array:
     """Read how great a load is."""
-    wanted = given.array("amounts", amounts, "N or N m", dimensions=[1])
+    wanted = positions_given(given, "amounts", amounts, "N or N m")
     if not (np.abs(wanted) <= _GREATEST).all():
         given.refuse(f"amounts: numbers of {_GREATEST:g} N or N m or less are needed.")
     return wanted

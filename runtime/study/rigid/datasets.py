@@ -13,6 +13,7 @@ from ...assembly.rig import Extent
 from ...assembly.usual import USUAL_TRAVEL, grid
 from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.memory import positions_given
 from ...core.named_types import ArrayLike
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array
@@ -220,7 +221,7 @@ def travels_along(axle: RigidAxle, motion: str, values: Array) -> tuple[Array, A
 
 def _given(name: str, along: ArrayLike | None, unit: str) -> Array | None:
     with Arguments("rigid axle") as given:
-        return None if along is None else given.array(name, along, unit, dimensions=[1])
+        return None if along is None else positions_given(given, name, along, unit)
 
 
 def _curves(axle: RigidAxle, motion: str, values: Array | None) -> xr.Dataset:
