@@ -28,8 +28,8 @@ from kintrafo.assembly.by_wheel import flat
 from kintrafo.assembly.from_model import corner as corner_of
 from kintrafo.assembly.pair import Pair
 from kintrafo.report import Chapter, axle_chapter
-from kintrafo.study.axles import checkup
 from kintrafo.study.axles import rolling as formulas
+from kintrafo.study.checkup import checkup
 from kintrafo.study.compare import differences
 from kintrafo.study.scenario import Scenario, by_wheel, run
 from kintrafo.study.variation.ways import values_of
@@ -590,7 +590,7 @@ def test_what_is_out_of_reach_is_refused() -> None:
     axle = Axle.from_dict({"axle": "front", "side": CAR, "anti_roll_bar": short})
     with pytest.raises(InputError, match=r"does not reach its lever at .* mm of wheel travel"):
         axles.bump(axle)
-    assert any("does not reach" in text for text in checkup.checkup(axle).problems)
+    assert any("does not reach" in text for text in checkup(axle).problems)
     with pytest.raises(InputError, match=r"less than 45 deg is needed; Python's unit is rad"):
         axles.roll(AXLE, [3.0])
     for racks, words in (
@@ -602,7 +602,7 @@ def test_what_is_out_of_reach_is_refused() -> None:
         axle = Axle.from_dict({"axle": "front", "side": CAR, "steering": wrong})
         with pytest.raises(InputError, match=words):
             axles.steer(axle)
-        assert any(words in text for text in checkup.checkup(axle).problems)
+        assert any(words in text for text in checkup(axle).problems)
     curve = {"angle_deg": [-90.0, 90.0], "rack_mm": [10.0, -10.0]}
     axle = Axle.from_dict({"axle": "front", "side": CAR, "steering": curve})
     with pytest.raises(InputError, match="beyond the curve"):

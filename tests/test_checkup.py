@@ -1,11 +1,13 @@
 """The ride frequency of a checkup, from the potential of the spring; usual values on the page."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from kintrafo import Model, Suspension
+from kintrafo import Model, Suspension, load
+from kintrafo.assembly.of import assembly_of
 from kintrafo.study.checkup import USUAL_HOP, USUAL_RIDE, as_dict, checkup
 from kintrafo.suspension.points import hardpoints
 from kintrafo.suspension.positions import state_at_height
@@ -26,7 +28,8 @@ def spring_energy(car, free_length, height):
 
 def test_ride_frequency_from_the_potential_of_the_spring():
     car = Suspension.load("double_wishbone_car")
-    found = checkup(Model(car)).equilibrium
+    (wheel,) = checkup(Model(car)).wheels
+    found = wheel.equilibrium
     length = car.hardpoints.distance("spring_top", "spring_seat")
     free = length + car.spring.force_at_design_N / car.spring.rate_N_per_m
     below, here, above = (
@@ -43,8 +46,33 @@ def test_ride_frequency_from_the_potential_of_the_spring():
 def test_a_spring_that_carries_nothing_has_no_ride_frequency():
     car = Suspension.load("reference_car").with_changes({"strut.spring_rate_N_per_m": 0.0})
     found = checkup(Model(car))
-    assert found.equilibrium.ride_frequency is None
+    assert found.wheels[0].equilibrium.ride_frequency is None
     assert as_dict(found)["equilibrium"]["ride_frequency"] is None
+
+
+@pytest.mark.parametrize("name", ["reference_car", "reference_axle", "rigid_axle"])
+def test_a_first_look_has_what_moves_by_itself_and_what_both_wheels_have(name):
+    found = checkup(load(name))
+    assert [wheel.side for wheel in found.wheels] == ([] if name == "rigid_axle" else ["right"])
+    assert (found.axle is None) == (name == "reference_car")
+    assert found.problems == ()
+    for wheel in found.wheels:
+        assert wheel == checkup(Model("reference_car")).wheels[0]
+
+
+@pytest.mark.parametrize("name", ["reference_car", "reference_axle", "rigid_axle"])
+def test_without_friction_nothing_else_changes(name):
+    subject = load(name)
+    key = {"reference_car": "strut", "rigid_axle": "damper"}.get(name, "")
+    if key:
+        rough = subject.with_changes({f"{key}.friction_N": 30.0})
+    else:
+        rough = replace(
+            subject,
+            **{s: one.with_changes({"strut.friction_N": 30.0}) for s, one in subject.sides.items()},
+        )
+    smooth = assembly_of(rough).without_friction().subject
+    assert smooth == assembly_of(subject).without_friction().subject != rough
 
 
 def test_the_page_has_the_ranges_that_are_used():

@@ -128,8 +128,8 @@ def test_a_joint_on_the_axis_of_steering_is_refused_by_name():
 
 def test_friction_does_not_overdamp_the_wheel():
     """Smoothed friction is a damper at rest: what it makes of the ratio is said beside it."""
-    smooth = checkup(Model(CARS[REFERENCE]))
-    rough = checkup(Model(changed(REFERENCE, {"strut.friction_N": 50.0})))
+    (smooth,) = checkup(CARS[REFERENCE]).wheels
+    (rough,) = checkup(changed(REFERENCE, {"strut.friction_N": 50.0})).wheels
     assert rough.equilibrium.damping_ratio == pytest.approx(
         smooth.equilibrium.damping_ratio, rel=1e-9
     )

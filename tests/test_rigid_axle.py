@@ -25,6 +25,7 @@ from kintrafo import (
     roads,
 )
 from kintrafo.assembly.beam import Beam
+from kintrafo.study.checkup import checkup
 from kintrafo.study.rigid import formulas
 from kintrafo.study.rigid.catalogue import MEASURES
 from kintrafo.study.scenario import Scenario, run
@@ -433,7 +434,7 @@ def test_hop_and_tramp_are_those_of_the_book() -> None:
             "damper.rate_N_s_per_m": 0.0,
         }
     )
-    found = rigid_axles.checkup(plain).values
+    found = checkup(plain).axle.values
     hop = math.sqrt(2.0 * (48000.0 + 230000.0) / (80.0 + 2.0 * 26.0)) / (2.0 * math.pi)
     assert found["heave_frequency"] == pytest.approx(hop, rel=1e-9)
     stiffness = 0.5 * 48000.0 * 1.0**2 + 0.5 * 230000.0 * 1.56**2 + math.degrees(180.0)
@@ -680,13 +681,13 @@ def test_commands_that_have_nothing_for_it_say_so(kintrafo: Any, line: str) -> N
     ],
 )
 def test_mistakes_that_can_move_are_told(changes: dict[str, Any], words: str) -> None:
-    assert rigid_axles.checkup(AXLE).problems == ()
-    problems = rigid_axles.checkup(AXLE.with_changes(changes)).problems
+    assert checkup(AXLE).problems == ()
+    problems = checkup(AXLE.with_changes(changes)).problems
     assert any(re.search(words, problem) for problem in problems), problems
 
 
 def test_an_unusual_camber_is_noted() -> None:
-    notes = rigid_axles.checkup(AXLE.with_changes({"wheel.camber_deg": 40.0})).notes
+    notes = checkup(AXLE.with_changes({"wheel.camber_deg": 40.0})).notes
     assert any("camber_deg = 40 deg" in note for note in notes), notes
 
 

@@ -23,6 +23,7 @@ from kintrafo import (
     rigid_axles,
 )
 from kintrafo.assembly.by_wheel import flat
+from kintrafo.study.checkup import checkup
 from kintrafo.study.compliance.tables import compliances_of_beam
 from kintrafo.study.sheet import sheet
 from scipy.optimize import root
@@ -497,7 +498,7 @@ def test_five_rods_move_only_as_their_bushes_give_way() -> None:
     for refused in (
         lambda: rigid_axles.bump(FIVE),
         lambda: rigid_axles.static_loads(FIVE),
-        lambda: rigid_axles.checkup(FIVE),
+        lambda: checkup(FIVE),
         lambda: RigidAxleModel(FIVE),
         lambda: sheet(FIVE),
     ):

@@ -159,4 +159,4 @@ def test_a_car_with_friction_and_a_free_rack_is_looked_at() -> None:
     car = Suspension.load("offset_strut_car").with_changes(
         {"bodies.tie_rod.mass_kg": 1.0, "strut.friction_N": 50.0}
     )
-    assert checkup(Model(car, free_rack=True)).equilibrium is not None
+    assert checkup(Model(car, free_rack=True)).wheels[0].equilibrium is not None

@@ -11,6 +11,8 @@ from ..core.arguments import Arguments
 from ..suspension.bushes import Bush
 from ..suspension.corner import Array
 from ..suspension.input.vehicle import Tyre
+from ..suspension.model import Model
+from ..suspension.plausibility import Plausibility
 from .anti_roll_bar import Bar, RollBar
 from .held import Held
 from .load import Load
@@ -259,6 +261,43 @@ class Assembly(ABC):
     @abstractmethod
     def has_bushes(self) -> bool:
         """Whether its file has bushes."""
+
+    # -- what its summary has ---------------------------------------------------------------------
+
+    MODES: ClassVar[Mapping[str, str]] = {}
+    """Coordinates of both wheels together, and what their modes on the tyres are called."""
+
+    @property
+    @abstractmethod
+    def heading(self) -> str:
+        """What it is called."""
+
+    @property
+    def corners(self) -> Mapping[str, Model]:
+        """The wheels that move by themselves; of two that are mirror images one."""
+        return {}
+
+    def plausibility(self) -> Plausibility:
+        """Return what is unlikely of it, besides what is of its corners."""
+        return Plausibility((), ())
+
+    def described(self) -> dict[str, str]:
+        """Return what it is at design in words, besides its corners, by what stands before."""
+        return {}
+
+    def reach(self) -> dict[str, tuple[float, bool]]:
+        """Return how far both wheels go, 'down' and 'up' [m], and whether something ends that."""
+        return {}
+
+    @abstractmethod
+    def without_friction(self) -> "Assembly":
+        """Return the same without friction.
+
+        Raises
+        ------
+        InputError
+            If it moves only on its bushes.
+        """
 
     # -- what couples the wheels ------------------------------------------------------------------
 

@@ -1,6 +1,7 @@
 """An axle as an assembly: two corners, with a rack and an anti-roll bar between them."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -14,6 +15,8 @@ from ..suspension.axle.equations import AxleModel
 from ..suspension.bushes import described_bushings, mirrored_bushings, softness_of_rack
 from ..suspension.corner import Array
 from ..suspension.input.vehicle import Tyre
+from ..suspension.model import Model
+from ..suspension.plausibility import Plausibility
 from . import motions
 from .anti_roll_bar import Bar
 from .assembly import Assembly, Bushings
@@ -196,6 +199,39 @@ class AxleAssembly(Assembly):
         described = self.described_bushings(given, bushings)
         found = {f"_{side}": self.axle.sides[side].bushes(given, described[side]) for side in SIDES}
         return Bushings(found, softness_of_rack(given, described[self.axle.bar_side]))
+
+    @property
+    def heading(self) -> str:
+        """What it is called."""
+        return self.axle.heading()
+
+    @property
+    def corners(self) -> Mapping[str, Model]:
+        """Both sides, or one where the other is its mirror image."""
+        if self.axle.symmetric:
+            return {self.axle.bar_side: self.axle.models[self.axle.bar_side]}
+        return {side: self.axle.models[side] for side in SIDES}
+
+    def plausibility(self) -> Plausibility:
+        """Return what is unusual of its anti-roll bar."""
+        bent = self.axle.bar is not None and self.axle.bar.free_twist_deg
+        note = "the anti-roll bar is bent at design: the sides' equilibrium is without it"
+        return Plausibility((), (note,) if bent else ())
+
+    def described(self) -> dict[str, str]:
+        """Return its anti-roll bar in words."""
+        bar = self.axle.bar
+        if bar is None:
+            return {}
+        soft = ", its bushes or drop links included" if bar.gives_way() else ""
+        part = bar.link_on.replace("_", " ")
+        rate = np.deg2rad(bar.rate())
+        return {"anti-roll bar": f"{rate:.4g} N m/deg{soft}, drop links on the {part}"}
+
+    def without_friction(self) -> "AxleAssembly":
+        """Return the same without friction."""
+        left, right = (one.without_friction() for one in self.axle.sides.values())
+        return AxleAssembly(replace(self.axle, left=left, right=right))
 
     @property
     def bar(self) -> Bar | None:

@@ -138,6 +138,20 @@ class CornerAssembly(Assembly):
         found = self.subject.bushes(given, described)
         return Bushings({"": found}, softness_of_rack(given, described))
 
+    @property
+    def heading(self) -> str:
+        """What it is called."""
+        return self.subject.TITLE
+
+    @property
+    def corners(self) -> Mapping[str, Model]:
+        """Itself."""
+        return {self.wheels[0]: self.model}
+
+    def without_friction(self) -> "CornerAssembly":
+        """Return the same without friction."""
+        return CornerAssembly(self.model.of_another(self.subject.without_friction()))
+
 
 def poses_of(model: Model, travels: Array, rack: Array) -> Poses:
     """Return the parts of a corner with rigid joints at wheel travels and places of the rack [m].

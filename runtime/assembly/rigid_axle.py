@@ -1,7 +1,7 @@
 """A rigid axle as an assembly: one beam carries both wheels."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -9,9 +9,11 @@ from ..core.arguments import Arguments
 from ..suspension.bushes import described_bushings
 from ..suspension.corner import Array
 from ..suspension.input.vehicle import Tyre
+from ..suspension.plausibility import Plausibility
 from ..suspension.reach import PositionError
 from ..suspension.rigid.axle import RigidAxle
 from ..suspension.rigid.model import HEAVE, ROLL, RigidAxleModel
+from ..suspension.rigid.plausibility import plausibility
 from ..suspension.rigid.structure import BEAM
 from .anti_roll_bar import RollBar
 from .assembly import Assembly, Bushings
@@ -33,6 +35,8 @@ _SHARES = {"bump": (1.0, 1.0), "left": (1.0, 0.0), "right": (0.0, 1.0)}
 _MOST_ROLL = np.pi / 4.0
 # A sweep that is not told otherwise keeps clear of the ends of the motion by this part of them.
 _CLEARANCE = 0.02
+# So far both wheels are moved when its reach is looked for [m].
+_FAR = 0.4
 _NO_REST = (
     "the axle has no stable equilibrium near its design position. Check the springs' rate and "
     "free length, the tyres' rate and free height, the load of the wheels, or the road."
@@ -51,6 +55,7 @@ class RigidAxleAssembly(Assembly):
 
     wheels = SIDES
     motions = motions_of_two(MOTIONS)
+    MODES: ClassVar[Mapping[str, str]] = {HEAVE: "axle hop", ROLL: "axle tramp"}
     BAR_SIGN = "positive with the left wheel up"
 
     def __init__(self, axle: RigidAxle, model: RigidAxleModel | None = None) -> None:
@@ -192,6 +197,36 @@ class RigidAxleAssembly(Assembly):
         """Return bushes as a caller describes them, or those of the file."""
         described = described_bushings(given, bushings, self.axle.bushings)
         return Bushings({"": self.axle.bushes(given, described)}, 0.0)
+
+    @property
+    def heading(self) -> str:
+        """What it is called."""
+        return self.axle.heading()
+
+    def plausibility(self) -> Plausibility:
+        """Return what is unlikely of its file."""
+        return plausibility(self.axle)
+
+    def described(self) -> dict[str, str]:
+        """Return its track and its rods in words."""
+        rods = ", ".join(
+            f"{name.replace('_', ' ')} {1e3 * float(np.linalg.norm(outer - inner)):.1f} mm"
+            for name, (inner, outer) in self.axle.ends().items()
+        )
+        return {"track": f"{2e3 * self.axle.half_track:.4g} mm", "rods": rods}
+
+    def reach(self) -> dict[str, tuple[float, bool]]:
+        """Return how far it goes up and down, and whether something ends that."""
+        found = {}
+        for name, far in (("down", -_FAR), ("up", _FAR)):
+            part = self.model.farthest(far, far)
+            found[name] = far * part, part < 1.0
+        return found
+
+    def without_friction(self) -> "RigidAxleAssembly":
+        """Return the same without the friction of its dampers."""
+        smooth = self.axle.with_changes({"damper.friction_N": 0.0})
+        return RigidAxleAssembly(smooth, RigidAxleModel(smooth))
 
     @property
     def bar(self) -> RollBar | None:

@@ -5,18 +5,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
-from rich.markup import escape
-from rich.table import Table
 
 from .axle_curves import tell
-from .console import console
 from .outputs import Outputs
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
     from ..assembly.rig import Extent
-    from ..study.axles.checkup import AxleCheckup
     from ..suspension.axle import Axle
 
 # Beside the tables at design: what changes over roll, over steering, and over one wheel's travel.
@@ -99,19 +95,3 @@ def compared(files: list[str], motion: str) -> "tuple[Dataset, str, dict[str, Ax
         raise typer.BadParameter(f"--over {motion}: of axles it is {', '.join(axles.MOTIONS)}")
     found = dict(zip(distinct(files), map(Axle.load, files), strict=True))
     return axles.compare(found, over=motion), motion, found
-
-
-def looked_at(file: str) -> "AxleCheckup":
-    """Return a first look at an axle."""
-    from ..study.axles.checkup import checkup
-    from ..suspension.axle import Axle
-
-    return checkup(Axle.load(file))
-
-
-def print_look(found: "AxleCheckup", file: str) -> None:
-    """Print what an axle has besides its sides."""
-    table = Table(title=f"{escape(file)}: {escape(found.heading)}", show_header=False)
-    for name, text in found.rows.items():
-        table.add_row(name, escape(text))
-    console.print(table)

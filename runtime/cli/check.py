@@ -1,21 +1,22 @@
 """``kintrafo check``: what is wrong with a hardpoint file, or what the suspension is like."""
 
 import math
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import typer
 from rich.markup import escape
 from rich.table import Table
 
-from . import axles, rigid
 from .console import console, print_json, say
 from .exits import Exit
-from .options import File, Json, load
+from .options import File, Json
+from .subject import described_by
 
 if TYPE_CHECKING:
-    from ..study.axles.checkup import AxleCheckup
-    from ..study.checkup import Checkup
-    from ..study.rigid.checkup import RigidAxleCheckup
+    from collections.abc import Mapping
+
+    from ..study.checkup import Checkup, WheelFacts
 
 EXAMPLES = (
     "kintrafo check reference_car",
@@ -32,16 +33,11 @@ def command(file: File, *, json: Json = False) -> None:
     The exit code is 1 if there is a problem.
     """
     from ..core.errors import InputError
-    from ..study.checkup import checkup, readable
+    from ..study.checkup import as_dict, checkup
 
-    of_axle, of_rigid_axle = axles.is_axle(file), rigid.is_rigid_axle(file)
-    if not of_axle and not of_rigid_axle:
-        readable(file)
+    _refuse_missing(file)
     try:
-        if of_rigid_axle:
-            found: Checkup | AxleCheckup | RigidAxleCheckup = rigid.looked_at(file)
-        else:
-            found = axles.looked_at(file) if of_axle else checkup(load(file))
+        found = checkup(described_by(file))
     except InputError as error:
         if json:
             print_json({"problems": list(error.problems)})
@@ -49,35 +45,29 @@ def command(file: File, *, json: Json = False) -> None:
             say(str(error))
         raise typer.Exit(Exit.REFUSED) from None
     if json:
-        print_json(_as_dict(found))
+        print_json(as_dict(found))
     else:
         _print(found, file)
     if found.problems:
         raise typer.Exit(Exit.REFUSED)
 
 
-def _as_dict(found: "Checkup | AxleCheckup | RigidAxleCheckup") -> dict[str, Any]:
-    from ..study.axles.checkup import AxleCheckup
-    from ..study.axles.checkup import as_dict as of_axle
-    from ..study.checkup import as_dict
-    from ..study.rigid.checkup import RigidAxleCheckup
-    from ..study.rigid.checkup import as_dict as of_rigid_axle
+def _refuse_missing(file: str) -> None:
+    """Refuse a file that is not there, so that what a check says is about its content."""
+    from ..suspension.kinds import Suspension
+    from ..suspension.starter import RIGID_AXLE, packaged, packaged_axles
 
-    if isinstance(found, RigidAxleCheckup):
-        return of_rigid_axle(found)
-    return of_axle(found) if isinstance(found, AxleCheckup) else as_dict(found)
+    names = {*packaged(), *packaged_axles(), RIGID_AXLE}
+    if file not in names and not Path(file).is_file():
+        Suspension.load(file)  # says so, and what was probably meant
 
 
-def _print(found: "Checkup | AxleCheckup | RigidAxleCheckup", file: str) -> None:
-    from ..study.axles.checkup import AxleCheckup
-    from ..study.rigid.checkup import RigidAxleCheckup
-
-    if isinstance(found, RigidAxleCheckup):
-        rigid.print_look(found, file)
-    else:
-        _print_sides(found, file)
-    if isinstance(found, AxleCheckup):
-        axles.print_look(found, file)
+def _print(found: "Checkup", file: str) -> None:
+    for wheel in found.wheels:
+        rows = {**_geometry(wheel), **_travel(wheel), **_rest(wheel)}
+        console.print(_table(f"{file}: {wheel.side} {wheel.title}", rows))
+    if found.axle is not None:
+        console.print(_table(f"{file}: {found.axle.heading}", found.axle.rows))
     for kind, texts in (("problem", found.problems), ("note", found.notes)):
         for text in texts:
             say(f"{kind}: {text}")
@@ -85,21 +75,14 @@ def _print(found: "Checkup | AxleCheckup | RigidAxleCheckup", file: str) -> None
         say("No problems found.")
 
 
-def _print_sides(found: "Checkup | AxleCheckup", file: str) -> None:
-    from ..study.axles.checkup import AxleCheckup
-
-    for side in found.sides.values() if isinstance(found, AxleCheckup) else (found,):
-        console.print(_table(side, file))
-
-
-def _table(found: "Checkup", file: str) -> Table:
-    table = Table(title=f"{escape(file)}: {found.side} {found.title}", show_header=False)
-    for name, text in {**_geometry(found), **_travel(found), **_rest(found)}.items():
+def _table(title: str, rows: "Mapping[str, str]") -> Table:
+    table = Table(title=escape(title), show_header=False)
+    for name, text in rows.items():
         table.add_row(name, escape(text))
     return table
 
 
-def _geometry(found: "Checkup") -> dict[str, str]:
+def _geometry(found: "WheelFacts") -> dict[str, str]:
     from ..core.quantities import display_of
 
     rows = {}
@@ -109,7 +92,7 @@ def _geometry(found: "Checkup") -> dict[str, str]:
     return rows
 
 
-def _travel(found: "Checkup") -> dict[str, str]:
+def _travel(found: "WheelFacts") -> dict[str, str]:
     low, high = (1e3 * end for end in found.travel)
     rows = {
         "travel down to": f"{low:.1f} mm: {found.reach.lower_limit}",
@@ -120,7 +103,7 @@ def _travel(found: "Checkup") -> dict[str, str]:
     return rows
 
 
-def _rest(found: "Checkup") -> dict[str, str]:
+def _rest(found: "WheelFacts") -> dict[str, str]:
     from ..study.checkup import USUAL_HOP, USUAL_RIDE
 
     rest = found.equilibrium

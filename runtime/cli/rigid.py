@@ -5,11 +5,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
-from rich.markup import escape
-from rich.table import Table
 
 from .axle_curves import tell
-from .console import console
 from .options import among
 from .outputs import Outputs
 
@@ -20,7 +17,6 @@ if TYPE_CHECKING:
 
     from ..assembly.rig import Extent
     from ..report import Chapter
-    from ..study.rigid.checkup import RigidAxleCheckup
     from ..study.variation.goals import Goal
     from ..suspension.rigid import RigidAxle
 
@@ -53,22 +49,6 @@ def all_rigid(files: list[str]) -> bool:
         message = f"{rigid[0]} is a rigid axle and {other} is not: compare files of one sort"
         raise typer.BadParameter(message)
     return bool(rigid)
-
-
-def looked_at(file: str) -> "RigidAxleCheckup":
-    """Return a first look at a rigid axle."""
-    from ..study.rigid.checkup import checkup
-    from ..suspension.rigid import RigidAxle
-
-    return checkup(RigidAxle.load(file))
-
-
-def print_look(found: "RigidAxleCheckup", file: str) -> None:
-    """Print a first look."""
-    table = Table(title=f"{escape(file)}: {escape(found.heading)}", show_header=False)
-    for name, text in found.rows.items():
-        table.add_row(name, escape(text))
-    console.print(table)
 
 
 def motions(wanted: list[str] | None) -> list[str]:

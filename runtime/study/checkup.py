@@ -1,320 +1,281 @@
-"""A first look at a suspension: geometry, reachable travel, static equilibrium, wheel hop."""
+"""A first look at a corner, an axle or a rigid axle."""
 
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..assembly import wheel
+from ..assembly.assembly import Assembly
 from ..assembly.equilibrium import equilibrium
-from ..assembly.from_model import corner
+from ..assembly.of import given_assembly
+from ..assembly.usual import USUAL_TRAVEL
 from ..core.arguments import Arguments
-from ..core.vectors import distance_from_line
-from ..suspension.facts import Extended
-from ..suspension.kinds import Suspension
-from ..suspension.model import Model
-from ..suspension.plausibility import USUAL_HOP, plausibility
-from ..suspension.positions import PositionError, Range, design_height, travel_range
-from ..suspension.starter import packaged
-from . import paper
+from ..core.errors import InputError
+from ..suspension.plausibility import USUAL_HOP
+from ..suspension.positions import PositionError
+from ..systems.linearisation import linearise
+from .wheel_facts import Equilibrium, WheelFacts, facts_of, without_friction
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 __all__ = [
     "USUAL_HOP",
     "USUAL_RIDE",
+    "AxleFacts",
     "Checkup",
     "Equilibrium",
+    "WheelFacts",
     "as_dict",
     "checkup",
-    "readable",
     "without_friction",
 ]
-
-Array = NDArray[np.float64]
 
 # Where the body of a comfortable passenger car has its frequency [Hz]: Audi, Self-Study Programme
 # 242, page 9.
 USUAL_RIDE = (1.0, 1.5)
 
-# Less travel than this between design and an end is worth a word [m].
-_LITTLE_TRAVEL = 0.040
-# So far from design, the wheel's place at rest is worth a word [m].
-_FAR_FROM_DESIGN = 0.005
+# Read at design over parallel travel, by their columns, and what stands before the value.
+_WORDS = {
+    "track": "track",
+    "roll_center_height": "roll-centre height",
+    "roll_steer": "roll steer",
+    "roll_stiffness": "roll stiffness",
+    "bar_share": "share of the anti-roll bar",
+    "roll_stiffness_bar": "roll stiffness of the anti-roll bar",
+    "roll_stiffness_with_tyres": "roll stiffness with tyres",
+    "wheel_rate_left": "wheel rate, left",
+    "wheel_rate_right": "wheel rate, right",
+    "anti_dive": "anti-dive",
+    "anti_lift_driven": "anti-lift under drive",
+    "anti_lift_braked": "anti-lift under braking",
+    "anti_squat": "anti-squat",
+}
+# What others say already: the facts of each corner; the track that a beam is described by.
+_NOT_OF_CORNERS = ("roll_steer", "roll_stiffness_bar", "wheel_rate_left", "wheel_rate_right")
+_NOT_ON_A_BEAM = ("track", "bar_share")
+# At rest so far from design, or on tyres so far apart, a rate, a unit or a free length is wrong.
+_MOST_TRAVEL = 0.5 * USUAL_TRAVEL
 
 
 @dataclass(frozen=True)
-class Equilibrium:
-    """The suspension at rest on level road.
+class AxleFacts:
+    """What both wheels of an axle have together.
 
     Attributes
     ----------
-    height : float
-        Of the wheel centre, chassis axes [m].
-    travel : float
-        From design, positive in bump [m].
-    signals : dict
-        All signals of the model there, SI units.
-    frequency : float
-        Undamped natural frequency of the wheel-hop mode [Hz]; NaN where nothing would swing.
-    damping_ratio : float
-        Of that mode, without friction; above one where it does not oscillate.
-    damping_ratio_with_friction : float or None
-        With the friction as steep as it is at rest, which holds for speeds far below
-        ``friction_velocity_m_per_s`` alone; None if there is no friction.
-    ride_frequency : float or None
-        Undamped natural frequency of the body above a wheel at rest on the road: of the mass that
-        spring and stops carry, on their rate in series with the tyre's [Hz]. None where they carry
-        nothing or have no rate.
+    heading : str
+        What the axle is called.
+    values : dict of str to float
+        At design, by the columns of `kintrafo.characteristics`, SI units; those that are known. Of
+        a rigid axle also ``reach_down`` and ``reach_up`` [m], ``heave_at_rest`` [m],
+        ``heave_frequency`` and ``roll_frequency``, the undamped natural frequencies of its modes on
+        the tyres [Hz], ``heave_damping_ratio`` and ``roll_damping_ratio``.
+    rows : dict of str to str
+        The same and more, as a person reads it.
     """
 
-    height: float
-    travel: float
-    signals: dict[str, float]
-    frequency: float
-    damping_ratio: float
-    damping_ratio_with_friction: float | None
-    ride_frequency: float | None
+    heading: str
+    values: dict[str, float]
+    rows: dict[str, str]
 
 
 @dataclass(frozen=True)
 class Checkup:
-    """What a first look shows; lengths in m, angles in rad, ISO 8855 chassis axes.
+    """What a first look shows.
 
     Attributes
     ----------
-    title : str
-        What the suspension is called.
-    side : str
-        'left' or 'right'.
-    geometry : dict
-        Lengths and angles at design, by name; those that end in ``_angle`` are angles.
-    reach : Range
-        Wheel heights that can be reached with the rack in its middle, and what ends them.
-    travel : tuple of float
-        The same as travel from design: lowest and highest.
-    extension_travel : float or None
-        Travel at which the strut is fully extended; None if it never is, or there is none.
-    equilibrium : Equilibrium or None
-        None if there is no stable one.
+    wheels : tuple of WheelFacts
+        The wheels that move by themselves: that of a corner; of an axle both, or one where the
+        other is its mirror image; none of a rigid axle.
+    axle : AxleFacts or None
+        What both wheels have together; None of a corner.
     problems : tuple of str
-        What keeps the suspension from working, or is almost surely a mistake.
+        What keeps it from working, or is almost surely a mistake.
     notes : tuple of str
         What works but is unusual.
     """
 
-    title: str
-    side: str
-    geometry: dict[str, float]
-    reach: Range
-    travel: tuple[float, float]
-    extension_travel: float | None
-    equilibrium: Equilibrium | None
+    wheels: tuple[WheelFacts, ...]
+    axle: AxleFacts | None
     problems: tuple[str, ...]
     notes: tuple[str, ...]
 
 
-def checkup(model: Model) -> Checkup:
-    """Look at a suspension.
+def checkup(subject: Any) -> Checkup:
+    """Look at a corner, an axle or a rigid axle.
 
     Parameters
     ----------
-    model : Model
+    subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
 
     Returns
     -------
     Checkup
 
+    Raises
+    ------
+    InputError
+        If the subject is not one of these, or a rigid axle moves only on its bushes.
+
     Examples
     --------
+    >>> from kintrafo import Model, load
     >>> found = checkup(Model("reference_car"))
-    >>> found.problems, round(found.equilibrium.frequency, 2)
+    >>> found.problems, round(found.wheels[0].equilibrium.frequency, 2)
     ((), 12.35)
+    >>> round(checkup(load("reference_axle")).axle.values["bar_share"], 2)
+    0.42
+    >>> round(checkup(load("rigid_axle")).axle.values["roll_center_height"], 2)
+    0.41
     """
     with Arguments("checkup") as given:
-        given.kind("model", model, Model, Model.NEEDED)
-    reach = travel_range(model)
-    design = design_height(model)
-    travel = reach.height[0] - design, reach.height[1] - design
-    problems: list[str] = []
-    rest = None
-    try:
-        rest = _equilibrium(model)
-    except PositionError as error:
-        problems.append(str(error))
-    extension = _extension_travel(model, reach)
-    seen = plausibility(model.suspension)
+        assembly = given_assembly(given, subject)
+    wheels = tuple(facts_of(model) for model in assembly.corners.values())
+    seen = assembly.plausibility()
+    problems, notes = [*seen.problems], [*seen.notes]
+    axle = None
+    if len(assembly.wheels) > 1:
+        found = _AxleLook(assembly, problems, notes)
+        axle = AxleFacts(assembly.heading, found.values, found.rows)
     return Checkup(
-        title=model.suspension.TITLE,
-        side=model.suspension.vehicle.side,
-        geometry=_geometry(model),
-        reach=reach,
-        travel=travel,
-        extension_travel=extension,
-        equilibrium=rest,
-        problems=(*seen.problems, *problems),
-        notes=(*seen.notes, *_notes(model.suspension.extended(), travel, rest, extension)),
+        wheels,
+        axle,
+        (*_told(assembly, [(one.side, one.problems) for one in wheels]), *problems),
+        (*_told(assembly, [(one.side, one.notes) for one in wheels]), *notes),
     )
 
 
-def _equilibrium(model: Model) -> Equilibrium:
-    state = equilibrium(model)
-    signals = {name: float(value) for name, value in model.signals(state).items()}
-    mode = paper.rest(model).hop
-    smooth = without_friction(model)
-    sliding = mode if smooth is model else paper.rest(smooth).hop
-    height = signals["wheel_center_z"]
-    return Equilibrium(
-        height=height,
-        travel=height - design_height(model),
-        signals=signals,
-        frequency=sliding.natural_frequency,
-        damping_ratio=sliding.damping_ratio,
-        damping_ratio_with_friction=None if smooth is model else mode.damping_ratio,
-        ride_frequency=_ride_frequency(model, state),
-    )
-
-
-def without_friction(model: Model) -> Model:
-    """Return the model without friction, the same one if it has none.
-
-    Friction is smoothed near rest, so that it has a slope there: a damper of friction over speed,
-    many times what the wheel meets in any motion that is seen. At rest it has no force.
-
-    Parameters
-    ----------
-    model : Model
-
-    Returns
-    -------
-    Model
-    """
-    with Arguments("without_friction") as given:
-        given.kind("model", model, Model, Model.NEEDED)
-    smooth = model.suspension.without_friction()
-    return model if smooth is model.suspension else model.of_another(smooth)
-
-
-def _ride_frequency(model: Model, state: Array) -> float | None:
-    at_rest = corner(model, state[model.state_names.index(model.names.arm)])
-    # a force acts at the wheel by its motion ratio (virtual work)
-    pushing = (at_rest.spring, *at_rest.stops)
-    carried = -sum(float(spring.force * spring.stroke.slope) for spring in pushing)
-    rate = float(wheel.ride_rate(at_rest))
-    gravity = model.suspension.gravity.acceleration_m_per_s2
-    if carried <= 0.0 or not rate > 0.0:
-        return None
-    return float(np.sqrt(rate * gravity / carried)) / (2.0 * np.pi)
-
-
-def _geometry(model: Model) -> dict[str, float]:
-    points = model.suspension.hardpoints
-    at_design = corner(model, model.design_state[0])
-    axis, center = at_design.steering_axis, points.metres("wheel_center")
-    found = {
-        "half_track": abs(float(center[1])),
-        "wheel_center_height": float(center[2]),
-        **model.suspension.lengths(),
-    }
-    if axis is None:
-        return found
-    outer = points.metres("tie_rod_outer")
-    return found | {
-        "tie_rod_length": points.distance("tie_rod_outer", "tie_rod_inner"),
-        "steering_arm_length": distance_from_line(outer, axis.lower, axis.upper),
-        "caster_angle": float(wheel.caster(at_design)),
-        "kingpin_inclination_angle": float(wheel.kingpin_inclination(at_design)),
-    }
-
-
-def _extension_travel(model: Model, reach: Range) -> float | None:
-    """Return the travel at which what the wheel hangs on is drawn out, looked up in a table.
-
-    None if nothing is, or it never is.
-    """
-    extended = model.suspension.extended()
-    if extended is None:
-        return None
-    angles = np.linspace(*reach.arm_angle, 721)
-    states = np.tile(model.design_state, (angles.size, 1))
-    states[:, 0] = angles
-    signals: dict[str, Array] = model.signals(states)
-    longer = signals[extended.signal] - extended.length
-    # from low to high positions it becomes shorter
-    below = np.flatnonzero((longer[:-1] > 0.0) & (longer[1:] <= 0.0))
-    if below.size == 0:
-        return None
-    first = int(below[-1])
-    height = signals["wheel_center_z"][first : first + 2]
-    crossing = np.interp(0.0, -longer[first : first + 2], height)
-    return float(crossing) - design_height(model)
-
-
-def _notes(
-    extended: Extended | None,
-    travel: tuple[float, float],
-    rest: Equilibrium | None,
-    extension: float | None,
-) -> list[str]:
-    notes = [
-        f"only {abs(end) * 1e3:.1f} mm of {name} can be reached from design."
-        for end, name in zip(travel, ("rebound", "bump"), strict=True)
-        if abs(end) < _LITTLE_TRAVEL
+def _told(assembly: Assembly, by_side: list[tuple[str, tuple[str, ...]]]) -> list[str]:
+    """Return what is said of wheels, beginning with their names where there are several."""
+    several = len(assembly.wheels) > 1
+    return [
+        f"{side} side: {text}" if several else text for side, texts in by_side for text in texts
     ]
-    if rest is None:
-        return notes
-    if abs(rest.travel) > _FAR_FROM_DESIGN:
-        notes.append(
-            f"the wheel rests {rest.travel * 1e3:+.1f} mm from design. Where the spring is free "
-            "of force and [tyre] free_height_mm decide where."
+
+
+class _AxleLook:
+    """Finds what both wheels of an axle have together."""
+
+    def __init__(self, assembly: Assembly, problems: list[str], notes: list[str]) -> None:
+        self._assembly, self._problems, self._notes = assembly, problems, notes
+        self.values: dict[str, float] = {}
+        self.rows: dict[str, str] = assembly.described()
+        self._reach()
+        if assembly.MODES:
+            self._at_rest()
+        try:
+            self._at_design()
+            self._in_roll()
+            if "steer" in assembly.motions:
+                self._in_steering()
+        except (InputError, PositionError) as error:
+            problems += getattr(error, "problems", (str(error),))
+
+    def _reach(self) -> None:
+        for name, (value, ends) in self._assembly.reach().items():
+            self.values[f"reach_{name}"] = value
+            self.rows[f"travel {name} to"] = f"{1e3 * value:.1f} mm{'' if ends else ' and more'}"
+
+    def _at_rest(self) -> None:
+        """Find where it rests, and its modes there; without friction, as it slides."""
+        assembly, model = self._assembly, self._assembly.model
+        smooth = assembly.without_friction().model
+        try:
+            state, sliding = equilibrium(model), equilibrium(smooth)
+        except PositionError as error:
+            self._problems.append(str(error))
+            return
+        signals = model.signals(state)
+        names = assembly.names_of(assembly.wheels[0])
+        heights, design = (
+            np.mean([of[f"{assembly.names_of(w).signals}wheel_center_z"] for w in assembly.wheels])
+            for of in (signals, model.signals(model.design_state))
         )
-    if extended is not None and extension is not None and rest.travel < extension:
-        notes.append(f"at rest, the {extended.name} is longer than {extended.key}.")
-    if rest.signals["tyre_force"] <= 0.0:
-        notes.append("the tyre carries nothing at rest: check [tyre] free_height_mm.")
-    if not np.isfinite(rest.frequency):
-        notes.append("the wheel does not swing about this rest: pushed off it, it does not return.")
-    elif rest.damping_ratio <= 0.0:
-        notes.append("the wheel-hop mode is not damped.")
-    if rest.damping_ratio >= 1.0:
-        notes.append("the wheel-hop mode is overdamped.")
-    return notes
+        travel = float(heights - design)
+        spring = next(
+            n for n in signals if n.startswith(names.prefix) and n.endswith("spring_force")
+        )
+        self.values["heave_at_rest"] = travel
+        self.rows["equilibrium"] = (
+            f"wheel centres at {1e3 * heights:.3f} mm, {1e3 * travel + 0.0:+.3f} mm from design"
+        )
+        self.rows["forces there, each wheel"] = (
+            f"tyre {float(signals[f'{names.signals}tyre_force']):.0f} N, "
+            f"spring {float(signals[spring]):.0f} N"
+        )
+        linear = linearise(smooth, sliding)
+        for name, words in assembly.MODES.items():
+            mode = linear.mode_of(name)
+            self.values[f"{name}_frequency"] = mode.natural_frequency
+            self.values[f"{name}_damping_ratio"] = mode.damping_ratio
+            self.rows[f"{words} on the tyres"] = mode.text
+        if abs(travel) > _MOST_TRAVEL:
+            self._notes.append(
+                f"the axle rests {1e3 * travel:+.1f} mm from its design position: "
+                "check the springs' free length or force, and the tyres' free height"
+            )
+
+    def _at_design(self) -> None:
+        from ..core.quantities import display_of  # noqa: PLC0415 (slow to import)
+
+        assembly, dataset = self._assembly, _over(self._assembly, "bump", [0.0])
+        left_out = _NOT_ON_A_BEAM if assembly.on_a_beam else _NOT_OF_CORNERS
+        alike = len(assembly.corners) < len(assembly.wheels)
+        for stem, words in _WORDS.items():
+            name = stem if stem in dataset else f"{stem}_left"
+            if stem in left_out or name not in dataset:
+                continue
+            shown = display_of(dataset[name].attrs)
+            self.values[name] = float(dataset[name][0])
+            told = words if name == stem or alike else f"{words}, left"
+            self.rows[told] = f"{self.values[name] * shown.factor:.4g} {shown.units}"
+
+    def _in_roll(self) -> None:
+        angles = self._assembly.usual("roll")
+        # that drop links reach is seen over all of the usual travel, too
+        _over(self._assembly, "bump")
+        dataset = _over(self._assembly, "roll", angles[[0, -1]])
+        if "roll_moment" in dataset:
+            moment = float(dataset["roll_moment"][-1])
+            self.rows[f"roll moment at {np.degrees(angles[-1]):.3g} deg"] = f"{moment:.4g} N m"
+
+    def _in_steering(self) -> None:
+        dataset = _over(self._assembly, "steer")
+        if self._assembly.subject.end == "rear":
+            return
+        (along,) = dataset.sizes
+        ends = np.degrees([dataset["steer_left"].values.min(), dataset["steer_left"].values.max()])
+        self.rows["left wheel steers"] = f"{ends[0]:.1f} deg to {ends[1]:.1f} deg"
+        if "steering_ratio" in dataset:
+            middle = int(np.abs(dataset[along].values).argmin())
+            ratio = float(dataset["steering_ratio"][middle])
+            self.rows["steering ratio"] = f"{ratio:.2f}, in the middle"
+        if "turning_circle" in dataset:
+            self.rows["turning circle"] = f"{float(dataset['turning_circle'].min()):.2f} m"
+
+
+def _over(assembly: Assembly, motion: str, along: Any = None) -> "xr.Dataset":
+    """Return characteristics over a motion as columns."""
+    from ..assembly.by_wheel import flat  # noqa: PLC0415 (slow to import)
+    from . import axles, rigid  # noqa: PLC0415
+
+    study: Any = rigid if assembly.on_a_beam else axles
+    return flat(getattr(study, motion)(assembly.subject, along))
 
 
 def as_dict(found: Checkup) -> dict[str, Any]:
     """Return a checkup as plain numbers, texts and nested dictionaries, SI units."""
     with Arguments("as_dict") as given:
         given.kind("found", found, Checkup, "what checkup returns is needed")
-    rest = found.equilibrium
+    if found.axle is None:
+        return found.wheels[0].as_dict()
+    sides = {one.side: one.as_dict() for one in found.wheels}
     return {
-        "suspension": found.title,
-        "side": found.side,
-        "geometry": dict(found.geometry),
-        "travel": {
-            "rebound": found.travel[0],
-            "rebound_limit": found.reach.lower_limit,
-            "bump": found.travel[1],
-            "bump_limit": found.reach.upper_limit,
-            "strut_fully_extended": found.extension_travel,
-        },
-        "equilibrium": None if rest is None else vars(rest),
+        "heading": found.axle.heading,
+        **({"sides": sides} if sides else {}),
+        "values": dict(found.axle.values),
         "problems": list(found.problems),
         "notes": list(found.notes),
     }
-
-
-def readable(file: str) -> None:
-    """Refuse a file that is not there, so that what a check says is about its content.
-
-    Parameters
-    ----------
-    file : str
-        Path of a TOML file, or name of a packaged data set.
-
-    Raises
-    ------
-    InputError
-        If there is neither.
-    """
-    if file not in packaged() and not Path(file).is_file():
-        Suspension.load(file)  # says so, and what was probably meant

@@ -31,7 +31,6 @@ from kintrafo import (
     sweep,
     variation,
 )
-from kintrafo.study.axles import checkup as axle_checkup
 
 from .subjects import AXLES, BUSHES, CORNERS, RIGID_AXLES
 
@@ -97,7 +96,7 @@ def _of_corner(suspension: Suspension, bushes: Any) -> Analyses:
 
 def _of_axle(axle: Axle, bushes: Any) -> Analyses:
     found: Analyses = {
-        "check": lambda: _facts(asdict(axle_checkup.checkup(axle))),
+        "check": lambda: _looked(checkup.checkup(axle)),
         "bump": partial(axles.bump, axle, TRAVEL),
         "roll": partial(axles.roll, axle, ROLL),
         "left": partial(axles.single, axle, TRAVEL, side="left"),
@@ -132,7 +131,7 @@ def _of_rigid_axle(axle: RigidAxle, bushes: Any) -> Analyses:
         return scenario.run(model, _step(), wheels="left", method="DormandPrince")
 
     return {
-        "check": lambda: _facts(asdict(rigid_axles.checkup(axle))),
+        "check": lambda: _looked(checkup.checkup(axle)),
         "bump": partial(rigid_axles.bump, axle, TRAVEL),
         "roll": partial(rigid_axles.roll, axle, ROLL),
         "left": partial(rigid_axles.single, axle, TRAVEL, side="left"),
@@ -181,6 +180,12 @@ def _linearised(model: Any, state: Any) -> xr.Dataset:
     """Return the matrices of the linear equations about a state."""
     found = kintrafo.linearise(model, state)
     return xr.Dataset({name: ([f"{name}_0", f"{name}_1"], getattr(found, name)) for name in "ABCD"})
+
+
+def _looked(found: checkup.Checkup) -> xr.Dataset:
+    """Return the numbers of a first look at an axle."""
+    sides = {one.side: asdict(one) for one in found.wheels}
+    return _facts({"sides": sides, "values": found.axle.values if found.axle else {}})
 
 
 def _facts(facts: Any, name: str = "fact") -> xr.Dataset:

@@ -12,7 +12,7 @@ from ...plots.rigid_axle import views
 from ...study import rigid
 from ...study.axles import by_side
 from ...study.axles.sheet import at_design
-from ...study.rigid.checkup import RigidAxleCheckup, checkup
+from ...study.checkup import Checkup, checkup
 from ...study.variation.goals import Goal, check_goals
 from ...study.variation.ways import dataset_of
 from ...suspension.rigid import RigidAxle
@@ -70,9 +70,10 @@ def rigid_axle_chapters(axle: RigidAxle, goals: Sequence[Goal] = ()) -> tuple[Ch
         for motion in [*_DRAWN, *["right"] * ("right" in wanted)]
     }
     found = checkup(axle)
-    words = f"A {found.heading} on four rods, {', '.join(axle.rods)}.".replace("_", " ")
+    assert found.axle is not None
+    words = f"A {found.axle.heading} on four rods, {', '.join(axle.rods)}.".replace("_", " ")
     told = tuple(f"{kind}: {text}" for kind, text in _told(found))
-    look = Tabulated("First look", ("", "value"), tuple(found.rows.items()), frozenset({0, 1}))
+    look = Tabulated("First look", ("", "value"), tuple(found.axle.rows.items()), frozenset({0, 1}))
     with rc_context(STYLE):
         drawing = Picture.of(views(axle), "The axle from above, from the left and from behind")
     return (
@@ -86,7 +87,7 @@ def rigid_axle_chapters(axle: RigidAxle, goals: Sequence[Goal] = ()) -> tuple[Ch
     )
 
 
-def _told(found: RigidAxleCheckup) -> list[tuple[str, str]]:
+def _told(found: Checkup) -> list[tuple[str, str]]:
     return [("Problem", text) for text in found.problems] + [("Note", text) for text in found.notes]
 
 

@@ -17,7 +17,6 @@
     `cases`      load cases of both wheels
     `standing`   where both wheels stand, the bar between them
     `between`    what both sides load: bar, drop links, rack
-    `checkup`    a first look
 
 What a single wheel does is in `kintrafo.characteristics`. Definitions and signs: docs/axles.md.
 """

@@ -4,7 +4,6 @@
     `formulas`  roll centre, rates, anti-squat: the formulas
     `catalogue` name, unit, definition and sign of each
     `datasets`  the labelled arrays over bump, roll and one wheel's travel
-    `checkup`   a first look
     `parts`     the parts at many positions, and what acts on them by itself
     `balance`   what rods, bearings and the road carry
     `standing`  where both wheels stand under load cases
@@ -19,14 +18,12 @@ Definitions and signs: docs/rigid-axle.md.
 """
 
 from .along import loads_along
-from .checkup import checkup
 from .datasets import MOTIONS, bump, compare, over, roll, single
 from .loads import standard_cases, static_loads
 
 __all__ = [
     "MOTIONS",
     "bump",
-    "checkup",
     "compare",
     "loads_along",
     "over",

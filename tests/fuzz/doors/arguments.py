@@ -374,7 +374,7 @@ CALLS = {
         {"models": {"a": _CAR, "b": _CAR}, "positions": [0.0], "over": "travel", "progress": None},
     ),
     "common_positions": (compare.common_positions, {"models": {"a": _CAR}, "over": "travel"}),
-    "checkup": (checkup.checkup, {"model": _CAR}),
+    "checkup": (checkup.checkup, {"subject": _CAR}),
     "roads.step": (roads.step, {"height": 0.01, "at": 0.1, "end": 1.0}),
     "roads.sine": (roads.sine, {"amplitude": 0.01, "frequency": 1.0, "end": 1.0}),
     "Course": (
