@@ -13,7 +13,6 @@ from kintrafo import (
     PositionError,
     Suspension,
     System,
-    axles,
     equilibrium,
     loads,
     roads,
@@ -60,7 +59,7 @@ def test_even_loads_are_those_of_each_side(axle: Axle) -> None:
         "brake": {"contact_g": [-1.0, 0.0, 1.2]},
         "held": {"travel_mm": 20.0, "contact_N": [-800.0, 0.0, 0.0]},
     }
-    found = axles.static_loads(axle, cases)
+    found = loads.static(axle, cases)
     for side, model in axle.models.items():
         alone = loads.static(model, cases)
         # the rack is that of both
@@ -74,15 +73,17 @@ def test_even_loads_are_those_of_each_side(axle: Axle) -> None:
             # along the missing force that is left, 1e-6 N, and the last bits of 1e4 N
             force = found["force"].isel(load=rows)[:, 0]
             np.testing.assert_allclose(force, here["force"], atol=1e-7)
-        np.testing.assert_allclose(found[f"travel_{side}"], alone["travel"], atol=1e-12)
-        np.testing.assert_allclose(found[f"wheel_load_{side}"], alone["wheel_load"], rtol=1e-9)
-        assert float(abs(found[f"holding_force_{side}"]).max()) < 1e-6
+        np.testing.assert_allclose(found["travel"].sel(wheel=side), alone["travel"], atol=1e-12)
+        np.testing.assert_allclose(
+            found["wheel_load"].sel(wheel=side), alone["wheel_load"], rtol=1e-9
+        )
+        assert float(abs(found["holding_force"].sel(wheel=side)).max()) < 1e-6
 
 
 @pytest.mark.parametrize("axle", [PLAIN, AXLE, BENT, LINKED], ids=lambda axle: axle.heading())
 def test_mounts_carry_together_what_the_chassis_does(axle: Axle) -> None:
     """Both tie rods at the rack, and the spring of a strut at its top, on either side."""
-    found = axles.static_loads(axle, PUSHED)
+    found = loads.static(axle, PUSHED)
     arms = found["total_at"].values
     force, moment = (found[f"total_{name}"].values[0] for name in ("force", "moment"))
     together = np.concatenate([force.sum(0), (moment + np.cross(arms[0], force)).sum(0)])
@@ -96,7 +97,7 @@ def test_mounts_carry_together_what_the_chassis_does(axle: Axle) -> None:
 @pytest.mark.parametrize("axle", [PLAIN, AXLE, BENT, LINKED], ids=lambda axle: axle.heading())
 def test_the_chassis_carries_what_acts_on_the_axle(axle: Axle) -> None:
     """Forces and moments of road, drive and weight are those on the chassis."""
-    found = axles.static_loads(axle, PUSHED)
+    found = loads.static(axle, PUSHED)
     assert found["reason"].values.tolist() == [""]
     outside = np.zeros(6)
     for side in SIDES:
@@ -113,8 +114,8 @@ def test_the_chassis_carries_what_acts_on_the_axle(axle: Axle) -> None:
 @pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
 def test_links_do_the_work_of_the_bar(axle: Axle) -> None:
     """Virtual work: force of a link on the path of its foot, against the energy of the bar."""
-    found = axles.static_loads(axle, PUSHED)
-    travels = {side: float(found[f"travel_{side}"][0]) for side in SIDES}
+    found = loads.static(axle, PUSHED)
+    travels = {side: float(found["travel"].sel(wheel=side)[0]) for side in SIDES}
     step = 1e-4  # of travel [m]: its square is the error of a slope, 1e-8 over lengths of 0.1 m
     here = Pair.at(axle, *([travels[s]] for s in SIDES), [0.008])
     np.testing.assert_allclose(found["bar_torque"], here.torque, rtol=1e-9)
@@ -141,7 +142,7 @@ def test_a_bar_is_a_spring_and_a_lever() -> None:
     }  # fmt: skip
     axle = Axle.from_dict({"axle": "front", "side": CAR, "anti_roll_bar": bar})
     apart = {"apart": {"left": {"travel_mm": 1.0}, "right": {"travel_mm": -1.0}}}
-    found = axles.static_loads(axle, apart)
+    found = loads.static(axle, apart)
     tops = {s: of(found, "anti_roll_bar", point=f"link_top_{s}") for s in SIDES}
     rise = {s: float(tops[s]["at"].values[0, 2]) - 0.32 for s in SIDES}
     # a bar whose levers point forward turns by the rise over the lever, by its rate
@@ -159,7 +160,7 @@ def test_a_bar_is_a_spring_and_a_lever() -> None:
 
 
 def test_the_steering_holds_both_tie_rods() -> None:
-    found = axles.static_loads(AXLE, PUSHED)
+    found = loads.static(AXLE, PUSHED)
     rods = of(found, "rack", "tie_rod")["force"].values
     assert rods.shape == (2, 3)
     assert float(found["rack_force"][0]) == pytest.approx(-rods[:, 1].sum(), abs=1e-9)
@@ -169,11 +170,11 @@ def test_the_steering_holds_both_tie_rods() -> None:
 def test_a_bar_bends_where_one_wheel_is_held() -> None:
     """The free wheel goes along with the held one, less than it, and the road holds the other."""
     case = {"one": {"left": {"contact_g": [0.0, 0.0, 1.0]}, "right": {"travel_mm": 30.0}}}
-    found = axles.static_loads(AXLE, case)
-    assert float(found["travel_right"][0]) == pytest.approx(0.03, abs=1e-9)
-    assert 0.0 < float(found["travel_left"][0]) < 0.03
+    found = loads.static(AXLE, case)
+    assert float(found["travel"].sel(wheel="right")[0]) == pytest.approx(0.03, abs=1e-9)
+    assert 0.0 < float(found["travel"].sel(wheel="left")[0]) < 0.03
     alone = loads.static(AXLE.models["right"], {"one": {"travel_mm": 30.0}})
-    assert float(found["wheel_load_right"][0]) > float(alone["wheel_load"][0]) + 100.0
+    assert float(found["wheel_load"].sel(wheel="right")[0]) > float(alone["wheel_load"][0]) + 100.0
 
 
 def test_the_mirror_image_of_a_case_is_carried_alike() -> None:
@@ -189,24 +190,26 @@ def test_the_mirror_image_of_a_case_is_carried_alike() -> None:
         }
         for side, other in (SIDES, SIDES[::-1])
     }
-    here, there = (axles.static_loads(AXLE, {"a": case}) for case in (one, image))
+    here, there = (loads.static(AXLE, {"a": case}) for case in (one, image))
     assert float(here["rack_force"][0]) == pytest.approx(-float(there["rack_force"][0]), abs=1e-6)
     assert float(here["bar_torque"][0]) == pytest.approx(-float(there["bar_torque"][0]), abs=1e-6)
     for name in ("travel", "wheel_load"):
-        np.testing.assert_allclose(here[f"{name}_left"], there[f"{name}_right"], rtol=1e-9)
+        np.testing.assert_allclose(
+            here[name].sel(wheel="left"), there[name].sel(wheel="right"), rtol=1e-9
+        )
 
 
 def test_rest_is_that_of_the_whole_axle() -> None:
     """A bar that is bent at rest lifts one wheel's load: without cases in newtons."""
     if find_compiler() is None:
         pytest.skip("no C compiler")
-    found = axles.static_loads(BENT, {"a": {"contact_g": [0.0, 0.0, 1.0]}})
+    found = loads.static(BENT, {"a": {"contact_g": [0.0, 0.0, 1.0]}})
     model = AxleModel(BENT)
     rest = equilibrium(model)
     for side in SIDES:
         force = float(model.signal(f"{side}_rear_tyre_force", rest))
         # the tyre pushes in the plane of the wheel, at most 2 deg from upright
-        assert float(found[f"wheel_load_{side}"][0]) == pytest.approx(force, rel=1e-3)
+        assert float(found["wheel_load"].sel(wheel=side)[0]) == pytest.approx(force, rel=1e-3)
 
 
 @pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
@@ -216,11 +219,11 @@ def test_the_whole_axle_stands_where_the_equations_say(axle: Axle) -> None:
         pytest.skip("no C compiler")
     push = {"left": 3000.0, "right": 5500.0}
     case = {"rack_mm": 5.0} | {side: {"center_N": [0.0, 0.0, push[side]]} for side in SIDES}
-    found = axles.static_loads(axle, {"a": case})
+    found = loads.static(axle, {"a": case})
     model = AxleModel(axle)
     zero = {name: 0.0 for name in model.parameters if name.endswith("tyre_rate")}
     without_tyres = System(model.equations, model.parameters | zero)
-    travels = {side: found[f"travel_{side}"].values for side in SIDES}
+    travels = {side: found["travel"].sel(wheel=side).values for side in SIDES}
     states, inputs = placed(model, travels, np.array([0.005]))
     forces = without_tyres.evaluate("forces", states, inputs)
     for side, corner in axle.models.items():
@@ -239,16 +242,16 @@ def test_a_motion_needs_nothing_else() -> None:
     model = AxleModel(AXLE)
     road = {"left_road_height": roads.step(0.03, at=0.05, end=0.3)}
     motion = simulate(model, (0.0, 0.3), equilibrium(model), inputs=road)
-    found = axles.loads_along(model, motion)
+    found = loads.along(model, motion)
     largest = float(abs(found["force"]).max())
     for side in SIDES:
-        assert float(abs(found[f"holding_force_{side}"]).max()) < 1e-9 * largest
+        assert float(abs(found["holding_force"].sel(wheel=side)).max()) < 1e-9 * largest
     assert float(found["residual"].max()) < 1e-9 * largest
     moment = motion.signals["bar_spring_moment"]
     np.testing.assert_allclose(found["bar_torque"], -moment, atol=1e-8)
     assert float(abs(found["bar_torque"]).max()) > 10.0
     with pytest.raises(InputError, match="not a motion of this model"):
-        axles.loads_along(AxleModel(BENT), motion)
+        loads.along(AxleModel(BENT), motion)
 
 
 WRONG: list[tuple[Any, str]] = [
@@ -271,13 +274,13 @@ BEYOND: list[tuple[Any, str]] = [
 @pytest.mark.parametrize(("cases", "words"), WRONG)
 def test_what_cannot_be_used(cases: Any, words: str) -> None:
     with pytest.raises(InputError, match=words):
-        axles.static_loads(AXLE, cases)
+        loads.static(AXLE, cases)
 
 
 @pytest.mark.parametrize(("cases", "words"), BEYOND)
 def test_cases_of_which_none_is_carried(cases: Any, words: str) -> None:
     with pytest.raises(PositionError, match=words) as refused:
-        axles.static_loads(AXLE, cases)
+        loads.static(AXLE, cases)
     assert "none of the cases can be carried" in str(refused.value)
 
 
@@ -299,8 +302,8 @@ def test_a_search_that_leads_out_of_reach_ends_no_other_case() -> None:
     """Newton's method may step to where the arm or a drop link does not reach."""
     awkward = {"left": {"contact_g": [0.0, 0.0, 0.2]}, "right": {"contact_g": [0.0, 1.5, 0.5]}}
     still = {"contact_g": [0.0, 0.0, 1.0]}
-    found = axles.static_loads(Axle.load("reference_axle"), {"awkward": awkward, "still": still})
+    found = loads.static(Axle.load("reference_axle"), {"awkward": awkward, "still": still})
     assert found["reason"].sel(case="still") == ""
     far = {"left": {"travel_mm": 400.0}, "right": still}
-    found = axles.static_loads(Axle.load("reference_axle"), {"far": far, "still": still})
+    found = loads.static(Axle.load("reference_axle"), {"far": far, "still": still})
     assert str(found["reason"].sel(case="far").values).startswith("left: ")

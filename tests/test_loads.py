@@ -23,6 +23,7 @@ from kintrafo import (
     roads,
     simulate,
 )
+from kintrafo.assembly.corner import CornerAssembly
 from kintrafo.study.loads.along import in_motion
 from kintrafo.suspension.positions import design_height
 from kintrafo.suspension.reach import at_rest
@@ -85,7 +86,7 @@ def test_joints_carry_what_multipliers_say(seed: int, free: bool) -> None:
         values["rack_acceleration"] = 0.0
     instant = Instant(**values)
     state, inputs = instant.arrays(model.equations)
-    found = in_motion(model, state[None], inputs[None])
+    found = in_motion(CornerAssembly(model), state[None], inputs[None])
     oracle = Mechanism(dict(model.parameters))
     pose = instant.pose(oracle)
     solved = instant.solution(model.equations, oracle)
@@ -216,7 +217,7 @@ def test_joints_do_no_work(car: Suspension) -> None:
     states[:, 2:] = random.uniform(-3.0, 3.0, (6, 2))
     inputs = np.zeros((6, len(model.input_names)))
     inputs[:, :3] = random.uniform(-0.02, 0.02, (6, 3))
-    found = in_motion(model, states, inputs)
+    found = in_motion(CornerAssembly(model), states, inputs)
     bodies = model.equations.BODIES
     twists = model.evaluate("velocities", states, inputs)
     centers = model.evaluate("positions", states, inputs)

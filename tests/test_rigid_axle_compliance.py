@@ -20,6 +20,7 @@ from kintrafo import (
     RigidAxle,
     RigidAxleModel,
     compliance,
+    loads,
     rigid_axles,
 )
 from kintrafo.assembly.by_wheel import flat
@@ -497,7 +498,7 @@ def test_five_rods_move_only_as_their_bushes_give_way() -> None:
     assert rates[1] > 1.02 * rates[0]
     for refused in (
         lambda: rigid_axles.bump(FIVE),
-        lambda: rigid_axles.static_loads(FIVE),
+        lambda: loads.static(FIVE),
         lambda: checkup(FIVE),
         lambda: RigidAxleModel(FIVE),
         lambda: sheet(FIVE),

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import InputError, RigidAxleModel, equilibrium, rigid_axles, simulate
+from kintrafo import InputError, RigidAxleModel, equilibrium, loads, simulate
 from kintrafo.study.scenario import Scenario, run
 from kintrafo.suspension.wheel_loads import UNITS
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
@@ -35,7 +35,7 @@ def inputs_of(case: dict[str, Any]) -> dict[str, float]:
 
 def test_rest_is_that_of_a_load_case() -> None:
     """Wheels without tyres, braked and in a corner: equations of motion against statics."""
-    wanted = rigid_axles.static_loads(LOPSIDED, {"case": CASE})
+    wanted = loads.static(LOPSIDED, {"case": CASE})
     free = LOPSIDED.with_changes({"tyre.rate_N_per_m": 0.0})
     model, given = RigidAxleModel(free, wheel_loads=True), inputs_of(CASE)
     rest = equilibrium(model, inputs=given)
@@ -43,7 +43,7 @@ def test_rest_is_that_of_a_load_case() -> None:
         height = float(model.signal(f"{side}_axle_wheel_center_z", rest))
         travel = height - LOPSIDED.center[2]
         # roundings of 1e4 N over a stiffness of some 4e4 N/m
-        assert travel == pytest.approx(float(wanted[f"travel_{side}"][0]), abs=1e-11)
+        assert travel == pytest.approx(float(wanted["travel"].sel(wheel=side)[0]), abs=1e-11)
     # the state carries the brakes that hold the wheels, against whatever turns them
     rates = model.evaluate("rhs", rest, rest.inputs)
     np.testing.assert_allclose(rates, 0.0, atol=1e-8)
@@ -113,10 +113,10 @@ def test_every_part_is_in_balance_along_a_motion() -> None:
     }
     start = equilibrium(MODEL, spin_rate=30.0)
     motion = simulate(MODEL, (0.0, 0.05), start, inputs=inputs, t_eval=np.linspace(0.0, 0.05, 6))
-    found = rigid_axles.loads_along(MODEL, motion)
+    found = loads.along(MODEL, motion)
     most = abs(found["force"]).max()
     for side, sign in SIDES.items():
-        assert abs(found[f"holding_force_{side}"]).max() < 1e-9 * most
+        assert abs(found["holding_force"].sel(wheel=side)).max() < 1e-9 * most
         rows = ((found["part"] == f"wheel_{side}") & (found["by"] == "beam")).values
         (carried,) = found.isel(load=rows)["moment_in_part"].values[-1]
         # the brake is on the axle; in the axes of design, which the wheel does not spin out of

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, axles, compliance
+from kintrafo import Axle, InputError, axles, compliance, loads
 from kintrafo.assembly.rig import Extent
 from kintrafo.suspension.axle.bar import AntiRollBar
 
@@ -104,7 +104,7 @@ def test_an_axle_rolls_as_much_more() -> None:
     for name in ("roll_stiffness_bar", "bar_torque", "link_force_left"):
         assert soft[name].values == pytest.approx(share * stiff[name].values, rel=1e-9, abs=1e-6)
     cases = {"corner": {"left": {"travel_mm": -20.0}, "right": {"travel_mm": 25.0}}}
-    hard, given = (axles.static_loads(axle, cases) for axle in (STIFF, YIELDING))
+    hard, given = (loads.static(axle, cases) for axle in (STIFF, YIELDING))
     for load in ("anti_roll_bar at bar_bush_left by chassis", "drop_link_right at link_top_right"):
         (name,) = {str(n) for n in given["load"].values if str(n).startswith(load)}
         one, other = (e["force"].sel(load=name, case="corner").values for e in (given, hard))

@@ -331,7 +331,7 @@ def test_axle_has_no_rack_between_its_sides() -> None:
         axles.steer(axle)
     with pytest.raises(InputError, match="no rack"):
         Axle.from_dict(REAR | {"steering": {"angle_deg": [-90.0, 90.0], "rack_mm": [-9.0, 9.0]}})
-    held = axles.static_loads(axle, {"corner": {"contact_g": [0.0, 0.5, 1.0]}}, static_load=3400.0)
+    held = loads.static(axle, {"corner": {"contact_g": [0.0, 0.5, 1.0]}}, static_load=3400.0)
     assert "rack" not in held["part"].values
     assert "rack_force" not in held
 

@@ -16,10 +16,10 @@ from kintrafo import (
     loads,
     simulate,
 )
+from kintrafo.assembly.corner import CornerAssembly
 from kintrafo.generator import DeclarationError, Direction, Input
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.suspension import with_wheel_loads
-from kintrafo.study.axles import loads_along
 from kintrafo.study.checkup import checkup
 from kintrafo.study.loads.along import in_motion
 from kintrafo.study.measurement import measured
@@ -61,7 +61,7 @@ def test_every_part_is_in_balance(car: Suspension) -> None:
     for name, unit in UNITS.items():
         column = model.input_names.index(name)
         inputs[:, column] = LIMITS[unit] * random.uniform(-1.0, 1.0, 8)
-    found = in_motion(model, model.design_state + away, inputs)
+    found = in_motion(CornerAssembly(model), model.design_state + away, inputs)
     assert abs(found["holding_force"]).max() < 1e-9 * abs(found["force"]).max()
     bearing = found.isel(load=((found["part"] == "wheel") & (found["by"] == "knuckle")).values)
     shaft = found.isel(load=((found["part"] == "wheel") & (found["by"] == "shaft")).values)
@@ -101,9 +101,12 @@ def test_both_sides_of_an_axle_do_what_one_does() -> None:
     twist = motion["bar_spring_moment"].values
     # at rest from the beginning; the brake holds the wheel, but for its camber
     assert np.ptp(twist) < 0.01 * abs(twist[0]) > 0.0
-    of_parts = loads_along(model, result)
+    of_parts = loads.along(model, result)
     for side in ("left", "right"):
-        assert abs(of_parts[f"holding_force_{side}"]).max() < 1e-9 * abs(of_parts["force"]).max()
+        assert (
+            abs(of_parts["holding_force"].sel(wheel=side)).max()
+            < 1e-9 * abs(of_parts["force"]).max()
+        )
     with pytest.raises(InputError, match="contact_force_x and left_contact_force_x are given"):
         run(model, replace(scenario, inputs={**braked, "left_contact_force_x": 0.0}))
 

@@ -2,15 +2,15 @@
 
 from pathlib import Path
 
-from kintrafo import RigidAxle, rigid_axles
+from kintrafo import RigidAxle, loads
 from kintrafo.plots.figures import STYLE, save
 from kintrafo.plots.loads import free_bodies
 from matplotlib import rc_context
 
 if __name__ == "__main__":
     axle = RigidAxle.load("rigid_axle")
-    corner = {"corner": rigid_axles.standard_cases(axle)["corner"]}
+    corner = {"corner": loads.standard_cases(axle)["corner"]}
     with rc_context(STYLE):
-        found = rigid_axles.static_loads(axle, corner)
+        found = loads.static(axle, corner)
         drawn = free_bodies(found, "corner", ["beam"], title="Forces on the axle in a corner")
         save(drawn, Path(__file__).with_suffix(".png"), force=True)

@@ -3,22 +3,27 @@
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
 import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
+from ..core.quantities import variable
+from ..suspension.axle.file import Held as TorqueHolder
 from ..suspension.bushes import Bush
 from ..suspension.corner import Array
 from ..suspension.input.vehicle import Tyre
 from ..suspension.model import Model
 from ..suspension.plausibility import Plausibility
 from .anti_roll_bar import Bar, RollBar
+from .coupling import Place
 from .held import Held
-from .load import Load
+from .load import Load, known
 from .poses import Assembled
 from .quantity import RACK, Quantity
-from .rig import Extent, RigMotion, RigPosition
+from .rig import Extent, RigMotion, RigPosition, WheelReach
 from .soft_lines import SoftLines
 from .wheel_names import WheelNames
 
@@ -242,6 +247,146 @@ class Assembly(ABC):
         InputError
             If the springs hold no wheel there.
         """
+
+    # -- where it stands --------------------------------------------------------------------------
+
+    ENDS: ClassVar[str] = "the linkage reaches no farther"
+    """What ends the way of the wheels, in words."""
+
+    @property
+    def independent(self) -> Sequence["Assembly"]:
+        """The assemblies that stand independently of each other; the wheels are theirs in turn."""
+        return (self,)
+
+    @property
+    @abstractmethod
+    def design_wheel_coordinates(self) -> Array:
+        """The coordinates at design, see `at_wheel_coordinates`."""
+
+    @abstractmethod
+    def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
+        """Return the coordinates where some wheels are at heights above design.
+
+        Parameters
+        ----------
+        travels : sequence of float or None
+            By wheel [m]; None: as at design.
+        rack : float
+            Displacement of the rack [m].
+
+        Returns
+        -------
+        ndarray, shape (wheels,)
+
+        Raises
+        ------
+        PositionError
+            If a wheel cannot be there.
+        """
+
+    @abstractmethod
+    def reach(self, rack: float) -> Sequence[WheelReach] | None:
+        """Return how far each wheel goes; None where it depends on the other one.
+
+        Raises
+        ------
+        PositionError
+            If the rack [m] cannot be there.
+        """
+
+    @abstractmethod
+    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, Assembled]:
+        """Return its parts at rest, by the suffixes of their names.
+
+        Parameters
+        ----------
+        coordinates : ndarray, shape (n, wheels)
+            One for each wheel, which increases as the wheel rises.
+        racks : ndarray, shape (n,)
+            Displacements of the rack [m].
+        """
+
+    def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
+        """Tell where parts within the reach of each wheel are together, (n,)."""
+        del racks
+        return np.ones(len(coordinates), dtype=bool)
+
+    def locked(self, coordinates: Array) -> NDArray[np.bool_]:
+        """Tell where a linkage is so near the end of its reach that it carries anything, (n,)."""
+        return np.zeros(len(coordinates), dtype=bool)
+
+    def require_rigid_motion(self) -> None:  # noqa: B027 (most have nothing to refuse)
+        """Refuse an assembly that rigid joints do not let move.
+
+        Raises
+        ------
+        InputError
+        """
+
+    @abstractmethod
+    def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
+        """Tell whether a wheel has a stop."""
+
+    # -- loads ------------------------------------------------------------------------------------
+
+    def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueHolder | None:
+        """Return what holds the torque of brakes or drive; None where nothing drives it."""
+        return "carrier" if what == "brakes" else "body"
+
+    @property
+    @abstractmethod
+    def rules(self) -> tuple[str, ...]:
+        """What decides where statics alone does not."""
+
+    def acting(self, poses: Mapping[str, Assembled]) -> dict[str, list[Load]]:
+        """Return weights, and forces of springs, dampers, stops and of an anti-roll bar."""
+        return {suffix: known(each) for suffix, each in poses.items()}
+
+    def between(
+        self, poses: Mapping[str, Assembled], loads: Sequence[Load]
+    ) -> tuple[list[Load], dict[str, Place]]:
+        """Return the loads on what is between the groups and the chassis: rack, anti-roll bar.
+
+        Parameters
+        ----------
+        poses : mapping
+            By suffix.
+        loads : sequence of Load
+            All others, with the suffixes in their names.
+
+        Returns
+        -------
+        loads : list of Load
+        places : dict of str to Place
+            These parts.
+        """
+        del poses, loads
+        return [], {}
+
+    def told(
+        self, over: str, poses: Mapping[str, Assembled], found: xr.Dataset
+    ) -> dict[str, xr.Variable]:
+        """Return what follows from all loads: forces of rack and rods, torque of the bar.
+
+        Parameters
+        ----------
+        over : str
+            Dimension of the positions.
+        poses : mapping
+        found : xarray.Dataset
+            The loads.
+        """
+        del found
+        if self.bar is None:
+            return {}
+        words = f"torque of the anti-roll bar, {self.BAR_SIGN}"
+        return {"bar_torque": variable(over, self.bar_torque(poses), words, "N m")}
+
+    @abstractmethod
+    def in_motion(
+        self, states: Array, inputs: Array
+    ) -> tuple[dict[str, Assembled], dict[str, Array]]:
+        """Return its parts in states of its equations, and the rates of these, by suffix."""
 
     # -- bushes -----------------------------------------------------------------------------------
 

@@ -3,12 +3,16 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
 from ..core.errors import InputError
+from ..core.quantities import variable
+from ..core.vectors import unit_vector
 from ..suspension.axle import Axle
 from ..suspension.axle.axle import LEFT, RIGHT
 from ..suspension.axle.equations import AxleModel
@@ -17,17 +21,20 @@ from ..suspension.corner import Array
 from ..suspension.input.vehicle import Tyre
 from ..suspension.model import Model
 from ..suspension.plausibility import Plausibility
+from ..suspension.reach import PositionError
 from . import motions
 from .anti_roll_bar import Bar
 from .assembly import Assembly, Bushings
-from .axle_coupling import pull_of_bar, torque_of_bar, turn_of_half
+from .axle_coupling import on_the_bar, pull_of_bar, rules_of, torque_of_bar, turn_of_half
 from .corner import CornerAssembly, lines_of, poses_of
+from .coupling import STEERING, Place, on_the_rack
 from .held import Held
+from .load import RACK as THE_RACK
 from .load import Load
-from .poses import Assembled
+from .poses import Assembled, Poses
 from .quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from .rest import settled
-from .rig import Extent, RigMotion, RigPosition
+from .rig import Extent, RigMotion, RigPosition, WheelReach
 from .soft_lines import SoftLines
 from .steering_wheel import rack_of
 from .wheel_names import WheelNames
@@ -50,13 +57,15 @@ class AxleAssembly(Assembly):
     """
 
     wheels = SIDES
+    ENDS = "the linkage or a drop link reaches no farther"
     BAR_SIGN = "positive with the left half turned the farther"
 
     def __init__(self, axle: Axle, model: AxleModel | None = None) -> None:
         self.axle, self._model = axle, model
-        over = STEERING_WHEEL if motions.turns_the_rack(axle) else RACK
-        steering = {"steer": RigMotion(over, motions.MOTIONS["steer"], "steering")}
-        self.motions = motions_of_two(motions.MOTIONS) | (steering if self.steered else {})
+        self.motions = motions_of_two(motions.MOTIONS)
+        if self.steered:
+            over = STEERING_WHEEL if motions.turns_the_rack(axle) else RACK
+            self.motions["steer"] = RigMotion(over, motions.MOTIONS["steer"], "steering")
 
     @property
     def subject(self) -> Axle:
@@ -174,6 +183,112 @@ class AxleAssembly(Assembly):
     def soft_lines(self, poses: Mapping[str, Assembled]) -> dict[str, SoftLines]:
         """Return how springs and stops of both sides give way."""
         return {suffix: lines_of(each) for suffix, each in poses.items()}
+
+    @cached_property
+    def _corners(self) -> dict[str, CornerAssembly]:
+        return {side: CornerAssembly(model) for side, model in self.axle.models.items()}
+
+    @property
+    def independent(self) -> Sequence[Assembly]:
+        """The sides, if no anti-roll bar joins them."""
+        return (self,) if self.axle.halves else tuple(self._corners.values())
+
+    @property
+    def design_wheel_coordinates(self) -> Array:
+        """Those of both sides."""
+        return np.concatenate([one.design_wheel_coordinates for one in self._corners.values()])
+
+    def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
+        """Return the coordinates where some wheels are at heights above design."""
+        found = []
+        for (side, one), travel in zip(self._corners.items(), travels, strict=True):
+            try:
+                found.append(one.wheel_coordinates([travel], rack))
+            except PositionError as error:
+                raise PositionError(f"{side}: {error}") from None
+        return np.concatenate(found)
+
+    def reach(self, rack: float) -> list[WheelReach]:
+        """Return how far each wheel goes by itself."""
+        return [reach for one in self._corners.values() for reach in one.reach(rack)]
+
+    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, Assembled]:
+        """Return its parts at rest; the coordinates are those of the sides."""
+        sides = enumerate(self._corners.items())
+        return {f"_{side}": one.at_angles(coordinates[:, i], racks) for i, (side, one) in sides}
+
+    def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
+        """Tell where the drop links reach."""
+        found = super().reached(coordinates, racks)
+        for i, side in enumerate(self.axle.halves):
+            poses = self._corners[side].at_angles(coordinates[:, i], racks)
+            found &= np.isfinite(turn_of_half(self.axle, side, poses)[1])
+        return found
+
+    def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
+        """Tell whether a wheel has a stop."""
+        return getattr(self.axle.sides[wheel], which) is not None
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """What decides where statics alone does not."""
+        own = [rule for side in self.axle.sides.values() for rule in side.structure().rules]
+        return tuple(dict.fromkeys([*own, *rules_of(self.axle)]))
+
+    def acting(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
+        """Return what acts on both sides, the drop links included."""
+        found = super().acting(poses)
+        if self.axle.halves:
+            torque = self.bar_torque(poses)
+            for side in SIDES:
+                pull = pull_of_bar(self.axle, side, poses[f"_{side}"], torque)
+                found[f"_{side}"].append(pull)
+        return found
+
+    def between(
+        self, poses: Mapping[str, Assembled], loads: Sequence[Load]
+    ) -> tuple[list[Load], dict[str, Place]]:
+        """Return the loads on the anti-roll bar with its drop links, and on the rack."""
+        bar, places = on_the_bar(self.axle, poses, loads) if self.axle.halves else ([], {})
+        if not self.steered:
+            return bar, places
+        rack, of_rack = on_the_rack(self._rack_axis, loads, "rack_middle")
+        return [*bar, *rack], places | of_rack
+
+    @property
+    def _rack_axis(self) -> Array:
+        return unit_vector(self.axle.right.rack.axis)
+
+    def told(
+        self, over: str, poses: Mapping[str, Assembled], found: xr.Dataset
+    ) -> dict[str, xr.Variable]:
+        """Return the force of the steering on the rack, and the torque of the bar."""
+        of_bar = super().told(over, poses, found)
+        if not self.steered:
+            return of_bar
+        (row,) = np.flatnonzero((found["part"] == THE_RACK) & (found["by"] == STEERING))
+        force = found["force"].values[:, row] @ self._rack_axis
+        words = "force of the steering on the rack along its axis"
+        return {"rack_force": variable(over, force, words, "N")} | of_bar
+
+    def in_motion(
+        self, states: Array, inputs: Array
+    ) -> tuple[dict[str, Assembled], dict[str, Array]]:
+        """Return the parts of both sides in states of the whole axle, and the rates of these."""
+        model = self.model
+        by_time = model.evaluate("rhs", states, inputs)
+        poses: dict[str, Assembled] = {}
+        rates = {}
+        for side, corner in model.corners.items():
+            columns = [model.state_names.index(f"{side}_{name}") for name in corner.state_names]
+            own = [f"{side}_{name}" for name in corner.input_names]
+            given = [
+                model.input_names.index(name if name in model.input_names else shared)
+                for name, shared in zip(own, corner.input_names, strict=True)
+            ]
+            poses[f"_{side}"] = Poses.of(corner, states[:, columns], inputs[:, given])
+            rates[f"_{side}"] = by_time[:, columns]
+        return poses, rates
 
     def described_bushings(
         self, given: Arguments, bushings: Mapping[str, Any] | None

@@ -1,16 +1,17 @@
 """What both sides of an axle load: the anti-roll bar with its drop links, and the rack."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from ..core.vectors import cross, unit_vector
+from ..core.vectors import cross
 from ..suspension.axle import Axle
 from ..suspension.axle.axle import LEFT, RIGHT
 from ..suspension.corner import Array
 from ..suspension.points import carried
-from .coupling import STILL, Place, on_both, on_the_rack, sum_of
+from .coupling import STILL, Place, on_both, sum_of
 from .load import Load
 from .poses import Poses
 
@@ -23,7 +24,8 @@ _OF_RACK = "the housing of the rack holds it in the middle between the tie rods"
 
 def rules_of(axle: Axle) -> tuple[str, ...]:
     """Return what decides where statics alone does not."""
-    return (_OF_BAR, _OF_RACK) if axle.steered() else (_OF_BAR,)
+    of_bar, of_rack = (_OF_BAR,) * bool(axle.halves), (_OF_RACK,) * axle.steered()
+    return (*of_bar, *of_rack)
 
 
 def turn_of_half(axle: Axle, side: str, poses: Poses) -> tuple[Array, Array]:
@@ -52,12 +54,23 @@ def torque_of_bar(axle: Axle, poses: Mapping[str, Poses]) -> Array:
     return torque
 
 
-class Between:
-    """Adds to the loads of both sides those of what is between them.
+def on_the_bar(
+    axle: Axle, poses: Mapping[str, Any], loads: Sequence[Load]
+) -> tuple[list[Load], dict[str, Place]]:
+    """Return the loads on the anti-roll bar and its drop links, and on the chassis.
 
     Parameters
     ----------
     axle : Axle
+    poses : mapping of str to Poses
+        Of both sides, by suffix.
+    loads : sequence of Load
+        All others; those of the drop links on the sides are among them.
+
+    Returns
+    -------
+    loads : list of Load
+    places : dict of str to Place
 
     Notes
     -----
@@ -65,43 +78,22 @@ class Between:
     bushes: forces across the line through them follow from the balance of forces and moments. Where
     the halves turn about axes that are not on this line, a moment about it is left, half at each.
     """
-
-    def __init__(self, axle: Axle) -> None:
-        self.axle = axle
-
-    def __call__(
-        self, poses: Mapping[str, Poses], loads: list[Load]
-    ) -> tuple[list[Load], dict[str, Place]]:
-        """Return all loads, and where bar, links and rack are; see `kintrafo.study.loads`."""
-        rack: list[Load] = []
-        places: dict[str, Place] = {}
-        if self.axle.steered():
-            axis = unit_vector(self.axle.right.rack.axis)
-            rack, places = on_the_rack(axis, loads, "rack_middle")
-        if self.axle.halves:
-            bar, of_bar = self._bar(poses, loads)
-            rack, places = [*bar, *rack], of_bar | places
-        return [*loads, *rack], places
-
-    def _bar(
-        self, poses: Mapping[str, Poses], loads: list[Load]
-    ) -> tuple[list[Load], dict[str, Place]]:
-        found, places = [], {}
-        for side in SIDES:
-            (pull,) = (load for load in loads if load.by == f"{LINK}_{side}")
-            _, turn = turn_of_half(self.axle, side, poses[f"_{side}"])
-            top = self.axle.halves[side].top_at(turn)
-            link, point = f"{LINK}_{side}", f"link_top_{side}"
-            foot = replace(pull, part=link, by=pull.part, force=-pull.force)
-            found += [foot, *on_both(link, BAR, Load(link, point, BAR, pull.force, STILL, top))]
-            places[link] = Place.unturned(pull.at)
-        bushes = [np.broadcast_to(self.axle.halves[s].bush, top.shape) for s in SIDES]
-        middle = np.mean(bushes, axis=0)
-        bearings = _on_bearings(bushes, sum_of(found, BAR, middle))
-        for side, bush, wrench in zip(SIDES, bushes, bearings, strict=True):
-            load = Load(BAR, f"bar_bush_{side}", "chassis", wrench[:, :3], wrench[:, 3:], bush)
-            found += on_both(BAR, "chassis", load)
-        return found, places | {BAR: Place.unturned(middle)}
+    found, places = [], {}
+    for side in SIDES:
+        (pull,) = (load for load in loads if load.by == f"{LINK}_{side}")
+        _, turn = turn_of_half(axle, side, poses[f"_{side}"])
+        top = axle.halves[side].top_at(turn)
+        link, point = f"{LINK}_{side}", f"link_top_{side}"
+        foot = replace(pull, part=link, by=pull.part, force=-pull.force)
+        found += [foot, *on_both(link, BAR, Load(link, point, BAR, pull.force, STILL, top))]
+        places[link] = Place.unturned(pull.at)
+    bushes = [np.broadcast_to(axle.halves[s].bush, top.shape) for s in SIDES]
+    middle = np.mean(bushes, axis=0)
+    bearings = _on_bearings(bushes, sum_of(found, BAR, middle))
+    for side, bush, wrench in zip(SIDES, bushes, bearings, strict=True):
+        load = Load(BAR, f"bar_bush_{side}", "chassis", wrench[:, :3], wrench[:, 3:], bush)
+        found += on_both(BAR, "chassis", load)
+    return found, places | {BAR: Place.unturned(middle)}
 
 
 def _on_bearings(bushes: list[Array], wrench: Array) -> tuple[Array, Array]:

@@ -5,8 +5,9 @@ wheel, over a coordinate without a dimension. Tables of a spreadsheet have a col
 the name of the wheel ends that of the column.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -42,10 +43,17 @@ def of_wheels(
     values : sequence of ndarray
         By wheel, in the order of `Assembly.wheels`.
     """
+    return stacked(dims, values, quantity.attributes())
+
+
+def stacked(
+    dims: str | Sequence[str], values: Sequence[Array], attributes: Mapping[str, Any]
+) -> xr.Variable:
+    """Return what each wheel has as one variable with some attributes, see `of_wheels`."""
     further = (dims,) if isinstance(dims, str) else tuple(dims)
     if len(values) == 1:
-        return xr.Variable(further, values[0], quantity.attributes())
-    return xr.Variable((WHEEL, *further), np.stack(values), quantity.attributes())
+        return xr.Variable(further, values[0], attributes)
+    return xr.Variable((WHEEL, *further), np.stack(values), attributes)
 
 
 def of_wheel(quantity: Quantity, wheel: str) -> Quantity:

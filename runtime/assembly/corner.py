@@ -1,7 +1,8 @@
 """A corner as an assembly: one wheel."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from functools import cached_property
+from typing import Any, Literal
 
 import numpy as np
 
@@ -13,14 +14,16 @@ from ..suspension.input.vehicle import Tyre
 from ..suspension.kinds import Suspension
 from ..suspension.model import Model
 from ..suspension.positions import arm_angles, design_height
-from ..suspension.reach import at_rest, travel_range
+from ..suspension.reach import at_rest, height_and_slope, travel_range
 from .assembly import Assembly, Bushings
+from .coupling import Place, on_the_rack, rules_of
 from .from_model import corner
 from .held import Held
+from .load import Load
 from .poses import Assembled, Poses
 from .quantity import RACK, TRAVEL, Quantity
 from .rest import forces_of, nearest
-from .rig import Extent, RigMotion, RigPosition
+from .rig import Extent, RigMotion, RigPosition, WheelReach
 from .soft_lines import SoftLines, soft_lines
 from .usual import usual_rack, usual_travel
 from .wheel_names import WheelNames
@@ -131,6 +134,62 @@ class CornerAssembly(Assembly):
     def soft_lines(self, poses: Mapping[str, Assembled]) -> dict[str, SoftLines]:
         """Return how spring and stops give way."""
         return {suffix: lines_of(each) for suffix, each in poses.items()}
+
+    @cached_property
+    def _sense(self) -> float:
+        """How the arm angle changes as the wheel rises, +1 or -1."""
+        _, slope = height_and_slope(self.model, self.model.design_state[0])
+        return float(np.sign(slope))
+
+    @property
+    def design_wheel_coordinates(self) -> Array:
+        """The arm angle at design, with the sign of the coordinate [rad]."""
+        return self._sense * self.model.design_state[:1]
+
+    def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
+        """Return the coordinate where the wheel is at a height above design."""
+        (travel,) = travels
+        if travel is None:
+            return self.design_wheel_coordinates
+        return self._sense * arm_angles(self.model, [design_height(self.model) + travel], rack)
+
+    def reach(self, rack: float) -> list[WheelReach]:
+        """Return how far the wheel goes."""
+        found = travel_range(self.model, rack)
+        low, high = (self._sense * angle for angle in found.arm_angle)
+        return [WheelReach((low, high), found.height)]
+
+    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, Assembled]:
+        """Return its parts at rest; the coordinate is the arm angle, of either sign [rad]."""
+        return {"": self.at_angles(coordinates[:, 0], racks)}
+
+    def at_angles(self, coordinates: Array, racks: Array) -> Poses:
+        """Return its parts at rest, (n,)."""
+        return Poses.of(self.model, *at_rest(self.model, self._sense * coordinates, racks))
+
+    def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
+        """Tell whether its wheel has a stop."""
+        del wheel
+        return getattr(self.subject, which) is not None
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """What decides where statics alone does not."""
+        return rules_of(self.subject)
+
+    def between(
+        self, poses: Mapping[str, Assembled], loads: Sequence[Load]
+    ) -> tuple[list[Load], dict[str, Place]]:
+        """Return what holds the rack."""
+        axis = poses[""].rack_axis
+        return ([], {}) if axis is None else on_the_rack(axis, loads, "rack_guide")
+
+    def in_motion(
+        self, states: Array, inputs: Array
+    ) -> tuple[dict[str, Assembled], dict[str, Array]]:
+        """Return its parts in some states, and the rates of these."""
+        poses = Poses.of(self.model, states, inputs)
+        return {"": poses}, {"": self.model.evaluate("rhs", states, inputs)}
 
     def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
         """Return bushes as a caller describes them, or those of the file."""

@@ -1,6 +1,6 @@
 """What is between the parts of a suspension, or of both of an axle, and the chassis: a rack."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..suspension.kinds import Suspension
 from .load import RACK, Load
-from .poses import Poses, wrench_about
+from .poses import wrench_about
 
 Array = NDArray[np.float64]
 
@@ -41,24 +41,10 @@ class Place:
         return cls(center, np.broadcast_to(np.eye(3), (*center.shape, 3)))
 
 
-Between = Callable[[Mapping[str, Poses], list[Load]], tuple[list[Load], dict[str, Place]]]
-"""Takes poses by suffix and loads, and returns all loads with those between the sides, and the
-parts in equilibrium that are of neither."""
-
-
-def rules_of(suspension: Suspension) -> str:
+def rules_of(suspension: Suspension) -> tuple[str, ...]:
     """Return what decides where statics alone does not, of one suspension."""
     of_guide = (_OF_GUIDE,) if suspension.steered() else ()
-    return "; ".join([*suspension.structure().rules, *of_guide])
-
-
-def alone(poses: Mapping[str, Poses], loads: list[Load]) -> tuple[list[Load], dict[str, Place]]:
-    """Return the loads of one suspension, with what holds its rack if it has one."""
-    (own,) = poses.values()
-    if own.rack_axis is None:
-        return loads, {}
-    held, places = on_the_rack(own.rack_axis, loads, "rack_guide")
-    return [*loads, *held], places
+    return (*suspension.structure().rules, *of_guide)
 
 
 def on_the_rack(

@@ -15,19 +15,19 @@ from ..core.vectors import cross
 from ..suspension.corner import UP, RoadWheel, Vehicle
 from ..suspension.rigid.axle import RigidAxle
 from ..suspension.rigid.model import RigidAxleModel
-from ..suspension.rigid.structure import BEAM, CHASSIS
+from ..suspension.rigid.structure import BEAM, CHASSIS, MIDDLE
 from ..suspension.structure import Line, Structure
+from ..suspension.wheel_loads import UNITS
 from ..systems.allowed import Allowed
-from .beam import SENSE, SIDES, parameters_of
+from .beam import COORDINATES, SENSE, SIDES, parameters_of
 from .load import Load, known
+from .mass import PartMass
 from .poses import CENTER, CONTACT, forces_along, road_axes
 from .wheel import lowest_point, upward_across
 
 Array = NDArray[np.float64]
 
 BAR = "bar"
-MIDDLE = "axle_middle"
-"""The point between the wheel centres."""
 
 PARAMETERS = {BEAM: "beam", "wheel_left": "left_wheel", "wheel_right": "wheel"}
 """What begins the names of the parameters of parts with mass."""
@@ -155,20 +155,54 @@ class Parts:
         axis: Array = self.turned[BEAM] @ self.axle.wheel.spin_axis(SENSE[side])
         return axis
 
-    def wheel_axes(self, side: str) -> Array:
-        """Return the axes of a wheel on the road as rows, (n, 3, 3): forward, left, up."""
-        return road_axes(self.wheel_axis(side))
-
-    def contact(self, side: str) -> Array:
-        """Return the lowest point of a wheel; its centre, where its radius is not known."""
-        point = self.points.get(f"{CONTACT}_{side}")
-        return self.points[f"{CENTER}_{side}"] if point is None else point
-
     def rod(self, name: str) -> Array:
         """Return the unit vector along a rod from the axle to the chassis, (n, 3)."""
         way = self.points[f"{name}_{CHASSIS}"] - self.points[f"{name}_axle"]
         along: Array = way / np.linalg.norm(way, axis=-1, keepdims=True)
         return along
+
+    def twists(self) -> dict[str, Array]:
+        """Return how beam and wheels move for a unit rate of heave, and of roll, (n, 2, 6)."""
+        found = []
+        for coordinate in COORDINATES:
+            states = self.states.copy()
+            states[:, self.model.state_names.index(f"{coordinate}_rate")] = 1.0
+            found.append(self.model.evaluate("velocities", states, self.inputs))
+        both = np.stack(found, axis=-2)
+        bodies = self.model.equations.BODIES
+        return {part: both[:, bodies.index(body)] for part, body in MASSIVE.items()}
+
+    def masses(self) -> dict[str, PartMass]:
+        """Return what the acceleration of beam and wheels moves."""
+        axes = {f"wheel_{side}": self.axle.wheel.spin_axis(SENSE[side]) for side in SIDES}
+        return {
+            part: PartMass.of(self.model.parameters, PARAMETERS[part], body, axes.get(part))
+            for part, body in MASSIVE.items()
+        }
+
+    def rates_of_inputs(self) -> Array:
+        """Return zeros: nothing but the states moves the parts."""
+        return np.zeros_like(self.inputs)
+
+    def tyre_forces(self) -> dict[str, Array]:
+        """Return the forces of the tyres, in the planes of their wheels, (n, 3) [N]."""
+        forces = {
+            side: self.model.signal(f"{side}_axle_tyre_force", self.states, self.inputs)
+            for side in SIDES
+        }
+        return {
+            f"wheel_{side}": force[:, None] * upward_across(self.wheel_axis(side))
+            for side, force in forces.items()
+        }
+
+    def inputs_of_wheels(self) -> dict[str, dict[str, Array]]:
+        """Return the inputs on both wheels; empty where the equations have none."""
+        if not self.model.wheel_loads:
+            return {}
+        given = dict(zip(self.model.input_names, self.inputs.T, strict=True))
+        return {
+            f"wheel_{side}": {name: given[f"{side}_{name}"] for name in UNITS} for side in SIDES
+        }
 
     def upright(self) -> NDArray[np.bool_]:
         """Tell where springs and dampers have turned by less than a right angle from design."""
@@ -179,12 +213,6 @@ class Parts:
                 way = self.points[f"{name}_top_{side}"] - self.points[f"{name}_seat_{side}"]
                 fine &= way @ (design[f"{name}_top"] - design[f"{name}_seat"]) > 0.0
         return fine
-
-    def push_of_tyre(self, side: str) -> Array:
-        """Return the force of a tyre, in the plane of its wheel, (n, 3) [N]."""
-        force = self.model.signal(f"{side}_axle_tyre_force", self.states, self.inputs)
-        push: Array = force[:, None] * upward_across(self.wheel_axis(side))
-        return push
 
     def torque_of_bar(self) -> Array:
         """Return that of the anti-roll bar, positive with the left wheel up, (n,) [N m]."""

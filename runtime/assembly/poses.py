@@ -14,8 +14,10 @@ from ..suspension.model import Model
 from ..suspension.points import hardpoints
 from ..suspension.structure import Line, Structure
 from ..systems.allowed import Allowed
+from ..systems.inputs import rates_of
 from ..systems.system import System
 from .from_model import design_axis, vehicle
+from .mass import PartMass
 from .wheel import lowest_point, upward_across
 
 Array = NDArray[np.float64]
@@ -89,6 +91,30 @@ class Assembled(Protocol):
 
     def allowed_lengths(self) -> Sequence[Allowed]:
         """Return the lengths that the file allows, of these signals."""
+
+    def twists(self) -> Mapping[str, Array]:
+        """Return how each part moves, at rest, for a unit rate of each coordinate by itself.
+
+        Returns
+        -------
+        dict of str to ndarray, shape (n, coordinates, 6)
+            Angular velocity, and velocity of `centers`, with the brakes closed and the rack held.
+        """
+
+    def masses(self) -> Mapping[str, PartMass]:
+        """Return what the acceleration of each part with a mass moves."""
+
+    def rates_of_inputs(self) -> Array:
+        """Return the rates of the inputs that move parts, of the shape of `inputs`."""
+
+    def tyre_forces(self) -> Mapping[str, Array]:
+        """Return the force of the tyre on each wheel, in the plane of the wheel, (n, 3) [N]."""
+
+    def inputs_of_wheels(self) -> Mapping[str, Mapping[str, Array]]:
+        """Return the inputs of `kintrafo.suspension.wheel_loads` on each wheel, (n,).
+
+        Empty, where the equations have none.
+        """
 
 
 @dataclass(frozen=True)
@@ -197,18 +223,44 @@ class Poses:
         """Return the force of each line of the structure, positive when it pushes, (n,) [N]."""
         return forces_along(self.structure, self.model, self.states, self.inputs)
 
-    def push_of_tyre(self) -> Array:
+    def twists(self) -> dict[str, Array]:
+        """Return how each part moves for a unit rate of the arm angle, (n, 1, 6)."""
+        model, states = self.model, self.states.copy()
+        states[..., model.state_names.index(f"{model.names.arm}_rate")] = 1.0
+        found = model.evaluate("velocities", states, self.inputs)
+        return {name: found[:, i, None] for i, name in enumerate(model.equations.BODIES)}
+
+    def masses(self) -> dict[str, PartMass]:
+        """Return what the acceleration of each part with a mass moves."""
+        values, suspension = self.model.parameters, self.model.suspension
+        axes = {"wheel": suspension.wheel.spin_axis(suspension.vehicle.sign)}
+        return {
+            part: PartMass.of(values, part, part, axes.get(part))
+            for part in (*self.structure.parts, "rack")
+            if values.get(f"{part}_mass", 0.0) != 0.0
+        }
+
+    def rates_of_inputs(self) -> Array:
+        """Return the rates of the inputs that move parts: those of a rack that is held."""
+        model, inputs = self.model, self.inputs
+        by_time = np.zeros_like(inputs)
+        if model.suspension.steered() and not model.free_rack:
+            names = ("rack_position", *rates_of("rack_position", model.equations.INPUTS))
+            position, velocity, acceleration = (model.input_names.index(name) for name in names)
+            by_time[:, position] = inputs[:, velocity]
+            by_time[:, velocity] = inputs[:, acceleration]
+        return by_time
+
+    def tyre_forces(self) -> dict[str, Array]:
         """Return the force of the tyre, in the plane of the wheel, (n, 3) [N]."""
         force = self.model.signal("tyre_force", self.states, self.inputs)
-        push: Array = force[:, None] * upward_across(self.axis)
-        return push
+        return {"wheel": force[:, None] * upward_across(self.axis)}
 
-    def wheel_axes(self) -> Array:
-        """Return the axes of the wheel on the road as rows, (n, 3, 3): forward, left, up.
-
-        Forward is horizontal in the plane of the wheel, as in the tyre axes of ISO 8855.
-        """
-        return wheel_axes(self.wheels["wheel"])
+    def inputs_of_wheels(self) -> dict[str, dict[str, Array]]:
+        """Return the inputs on the wheel; empty where the equations have none."""
+        if not self.model.wheel_loads:
+            return {}
+        return {"wheel": dict(zip(self.model.input_names, self.inputs.T, strict=True))}
 
 
 def forces_along(
@@ -225,7 +277,10 @@ def forces_along(
 
 
 def wheel_axes(wheel: RoadWheel) -> Array:
-    """Return the axes of a wheel on the road as rows, see `Poses.wheel_axes`."""
+    """Return the axes of a wheel on the road as rows, (n, 3, 3): forward, left, up.
+
+    Forward is horizontal in the plane of the wheel, as in the tyre axes of ISO 8855.
+    """
     return road_axes(wheel.vehicle.side * wheel.axis)
 
 
@@ -236,7 +291,7 @@ def touching(wheel: RoadWheel) -> Array:
 
 
 def road_axes(left: Array) -> Array:
-    """Return the axes of wheels on the road, see `Poses.wheel_axes`.
+    """Return the axes of wheels on the road, see `wheel_axes`.
 
     Parameters
     ----------

@@ -43,6 +43,22 @@ class RigPosition:
 
 
 @dataclass(frozen=True)
+class WheelReach:
+    """How far a wheel goes.
+
+    Attributes
+    ----------
+    coordinate : tuple of float
+        Its coordinate at the lowest and at the highest position, see `Assembly.at_wheel_coordinates`.
+    height : tuple of float
+        Heights of the wheel centre there [m].
+    """
+
+    coordinate: tuple[float, float]
+    height: tuple[float, float]
+
+
+@dataclass(frozen=True)
 class Extent:
     """How far a motion goes, where it is not the usual; all positive.
 

@@ -1,11 +1,15 @@
 """A rigid axle as an assembly: one beam carries both wheels."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
 import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
+from ..core.quantities import variable
+from ..suspension.axle.file import Held as TorqueHolder
 from ..suspension.bushes import described_bushings
 from ..suspension.corner import Array
 from ..suspension.input.vehicle import Tyre
@@ -41,6 +45,8 @@ _NO_REST = (
     "the axle has no stable equilibrium near its design position. Check the springs' rate and "
     "free length, the tyres' rate and free height, the load of the wheels, or the road."
 )
+# Where the axle stands under a load, it could go as many times as far.
+_CLEAR = 1.02
 
 
 class RigidAxleAssembly(Assembly):
@@ -54,6 +60,9 @@ class RigidAxleAssembly(Assembly):
     """
 
     wheels = SIDES
+    ENDS = (
+        "a rod or a damper reaches no farther, or a spring or a damper has turned by a right angle"
+    )
     motions = motions_of_two(MOTIONS)
     MODES: ClassVar[Mapping[str, str]] = {HEAVE: "axle hop", ROLL: "axle tramp"}
     BAR_SIGN = "positive with the left wheel up"
@@ -192,6 +201,93 @@ class RigidAxleAssembly(Assembly):
         """Return how springs and stops give way."""
         beam = Beam(self.model, poses[""].states)
         return {"": lines_by_rates(beam) if self.axle.overheld else lines_of_beam(beam)}
+
+    def require_rigid_motion(self) -> None:
+        """Refuse an axle on five rods."""
+        if self.axle.overheld:
+            RigidAxleModel(self.axle)
+
+    @property
+    def design_wheel_coordinates(self) -> Array:
+        """Travels of zero."""
+        return np.zeros(len(SIDES))
+
+    def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
+        """Return the travels, if the axle can be there [m]."""
+        del rack
+        found = np.array([travel or 0.0 for travel in travels])
+        self.model.states_at(*found)
+        return found
+
+    def reach(self, rack: float) -> None:
+        """Return None: how far a wheel goes depends on the other one."""
+        del rack
+
+    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, Assembled]:
+        """Return its parts at rest; the coordinates are the travels of both wheels [m]."""
+        del racks
+        return {"": self._parts(coordinates)}
+
+    def _parts(self, travels: Array) -> Parts:
+        return Parts.of(self.model, self.model.placed(*travels.T))
+
+    def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
+        """Tell where its rods and dampers reach, with springs and dampers upright."""
+        del racks
+        margins = self.model.margins(self.model.placed(*coordinates.T))
+        found = np.asarray((margins > 0.0).all(axis=-1))
+        found[found] = self._parts(coordinates[found]).upright()
+        return found
+
+    def locked(self, coordinates: Array) -> NDArray[np.bool_]:
+        """Tell where its rods lock, or where it does not come from design."""
+        beyond = self.model.parts_of_ways(*coordinates.T) < 1.0
+        margins = self.model.margins(self.model.placed(*(_CLEAR * coordinates).T))
+        # those of the rods; a damper may be near the end of its length
+        closing = margins[:, : len(self.model.equations.GUARDS)]
+        return np.asarray(beyond | ~(closing > 0.0).all(axis=-1))
+
+    def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
+        """Tell whether it has a stop, of both wheels."""
+        del wheel
+        return getattr(self.axle, which) is not None
+
+    def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueHolder | None:
+        """Return what holds the torque of brakes or drive."""
+        part = getattr(self.axle, what)
+        return None if part is None else part.torque_on
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """Nothing: statics decides all."""
+        return ()
+
+    def acting(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
+        """Return what acts on its parts, and the couple of the anti-roll bar."""
+        return {"": poses[""].acting()}
+
+    def told(
+        self, over: str, poses: Mapping[str, Any], found: xr.Dataset
+    ) -> dict[str, xr.Variable]:
+        """Return the forces along the rods, and the torque of the bar."""
+        rods = [*self.axle.rods]
+        forces = (found["force"].sel(load=f"{BEAM} at {rod}_axle by {rod}").values for rod in rods)
+        pulls = [
+            np.einsum("ni,ni->n", force, poses[""].rod(rod))
+            for rod, force in zip(rods, forces, strict=True)
+        ]
+        words = "force along a rod, positive in tension"
+        return {
+            "rod": xr.Variable("rod", rods),
+            "rod_force": variable((over, "rod"), np.stack(pulls, axis=-1), words, "N"),
+        } | super().told(over, poses, found)
+
+    def in_motion(
+        self, states: Array, inputs: Array
+    ) -> tuple[dict[str, Assembled], dict[str, Array]]:
+        """Return its parts in some states, and the rates of these."""
+        rates = self.model.evaluate("rhs", states, inputs)
+        return {"": Parts.of(self.model, states, inputs)}, {"": rates}
 
     def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
         """Return bushes as a caller describes them, or those of the file."""

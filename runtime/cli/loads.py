@@ -1,8 +1,7 @@
 """``kintrafo loads``: the forces on every part in load cases."""
 
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.markup import escape
@@ -10,17 +9,13 @@ from rich.table import Table
 
 from ..core.errors import InputError
 from ..core.tabulated import whole
-from .axles import is_axle
 from .console import console, print_json, print_table, say
 from .exits import Exit
-from .options import File, Force, Json, among, load
+from .options import File, Force, Json, among
 from .outputs import Out, Outputs, name_files, title_of
-from .rigid import is_rigid_axle
-from .rigid import loads as of_rigid_axle
+from .subject import described_by
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
     from xarray import Dataset
 
 EXAMPLES = (
@@ -78,20 +73,21 @@ def command(
     exit code is 1 where a case cannot be carried that is in --cases or, of the usual ones, that
     --case names; without either, where none can.
     """
+    from ..assembly.by_wheel import flat
     from ..study import export
     from ..study import loads as study
     from ..study.loads.mounts import ALL, with_totals
     from ..study.loads.sheets import overview
 
     inputs: list[str | Path] = [file, *([] if cases is None else [cases])]
-    carried, usual = subject(file)
+    subject = described_by(file)
     described = {} if cases is None else study.read(cases)
-    named = described.get("cases", usual)
+    named = described["cases"] if "cases" in described else study.standard_cases(subject)
     shown = among(case, [*named], "--case") if case else None
     suffixes = [f"_{name}" for name in shown or named]
     outputs = Outputs.of(out, None, force=force, inputs=inputs)
     pages = Outputs.of(None, plot, force=force, inputs=inputs, suffixes=suffixes)
-    found = carried(named, static_load=described.get("static_load_N"))
+    found = study.static(subject, named, static_load=described.get("static_load_N"))
     parts = among(part, dict.fromkeys(with_totals(found)["part"].values), "--part") if part else []
     bodies = [name for name in parts if name != ALL]
     if pages.pages and parts and not bodies:
@@ -113,7 +109,7 @@ def command(
                     inputs=inputs,
                 )
     if json:
-        print_json(export.as_dict(found))
+        print_json(export.as_dict(flat(found)))
     else:
         told = with_totals(found, several=ALL not in parts)
         for name in shown or ():
@@ -133,20 +129,6 @@ def _did_what_was_asked(found: "Dataset", asked: list[str]) -> bool:
     if asked:
         return not found["reason"].sel(case=asked).values.any()
     return not all(found["reason"].values)
-
-
-def subject(file: str) -> "tuple[Callable[..., Dataset], Mapping[str, Any]]":
-    """Return what finds the loads of a suspension or an axle of any sort, and its usual cases."""
-    from ..study import axles, loads
-    from ..suspension.axle import Axle
-
-    if is_rigid_axle(file):
-        return of_rigid_axle(file)
-    if is_axle(file):
-        return partial(axles.static_loads, Axle.load(file)), axles.standard_cases()
-    model = load(file)
-    usual = loads.standard_cases(model.suspension.vehicle.sign)
-    return partial(loads.static, model), usual
 
 
 def _tell(found: "Dataset") -> None:

@@ -8,7 +8,6 @@ import typer
 from . import axles, rigid
 from . import goals as wanted
 from .console import problems, say
-from .loads import subject
 from .options import File, Force, Which, load, refuse_which, system_of
 from .subject import described_by
 
@@ -170,9 +169,9 @@ def _of_loads(file: str, cases: Path | None, *, wanted: bool) -> "list[Chapter]"
     if cases is None and not wanted:
         return []
     described = {} if cases is None else study.read(cases)
-    carried, usual = subject(file)
     load_at_rest = described.get("static_load_N")
-    return [loads_chapter(carried(described.get("cases", usual), static_load=load_at_rest))]
+    subject = described_by(file)
+    return [loads_chapter(study.static(subject, described.get("cases"), static_load=load_at_rest))]
 
 
 def _aims(of: "Model | Axle | RigidAxle", path: Path | None) -> "list[Goal]":

@@ -1,8 +1,7 @@
 """What the commands do with the file of a rigid axle."""
 
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -11,7 +10,7 @@ from .options import among
 from .outputs import Outputs
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Sequence
 
     from xarray import Dataset
 
@@ -90,15 +89,6 @@ def compared(files: list[str], motion: str) -> "tuple[Dataset, str, dict[str, Ri
         )
     found = dict(zip(distinct(files), map(RigidAxle.load, files), strict=True))
     return study.compare(found, over=motion), motion, found
-
-
-def loads(file: str) -> "tuple[Callable[..., Dataset], Mapping[str, Any]]":
-    """Return what finds the loads of a rigid axle, and its usual cases."""
-    from ..study import rigid as study
-    from ..suspension.rigid import RigidAxle
-
-    axle = RigidAxle.load(file)
-    return partial(study.static_loads, axle), study.standard_cases(axle)
 
 
 def report(

@@ -159,7 +159,7 @@ def command(
     if loads:
         from ..study import loads as study
 
-        found = _loads_along(model, result)
+        found = study.along(model, result)
         written += on_parts.write_data(found, rows=study.table(found), sheets=study.workbook(found))
     left = result.validity
     if json:
@@ -206,18 +206,6 @@ class _Run:
 
         together = by_wheel(self.model, motion)
         return together.rename(wheel="data_set") if "wheel" in together.dims else together
-
-
-def _loads_along(model: Any, result: "Simulation") -> "Dataset":
-    from ..study import axles, loads, rigid
-    from ..suspension.axle.equations import AxleModel
-    from ..suspension.model import Model
-
-    if isinstance(model, Model):
-        return loads.along(model, result)
-    if isinstance(model, AxleModel):
-        return axles.loads_along(model, result)
-    return rigid.loads_along(model, result)
 
 
 def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:

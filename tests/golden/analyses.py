@@ -101,7 +101,7 @@ def _of_axle(axle: Axle, bushes: Any) -> Analyses:
         "roll": partial(axles.roll, axle, ROLL),
         "left": partial(axles.single, axle, TRAVEL, side="left"),
         "right": partial(axles.single, axle, TRAVEL, side="right"),
-        "static loads": partial(axles.static_loads, axle),
+        "static loads": partial(loads.static, axle),
         "elastokinematics, bump": partial(
             compliance.elastokinematics, axle, bushes, "bump", TRAVEL
         ),
@@ -119,7 +119,7 @@ def _of_axle_in_motion(model: AxleModel) -> Analyses:
 
     return {
         "simulation": lambda: run()[1],
-        "loads in motion": lambda: axles.loads_along(model, run()[0]),
+        "loads in motion": lambda: loads.along(model, run()[0]),
         "linearisation": lambda: _linearised(model, kintrafo.equilibrium(model)),
     }
 
@@ -135,14 +135,14 @@ def _of_rigid_axle(axle: RigidAxle, bushes: Any) -> Analyses:
         "bump": partial(rigid_axles.bump, axle, TRAVEL),
         "roll": partial(rigid_axles.roll, axle, ROLL),
         "left": partial(rigid_axles.single, axle, TRAVEL, side="left"),
-        "static loads": partial(rigid_axles.static_loads, axle),
+        "static loads": partial(loads.static, axle),
         "elastokinematics, bump": partial(
             compliance.elastokinematics, axle, bushes, "bump", TRAVEL
         ),
         "elastokinematics, roll": partial(compliance.elastokinematics, axle, bushes, "roll", ROLL),
         "sheet": partial(sheet.sheet, axle, bushes),
         "simulation": lambda: run()[1],
-        "loads in motion": lambda: rigid_axles.loads_along(model, run()[0]),
+        "loads in motion": lambda: loads.along(model, run()[0]),
         "linearisation": lambda: _linearised(model, kintrafo.equilibrium(model)),
         "sensitivity": partial(variation.sensitivity, axle, positions=TRAVEL[1:4]),
     } | _compliance(axle, bushes)

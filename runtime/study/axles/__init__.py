@@ -12,22 +12,14 @@
     `deflection` the same by equilibrium, under loads of any size
     `elastokinematics` what bushes do over the motions of a rig
     `on_bushes`  both sides on their bushes
-    `loads`      what every part carries in load cases
-    `along`      the same along a motion
-    `cases`      load cases of both wheels
-    `standing`   where both wheels stand, the bar between them
-    `between`    what both sides load: bar, drop links, rack
 
 What a single wheel does is in `kintrafo.characteristics`. Definitions and signs: docs/axles.md.
 """
 
 from ...assembly.motions import MOTIONS
 from ...assembly.rig import Extent
-from .along import loads_along
-from .cases import standard_cases
 from .compare import compare, over
 from .datasets import bump, by_side, roll, single, steer
-from .loads import static_loads
 
 __all__ = [
     "MOTIONS",
@@ -35,11 +27,8 @@ __all__ = [
     "bump",
     "by_side",
     "compare",
-    "loads_along",
     "over",
     "roll",
     "single",
-    "standard_cases",
-    "static_loads",
     "steer",
 ]

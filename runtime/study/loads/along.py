@@ -1,4 +1,4 @@
-"""The loads on every part of a suspension that moves: Newton and Euler along a simulation."""
+"""The loads on every part of an assembly that moves: Newton and Euler along a simulation."""
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
@@ -7,27 +7,22 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...assembly.coupling import Between, alone, rules_of
-from ...assembly.load import RACK, Load, known
-from ...assembly.poses import (
-    CENTER,
-    CONTACT,
-    Poses,
-    touching,
-    wheel_axes,
-)
+from ...assembly.assembly import Assembly
+from ...assembly.by_wheel import stacked
+from ...assembly.load import Load
+from ...assembly.of import given_assembly
+from ...assembly.poses import CENTER, CONTACT, Assembled, touching, wheel_axes
 from ...core.arguments import Arguments
 from ...core.memory import refuse_beyond
-from ...core.quantities import variable
+from ...core.quantities import attributes, variable
 from ...core.threads import shared_out
 from ...simulation.result import Simulation
 from ...suspension.corner import RoadWheel
-from ...suspension.model import Model
-from ...systems.inputs import rates_of
 from ...systems.system import System
 from ..recording import TIME
-from .dataset import dataset_of, joined
-from .inertia import Twists, tensor_of_part, tensor_of_wheel
+from .applied_loads import WHEEL, of_wheel
+from .dataset import loads_of
+from .inertia import Twists
 from .reactions import Equations
 
 Array = NDArray[np.float64]
@@ -36,14 +31,15 @@ Array = NDArray[np.float64]
 _SAME = 1e-6
 # So many moments are looked at together, for the memory of it.
 _TOGETHER = 5000
+_NEEDED = "a kintrafo.Model, AxleModel or RigidAxleModel is needed: the one that was simulated"
 
 
-def along(model: Model, result: Simulation) -> xr.Dataset:
+def along(model: System, result: Simulation) -> xr.Dataset:
     """Return the loads on every part at each output of a simulation.
 
     Parameters
     ----------
-    model : Model
+    model : Model, AxleModel or RigidAxleModel
         The one that was simulated.
     result : Simulation
 
@@ -52,22 +48,24 @@ def along(model: Model, result: Simulation) -> xr.Dataset:
     xarray.Dataset
         As of `static`, over ``time`` [s] instead of cases. Besides what acts, ``by`` inertia names
         minus mass times acceleration and minus the rate of the moment of momentum, so that the sum
-        over each part is zero. ``holding_force`` [N] is a vertical force on the wheel that the
-        motion would need besides: none where the equations of motion and the balance of the parts
-        agree. How exact the motion is, the tolerances of the simulation decide. The tyre pushes
-        at the wheel centre, in the plane of the wheel, as in the equations. With ``wheel_loads``
-        the road does at the contact as well; ``by`` input are the forces at the centre and the
-        moment on the wheel, ``by`` shaft is its torque. That of the hub is a part of what the
-        bearing carries.
+        over each part is zero. An anti-roll bar and its drop links have no mass. ``holding_force``
+        [N] is a vertical force on each wheel that the motion would need besides: none where the
+        equations of motion and the balance of the parts agree. How exact the motion is, the
+        tolerances of the simulation decide. The tyre pushes at the wheel centre, in the plane of
+        the wheel, as in the equations. With ``wheel_loads`` the road does at the contact as well;
+        ``by`` input are the forces at the centre and the moment on the wheel, ``by`` shaft is its
+        torque. That of the hub is a part of what the bearing carries.
 
     Raises
     ------
     InputError
         If the result is not a motion of this model.
+    PositionError
+        If the motion comes to a dead point, where what is carried has no bound.
 
     Examples
     --------
-    >>> from kintrafo import simulate, state_at_height
+    >>> from kintrafo import Model, simulate, state_at_height
     >>> model = Model("reference_car")
     >>> motion = simulate(model, (0.0, 0.1), state_at_height(model, 0.325))
     >>> found = along(model, motion)
@@ -75,12 +73,13 @@ def along(model: Model, result: Simulation) -> xr.Dataset:
     True
     """
     with Arguments("along") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+        given.kind("model", model, System, _NEEDED)
+        if not given.refused:
+            assembly = given_assembly(given, model, "model")
         given.kind("result", result, Simulation, "what kintrafo.simulate returns is needed")
         if not given.refused and not is_motion_of(model, result):
             given.refuse(f"result: it is not a motion of this model, {model!r}.")
-    found = over_time(partial(in_motion, model), result)
-    return found.assign_attrs(rules=rules_of(model.suspension))
+    return over_time(partial(in_motion, assembly), result)
 
 
 def over_time(find: Callable[[Array, Array], xr.Dataset], result: Simulation) -> xr.Dataset:
@@ -140,67 +139,35 @@ def is_motion_of(model: System, result: Simulation) -> bool:
     )
 
 
-def in_motion(model: Model, states: Array, inputs: Array) -> xr.Dataset:
+def in_motion(assembly: Assembly, states: Array, inputs: Array) -> xr.Dataset:
     """Return the loads in some states, of shape (n, states), as over time."""
-    poses = Poses.of(model, states, inputs)
-    return moving_loads({"": poses}, {"": model.evaluate("rhs", states, inputs)}, {"": []})
-
-
-def moving_loads(
-    poses: Mapping[str, Poses],
-    rates: Mapping[str, Array],
-    pulled: Mapping[str, list[Load]],
-    between: Between = alone,
-) -> xr.Dataset:
-    """Return the loads in a motion, of one suspension or of both of an axle.
-
-    Parameters
-    ----------
-    poses : mapping of str to Poses
-        By what goes behind their names: nothing for one suspension.
-    rates : mapping of str to ndarray
-        Rates of the states.
-    pulled : mapping of str to list of Load
-        What pulls at its parts besides.
-    between : callable, optional
-        See `joined`.
-    """
-    loads, holding = {}, {}
-    for suffix, own in poses.items():
-        equations = Equations(own)
-        acting = [*known(own), *pulled[suffix], _road(own), *_on_the_wheel(own)]
-        acting += _inertia(own, equations.parts, rates[suffix])
-        unknowns = equations.solve(equations.applied(acting))
-        loads[suffix] = [*equations.carried(unknowns), *acting]
-        holding[f"holding_force{suffix}"] = unknowns[:, -1]
+    poses, rates = assembly.in_motion(states, inputs)
+    acting, loads, holding = assembly.acting(poses), {}, []
+    for suffix, group in poses.items():
+        equations = Equations(group)
+        own = [*acting[suffix], *_on_wheels(group), *_inertia(group, rates[suffix])]
+        unknowns = equations.solve(equations.applied(own))
+        loads[suffix] = [*equations.carried(unknowns), *own]
+        holding += [*unknowns[:, -len(group.wheels) :].T]
     meaning = "vertical force at the wheel that the motion would need besides"
-    told = {name: variable(TIME, values, meaning, "N") for name, values in holding.items()}
-    return dataset_of(TIME, *joined(poses, loads, between)).assign(told)
+    held = stacked(TIME, holding, attributes(meaning, "N"))
+    return loads_of(TIME, assembly, poses, loads).assign(holding_force=held)
 
 
-def _road(poses: Poses) -> Load:
-    """Return the force of the tyre, which acts in the plane of the wheel through its centre."""
-    return Load("wheel", CENTER, "road", poses.push_of_tyre(), np.zeros(3), poses.points[CENTER])
+def _on_wheels(group: Assembled) -> list[Load]:
+    """Return the forces of the tyres, through the wheel centres, and what inputs exert."""
+    tyres, inputs, still = group.tyre_forces(), group.inputs_of_wheels(), np.zeros(3)
+    roads, given = [], []
+    for part, wheel in group.wheels.items():
+        road = Load(WHEEL, CENTER, "road", tyres[part], still, wheel.center)
+        roads += of_wheel(part, [road])
+        if part in inputs:
+            given += of_wheel(part, _of_inputs(inputs[part], wheel))
+    return [*roads, *given]
 
 
-def _on_the_wheel(poses: Poses) -> list[Load]:
-    """Return what the inputs of a model with loads on its wheel say."""
-    model = poses.model
-    if not model.wheel_loads:
-        return []
-    given = dict(zip(model.input_names, poses.inputs.T, strict=True))
-    return of_inputs(given, poses.wheels["wheel"])
-
-
-def of_inputs(given: Mapping[str, Array], wheel: RoadWheel) -> list[Load]:
-    """Return what inputs exert on a wheel.
-
-    Parameters
-    ----------
-    given : mapping of str to ndarray
-        The inputs of `kintrafo.suspension.wheel_loads` by their names, (n,).
-    wheel : RoadWheel
-    """
+def _of_inputs(given: Mapping[str, Array], wheel: RoadWheel) -> list[Load]:
+    """Return what the inputs of `kintrafo.suspension.wheel_loads`, each (n,), exert on a wheel."""
     axes, nothing = wheel_axes(wheel), np.zeros(3)
     contact, center, moment = (
         np.einsum("an,nai->ni", [given[f"{name}_{axis}"] for axis in "xyz"], axes)
@@ -208,33 +175,17 @@ def of_inputs(given: Mapping[str, Array], wheel: RoadWheel) -> list[Load]:
     )
     shaft = given["shaft_torque"][:, None] * (wheel.vehicle.side * wheel.axis)
     return [
-        Load("wheel", CONTACT, "road", contact, nothing, touching(wheel)),
-        Load("wheel", CENTER, "input", center, moment, wheel.center),
-        Load("wheel", CENTER, "shaft", nothing, shaft, wheel.center),
+        Load(WHEEL, CONTACT, "road", contact, nothing, touching(wheel)),
+        Load(WHEEL, CENTER, "input", center, moment, wheel.center),
+        Load(WHEEL, CENTER, "shaft", nothing, shaft, wheel.center),
     ]
 
 
-def _inertia(poses: Poses, parts: tuple[str, ...], by_time: Array) -> list[Load]:
+def _inertia(group: Assembled, by_time: Array) -> list[Load]:
     """Return what the acceleration of each part takes, as loads."""
-    model, values = poses.model, poses.model.parameters
-    rates_of_inputs = _rates_of_inputs(model, poses.inputs)
-    twists = Twists.of(model, poses.states, poses.inputs, by_time, rates_of_inputs)
-    axis = model.suspension.wheel.spin_axis(model.suspension.vehicle.sign)
-    loads = []
-    for part in (part for part in (*parts, RACK) if values.get(f"{part}_mass", 0.0) != 0.0):
-        wheel = part == "wheel"
-        tensor = tensor_of_wheel(values, part, axis) if wheel else tensor_of_part(values, part)
-        mass, turned, center = values[f"{part}_mass"], poses.turned[part], poses.centers[part]
-        loads.append(twists.load(part, part, mass, tensor, turned, center))
-    return loads
-
-
-def _rates_of_inputs(model: Model, inputs: Array) -> Array:
-    """Return the rates of the inputs that parts move by: those of a rack that is held."""
-    by_time = np.zeros_like(inputs)
-    if model.suspension.steered() and not model.free_rack:
-        names = ("rack_position", *rates_of("rack_position", model.equations.INPUTS))
-        position, velocity, acceleration = (model.input_names.index(name) for name in names)
-        by_time[:, position] = inputs[:, velocity]
-        by_time[:, velocity] = inputs[:, acceleration]
-    return by_time
+    rates = group.rates_of_inputs()
+    twists = Twists.of(group.model, group.states, group.inputs, by_time, rates)
+    return [
+        twists.load(part, mass, group.turned[part], group.centers[part])
+        for part, mass in group.masses().items()
+    ]

@@ -1,7 +1,7 @@
 """Load cases: what acts on the wheel, as a file or a caller gives them."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -9,15 +9,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...assembly.assembly import Assembly
+from ...assembly.of import given_assembly
 from ...core.arguments import Arguments
 from ...core.suggestions import suggestion
+from ...suspension.axle.axle import LEFT, RIGHT
+from ...suspension.axle.file import Held
 from ...suspension.input.toml_file import read_sections
 
 Array = NDArray[np.float64]
 
+SIDES = (LEFT, RIGHT)
+_RACK = "rack_mm"
 _SECTIONS = ("static_load_N", "cases")
 _KEYS = (
-    "rack_mm",
+    _RACK,
     "travel_mm",
     *(f"{place}_{unit}" for place in ("contact", "center") for unit in ("N", "g", "Nm")),
 )
@@ -82,21 +88,84 @@ def read(path: str | Path) -> dict[str, Any]:
 
 
 def cases_of(
-    given: Arguments, described: Mapping[str, Any], static_load: float, *, of: str = ""
-) -> list[Case]:
-    """Read load cases by their names.
+    given: Arguments,
+    assembly: Assembly,
+    described: Mapping[str, Any],
+    static_loads: Sequence[float],
+) -> list[tuple[Case, ...]]:
+    """Read load cases: what each says of every wheel.
 
     Parameters
     ----------
     given : Arguments
         Gets what is wrong.
+    assembly : Assembly
     described : mapping
-        By name, each with keys of `docs/loads.md`.
-    static_load : float
-        Of the wheel, in parts of which forces may be given [N].
-    of : str, optional
-        Of which side of an axle they are.
+        By name, each with keys of `docs/loads.md`, which count for every wheel. Where there are
+        several, a wheel may have some of its own under its name.
+    static_loads : sequence of float
+        Of each wheel, in parts of which forces may be given [N].
     """
+    if not described:
+        given.refuse("cases: one or more are needed.")
+    several = len(assembly.wheels) > 1
+    if not assembly.steered and several:
+        for name, table in described.items():
+            if any(_RACK in one for one in tables_of({name: table})):
+                given.refuse(f"[cases.{name}] {_RACK}: no rack steers it. Leave it out.")
+    found = []
+    for wheel, static_load in zip(assembly.wheels, static_loads, strict=True):
+        own = described
+        if several:
+            own = {
+                name: _of_wheel(given, name, table, wheel, racks=assembly.steered)
+                for name, table in described.items()
+            }
+        # what all have is told once
+        if not given.refused:
+            of = wheel if several else ""
+            found.append(_cases_of_wheel(given, own, static_load, of))
+    return list(zip(*found, strict=True)) if not given.refused else []
+
+
+def tables_of(described: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """Return all tables that there are in load cases: of all wheels, and of one."""
+    every = [*described.values()]
+    every += [t.get(side) for t in described.values() if isinstance(t, Mapping) for side in SIDES]
+    return [table for table in every if isinstance(table, Mapping)]
+
+
+def in_parts_of_it(described: Mapping[str, Any]) -> bool:
+    """Tell whether forces are given in parts of the static load."""
+    keys = (str(key) for table in tables_of(described) for key in table)
+    return any(key.endswith("_g") for key in keys)
+
+
+def _of_wheel(given: Arguments, name: str, table: Any, wheel: str, *, racks: bool) -> Any:
+    """Return what a case says of one wheel of several; what is no table as it is."""
+    if not isinstance(table, Mapping):
+        return table
+    both = {key: value for key, value in table.items() if key not in SIDES}
+    own = table.get(wheel, {})
+    if not isinstance(own, Mapping):
+        given.refuse(f"[cases.{name}] {wheel} must be a section, as [cases.{name}.{wheel}].")
+        return both
+    if racks and _RACK in own:
+        given.refuse(
+            f"[cases.{name}.{wheel}] {_RACK}: both sides have one rack. "
+            f"Give it to [cases.{name}] itself."
+        )
+    for key in (key for key in own if key in both):
+        given.refuse(
+            f"[cases.{name}] {key} is that of both wheels, and [cases.{name}.{wheel}] has it, too. "
+            f"Give it to both by itself, or to left and right."
+        )
+    return both | dict(own)
+
+
+def _cases_of_wheel(
+    given: Arguments, described: Mapping[str, Any], static_load: float, of: str
+) -> list[Case]:
     cases = []
     for name, table in described.items():
         title = f"[cases.{name}]{of and ' '}{of}"
@@ -137,28 +206,73 @@ def cases_of(
     return cases
 
 
-def standard_cases(side: float) -> dict[str, dict[str, Any]]:
-    """Return the usual load cases, in parts of the static load.
+def standard_cases(subject: Any) -> dict[str, dict[str, Any]]:
+    """Return the usual load cases, in parts of the static load of each wheel.
+
+    Sideways forces push the wheel of a corner inward. In cases of an axle that differ between its
+    wheels the right one has the greater load. Forces along x act where what holds the torque of
+    brakes or drive finds them: at the contact if it is on the carrier or the axle, at the wheel
+    centre if it is on the body. An axle that is known not to be driven has no case ``drive``.
 
     Parameters
     ----------
-    side : float
-        +1 of a left wheel, -1 of a right one: sideways forces push inward.
+    subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
+
+    Returns
+    -------
+    dict
+        As `static` takes them.
+
+    Examples
+    --------
+    >>> from kintrafo import Axle
+    >>> standard_cases(Axle.load("reference_axle"))["corner"]["right"]
+    {'contact_g': [0.0, 1.2, 1.5]}
     """
     with Arguments("standard_cases") as given:
-        if abs(given.number("side", side)) != 1.0 and not given.refused:
-            given.refuse(f"side = {side:g}: 1 of a left wheel or -1 of a right one is needed.")
-    inward = -side
-    return {
-        "static": {"contact_g": [0.0, 0.0, 1.0]},
-        "brake": {"contact_g": [-1.3, 0.0, 1.3]},
-        "reverse": {"contact_g": [0.8, 0.0, 0.9]},
-        "drive": {"contact_g": [0.0, 0.0, 0.9], "center_g": [0.5, 0.0, 0.0]},
+        assembly = given_assembly(given, subject)
+    several = len(assembly.wheels) > 1
+    usual = _OF_AXLES if several else _of_corner(-1.0 if assembly.wheels[0] == LEFT else 1.0)
+    held = {name: assembly.torque_on("drive" if name == "drive" else "brakes") for name in usual}
+    return {name: _with_torque_on(usual[name], of) for name, of in held.items() if of is not None}
+
+
+def _of_corner(inward: float) -> dict[str, dict[str, Any]]:
+    return _EVEN | {
         "corner": {"contact_g": [0.0, 1.2 * inward, 1.5]},
         "trail_brake": {"contact_g": [-0.9, 0.9 * inward, 1.5]},
         "kerb": {"contact_g": [0.0, 1.5 * inward, 2.0]},
         "pothole": {"contact_g": [-1.5, 0.0, 3.0]},
     }
+
+
+def _uneven(left: list[float], right: list[float]) -> dict[str, Any]:
+    return {LEFT: {"contact_g": left}, RIGHT: {"contact_g": right}}
+
+
+_EVEN = {
+    "static": {"contact_g": [0.0, 0.0, 1.0]},
+    "brake": {"contact_g": [-1.3, 0.0, 1.3]},
+    "reverse": {"contact_g": [0.8, 0.0, 0.9]},
+    "drive": {"contact_g": [0.5, 0.0, 0.9]},
+}
+_OF_AXLES = _EVEN | {
+    "corner": _uneven([0.0, 0.4, 0.5], [0.0, 1.2, 1.5]),
+    "trail_brake": _uneven([-0.5, 0.4, 0.7], [-0.9, 0.9, 1.5]),
+    "kerb": _uneven([0.0, 0.0, 1.0], [0.0, 1.5, 2.0]),
+    "bump": _uneven([0.0, 0.0, 1.0], [0.0, 0.0, 2.5]),
+    "pothole": _uneven([0.0, 0.0, 1.0], [-1.5, 0.0, 3.0]),
+}
+
+
+def _with_torque_on(case: Mapping[str, Any], held: Held) -> dict[str, Any]:
+    """Return a case with its forces along x where they find what holds the torque."""
+    if "contact_g" not in case:
+        return {side: _with_torque_on(own, held) for side, own in case.items()}
+    x, y, z = case["contact_g"]
+    if held == "carrier" or x == 0.0:
+        return {"contact_g": [x, y, z]}
+    return {"contact_g": [0.0, y, z], "center_g": [x, 0.0, 0.0]}
 
 
 def _number(given: Arguments, title: str, table: Mapping[str, Any], key: str) -> float | None:

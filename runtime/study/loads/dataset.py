@@ -8,9 +8,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...assembly.coupling import Between, Place, alone
+from ...assembly.assembly import Assembly
+from ...assembly.by_wheel import WHEEL, flat, wheel_coordinate
+from ...assembly.coupling import Place
 from ...assembly.load import Load
-from ...assembly.poses import Poses
+from ...assembly.poses import Assembled
 from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...core.vectors import cross
@@ -27,38 +29,39 @@ _ENDS = "min", "min_case", "max", "max_case"
 _NEEDED = "what kintrafo.loads.static or along returns is needed"
 
 
-def joined(
-    poses: Mapping[str, Poses], loads: Mapping[str, Sequence[Load]], between: Between = alone
-) -> tuple[list[Load], dict[str, Place], dict[str, str]]:
-    """Return the loads of one suspension, or of both of an axle and what is between them.
+def loads_of(
+    over: str,
+    assembly: Assembly,
+    poses: Mapping[str, Assembled],
+    loads: Mapping[str, Sequence[Load]],
+) -> xr.Dataset:
+    """Return the loads of an assembly over the positions, with those between its groups.
 
     Parameters
     ----------
+    over : str
+        Dimension of the positions.
+    assembly : Assembly
     poses, loads : mapping
-        By what goes behind the names of a side.
-    between : callable, optional
-
-    Returns
-    -------
-    loads : list of Load
-    places : dict of str to Place
-        The parts that are in equilibrium.
-    mounted : dict of str to str
-        As of `Structure`.
+        By suffix.
     """
-    every = [of_side(load, suffix) for suffix, own in loads.items() for load in own]
+    own = [of_side(load, suffix) for suffix, every in loads.items() for load in every]
     places = {
-        f"{part}{suffix}": Place(side.centers[part], side.turned[part])
-        for suffix, side in poses.items()
-        for part in side.model.suspension.structure().parts
+        f"{part}{suffix}": Place(group.centers[part], group.turned[part])
+        for suffix, group in poses.items()
+        for part in group.structure.parts
     }
-    every, shared = between(poses, every)
+    further, shared = assembly.between(poses, own)
     mounted = {
-        f"{point}{suffix}": f"{mount}{suffix}"
-        for suffix, side in poses.items()
-        for point, mount in side.model.suspension.structure().mounted.items()
+        f"{point}{suffix}": mount and f"{mount}{suffix}"
+        for suffix, group in poses.items()
+        for point, mount in group.structure.mounted.items()
     }
-    return every, places | shared, mounted
+    found = dataset_of(over, [*own, *further], places | shared, mounted)
+    found = found.assign(assembly.told(over, poses, found))
+    return found.assign_coords({WHEEL: wheel_coordinate(assembly.wheels)}).assign_attrs(
+        rules="; ".join(assembly.rules)
+    )
 
 
 def of_side(load: Load, suffix: str) -> Load:
@@ -75,7 +78,7 @@ def dataset_of(
     over: str,
     loads: Sequence[Load],
     places: Mapping[str, Place],
-    mounted: Mapping[str, str] | None = None,
+    mounted: Mapping[str, str],
 ) -> xr.Dataset:
     """Return loads over the positions.
 
@@ -87,7 +90,7 @@ def dataset_of(
         All that there are.
     places : mapping
         The parts that are in equilibrium.
-    mounted : mapping of str to str, optional
+    mounted : mapping of str to str
         As of `Structure`.
     """
     count = max(len(place.center) for place in places.values())
@@ -125,7 +128,7 @@ def dataset_of(
         for name, (columns, meaning, unit) in data.items()
     }
     found = xr.Dataset(described | residuals, coordinates)
-    return found.assign(totals(over, loads, mounted or {}, count))
+    return found.assign(totals(over, loads, mounted, count))
 
 
 def over_cases(
@@ -215,7 +218,7 @@ def table(dataset: xr.Dataset) -> xr.Dataset:
     with Arguments("table") as given:
         given.kind("dataset", dataset, xr.Dataset, _NEEDED)
         _check(given, dataset)
-    dataset = with_totals(dataset)
+    dataset = with_totals(flat(dataset))
     columns = {
         f"{name}_{axis}": dataset[name].sel({AXIS: axis}, drop=True)
         for name in ("force", "moment", "at")
@@ -246,7 +249,7 @@ def workbook(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
     found = {"loads": table(dataset)}
     if CASE not in dataset.dims:
         return found
-    ends = envelope(with_totals(dataset))
+    ends = envelope(with_totals(flat(dataset)))
     columns = {
         f"{name}_{axis}_{end}": ends[f"{name}_{end}"].sel({AXIS: axis}, drop=True)
         for name, axis, end in product(("force", "moment"), "xyz", _ENDS)

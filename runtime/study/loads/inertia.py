@@ -1,12 +1,12 @@
 """What the acceleration of a part takes, as a load on it: Euler's equations in chassis axes."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...assembly.load import Load
+from ...assembly.mass import PartMass
 from ...core.vectors import cross
 from ...systems.system import System
 
@@ -59,45 +59,26 @@ class Twists:
             total += weight * model.evaluate("velocities", *moved)
         return cls(tuple(model.equations.BODIES), twists, total / step[:, :, None])
 
-    def load(
-        self, body: str, part: str, mass: float, tensor: Array, turned: Array, center: Array
-    ) -> Load:
+    def load(self, part: str, of: PartMass, turned: Array, center: Array) -> Load:
         """Return what the acceleration of a part takes.
 
         Parameters
         ----------
-        body, part : str
-            What it is called in the equations, and among the loads.
-        mass : float
-            [kg]
-        tensor : ndarray, shape (3, 3)
-            Its inertia about its centre of mass at design, chassis axes [kg m^2].
+        part : str
+            What it is called among the loads.
+        of : PartMass
+            What is accelerated.
         turned : ndarray, shape (n, 3, 3)
             Its rotation from design.
         center : ndarray, shape (n, 3)
             Its centre of mass [m].
         """
-        which = self.bodies.index(body)
+        which = self.bodies.index(of.body)
         turning, rate = self.twists[:, which, :3], self.rates[:, which]
         momentum, its_rate = (
             # there and back: the tensor belongs to the axes of the part
-            np.einsum("nij,nj->ni", turned, np.einsum("nji,nj->ni", turned, vector) @ tensor)
+            np.einsum("nij,nj->ni", turned, np.einsum("nji,nj->ni", turned, vector) @ of.tensor)
             for vector in (turning, rate[:, :3])
         )
         moment = its_rate + cross(turning, momentum)
-        return Load(part, "mass", "inertia", -mass * rate[:, 3:], -moment, center)
-
-
-def tensor_of_part(parameters: Mapping[str, float], part: str) -> Array:
-    """Return the inertia tensor of a part about its centre of mass at design [kg m^2]."""
-    xx, yy, zz, xy, xz, yz = (
-        parameters[f"{part}_inertia_{name}"] for name in ("xx", "yy", "zz", "xy", "xz", "yz")
-    )
-    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-
-
-def tensor_of_wheel(parameters: Mapping[str, float], wheel: str, axis: Array) -> Array:
-    """Return the inertia tensor of a wheel with a spin axis at design [kg m^2]."""
-    spin, across = (parameters[f"{wheel}_inertia_{name}"] for name in ("spin", "diametral"))
-    tensor: Array = across * np.eye(3) + (spin - across) * np.outer(axis, axis)
-    return tensor
+        return Load(part, "mass", "inertia", -of.mass * rate[:, 3:], -moment, center)

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
+from ...assembly.by_wheel import flat
 from ...core.tabulated import Tabulated, whole
 from .mounts import ALL, CHASSIS, with_totals
 
@@ -33,6 +34,7 @@ def overview(found: xr.Dataset, title: str, parts: Sequence[str] = ()) -> Tabula
         Loads on these parts, with all that act on them; by default each joint once. The part
         ``total`` has the sums at all mounts.
     """
+    found = flat(found)
     rows = [
         (_words(n), *(whole(float(load)) for load in found[n].values))
         for n in _named(found, "wheel_load")
@@ -73,12 +75,12 @@ def shown_rows(found: xr.Dataset, parts: Sequence[str] = ()) -> list[int]:
 
     Totals at mounts go with the loads on the chassis.
     """
-    named = found["part"].values
-    given = [CHASSIS if name == ALL and parts and ALL not in parts else name for name in named]
+    given = [str(part) for part in found["part"].values]
     sizes = np.abs(found["force"].values) + np.abs(found["moment"].values)
     strong = np.nan_to_num(sizes).max(axis=(0, 2)) > 0.0
     if parts:
-        return [i for i, name in enumerate(given) if name in parts and strong[i]]
+        wanted = {*parts, ALL} if CHASSIS in parts else {*parts}
+        return [i for i, name in enumerate(given) if name in wanted and strong[i]]
     seen: set[frozenset[str]] = set()
     rows = []
     for i, (name, point, by) in enumerate(

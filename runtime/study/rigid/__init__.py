@@ -5,10 +5,6 @@
     `catalogue` name, unit, definition and sign of each
     `datasets`  the labelled arrays over bump, roll and one wheel's travel
     `parts`     the parts at many positions, and what acts on them by itself
-    `balance`   what rods, bearings and the road carry
-    `standing`  where both wheels stand under load cases
-    `loads`     what every part carries in load cases
-    `along`     the same along a motion
     `compliance` how bushes give way under loads on the wheels, to first order
     `on_bushes` the axle on its bushes
     `elastokinematics` the motions of a rig on bushes
@@ -17,18 +13,13 @@
 Definitions and signs: docs/rigid-axle.md.
 """
 
-from .along import loads_along
 from .datasets import MOTIONS, bump, compare, over, roll, single
-from .loads import standard_cases, static_loads
 
 __all__ = [
     "MOTIONS",
     "bump",
     "compare",
-    "loads_along",
     "over",
     "roll",
     "single",
-    "standard_cases",
-    "static_loads",
 ]

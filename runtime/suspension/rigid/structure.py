@@ -11,6 +11,8 @@ from ..structure import FORCES_OF_A_DAMPER, Ball, Cross, Fixed, Joint, Line, Str
 
 BEAM, CHASSIS = "beam", "chassis"
 CENTER = "wheel_center"
+MIDDLE = "axle_middle"
+"""The point between the wheel centres, at which an anti-roll bar acts."""
 
 _SIDES = (LEFT, RIGHT)
 # The signals and inputs of a side that are the force of a spring or a damper.
@@ -40,7 +42,8 @@ def structure_of(rods: Iterable[str]) -> Structure:
         for name, forces in _FORCES.items()
         for side in _SIDES
     ]
-    return Structure((*_of_rods(rods), *bearings), lines)
+    # how the bar gets to the body is left out
+    return Structure((*_of_rods(rods), *bearings), lines, {MIDDLE: ""})
 
 
 def of_a_file(rods: Iterable[str]) -> Structure:

@@ -26,7 +26,6 @@ from kintrafo import (
     measurement,
     plots,
     rig,
-    rigid_axles,
     roads,
     scenario,
     sweep,
@@ -467,36 +466,36 @@ CALLS = {
         ),
         _BAR | {"free_twist_deg": 1.0},
     ),
-    "axles.static_loads": (
-        axles.static_loads,
-        {"axle": _AXLE, "cases": {"a": {"contact_g": [0.0, 0.0, 1.0]}}, "static_load": 3000.0},
+    "loads.static of an axle": (
+        loads.static,
+        {"subject": _AXLE, "cases": {"a": {"contact_g": [0.0, 0.0, 1.0]}}, "static_load": 3000.0},
     ),
     "load case of an axle": (
-        lambda **given: axles.static_loads(_AXLE, {"a": given}),
+        lambda **given: loads.static(_AXLE, {"a": given}),
         {
             "rack_mm": 10.0, "contact_N": [0.0, 100.0, 3000.0],
             "left": {"contact_Nm": [10.0, 0.0, 0.0]}, "right": {"center_N": [1.0, 0.0, 0.0]},
         },
     ),
-    "axles.loads_along": (axles.loads_along, {"model": None, "result": _RESULT}),
-    "rigid_axles.static_loads": (
-        rigid_axles.static_loads,
-        {"axle": _RIGID, "cases": {"a": {"contact_g": [0.0, 0.0, 1.0]}}, "static_load": 3000.0},
+    "loads.along of no model": (loads.along, {"model": None, "result": _RESULT}),
+    "loads.static of a rigid axle": (
+        loads.static,
+        {"subject": _RIGID, "cases": {"a": {"contact_g": [0.0, 0.0, 1.0]}}, "static_load": 3000.0},
     ),
     "load case of a rigid axle": (
-        lambda **given: rigid_axles.static_loads(_RIGID, {"a": given}),
+        lambda **given: loads.static(_RIGID, {"a": given}),
         {
             "travel_mm": None, "contact_N": [0.0, 100.0, 3000.0], "contact_g": [0.1, 0.0, 0.0],
             "left": {"contact_Nm": [10.0, 0.0, 0.0]}, "right": {"center_N": [1.0, 0.0, 0.0]},
         },
     ),
     "rigid axle held at a travel": (
-        lambda **given: rigid_axles.static_loads(_RIGID, {"a": given}),
+        lambda **given: loads.static(_RIGID, {"a": given}),
         {"travel_mm": 10.0, "contact_N": [100.0, 0.0, 0.0], "right": {}},
     ),
-    "rigid_axles.standard_cases": (rigid_axles.standard_cases, {"axle": _RIGID}),
-    "rigid_axles.loads_along": (
-        rigid_axles.loads_along, {"model": kintrafo.RigidAxleModel(_RIGID), "result": _RIDE}
+    "loads.standard_cases": (loads.standard_cases, {"subject": _RIGID}),
+    "loads.along of a rigid axle": (
+        loads.along, {"model": kintrafo.RigidAxleModel(_RIGID), "result": _RIDE}
     ),
     "compliance.linear of an axle": (
         compliance.linear,

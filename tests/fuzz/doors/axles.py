@@ -156,7 +156,7 @@ def _check_loads(axle, random, rack):
         }
         | {"rack_mm": 1e3 * rack}
     }
-    found = axles.static_loads(axle, cases)
+    found = loads.static(axle, cases)
     force, at = found["force"].values[0], found["at"].values[0]
     moment = found["moment"].values[0] + np.cross(at, force)
     largest = float(np.abs(force).max())

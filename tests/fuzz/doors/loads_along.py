@@ -15,7 +15,6 @@ from kintrafo import (
     RigidAxleModel,
     Suspension,
     loads,
-    rigid_axles,
     simulate,
 )
 
@@ -42,8 +41,7 @@ def attempt(random):
     middle = np.sort(random.uniform(0.01, 0.09, 4))
     times = np.unique(np.concatenate([middle - _BESIDE, middle, middle + _BESIDE]))
     motion = simulate(model, (0.0, 0.1), start, inputs=inputs, t_eval=times, rtol=1e-9, atol=1e-11)
-    rigid = isinstance(model, RigidAxleModel)
-    found = (rigid_axles.loads_along if rigid else loads.along)(model, motion)
+    found = loads.along(model, motion)
     _check_sums(found)
     _check_inertia(model, motion, found, np.searchsorted(times, middle))
 

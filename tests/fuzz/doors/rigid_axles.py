@@ -8,7 +8,7 @@ Loads that come back balance each other, and where they do not there is a reason
 from __future__ import annotations
 
 import numpy as np
-from kintrafo import PositionError, RigidAxle, RigidAxleModel, equilibrium, rigid_axles
+from kintrafo import PositionError, RigidAxle, RigidAxleModel, equilibrium, loads, rigid_axles
 
 from ..attempts import WrongError
 
@@ -96,7 +96,7 @@ def _check(model, left, right):
 
 def _check_loads(axle, random):
     cases = {f"case_{i}": {s: _forces(random) for s in ("left", "right")} for i in range(3)}
-    found = rigid_axles.static_loads(axle, cases, static_load=6000.0)
+    found = loads.static(axle, cases, static_load=6000.0)
     for name in cases:
         here = found.sel(case=name)
         if str(here["reason"].values):
@@ -104,7 +104,7 @@ def _check_loads(axle, random):
                 raise WrongError(f"forces in {name}, which is not carried")
             continue
         largest = float(abs(here["force"]).max())
-        for left in ("residual", "residual_moment", "holding_force_left", "holding_force_right"):
+        for left in ("residual", "residual_moment", "holding_force"):
             # a missing force of 1e-7 N is looked for, whatever there is to carry
             if not float(abs(here[left]).max()) <= 1e-6 + PROMISED * largest:
                 raise WrongError(f"{left} of {name}: {here[left].values}, of {largest} N")

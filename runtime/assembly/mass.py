@@ -1,0 +1,64 @@
+"""The masses and inertia tensors of parts, from the parameters of their equations."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PartMass:
+    """What the acceleration of a part moves.
+
+    Attributes
+    ----------
+    body : str
+        What the part is called in the equations.
+    mass : float
+        [kg]
+    tensor : ndarray, shape (3, 3)
+        Its inertia about its centre of mass at design, chassis axes [kg m^2].
+    """
+
+    body: str
+    mass: float
+    tensor: Array
+
+    @classmethod
+    def of(
+        cls, parameters: Mapping[str, float], name: str, body: str, spin_axis: Array | None = None
+    ) -> "PartMass":
+        """Return the mass of a part.
+
+        Parameters
+        ----------
+        parameters : mapping
+            Of the equations.
+        name : str
+            What begins the names of its parameters.
+        body : str
+        spin_axis : ndarray, shape (3,), optional
+            Of a wheel, at design: its inertia is that about this axis and that across it.
+        """
+        tensor = (
+            _tensor(parameters, name)
+            if spin_axis is None
+            else _of_wheel(parameters, name, spin_axis)
+        )
+        return cls(body, parameters[f"{name}_mass"], tensor)
+
+
+def _tensor(parameters: Mapping[str, float], name: str) -> Array:
+    xx, yy, zz, xy, xz, yz = (
+        parameters[f"{name}_inertia_{element}"] for element in ("xx", "yy", "zz", "xy", "xz", "yz")
+    )
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def _of_wheel(parameters: Mapping[str, float], name: str, axis: Array) -> Array:
+    spin, across = (parameters[f"{name}_inertia_{part}"] for part in ("spin", "diametral"))
+    tensor: Array = across * np.eye(3) + (spin - across) * np.outer(axis, axis)
+    return tensor
