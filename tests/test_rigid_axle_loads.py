@@ -521,7 +521,7 @@ def test_other_arguments_that_cannot_be_used() -> None:
     with pytest.raises(InputError, match=r"\[tyre\] radius_mm is needed"):
         loads.static(AXLE.with_changes(low))
     soft = AXLE.with_changes({"tyre.rate_N_per_m": 0.0, "spring.rate_N_per_m": 1.0})
-    with pytest.raises(InputError, match=r"static_load is needed, \[N\]: the axle has no stable"):
+    with pytest.raises(InputError, match=r"static_load is needed, \[N\]: no stable rest"):
         loads.static(soft)
 
 

@@ -49,7 +49,8 @@ class WheelReach:
     Attributes
     ----------
     coordinate : tuple of float
-        Its coordinate at the lowest and at the highest position, see `Assembly.at_wheel_coordinates`.
+        Its coordinate at the lowest and at the highest position, as of
+        `Assembly.at_wheel_coordinates`.
     height : tuple of float
         Heights of the wheel centre there [m].
     """

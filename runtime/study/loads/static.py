@@ -136,7 +136,7 @@ def _at_rest_on_the_road(
         return [0.0] * len(assembly.wheels)
     coordinates, (reason,) = static_equilibrium(assembly, WheelLoads.of_tyres(len(assembly.wheels)))
     if reason:
-        given.refuse(f"static_load is needed, [N]: on the road at z = 0 {reason}")
+        given.refuse(f"static_load is needed, [N]: no stable rest on the road: {reason}")
         return [1.0] * len(assembly.wheels)
     poses = assembly.at_wheel_coordinates(coordinates, np.zeros(1))
     return [float(poses[suffix].tyre_forces()[part][0, 2]) for suffix, part, _ in wheels_of(poses)]
