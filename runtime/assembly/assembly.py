@@ -285,7 +285,7 @@ class Assembly(ABC):
         """
 
     @abstractmethod
-    def reach(self, rack: float) -> Sequence[WheelReach] | None:
+    def wheel_reach(self, rack: float) -> Sequence[WheelReach] | None:
         """Return how far each wheel goes; None where it depends on the other one.
 
         Raises

@@ -208,9 +208,9 @@ class AxleAssembly(Assembly):
                 raise PositionError(f"{side}: {error}") from None
         return np.concatenate(found)
 
-    def reach(self, rack: float) -> list[WheelReach]:
+    def wheel_reach(self, rack: float) -> list[WheelReach]:
         """Return how far each wheel goes by itself."""
-        return [reach for one in self._corners.values() for reach in one.reach(rack)]
+        return [reach for one in self._corners.values() for reach in one.wheel_reach(rack)]
 
     def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, Assembled]:
         """Return its parts at rest; the coordinates are those of the sides."""

@@ -153,7 +153,7 @@ class CornerAssembly(Assembly):
             return self.design_wheel_coordinates
         return self._sense * arm_angles(self.model, [design_height(self.model) + travel], rack)
 
-    def reach(self, rack: float) -> list[WheelReach]:
+    def wheel_reach(self, rack: float) -> list[WheelReach]:
         """Return how far the wheel goes."""
         found = travel_range(self.model, rack)
         low, high = (self._sense * angle for angle in found.arm_angle)

@@ -219,7 +219,7 @@ class RigidAxleAssembly(Assembly):
         self.model.states_at(*found)
         return found
 
-    def reach(self, rack: float) -> None:
+    def wheel_reach(self, rack: float) -> None:
         """Return None: how far a wheel goes depends on the other one."""
         del rack
 

@@ -157,7 +157,7 @@ class _Search:
         for rack in dict.fromkeys(self.loads.racks[rows]):
             own = rows[self.loads.racks[rows] == rack]
             try:
-                reach = self.assembly.reach(float(rack))
+                reach = self.assembly.wheel_reach(float(rack))
             except PositionError as error:
                 for row in own:
                     self.reasons[row] = str(error)
