@@ -382,3 +382,38 @@ def test_the_line_of_an_own_file_is_named(tmp_path):
     file.write_text(text)
     with pytest.raises(kintrafo.MechanismError, match=r"act, line 9: there is no joint 'B'"):
         kintrafo.compile(file)
+
+
+def after_jumps(
+    start: float, jumps: int, far: float, jump: float, time: float
+) -> tuple[float, ...]:
+    """Return angle and rate of a rotor of 1 kg m^2 that a moment brakes, by parts in closed form.
+
+    The moment grows by a jump at each half and one, two, ... times an angle.
+    """
+    angle, rate = 0.0, start
+    for n in range(jumps + 1):
+        way = (n + 0.5) * far - angle
+        root = np.sqrt(max(rate**2 - 2.0 * n * jump * way, 0.0))
+        needed = 2.0 * way / (rate + root)
+        if n == jumps or needed > time:
+            break
+        angle, rate, time = angle + way, root, time - needed
+    return angle + rate * time - n * jump * time**2 / 2.0, n
+
+
+@pytest.mark.skipif(find_compiler() is None, reason="no compiler")
+def test_many_jumps_are_passed_as_accurately_as_the_page_says(tmp_path: Any) -> None:
+    """docs/own-mechanism.md has the errors; a few times those are allowed of other machines."""
+    far, jump = 0.04, 0.08
+    moment = -jump * sum(sp.Heaviside(q - (i + 0.5) * far, 1) for i in range(50))
+    module = compiled(Own(lambda _: Action({"q_A": moment})), backend="c", folder=tmp_path)
+    system = kintrafo.System(module)
+    angle, passed = after_jumps(4.0, 50, far, jump, 0.45)
+    assert passed == 42
+    usual = {"DormandPrince": 2e-4, "Adams": 2e-5, "Verner": 4e-6, "BDF": 4e-6}
+    for method, off in usual.items():
+        for rtol, most in ((1e-6, off), (1e-9, 1e-6)):
+            found = kintrafo.simulate(system, (0.0, 0.45), [0.0, 4.0], method=method, rtol=rtol)
+            assert found.success
+            assert abs(found.y[0, -1] - angle) < 5.0 * most, (method, rtol)

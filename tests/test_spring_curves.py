@@ -480,8 +480,50 @@ def test_springs_of_a_rigid_axle():
 def test_what_varies_of_a_spring_by_a_curve_is_said():
     car = curved("double_wishbone_car")
     with pytest.warns(
-        RuntimeWarning, match=r"spring.compression_mm, spring.force_N: lists, as of a"
+        RuntimeWarning,
+        match=r"spring.compression_mm, spring.force_N: lists, as of a .* where spring.force_N is",
     ):
         variation.sensitivity(car, ["spring"], positions=[0.0])
-    with pytest.raises(InputError, match=r"spring.force_N is a list, as of a curve"):
-        variation.sensitivity(car, ["spring.force_N"], positions=[0.0])
+    with pytest.raises(InputError, match=r"spring.compression_mm is a list, as of a curve"):
+        variation.sensitivity(car, ["spring.compression_mm"], positions=[0.0])
+
+
+def scaled_by(car, factor):
+    """Return a car with other forces of its spring's curve."""
+    return car.with_changes({"spring.force_N": [factor * force for force in car.spring.force_N]})
+
+
+@pytest.mark.parametrize("name", ["double_wishbone_car", "reference_car"])
+def test_forces_of_a_curve_vary_by_a_factor(name):
+    """Each car is that whose file has the forces times the factor."""
+    car, at = curved(name), [-0.02, 0.02]
+    options = {"positions": at, "names": ["wheel_rate"]}
+    factors = [0.9, 1.0, 1.1, 1.3]
+    found = variation.cars(car, {"spring.force_N": factors}, **options)
+    for rates, factor in zip(found["wheel_rate"].values, factors, strict=True):
+        expected = characteristics.travel(Model(scaled_by(car, factor)), at)["wheel_rate"].values
+        np.testing.assert_allclose(rates, expected, rtol=1e-12)
+    slope = variation.sensitivity(car, ["spring.force_N"], **options)
+    assert str(slope["place_name"].values[0]) == "spring force factor"
+    beside = [
+        characteristics.travel(Model(scaled_by(car, 1.0 + by)), at)["wheel_rate"].values
+        for by in (-1e-3, 1e-3)
+    ]
+    difference = (beside[1] - beside[0]) / 2e-3
+    # the difference is off by the square of its step
+    np.testing.assert_allclose(slope["wheel_rate"].values[0], difference, rtol=1e-5)
+    bands = variation.tolerance(car, {"spring.force_N": "3 %"}, count=40, seed=2, **options)
+    assert np.abs(bands["value_of"].values - 1.0).max() == pytest.approx(0.02, abs=0.012)
+    assert bands["wheel_rate_share"].values == pytest.approx(1.0)
+
+
+def test_a_factor_of_a_rigid_axle_and_of_goals():
+    bent = axle(compression_mm=COMPRESSIONS, force_N=FORCES, force_at_design_N=4000.0)
+    found = variation.sensitivity(bent, ["spring.force_N"], positions=[0.0])
+    assert any(np.nan_to_num(found[name].values).any() for name in found)
+    car = curved("double_wishbone_car")
+    wanted = 1.1 * characteristics.travel(Model(car), [0.0])["wheel_rate"].values[0] / 1e3
+    goals = {"wheel_rate": {"at_mm": [0.0], "value": wanted, "within": 0.1}}
+    best = variation.optimise(car, {"spring.force_N": "30 %"}, goals)
+    factor = 1.0 + best.moved["spring.force_N"]
+    assert best.suspension == scaled_by(car, factor)

@@ -25,7 +25,7 @@ from ...suspension.kinds import Suspension
 from ..characteristics import datasets
 from ..compliance.flexibility import HELD
 from .curves import Curves, changed
-from .places import Place
+from .places import Place, is_factor
 from .ways import Subject, model_of
 
 Array = NDArray[np.float64]
@@ -115,6 +115,7 @@ def _some(
     reasons = [""] * count
     there = np.zeros(count, dtype=bool)
     alone = any(look.over in HELD for look in looks)
+    alone = alone or any(map(is_factor, values))
     alone = alone or any("bushings" in place.split(".")[:2] for place in values)
     if isinstance(suspension, Suspension) and count >= _FEWEST and not alone:
         there = _together(suspension, values, looks, found)

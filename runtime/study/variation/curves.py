@@ -12,7 +12,7 @@ from ...core.arguments import Arguments
 from ...suspension.kinds import Suspension
 from ...suspension.rigid import RigidAxle
 from ..compliance.flexibility import HELD
-from .places import Place
+from .places import Place, scaled
 from .ways import (
     Looked,
     Subject,
@@ -95,8 +95,10 @@ S = TypeVar("S", bound=Suspension | RigidAxle)
 
 
 def changed(suspension: S, changes: Mapping[str, float]) -> S:
-    """Return a suspension or a rigid axle with other values, or the same."""
-    return cast("S", suspension.with_changes(changes)) if changes else suspension
+    """Return a suspension or an axle with other values, or the same; of lists by a factor."""
+    return (
+        cast("S", suspension.with_changes(scaled(suspension, changes))) if changes else suspension
+    )
 
 
 def curves_of(

@@ -12,7 +12,7 @@ from scipy.stats import qmc
 from ...core.arguments import Arguments
 from ...core.errors import InputError
 from .candidates import Candidates
-from .curves import refuse_bushes
+from .curves import changed, refuse_bushes
 from .front import compromise, spread, unbeaten
 from .goals import Limit, check_data, limits_of
 from .nsga import check_installed, evolve
@@ -109,7 +109,7 @@ class Front:
         changes: dict[str, float] = {}
         for place in self.places:
             changes |= place.moved(moved[place.name] * place.to_si)
-        return self.start.with_changes(changes)
+        return changed(self.start, changes)
 
 
 def pareto(

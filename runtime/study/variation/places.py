@@ -3,7 +3,7 @@
 import math
 import re
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from typing import Any
@@ -31,6 +31,8 @@ _SIDE, _APART = "side.", ("right", "left")
 # Sections of points in the unit of the hardpoints: of a file, and of each rod of a rigid axle.
 _POINTS, _RODS = ("hardpoints.", "left_hardpoints."), "rods."
 _OF_A_BAR = ("bush", "link_top", "link_foot")
+# The list of a file that varies by a factor on all of it: the forces of a spring's curve.
+_SCALED = "spring.force_N"
 
 
 @dataclass(frozen=True)
@@ -41,11 +43,11 @@ class Place:
     ----------
     name : str
         Section and key with dots between them, and the component of a point:
-        ``hardpoints.ball_joint.z``.
+        ``hardpoints.ball_joint.z``. That of a list stands for a factor on all of it.
     unit : str
         In which a person reads it: ``mm``, ``deg``, ``N/m``; empty for a pure number.
     value : float
-        In this unit.
+        In this unit; of a factor 1.
     in_file : float
         What a value in this unit is multiplied with in the file: 0.001 for hardpoints in metres.
     """
@@ -64,7 +66,7 @@ class Place:
     def words(self) -> str:
         """What it is called for a person: ``ball joint z``, ``strut spring rate``."""
         words = without_unit(self.name).removeprefix(_SIDE).replace("hardpoints.", "", 1)
-        return words.translate(_SPACES)
+        return words.translate(_SPACES) + (" factor" if is_factor(self.name) else "")
 
     @property
     def si_unit(self) -> str:
@@ -132,9 +134,7 @@ def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, 
         ``hardpoints.*.z``.
     """
     known = places_of(suspension)
-    lists = {
-        f"{begin}{name}" for begin, table in _sections(suspension).items() for name in _lists(table)
-    }
+    lists = _lists_of(suspension)
     wanted: set[str] = set()
     lost: dict[str, None] = {}
     texts = isinstance(patterns, list | tuple) and all(isinstance(p, str) for p in patterns)
@@ -150,10 +150,12 @@ def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, 
             given.refuse(f"{pattern} is no number of the input file, nor a section of it. {hint}")
         wanted |= found
         if found:
-            lost |= dict.fromkeys(sorted(name for name in lists if _fits(name, pattern)))
+            fixed = lists.keys() - found
+            lost |= dict.fromkeys(sorted(name for name in fixed if _fits(name, pattern)))
     if lost:
         warnings.warn(
-            f"{', '.join(lost)}: lists, as of a curve, do not vary; single numbers do.",
+            f"{', '.join(lost)}: lists, as of a curve, do not vary; single numbers do, and by a "
+            f"factor the forces of a spring, where {_SCALED} is named.",
             RuntimeWarning,
             stacklevel=2,
         )
@@ -170,6 +172,8 @@ def _of_both(pattern: str, known: Mapping[str, Place]) -> str:
 
 def _is_meant(name: str, pattern: str, known: Mapping[str, Place]) -> bool:
     """Return whether a pattern means a value: of sides that are images, each only by its name."""
+    if is_factor(name) and pattern.rpartition(".")[2] != name.rpartition(".")[2]:
+        return False  # an amount is meant for numbers of other units
     side = name.partition(".")[0]
     if side not in _APART or not any(other.startswith(_SIDE) for other in known):
         return True
@@ -222,17 +226,39 @@ def _fits(name: str, pattern: str) -> bool:
     return fnmatchcase(name, pattern) or fnmatchcase(name, f"{pattern}.*")
 
 
-def _lists(table: Mapping[str, Any], above: str = "") -> Iterator[str]:
-    """Yield the names of lists that are no points, such as the forces of a curve."""
+def is_factor(name: str) -> bool:
+    """Return whether a place has a list, and what varies is a factor on all of it."""
+    return name == _SCALED or name.endswith(f".{_SCALED}")
+
+
+def scaled(suspension: Subject, changes: Mapping[str, float]) -> dict[str, Any]:
+    """Return changes of a file with lists in place of the factors on them."""
+    if not any(map(is_factor, changes)):
+        return {**changes}
+    lists = _lists_of(suspension)
+    return {
+        name: [by * one for one in lists[name]] if is_factor(name) else by
+        for name, by in changes.items()
+    }
+
+
+def _lists_of(suspension: Subject) -> dict[str, Sequence[float]]:
+    """Return the lists that are no points, such as the forces of a curve, by name."""
+    every = _sections(suspension).items()
+    return {f"{begin}{name}": one for begin, table in every for name, one in _lists(table)}
+
+
+def _lists(table: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Sequence[float]]]:
+    """Yield the lists that are no points, by their names."""
     for key, value in table.items():
         if isinstance(value, Mapping):
             yield from _lists(value, f"{above}{key}.")
         elif (
             isinstance(value, list | tuple)
             and not key.endswith("axis")
-            and not any(_places({key: value}, above, {"": 1.0}))
+            and (is_factor(f"{above}{key}") or not any(_places({key: value}, above, {"": 1.0})))
         ):
-            yield f"{above}{key}"
+            yield f"{above}{key}", value
 
 
 def _places(table: Mapping[str, Any], above: str, in_file: Mapping[str, float]) -> Iterator[Place]:
@@ -250,5 +276,7 @@ def _places(table: Mapping[str, Any], above: str, in_file: Mapping[str, float]) 
         if isinstance(value, list) and (of_points or key.endswith("com_mm") or key == "axis"):
             for axis, component in zip("xyz", value, strict=True):
                 yield Place(f"{name}.{axis}", unit, component / factor, factor)
+        elif isinstance(value, list | tuple) and is_factor(name):
+            yield Place(name, "", 1.0)
         elif isinstance(value, float):
             yield Place(name, unit, value)
