@@ -6,11 +6,13 @@ A variable of a dataset carries its description as attributes: ``units`` (SI), `
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Array = NDArray[np.float64]
 
@@ -72,9 +74,11 @@ def attributes(meaning: str, units: str) -> dict[str, Any]:
 
 def variable(
     dimensions: str | tuple[str, ...], values: Any, meaning: str, units: str
-) -> xr.Variable:
+) -> "xr.Variable":
     """Return a variable over some dimensions, with its description as `attributes` makes it."""
-    return xr.Variable(dimensions, values, attributes(meaning, units))
+    from xarray import Variable  # noqa: PLC0415 (slow to import)
+
+    return Variable(dimensions, values, attributes(meaning, units))
 
 
 def display_of(attrs: Mapping[str, Any]) -> Display:
@@ -97,7 +101,7 @@ def unit_or_stroke(attrs: Mapping[str, Any]) -> str:
     return "-" if units in ("", "1") else units
 
 
-def displayed(data: xr.DataArray) -> Array:
+def displayed(data: "xr.DataArray") -> Array:
     """Return the values of a variable in the unit for people."""
     values: Array = np.asarray(data.values, dtype=np.float64) * display_of(data.attrs).factor
     return values
@@ -109,7 +113,7 @@ def bracketed(name: str, attrs: Mapping[str, Any]) -> str:
     return name if units in ("", "1") else f"{name} [{units}]"
 
 
-def long_name(data: xr.DataArray) -> str:
+def long_name(data: "xr.DataArray") -> str:
     """Return what a variable is called in words."""
     return str(data.attrs.get("long_name") or str(data.name).replace("_", " "))
 

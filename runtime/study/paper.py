@@ -7,18 +7,20 @@ masses or rates; the reference car is this project's own, so the curves compare 
 
 import time
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..assembly.equilibrium import equilibrium
-from ..simulation.result import Simulation
-from ..simulation.simulate import simulate
 from ..suspension.model import Model
 from ..suspension.positions import arm_angles, state_at_height
 from ..suspension.reach import at_rest
 from ..systems.linearisation import linearise
 from ..systems.modes import Mode
+
+if TYPE_CHECKING:
+    from ..simulation.result import Simulation
 
 Array = NDArray[np.float64]
 
@@ -70,7 +72,7 @@ class Dynamics:
         Time that the integration took, output included [s].
     """
 
-    result: Simulation
+    result: "Simulation"
     seconds: float
 
 
@@ -115,6 +117,8 @@ def dynamics(model: Model) -> Dynamics:
     -------
     Dynamics
     """
+    from ..simulation.simulate import simulate  # noqa: PLC0415 (slow to import)
+
     start = state_at_height(model, START_HEIGHT, spin_rate=SPIN_RATE)
     times = np.linspace(0.0, DURATION, round(DURATION / OUTPUT_INTERVAL) + 1)
     before = time.perf_counter()

@@ -7,7 +7,6 @@ from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eig
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -173,6 +172,8 @@ def _mode(values: tuple[complex, ...], shape: Complex, names: tuple[str, ...]) -
 
 def _decompose(matrix: Array) -> tuple[Complex, Complex, Complex]:
     """Return eigenvalues in order, with left and right eigenvectors as columns."""
+    from scipy.linalg import eig  # noqa: PLC0415 (slow to import)
+
     found = cast("tuple[Complex, Complex, Complex]", eig(matrix, left=True, right=True))
     order = _order(found[0])
     return found[0][order], found[1][:, order], found[2][:, order]

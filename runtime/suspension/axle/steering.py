@@ -1,15 +1,18 @@
 """From the angle of the steering wheel to the rack: a curve of the file."""
 
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
-from scipy.interpolate import PchipInterpolator
 
 from ...core.errors import InputError
 from ..input.curve import LEAST_GAP, Numbers
 from ..input.section import Section
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PchipInterpolator
 
 Array = NDArray[np.float64]
 
@@ -95,8 +98,10 @@ class SteeringCurve(Section):
         """
         return np.asarray(2.0 * np.pi * self._curve(angle).derivative()(angle), dtype=np.float64)
 
-    def _curve(self, angle: Array) -> PchipInterpolator:
+    def _curve(self, angle: Array) -> "PchipInterpolator":
         """Return the curve, for angles that are on it."""
+        from scipy.interpolate import PchipInterpolator  # noqa: PLC0415 (slow to import)
+
         problem = self.beyond(np.asarray(angle))
         if problem:
             raise InputError([problem], "axle")

@@ -1,13 +1,12 @@
 """A force by a table: smooth between its points, or straight."""
 
+from functools import cached_property
 from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator
-from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, PPoly
-from scipy.optimize import brentq
 
 from ...core.columns import number
 from .section import Number
@@ -103,15 +102,27 @@ class Curve:
         secants = self._rise / self._width
         self._is_straight = interpolation == "linear"
         if self._is_straight:
-            none = np.zeros_like(secants)
-            self._force = PPoly(np.stack([none, none, secants, forces[:-1]]), places)
             self._slopes = np.append(secants, secants[-1])
-        else:
-            self._slopes = PchipInterpolator(places, forces).derivative()(places)
-            if as_secants:
-                self._slopes[[0, -1]] = secants[[0, -1]]
-            self._force = CubicHermiteSpline(places, forces, self._slopes)
-        self._slope = self._force.derivative()
+            return
+        from scipy.interpolate import PchipInterpolator  # noqa: PLC0415 (slow to import)
+
+        self._slopes = PchipInterpolator(places, forces).derivative()(places)
+        if as_secants:
+            self._slopes[[0, -1]] = secants[[0, -1]]
+
+    @cached_property
+    def _force(self) -> Any:
+        from scipy.interpolate import CubicHermiteSpline, PPoly  # noqa: PLC0415 (slow to import)
+
+        if not self._is_straight:
+            return CubicHermiteSpline(self._places, self._forces, self._slopes)
+        none = np.zeros_like(self._rise)
+        rows = np.stack([none, none, self._rise / self._width, self._forces[:-1]])
+        return PPoly(rows, self._places)
+
+    @cached_property
+    def _slope(self) -> Any:
+        return self._force.derivative()
 
     def force(self, place: Array) -> Array:
         """Return the force."""
@@ -129,6 +140,7 @@ class Curve:
 
     def place(self, force: float) -> float:
         """Return where it has a force, if it rises without an end."""
+        from scipy.optimize import brentq  # noqa: PLC0415 (slow to import)
 
         def left(far: float) -> float:
             return float(self.force(np.array(far))) - force
