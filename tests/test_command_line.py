@@ -189,3 +189,23 @@ def test_what_documents_name_is_there_after_one_import():
     assert "kintrafo.report.write" in named
     script = "import sys, kintrafo\nfor name in sys.argv[1:]: eval(name)"
     subprocess.run([sys.executable, "-c", script, *sorted(named)], check=True)
+
+
+@pytest.mark.parametrize(
+    ("line", "unused"),
+    [
+        (
+            ["check", "reference_car"],
+            {"xarray", "pandas", "matplotlib", "scipy.interpolate", "kintrafo.simulation"},
+        ),
+        (["check", "rigid_axle"], {"matplotlib", "kintrafo.plots", "kintrafo.simulation"}),
+    ],
+)
+def test_a_command_imports_only_what_it_uses(line, unused):
+    program = "import sys; from kintrafo import cli; sys.argv[1:] = sys.argv[1:]\n"
+    program += "try: cli.run()\nexcept SystemExit as end: assert not end.code, end.code\n"
+    program += "print(*sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-c", program, *line], capture_output=True, check=True, text=True
+    )
+    assert not unused & set(done.stdout.split())

@@ -3,10 +3,9 @@
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
@@ -26,6 +25,9 @@ from .quantity import RACK, Quantity
 from .rig import Extent, RigMotion, RigPosition, WheelReach
 from .soft_lines import SoftLines
 from .wheel_names import WheelNames
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @dataclass(frozen=True)
@@ -364,8 +366,8 @@ class Assembly(ABC):
         return [], {}
 
     def told(
-        self, over: str, poses: Mapping[str, Assembled], found: xr.Dataset
-    ) -> dict[str, xr.Variable]:
+        self, over: str, poses: Mapping[str, Assembled], found: "xr.Dataset"
+    ) -> "dict[str, xr.Variable]":
         """Return what follows from all loads: forces of rack and rods, torque of the bar.
 
         Parameters

@@ -3,10 +3,9 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
@@ -38,6 +37,9 @@ from .rig import Extent, RigMotion, RigPosition, WheelReach
 from .soft_lines import SoftLines
 from .steering_wheel import rack_of
 from .wheel_names import WheelNames
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 SIDES = (LEFT, RIGHT)
 _NO_REST = (
@@ -260,8 +262,8 @@ class AxleAssembly(Assembly):
         return unit_vector(self.axle.right.rack.axis)
 
     def told(
-        self, over: str, poses: Mapping[str, Assembled], found: xr.Dataset
-    ) -> dict[str, xr.Variable]:
+        self, over: str, poses: Mapping[str, Assembled], found: "xr.Dataset"
+    ) -> "dict[str, xr.Variable]":
         """Return the force of the steering on the rack, and the torque of the bar."""
         of_bar = super().told(over, poses, found)
         if not self.steered:

@@ -1,10 +1,9 @@
 """A rigid axle as an assembly: one beam carries both wheels."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
@@ -33,6 +32,9 @@ from .rig import Extent, RigPosition
 from .soft_lines import SoftLines, lines_by_rates, lines_of_beam
 from .usual import USUAL_TRAVEL, grid
 from .wheel_names import WheelNames
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 # What each wheel travels per metre of what varies; in roll it is the half track times the sine.
 _SHARES = {"bump": (1.0, 1.0), "left": (1.0, 0.0), "right": (0.0, 1.0)}
@@ -267,9 +269,11 @@ class RigidAxleAssembly(Assembly):
         return {"": poses[""].acting()}
 
     def told(
-        self, over: str, poses: Mapping[str, Any], found: xr.Dataset
-    ) -> dict[str, xr.Variable]:
+        self, over: str, poses: Mapping[str, Any], found: "xr.Dataset"
+    ) -> "dict[str, xr.Variable]":
         """Return the forces along the rods, and the torque of the bar."""
+        from xarray import Variable  # noqa: PLC0415 (slow to import)
+
         rods = [*self.axle.rods]
         forces = (found["force"].sel(load=f"{BEAM} at {rod}_axle by {rod}").values for rod in rods)
         pulls = [
@@ -278,7 +282,7 @@ class RigidAxleAssembly(Assembly):
         ]
         words = "force along a rod, positive in tension"
         return {
-            "rod": xr.Variable("rod", rods),
+            "rod": Variable("rod", rods),
             "rod_force": variable((over, "rod"), np.stack(pulls, axis=-1), words, "N"),
         } | super().told(over, poses, found)
 
