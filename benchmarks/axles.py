@@ -5,7 +5,7 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from kintrafo import Axle, Suspension, axles
+from kintrafo import Axle, Suspension, characteristics
 from kintrafo.plots import curves
 
 from .report import fill_page, milliseconds, seconds_of
@@ -36,7 +36,7 @@ def main() -> None:
     for motion in ("bump", "roll", "left", "steer"):
         times, count = [], 0
         for axle in (REFERENCE, WISHBONES):
-            (count,) = axles.over(axle, motion).sizes.values()
+            (count,) = characteristics.over(axle, motion)["track"].sizes.values()
             times.append(milliseconds(_quickest(axle, motion)))
         table.append(f"| `{motion}` | {count} | {' | '.join(times)} |")
     table += ["", f"On {platform.machine()}, Python {platform.python_version()}; the quickest of"]
@@ -47,13 +47,13 @@ def main() -> None:
 
 
 def _quickest(axle: Axle, motion: str) -> float:
-    return min(seconds_of(lambda: axles.over(axle, motion)) for _ in range(REPEATED))
+    return min(seconds_of(lambda: characteristics.over(axle, motion)) for _ in range(REPEATED))
 
 
 def _draw() -> None:
     with tempfile.TemporaryDirectory() as name:
         path = Path(name) / "axle.png"
-        drawn = axles.by_side(axles.roll(REFERENCE))
+        drawn = characteristics.over(REFERENCE, "roll")
         curves.write_overview(drawn, path, DRAWN, "reference axle, rolling")
         shutil.copyfile(path, PICTURE)
 

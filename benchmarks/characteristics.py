@@ -34,10 +34,10 @@ def measure(count: int) -> dict[str, float]:
     return {
         "arm angles from wheel heights": best(lambda: arm_angles(model, 0.3 + travel)),
         "all characteristics over wheel travel": best(
-            lambda: characteristics.travel(model, travel)
+            lambda: characteristics.over(model, "travel", travel)
         ),
         "all characteristics over the rack, both sides": best(
-            lambda: characteristics.steering(model, rack)
+            lambda: characteristics.over(model, "rack", rack)
         ),
     }
 

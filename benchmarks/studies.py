@@ -138,7 +138,7 @@ def _fitted() -> xr.Dataset:
     """Return curves of a car that is off by known errors and noise, and those of its fit."""
     built = CAR.with_changes({"hardpoints.tie_rod_inner": [-140.0, -310.5, 281.5]})
     built = built.with_changes({"hardpoints.arm_rear": [-150.0, -351.0, 206.5]})
-    measured = characteristics.travel(Model(built), TRAVEL)[["toe", "camber"]]
+    measured = characteristics.over(Model(built), "travel", TRAVEL)[["toe", "camber"]]
     noise = np.random.default_rng(1).normal(scale=np.deg2rad(0.005), size=(2, TRAVEL.size))
     for name, errors in zip(measured, noise, strict=True):
         measured[name] += errors

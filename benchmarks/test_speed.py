@@ -73,7 +73,7 @@ def test_the_standard_second(benchmark, car, method):
 
 def test_all_characteristics_at_ten_thousand_positions(benchmark, car):
     travel = np.linspace(-0.08, 0.08, 10_000)
-    benchmark(characteristics.travel, car, travel)
+    benchmark(characteristics.over, car, "travel", travel)
 
 
 @pytest.mark.parametrize("model", MODELS, ids=NAMES)

@@ -156,7 +156,6 @@ _OTHER_NAMES = {"compile": "compile_mechanism"}
 # Modules that are themselves part of the interface, and where they are.
 _INTERFACES = {
     "adams_car": ".suspension.adams_car",
-    "axles": ".study.axles",
     "characteristics": ".study.characteristics",
     "checkup": ".study.checkup",
     "chrono": ".suspension.chrono",
@@ -170,7 +169,6 @@ _INTERFACES = {
     "point_table": ".suspension.point_table",
     "report": ".report",
     "rig": ".study.rig",
-    "rigid_axles": ".study.rigid",
     "roads": ".simulation.roads",
     "scenario": ".study.scenario",
     "schema": ".suspension.schema",

@@ -70,7 +70,7 @@ def test_it_moves_as_the_car_that_was_written(name: str, tmp_path: Path) -> None
     new = loaded(found, tmp_path)
     assert new.to_dict().keys() == car.to_dict().keys()
     path = np.linspace(-0.06, 0.06, 5)
-    curves = [characteristics.travel(Model(each), path) for each in (car, new)]
+    curves = [characteristics.over(Model(each), "travel", path) for each in (car, new)]
     for key in ("camber", "toe", "caster", "track_change", "wheel_rate"):
         if key in curves[0]:
             np.testing.assert_allclose(curves[1][key], curves[0][key], rtol=1e-9, atol=1e-12)

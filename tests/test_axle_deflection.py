@@ -12,7 +12,7 @@ from kintrafo import (
     Model,
     PositionError,
     Suspension,
-    axles,
+    characteristics,
     compliance,
 )
 from kintrafo.assembly.axle import AxleAssembly
@@ -401,7 +401,7 @@ def test_mirrored_motions_are_answered_alike(motion: str) -> None:
     if motion == "steer":
         ends *= 30.0  # of the steering wheel
     found = flat(compliance.elastokinematics(axle, soft, motion, ends))
-    kinematic = axles.roll(axle, ends) if motion == "roll" else axles.steer(axle, ends)
+    kinematic = flat(characteristics.over(axle, motion, ends))
     for name in ("toe", "camber", "wheel_load", "half_track_change"):
         left, right = (found[f"{name}_{side}"].values for side in SIDES)
         np.testing.assert_allclose(left, right[:, ::-1], rtol=1e-7, atol=1e-9)

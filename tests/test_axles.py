@@ -17,18 +17,18 @@ from kintrafo import (
     PositionError,
     RigidAxle,
     Suspension,
-    axles,
+    characteristics,
+    compare,
     compliance,
     equilibrium,
-    rigid_axles,
     roads,
 )
 from kintrafo.assembly import motions, wheel
 from kintrafo.assembly.by_wheel import flat
 from kintrafo.assembly.from_model import corner as corner_of
+from kintrafo.assembly.measures import pair_rolling as formulas
 from kintrafo.assembly.pair import Pair
 from kintrafo.report import Chapter, axle_chapter
-from kintrafo.study.axles import rolling as formulas
 from kintrafo.study.checkup import checkup
 from kintrafo.study.compare import differences
 from kintrafo.study.scenario import Scenario, by_wheel, run
@@ -167,7 +167,7 @@ def test_the_bar_and_the_forces_are_those_of_the_whole_axle(compiled: AxleModel)
         unit[:, compiled.state_names.index(f"{side}_{corner.names.arm}_rate")] = 1.0
         rise = compiled.signal(f"{side}_{compiled.axle.end}_wheel_velocity", unit, inputs)
         expected = -forces[:, arm] / rise
-        np.testing.assert_allclose(formulas.wheel_force(pair, side), expected, rtol=1e-9)
+        np.testing.assert_allclose(pair.wheel_force(side), expected, rtol=1e-9)
 
 
 def test_an_axle_rests_where_nothing_pulls(compiled: AxleModel) -> None:
@@ -201,7 +201,7 @@ def test_a_road_under_one_wheel_moves_both(compiled: AxleModel) -> None:
 def test_stiffness_is_the_derivative_of_the_forces(axle: Axle) -> None:
     left, right, racks = somewhere(2, size=0.04)
     pair = Pair.at(axle, left, right, racks)
-    whole = formulas.springs(pair) + formulas.bar(pair)
+    whole = pair.springs + pair.bar
     step = 1e-4
     for column, moved in enumerate(([1.0, 0.0], [0.0, 1.0])):
         ends = [
@@ -209,7 +209,7 @@ def test_stiffness_is_the_derivative_of_the_forces(axle: Axle) -> None:
             for sign in (1.0, -1.0)
         ]
         for row, side in enumerate(("left", "right")):
-            forward, back = (formulas.wheel_force(end, side) for end in ends)
+            forward, back = (end.wheel_force(side) for end in ends)
             slope = (forward - back) / (2.0 * step)
             # the third derivative of the force times the square of the step: 1e-8 of the rate
             np.testing.assert_allclose(whole[:, row, column], slope, rtol=1e-5, atol=2.0)
@@ -237,8 +237,8 @@ def test_in_the_middle_the_axle_is_what_its_sides_are() -> None:
     from kintrafo import characteristics
 
     travels = np.linspace(-0.05, 0.05, 11)
-    whole = axles.bump(AXLE, travels)
-    one = characteristics.travel(Model(CAR), travels)
+    whole = flat(characteristics.over(AXLE, "bump", travels))
+    one = characteristics.over(Model(CAR), "travel", travels)
     for name, other in (
         ("roll_center_height", "roll_center_height_kinematic"),
         ("anti_dive_right", "anti_dive"),
@@ -305,7 +305,9 @@ def test_roll_is_the_inclination_of_the_line_through_the_wheel_centres(
     pair = Pair.at(axle, left, right, rack)
     expected = {s: wheel.camber(corner) for s, corner in pair.corners.items()}
     for side, camber in expected.items():
-        told = axles.roll(axle, angles, rack_position=rack)[f"camber_{side}"]
+        told = flat(characteristics.over(axle, "roll", angles, rack_position=rack))[
+            f"camber_{side}"
+        ]
         np.testing.assert_array_equal(told, camber)
         if not rack:
             also = values_of(axle, "roll", angles)[f"camber_{side}"]
@@ -315,7 +317,7 @@ def test_roll_is_the_inclination_of_the_line_through_the_wheel_centres(
 def test_on_bushes_roll_is_the_same_inclination() -> None:
     angles, bushes = np.deg2rad([-3.0, 2.0]), {"arm_rear": {"axial_N_per_mm": 500.0}}
     found = flat(compliance.elastokinematics(AXLE, bushes, "roll", angles, rack_position=0.01))
-    expected = axles.roll(AXLE, angles, rack_position=0.01)
+    expected = flat(characteristics.over(AXLE, "roll", angles, rack_position=0.01))
     np.testing.assert_allclose(
         found["camber_left"].sel(data_set="kinematic"), expected["camber_left"], atol=1e-15
     )
@@ -328,11 +330,11 @@ def test_the_usual_roll_ends_where_a_wheel_does() -> None:
     axle = Axle.from_dict({"axle": "front", "side": short})
     most = motions.rolls(axle, motions.Extent())[-1]
     assert most < motions.USUAL_ROLL
-    assert axles.roll(axle, [-most, most]).sizes == {"roll_angle": 2}
+    assert flat(characteristics.over(axle, "roll", [-most, most])).sizes == {"roll_angle": 2}
     low, high = (1e3 * (end - 0.3) for end in travel_range(axle.models["left"]).height)
     assert 35.0 < min(-low, high) < 50.0
     with pytest.raises(PositionError, match="is out of reach: the left wheel") as refused:
-        axles.roll(axle, [0.0, 1.1 * most])
+        flat(characteristics.over(axle, "roll", [0.0, 1.1 * most]))
     told = re.search(r"which is (\S+) deg to (\S+) deg", str(refused.value))
     assert float(told[2]) == pytest.approx(np.degrees(most) / 0.98, rel=1e-2)
 
@@ -344,12 +346,12 @@ def test_the_usual_roll_ends_where_a_wheel_does() -> None:
 )
 def test_the_roll_moment_gradient_is_the_slope_of_the_roll_moment(of: Any) -> None:
     angles, step = np.deg2rad([-3.0, 0.0, 1.0]), 1e-3
-    study = rigid_axles if isinstance(of, RigidAxle) else axles
     low, high, lower, higher = (
-        study.roll(of, angles + by * step)["roll_moment"].values for by in (-1, 1, -2, 2)
+        characteristics.over(of, "roll", angles + by * step)["roll_moment"].values
+        for by in (-1, 1, -2, 2)
     )
     slope = (8.0 * (high - low) - (higher - lower)) / (12.0 * step)
-    found = study.roll(of, angles)
+    found = characteristics.over(of, "roll", angles)
     # the fourth power of the step
     np.testing.assert_allclose(found["roll_moment_gradient"], slope, rtol=1e-8)
     assert "levers" in found["roll_moment_gradient"].attrs["definition"]
@@ -358,7 +360,7 @@ def test_the_roll_moment_gradient_is_the_slope_of_the_roll_moment(of: Any) -> No
 
 def test_rates_in_roll_are_derivatives() -> None:
     angles = np.deg2rad(np.linspace(-2.0, 2.0, 401))
-    curves = axles.roll(AXLE, angles)
+    curves = flat(characteristics.over(AXLE, "roll", angles))
     for side in ("left", "right"):
         for rate, angle in (("roll_steer", "steer"), ("roll_camber", "camber")):
             found = np.gradient(curves[f"{angle}_{side}"].values, angles)[200]
@@ -376,7 +378,7 @@ def test_anti_features_are_the_slopes_of_paths(end: str, torque_on: str) -> None
         "brakes": {"torque_on": torque_on},
     }
     axle, step = Axle.from_dict(data), 1e-4
-    found = axles.bump(axle, [-step, 0.0, step])
+    found = flat(characteristics.over(axle, "bump", [-step, 0.0, step]))
     pair = Pair.at(axle, [-step, 0.0, step], [-step, 0.0, step], 0.0)
     corner = pair.corners["right"]
     path = corner.center
@@ -411,10 +413,13 @@ def test_the_mirror_image_exchanges_the_sides() -> None:
     one = Axle.from_dict({"axle": "rear", "side": right, "anti_roll_bar": bar})
     two = Axle.from_dict({"axle": "rear", "side": right.mirrored(), "anti_roll_bar": image})
     angles = np.deg2rad([-2.0, 0.0, 1.0])
-    first, second = axles.roll(one, angles), axles.roll(two, angles)
+    first, second = (
+        flat(characteristics.over(one, "roll", angles)),
+        flat(characteristics.over(two, "roll", angles)),
+    )
     for name in first:
         np.testing.assert_allclose(first[name], second[name], rtol=1e-9, atol=1e-9, err_msg=name)
-    back = axles.roll(one, -angles)
+    back = flat(characteristics.over(one, "roll", -angles))
     for name in ("camber", "inclination", "jacking", "track_change"):
         both = (f"{name}_left", f"{name}_right") if f"{name}_left" in back else (name, name)
         np.testing.assert_allclose(back[both[0]], first[both[1]], atol=1e-9)
@@ -433,18 +438,20 @@ def test_a_steering_curve_ends_with_its_points() -> None:
 
 def test_the_steering_wheel_turns_the_wheels() -> None:
     angles = np.deg2rad([-200.0, 0.0, 100.0])
-    by_ratio = axles.steer(AXLE, angles)
+    by_ratio = flat(characteristics.over(AXLE, "steer", angles))
     assert by_ratio["steer_left"].values[2] > 0.0
     np.testing.assert_allclose(by_ratio["rack_position"], -0.05 * angles / (2.0 * np.pi))
     given = {"axle": "front", "side": "reference_car"}
     straight = {"angle_deg": [-720.0, 720.0], "rack_mm": [100.0, -100.0]}
-    by_curve = axles.steer(Axle.from_dict(given | {"steering": straight}), angles)
+    by_curve = flat(
+        characteristics.over(Axle.from_dict(given | {"steering": straight}), "steer", angles)
+    )
     for name in by_curve:
         np.testing.assert_allclose(by_curve[name], by_ratio[name], rtol=1e-9, atol=1e-12)
     curved = {"angle_deg": [-540.0, -180.0, 0.0, 180.0, 540.0], "rack_mm": [72, 25, 0, -25, -72]}
     curved["rack_mm"] = [float(value) for value in curved["rack_mm"]]
     dense = np.deg2rad(np.linspace(-90.0, 90.0, 181))
-    found = axles.steer(Axle.from_dict(given | {"steering": curved}), dense)
+    found = flat(characteristics.over(Axle.from_dict(given | {"steering": curved}), "steer", dense))
     mean = 0.5 * (found["steer_left"] + found["steer_right"]).values
     ratio = 1.0 / np.gradient(mean, dense)[90]
     # the curve's second derivative jumps at its points: the difference is of first order there
@@ -454,10 +461,12 @@ def test_the_steering_wheel_turns_the_wheels() -> None:
 def test_without_a_ratio_the_rack_moves() -> None:
     car = CAR.with_changes({"rack.travel_per_turn_mm": None})
     axle = Axle.from_dict({"axle": "front", "side": car})
-    assert axles.steer(axle, rack=[0.0, 0.01])["steer_left"].dims == ("rack_position",)
-    assert "rack_position" in axles.steer(axle).dims
+    assert flat(characteristics.over(axle, "rack", [0.0, 0.01]))["steer_left"].dims == (
+        "rack_position",
+    )
+    assert "rack_position" in flat(characteristics.over(axle, "steer")).dims
     with pytest.raises(InputError, match="travel_per_turn_mm"):
-        axles.steer(axle, [0.0])
+        flat(characteristics.over(axle, "steer", [0.0]))
 
 
 # -- files, and what is wrong with them ---------------------------------------------------------
@@ -580,19 +589,19 @@ def test_sides_are_found_beside_the_file(tmp_path: Path) -> None:
     assert axle.left.vehicle.side == "left"
     assert axle.symmetric
     assert axle.bar is None
-    assert "bar_torque" not in axles.bump(axle, [0.0])
+    assert "bar_torque" not in flat(characteristics.over(axle, "bump", [0.0]))
 
 
 def test_what_is_out_of_reach_is_refused() -> None:
     with pytest.raises(PositionError, match="roll of 30 deg is out of reach: the left wheel"):
-        axles.roll(AXLE, np.deg2rad([0.0, 30.0]))
+        flat(characteristics.over(AXLE, "roll", np.deg2rad([0.0, 30.0])))
     short = BAR | {"link_top": [30.0, -580.0, 215.0], "bush": [60.0, -400.0, 215.0]}
     axle = Axle.from_dict({"axle": "front", "side": CAR, "anti_roll_bar": short})
     with pytest.raises(InputError, match=r"does not reach its lever at .* mm of wheel travel"):
-        axles.bump(axle)
+        flat(characteristics.over(axle, "bump"))
     assert any("does not reach" in text for text in checkup(axle).problems)
     with pytest.raises(InputError, match=r"less than 45 deg is needed; Python's unit is rad"):
-        axles.roll(AXLE, [3.0])
+        flat(characteristics.over(AXLE, "roll", [3.0]))
     for racks, words in (
         ([-10.0, 10.0], "rises with the angle, and that steers to the right"),
         ([200.0, 100.0], "nothing within the 60 mm"),
@@ -601,18 +610,18 @@ def test_what_is_out_of_reach_is_refused() -> None:
         wrong = {"angle_deg": [-90.0, 90.0], "rack_mm": racks}
         axle = Axle.from_dict({"axle": "front", "side": CAR, "steering": wrong})
         with pytest.raises(InputError, match=words):
-            axles.steer(axle)
+            flat(characteristics.over(axle, "steer"))
         assert any(words in text for text in checkup(axle).problems)
     curve = {"angle_deg": [-90.0, 90.0], "rack_mm": [10.0, -10.0]}
     axle = Axle.from_dict({"axle": "front", "side": CAR, "steering": curve})
     with pytest.raises(InputError, match="beyond the curve"):
-        axles.steer(axle, [2.0])
+        flat(characteristics.over(axle, "steer", [2.0]))
 
 
 def test_sides_with_different_equations_have_none_together() -> None:
     left = CAR.mirrored().with_changes({"tyre.lifts_off": True})
     axle = Axle.from_dict({"axle": "front", "right": CAR, "left": left})
-    assert float(axles.bump(axle, [0.0])["track"][0]) == pytest.approx(1.52)
+    assert float(flat(characteristics.over(axle, "bump", [0.0]))["track"][0]) == pytest.approx(1.52)
     with pytest.raises(InputError, match="must be in both files"):
         AxleModel(axle)
 
@@ -625,24 +634,25 @@ def test_axles_are_compared() -> None:
         {"axle": "front", "side": CAR, "anti_roll_bar": BAR | {"rate_Nm_per_deg": 35.0}}
     )
     bare = Axle.from_dict({"axle": "front", "side": CAR})
-    found = {d.name: d for d in differences(axles.compare({"a": AXLE, "b": stiff}, over="roll"))}
-    rates = axles.bump(AXLE, [0.0])
+    found = {d.name: d for d in differences(compare.compare({"a": AXLE, "b": stiff}, over="roll"))}
+    rates = flat(characteristics.over(AXLE, "bump", [0.0]))
     assert found["roll_stiffness"].at_design == pytest.approx(float(rates["roll_stiffness_bar"][0]))
     assert found["camber_left"].largest == 0.0
     rear = Axle.from_dict({"axle": "rear", "side": CAR, "drive": {"share": 1.0}})
-    both = axles.compare({"a": AXLE, "b": rear})
+    both = compare.compare({"a": AXLE, "b": rear})
     assert not [name for name in both if str(name).startswith("anti_")]  # not of one thing
-    assert "turning_circle" not in axles.steer(rear)
-    assert "bar_torque" not in axles.compare({"a": AXLE, "b": bare}, over="left")
-    assert set(axles.compare({"a": AXLE, "b": bare}, over="steer").dims) == {
+    assert "turning_circle" not in flat(characteristics.over(rear, "steer"))
+    assert "bar_torque" not in compare.compare({"a": AXLE, "b": bare}, over="left")
+    assert set(compare.compare({"a": AXLE, "b": bare}, over="steer").dims) == {
         "data_set",
+        "wheel",
         "steering_wheel_angle",
     }
 
 
 def test_both_wheels_are_drawn_together() -> None:
-    drawn = axles.by_side(axles.roll(AXLE, np.deg2rad([0.0, 1.0])))
-    assert drawn["camber"].dims == ("data_set", "roll_angle")
+    drawn = characteristics.over(AXLE, "roll", np.deg2rad([0.0, 1.0]))
+    assert drawn["camber"].dims == ("wheel", "roll_angle")
     assert drawn["camber"].attrs["long_name"] == "camber"
     assert drawn["roll_moment"].dims == ("roll_angle",)
     assert not [name for name in drawn if str(name).endswith(("_left", "_right"))]
@@ -657,8 +667,8 @@ def test_usual_positions_are_within_reach() -> None:
 
 def pictured(chapter: Chapter) -> list[str]:
     """Return the motions over which a chapter has curves, in one picture or several."""
-    motions = {f"Curves: {words}": name for name, words in axles.MOTIONS.items()}
-    return [*dict.fromkeys(motions[p.words.partition(", 1 of")[0].partition(", 2 of")[0]]
+    known = {f"Curves: {words}": name for name, words in motions.MOTIONS.items()}
+    return [*dict.fromkeys(known[p.words.partition(", 1 of")[0].partition(", 2 of")[0]]
                            for p in chapter.pictures)]  # fmt: skip
 
 
@@ -668,7 +678,9 @@ def test_an_axle_has_a_chapter_in_the_report() -> None:
     assert pictured(chapter) == ["roll", "bump", "left", "steer"]
     assert all(picture.source.startswith("data:image/svg") for picture in chapter.pictures)
     rows = {row[0]: row for row in whole.rows}
-    rate = float(axles.bump(BENT, [0.0])["roll_stiffness"][0]) * np.pi / 180.0
+    rate = (
+        float(flat(characteristics.over(BENT, "bump", [0.0]))["roll_stiffness"][0]) * np.pi / 180.0
+    )
     assert float(rows["roll stiffness"][1]) == pytest.approx(rate, rel=1e-4)
     assert "camber" in {row[0] for row in wheels.rows}  # the sides differ
     of_alike = axle_chapter(AXLE)
@@ -722,8 +734,8 @@ def test_commands_refuse_what_only_the_other_sort_has(kintrafo: Any) -> None:  #
         ("simulate reference_car --wheels left", "--wheels is only"),
         ("simulate reference_axle --height 300", "--height is only"),
         ("compare reference_axle reference_car", "files of one sort"),
-        ("compare reference_car reference_car --over roll", "only for the files of axles"),
-        ("compare reference_axle reference_axle --over rack", "of axles it is bump"),
+        ("compare reference_car reference_car --over roll", "are travel, rack"),
+        ("compare reference_axle reference_axle --over travel", "are bump, roll"),
         ("new x.toml --axle --template reference_car", "--template are both given"),
         ("new x.toml --axle --suspension push_rod", "--suspension are both given"),
         ("compare reference_axle nowhere.toml", "There is no such file"),

@@ -22,14 +22,14 @@ from kintrafo import (
     Model,
     PositionError,
     Suspension,
-    axles,
     characteristics,
     travel_range,
     variation,
 )
 from kintrafo.assembly import wheel
+from kintrafo.assembly.by_wheel import flat
 from kintrafo.assembly.from_model import corner, vehicle
-from kintrafo.study.characteristics import axle
+from kintrafo.assembly.measures import ackermann as axle
 from kintrafo.suspension.corner import RoadWheel
 from oracle.constraints import KNUCKLE
 from oracle.newton import Mechanism, observe, solve_pose_at_height
@@ -88,7 +88,7 @@ TRAVEL_TABLE, RACK_TABLE = table("chrono_generic_travel.csv"), table("chrono_gen
 
 @pytest.fixture(scope="module")
 def chrono_travel():
-    return characteristics.travel(Model(CHRONO), TRAVEL_TABLE["z"] * 1e-3)
+    return characteristics.over(Model(CHRONO), "travel", TRAVEL_TABLE["z"] * 1e-3)
 
 
 def test_every_published_column_is_compared():
@@ -107,7 +107,7 @@ def test_published_curves_over_travel(chrono_travel, column):
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_published_curves_over_the_rack(side):
     suspension = CHRONO if side == "left" else CHRONO.mirrored()
-    found = characteristics.steering(Model(suspension), RACK_TABLE["rack_mm"] * 1e-3)
+    found = characteristics.over(Model(suspension), "rack", RACK_TABLE["rack_mm"] * 1e-3)
     columns = {"steer_left": "steer_L_deg", "steer_right": "steer_R_deg"}
     columns["camber"] = f"camber_{side[0].upper()}_deg"
     if side == "left":
@@ -218,7 +218,7 @@ def found(bench):
     """All characteristics at the places, by place."""
     model = Model(bench.suspension)
     return {
-        (travel, rack): characteristics.travel(model, [travel], rack_position=rack).isel(
+        (travel, rack): characteristics.over(model, "travel", [travel], rack_position=rack).isel(
             wheel_travel=0
         )
         for travel, rack in PLACES
@@ -314,8 +314,8 @@ def test_wheel_rate_includes_a_stop_that_is_pressed():
         x = max(0.0, seat - at.length)
         return 0.5 * 5e4 * x**2 + 0.25 * 0.02e9 * x**4
 
-    found = characteristics.travel(Model(stopped), [0.0, 0.05])["wheel_rate"].values
-    plain = characteristics.travel(MODEL, [0.0, 0.05])["wheel_rate"].values
+    found = characteristics.over(Model(stopped), "travel", [0.0, 0.05])["wheel_rate"].values
+    plain = characteristics.over(MODEL, "travel", [0.0, 0.05])["wheel_rate"].values
     slope = difference(
         lambda h: difference(lambda k: potential(bench(0.05 + h + k, 0.0)), 2e-3), 2e-3
     )
@@ -349,7 +349,7 @@ def test_steer_gradient_and_ratio(bench):
     model = Model(bench.suspension)
     mirrored = Bench(bench.suspension.mirrored())
     for travel, rack in PLACES:
-        found = characteristics.steering(model, [rack], travel=travel).isel(rack_position=0)
+        found = characteristics.over(model, "rack", [rack], travel=travel).isel(rack_position=0)
         own, other = (b.by_rack(lambda m: -m.side * m.toe, travel, rack) for b in (bench, mirrored))
         assert float(found["steer_gradient"]) == pytest.approx(own, rel=SLOPE)
         per_turn = bench.suspension.rack.travel_per_turn_mm * 1e-3
@@ -400,7 +400,7 @@ def test_parallel_wheels_and_wheels_straight_ahead():
 def test_axle_quantities_of_the_reference_car():
     """By hand from the two steer angles, each at its wheel's own curve."""
     racks = np.array([-0.05, 0.02])
-    found = characteristics.steering(MODEL, racks)
+    found = characteristics.over(MODEL, "rack", racks)
     left, right = found["steer_left"].values, found["steer_right"].values
     inner, outer = np.array([left[0], -right[1]]), np.array([right[0], -left[1]])
     assert (inner > 0.0).all()
@@ -418,7 +418,7 @@ def test_static_toe_and_bump_steer_steer_no_car(name, travel):
         {"wheel.toe_deg": 0.4, "vehicle.wheelbase_mm": 2600.0, "vehicle.end": "front"}
     )
     racks = np.array([-0.02, -0.002, 0.0, 0.002, 0.02])
-    found = characteristics.steering(Model(car), racks, travel=travel)
+    found = characteristics.over(Model(car), "rack", racks, travel=travel)
     left, right = (found[f"steer_{side}"].values for side in ("left", "right"))
     left, right = left - left[2], right - right[2]
     to_left = left > 0.0
@@ -437,7 +437,7 @@ def test_static_toe_and_bump_steer_steer_no_car(name, travel):
     # from 2 mm to 20 mm of rack it changes little
     assert abs(part[3] - part[4]) < 0.25 * abs(part[4]) + 0.25
     axle_file = Axle.from_dict({"axle": "front", "side": car})
-    of_axle = axles.steer(axle_file, rack=racks, travel=travel)
+    of_axle = flat(characteristics.over(axle_file, "rack", racks, travel=travel))
     np.testing.assert_allclose(of_axle["ackermann"], found["ackermann"], rtol=1e-8)
     if not travel:
         many = variation.cars(
@@ -461,7 +461,9 @@ def test_sides_of_an_axle_have_a_static_toe_each():
         )
         for toe in (0.0, 0.5)
     )
-    expected, found = (axles.steer(axle, rack=[0.002, 0.03]) for axle in (like, lopsided))
+    expected, found = (
+        flat(characteristics.over(axle, "rack", [0.002, 0.03])) for axle in (like, lopsided)
+    )
     # the turn about an inclined axis adds a little less or more where the wheel stands otherwise
     np.testing.assert_allclose(found["ackermann"], expected["ackermann"], atol=0.08)
 
@@ -482,12 +484,12 @@ def assert_mirror_images(suspension):
     travel = np.array([-0.04, 0.0, 0.05])
     pairs = [
         (
-            characteristics.travel(one, travel, rack_position=0.01),
-            characteristics.travel(other, travel, rack_position=-0.01),
+            characteristics.over(one, "travel", travel, rack_position=0.01),
+            characteristics.over(other, "travel", travel, rack_position=-0.01),
         ),
         (
-            characteristics.steering(one, [0.0, 0.03], travel=0.02),
-            characteristics.steering(other, [0.0, -0.03], travel=0.02),
+            characteristics.over(one, "rack", [0.0, 0.03], travel=0.02),
+            characteristics.over(other, "rack", [0.0, -0.03], travel=0.02),
         ),
     ]
     for a, b in pairs:
@@ -526,7 +528,7 @@ def test_any_sides_are_mirror_images(x, y, z, camber, toe):
 
 def test_signs_on_a_drawing():
     """Of the reference car, front right: what can be seen from its hardpoints."""
-    at = characteristics.travel(MODEL, [0.0]).isel(wheel_travel=0)
+    at = characteristics.over(MODEL, "travel", [0.0]).isel(wheel_travel=0)
     assert float(at["caster"]) == pytest.approx(np.arctan2(33.0, 640.0))  # top 33 mm rearward
     assert float(at["kingpin_inclination"]) == pytest.approx(np.arctan2(125.0, 640.0))
     # the axis meets the ground 180 mm below the ball joint, ahead of x = 0 and inboard of 760 mm
@@ -539,8 +541,8 @@ def test_signs_on_a_drawing():
 def test_free_rack_changes_no_characteristic():
     free = Model(CAR, free_rack=True)
     for a, b in (
-        (characteristics.travel(MODEL), characteristics.travel(free)),
-        (characteristics.steering(MODEL, [0.02]), characteristics.steering(free, [0.02])),
+        (characteristics.over(MODEL, "travel"), characteristics.over(free, "travel")),
+        (characteristics.over(MODEL, "rack", [0.02]), characteristics.over(free, "rack", [0.02])),
     ):
         for name in a:
             assert a[name].values == pytest.approx(b[name].values, rel=1e-9, abs=1e-12), name
@@ -567,7 +569,7 @@ def test_derivatives_are_those_of_the_curves(place):
     travel, rack = place
     model = Model(OFFSET)
     steps = np.array([0.0, *(k * 2e-3 for k in range(-4, 5) if k)])
-    curves = characteristics.travel(model, travel + steps, rack_position=rack)
+    curves = characteristics.over(model, "travel", travel + steps, rack_position=rack)
 
     def slope(name):
         values = dict(zip(steps.round(9).tolist(), curves[name].values, strict=True))
@@ -583,7 +585,7 @@ def test_derivatives_are_those_of_the_curves(place):
     ):
         assert float(at[name]) == pytest.approx(sign * slope(of), rel=SLOPE, abs=SLOPE), name
     # the spring's and the stop's force at the wheel, from the laws in the file
-    seat = float(characteristics.travel(model, [0.0])["damper_length"][0]) - 0.010
+    seat = float(characteristics.over(model, "travel", [0.0])["damper_length"][0]) - 0.010
     pressed = np.maximum(0.0, seat - curves["damper_length"])
     curves["force"] = (
         25e3 * (0.420 - curves["spring_length"]) * curves["motion_ratio"]
@@ -593,7 +595,7 @@ def test_derivatives_are_those_of_the_curves(place):
 
 
 def test_spring_and_damper_differ_where_the_spring_has_seats():
-    at = characteristics.travel(Model(OFFSET), [0.0]).isel(wheel_travel=0)
+    at = characteristics.over(Model(OFFSET), "travel", [0.0]).isel(wheel_travel=0)
     # between the hardpoints, in mm
     seats, strut = [18.0, -80.0, -320.0], [18.0, -55.0, -400.0]
     assert float(at["spring_length"]) * 1e3 == pytest.approx(np.linalg.norm(seats), rel=1e-13)
@@ -609,7 +611,7 @@ def test_mirror_images_of_an_offset_strut():
 
 
 def both():
-    return characteristics.travel(MODEL), characteristics.steering(MODEL)
+    return characteristics.over(MODEL, "travel"), characteristics.over(MODEL, "rack")
 
 
 def test_every_variable_says_what_it_is():
@@ -623,7 +625,7 @@ def test_every_variable_says_what_it_is():
         ("1", "%"): 100.0,
     }
     for dataset in both():
-        for variable in (*dataset.data_vars.values(), *dataset.coords.values()):
+        for variable in dataset.drop_vars("wheel").variables.values():
             words = variable.attrs
             assert words["long_name"]
             assert words["definition"]
@@ -634,8 +636,8 @@ def test_every_variable_says_what_it_is():
 
 def test_coordinates_are_what_was_asked_for():
     travel, rack = np.array([0.02, -0.01, 0.02]), np.array([0.01, -0.01])
-    a = characteristics.travel(MODEL, travel, rack_position=0.005)
-    b = characteristics.steering(MODEL, rack, travel=-0.01)
+    a = characteristics.over(MODEL, "travel", travel, rack_position=0.005)
+    b = characteristics.over(MODEL, "rack", rack, travel=-0.01)
     assert np.array_equal(a["wheel_travel"], travel)
     assert float(a["rack_position"]) == 0.005
     assert np.array_equal(b["rack_position"], rack)
@@ -657,7 +659,7 @@ def test_without_data_of_the_vehicle_what_needs_them_is_left_out():
         "rack.travel_per_turn_mm": None,
     }
     bare = Model(CAR.with_changes(changes))
-    full, less = both(), (characteristics.travel(bare), characteristics.steering(bare))
+    full, less = both(), (characteristics.over(bare, "travel"), characteristics.over(bare, "rack"))
     assert set(full[0]) - set(less[0]) == {"anti_dive"}
     axle_only = {"ackermann_error", "ackermann", "turning_circle", "steering_ratio"}
     assert set(full[1]) - set(less[1]) == axle_only
@@ -666,7 +668,7 @@ def test_without_data_of_the_vehicle_what_needs_them_is_left_out():
 def test_without_a_ground_the_contact_is_left_out():
     low = CHRONO.with_changes({"tyre.radius_mm": None})
     assert low.tyre_radius() is None
-    found = characteristics.travel(Model(low), [0.0])
+    found = characteristics.over(Model(low), "travel", [0.0])
     assert "camber" in found
     assert not {"trail", "half_track_change", "roll_center_height_kinematic"} & set(found)
 
@@ -695,7 +697,7 @@ DESIGN = 0.3
 @settings(max_examples=50, deadline=None)
 @given(st.floats(REACH.height[0] - DESIGN, REACH.height[1] - DESIGN))
 def test_any_travel_within_reach_is_met(travel):
-    found = characteristics.travel(MODEL, [travel])
+    found = characteristics.over(MODEL, "travel", [travel])
     assert np.isfinite([found[name].values[0] for name in ("camber", "toe", "caster")]).all()
 
 
@@ -703,21 +705,21 @@ def test_any_travel_within_reach_is_met(travel):
 @given(st.one_of(st.floats(-5.0, -0.3657), st.floats(0.316, 5.0)))
 def test_any_travel_beyond_reach_is_refused_with_the_range(travel):
     with pytest.raises(PositionError, match=r"out of reach: .* -365.59 mm to \+315.87 mm"):
-        characteristics.travel(MODEL, [0.0, travel])
+        characteristics.over(MODEL, "travel", [0.0, travel])
 
 
 def test_racks_beyond_reach_are_refused():
     with pytest.raises(PositionError, match="rack cannot be at 500 mm"):
-        characteristics.steering(MODEL, [0.0, 0.5])
+        characteristics.over(MODEL, "rack", [0.0, 0.5])
     with pytest.raises(PositionError, match="out of reach"):
-        characteristics.steering(MODEL, [0.0], travel=1.0)
+        characteristics.over(MODEL, "rack", [0.0], travel=1.0)
 
 
 @pytest.mark.parametrize("wrong", [[], 0.01, [[0.0]], [np.nan], [np.inf]])
 def test_what_is_no_row_of_numbers_is_refused(wrong):
-    for function in (characteristics.travel, characteristics.steering):
+    for motion in ("travel", "rack"):
         with pytest.raises(InputError, match="number"):
-            function(MODEL, wrong)
+            characteristics.over(MODEL, motion, wrong)
 
 
 def test_the_module_is_part_of_the_interface():

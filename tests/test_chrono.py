@@ -19,7 +19,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, Suspension, chrono, sweep
 from kintrafo.cli import app
-from kintrafo.study.characteristics import travel
+from kintrafo.study.characteristics import over
 from kintrafo.suspension.starter import packaged
 from kintrafo.suspension.toml_writer import toml_text, write_toml
 from oracle.links import Carrier
@@ -63,7 +63,7 @@ class TestReading:
     def test_has_its_characteristics(self):
         found, _, _ = chrono.read(STRUT, tire=TIRE)
         at = [-0.05, 0.0, 0.05]
-        ours, theirs = (travel(Model(s), at) for s in (found, GENERIC))
+        ours, theirs = (over(Model(s), "travel", at) for s in (found, GENERIC))
         for name in ("camber", "toe", "caster", "roll_center_height_kinematic"):
             np.testing.assert_allclose(ours[name], theirs[name], atol=1e-13)
 
@@ -580,7 +580,7 @@ class TestPointsOnly:
             )
         assert found.wheel == whole.wheel
         at = [-0.04, 0.0, 0.04]
-        ours, theirs = (travel(Model(car), at) for car in (found, whole))
+        ours, theirs = (over(Model(car), "travel", at) for car in (found, whole))
         for name in ("camber", "toe", "caster"):
             np.testing.assert_allclose(ours[name], theirs[name], atol=1e-13)
         assert told[0].startswith("spring, damper, masses, tyre and vehicle: as in the packaged ")

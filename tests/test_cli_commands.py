@@ -136,7 +136,8 @@ def test_the_change_of_the_tutorial_turns_bump_steer_round():
     car = Suspension.load("reference_car")
     lower = car.with_changes({"hardpoints.tie_rod_inner.z": 272.0})
     before, after = (
-        float(characteristics.travel(Model(c), np.zeros(1))["bump_steer"][0]) for c in (car, lower)
+        float(characteristics.over(Model(c), "travel", np.zeros(1))["bump_steer"][0])
+        for c in (car, lower)
     )
     assert after < 0.0 < before
 

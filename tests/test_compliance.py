@@ -133,7 +133,7 @@ def test_height_and_spring() -> None:
     held = compliance.linear(model, bush, [0.0], held="height")["flexibility"][0]
     free = compliance.linear(model, bush, [0.0], held="spring")["flexibility"][0]
     assert abs(held.sel(moved="z").values).max() < 1e-18
-    rate = float(characteristics.travel(model, [0.0])["wheel_rate"][0])
+    rate = float(characteristics.over(model, "travel", [0.0])["wheel_rate"][0])
     # per travel of the wheel centre, and the contact rises with the camber's gain, too
     assert float(free.sel(moved="z", by="fz")) == pytest.approx(1.0 / rate, rel=0.02)
 

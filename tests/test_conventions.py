@@ -7,7 +7,7 @@ where the steering axis pierces the ground. Nothing here knows the definitions o
 import numpy as np
 import pytest
 from kintrafo import Model, Suspension, state_at_height
-from kintrafo.study.characteristics import steering, travel
+from kintrafo.study.characteristics import over
 from kintrafo.suspension.points import hardpoints
 from kintrafo.suspension.positions import design_height
 from kintrafo.suspension.reach import at_rest
@@ -24,7 +24,7 @@ def one(dataset, name):
 
 
 def at_design(car, name):
-    return one(travel(Model(car), [0.0]), name)
+    return one(over(Model(car), "travel", [0.0]), name)
 
 
 def wheel_plane(car):
@@ -52,7 +52,7 @@ class TestWheel:
 
     def test_steer_is_positive_with_the_front_to_the_left(self, side, sign):
         model = Model(CARS[side])
-        steered = steering(model, [sign * 0.03])
+        steered = over(model, "rack", [sign * 0.03])
         states, inputs = at_rest(model, model.design_state[0], sign * 0.03)
         knuckle = model.evaluate("orientations", states, inputs)[
             model.equations.BODIES.index("knuckle")
@@ -208,14 +208,14 @@ class TestInstantCentres:
         assert np.sign(shift[0]) == sign
         slope = np.arctan2(shift[0], shift[2])
         assert at_design(car, "side_view_hub_angle") == pytest.approx(slope, abs=1e-7)
-        change = one(travel(Model(car), [STEP]), "wheelbase_change")
+        change = one(over(Model(car), "travel", [STEP]), "wheelbase_change")
         assert np.sign(change) == sign
 
     @pytest.mark.parametrize(("hinge", "sign"), [(205.0, 1.0), (120.0, -1.0)])
     def test_half_track_change_is_positive_outboard(self, side, hinge, sign):
         car = self.tilted(side, hinge=hinge)
         outboard = OUTBOARD[side] * shift_in_bump(car, TO_GROUND)[1]
-        changes = travel(Model(car), [-STEP, STEP])["half_track_change"].values
+        changes = over(Model(car), "travel", [-STEP, STEP])["half_track_change"].values
         assert np.sign(changes[1] - changes[0]) == sign
         assert np.diff(changes)[0] / (2.0 * STEP) == pytest.approx(outboard, abs=1e-7)
 
@@ -229,8 +229,8 @@ class TestInstantCentres:
         assert at_design(car, "bump_steer") == pytest.approx(inboard, abs=1e-7)
 
 
-@pytest.mark.parametrize("name", sorted(travel(Model(RIGHT), [0.0]).data_vars))
+@pytest.mark.parametrize("name", sorted(over(Model(RIGHT), "travel", [0.0]).data_vars))
 def test_what_is_mirrored_and_what_is_the_same_on_both_sides(name):
-    right, left = (one(travel(Model(car), [0.03]), name) for car in CARS.values())
+    right, left = (one(over(Model(car), "travel", [0.03]), name) for car in CARS.values())
     same_sense = name == "steer"
     assert left == pytest.approx(-right if same_sense else right, rel=1e-9, abs=1e-12)

@@ -524,7 +524,7 @@ def test_no_load_presses_a_damper_in_farther_than_it_goes(side: str) -> None:
     """
     car = without_stops(Suspension.load("trailing_arm_car"))
     car = car if side == "right" else car.mirrored()
-    design = characteristics.travel(Model(car), [0.0])
+    design = characteristics.over(Model(car), "travel", [0.0])
     slope = np.tan(abs(float(design["side_view_swing_arm_angle"][0])))
     ratio = float(design["damper_motion_ratio"][0])
     length = float(Model(car).signal("damper_length", Model(car).design_state))
@@ -740,7 +740,7 @@ def test_the_two_rates_of_a_wheel_have_two_names() -> None:
         Model("reference_car"), {"arm_rear": {"axial_N_per_mm": 500.0}}, along=[0.0]
     )
     rate = found["contact_rate"]
-    of_wheel = characteristics.travel(Model("reference_car"), [0.0])["wheel_rate"]
+    of_wheel = characteristics.over(Model("reference_car"), "travel", [0.0])["wheel_rate"]
     assert "wheel_rate" not in found
     assert rate.attrs["long_name"] != of_wheel.attrs["long_name"]
     assert "height of the contact" in rate.attrs["definition"]

@@ -108,7 +108,7 @@ def found(bench):
     """All characteristics at the places, by place."""
     model = Model(bench.suspension)
     return {
-        (travel, rack): characteristics.travel(model, [travel], rack_position=rack).isel(
+        (travel, rack): characteristics.over(model, "travel", [travel], rack_position=rack).isel(
             wheel_travel=0
         )
         for travel, rack in PLACES
@@ -256,7 +256,7 @@ def test_geometric_instant_centre_is_on_the_axis_of_the_arms(bench, found, place
 def test_steering(bench, place):
     travel, rack = place
     mirrored = Bench(bench.suspension.mirrored())
-    found = characteristics.steering(Model(bench.suspension), [rack], travel=travel)
+    found = characteristics.over(Model(bench.suspension), "rack", [rack], travel=travel)
     own, other = (b.by_rack(lambda p, b=b: -b.side * b.toe(p), place) for b in (bench, mirrored))
     assert float(found["steer_gradient"][0]) == pytest.approx(own, rel=SLOPE)
     ratio = 2.0 * np.pi / 0.05 / abs(0.5 * (own + other))
@@ -279,7 +279,7 @@ def test_any_car_stands_as_its_rods_say(shifts, side):
     car = CAR.with_changes(moved)
     car = car if side == "right" else car.mirrored()
     bench, place = Bench(car), (0.03, 0.01)
-    at = characteristics.travel(Model(car), [place[0]], rack_position=place[1])
+    at = characteristics.over(Model(car), "travel", [place[0]], rack_position=place[1])
     assert float(at["camber"][0]) == pytest.approx(bench.camber(place), abs=1e-12)
     assert float(at["toe"][0]) == pytest.approx(bench.toe(place), abs=1e-12)
     assert float(at["caster"][0]) == pytest.approx(bench.caster(place), abs=1e-12)
@@ -288,8 +288,9 @@ def test_any_car_stands_as_its_rods_say(shifts, side):
 
 def test_every_characteristic_of_a_strut_is_there():
     strut = Model("reference_car")
-    for curves, places in ((characteristics.travel, [0.0]), (characteristics.steering, [0.01])):
-        assert set(curves(MODEL, places)) == set(curves(strut, places))
+    for motion, places in (("travel", [0.0]), ("rack", [0.01])):
+        ours, theirs = (characteristics.over(model, motion, places) for model in (MODEL, strut))
+        assert set(ours) == set(theirs)
 
 
 # -- by hand --------------------------------------------------------------------------------------
@@ -316,7 +317,7 @@ def arranged(**points):
 
 def test_parallel_arms_of_equal_length_only_shift_the_wheel():
     travel = np.array([-0.1, -0.03, 0.0, 0.05, 0.1])
-    at = characteristics.travel(arranged(), travel)
+    at = characteristics.over(arranged(), "travel", travel)
     for name in ("camber", "toe", "caster", "kingpin_inclination", "wheelbase_change"):
         assert at[name].values == pytest.approx(np.zeros(5), abs=1e-14), name
     for name in ("camber_gradient", "bump_steer", "caster_gradient", "anti_dive"):
@@ -331,7 +332,7 @@ def test_parallel_arms_of_equal_length_only_shift_the_wheel():
 
 
 def test_spring_at_half_the_arm_has_half_the_travel():
-    at = characteristics.travel(arranged(), [0.0])
+    at = characteristics.over(arranged(), "travel", [0.0])
     assert float(at["motion_ratio"][0]) == pytest.approx(0.5, rel=1e-14)
     # k MR^2, and the force by how the ratio changes: length l = sqrt((0.4 - z/2)^2 + d^2) with
     # d = (0.4 - sqrt(0.4^2 - z^2)) / 2, of which the second derivative at zero vanishes
@@ -348,7 +349,7 @@ def test_arms_that_meet_at_a_point_turn_the_wheel_about_it():
         upper_arm_rear=[-150.0, -350.0, 275.0],
         tie_rod_inner=[-120.0, -350.0, 200.0],
     )
-    at = characteristics.travel(model, [0.0]).isel(wheel_travel=0)
+    at = characteristics.over(model, "travel", [0.0]).isel(wheel_travel=0)
     # the contact is at y = -800 mm, z = 0
     for way in ("kinematic", "geometric"):
         assert float(at[f"swing_arm_length_{way}"]) == pytest.approx(0.85, rel=1e-13)
@@ -360,7 +361,7 @@ def test_arms_that_meet_at_a_point_turn_the_wheel_about_it():
 
 
 def test_steering_axis_goes_through_the_ball_joints():
-    at = characteristics.travel(MODEL, [0.0]).isel(wheel_travel=0)
+    at = characteristics.over(MODEL, "travel", [0.0]).isel(wheel_travel=0)
     assert float(at["caster"]) == pytest.approx(np.arctan2(30.0, 320.0))  # top 30 mm rearward
     assert float(at["kingpin_inclination"]) == pytest.approx(np.arctan2(50.0, 320.0))
     # the axis meets the ground 185 mm below the lower ball joint

@@ -114,7 +114,7 @@ def test_stops_are_part_of_the_wheel_rate():
         return ratio * sum(float(forces[n]) for n in names)
 
     for travel in (-0.07, 0.0, 0.06):
-        found = kintrafo.characteristics.travel(model, [travel])["wheel_rate"][0]
+        found = kintrafo.characteristics.over(model, "travel", [travel])["wheel_rate"][0]
         step = 1e-4
         slope = (held(design + travel + step) - held(design + travel - step)) / (2.0 * step)
         # second differences: the third derivative of the cubic stop times a step squared

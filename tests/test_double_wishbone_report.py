@@ -55,7 +55,7 @@ def test_every_hardpoint_is_in_the_scene(data):
 
 def test_every_characteristic_of_the_strut_has_its_curve(data):
     strut = Model("reference_car")
-    over_travel = kintrafo.characteristics.travel(strut, [0.0])
+    over_travel = kintrafo.characteristics.over(strut, "travel", [0.0])
     assert set(over_travel) <= {curve["key"] for curve in data["curves"]}
 
 

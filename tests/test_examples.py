@@ -64,7 +64,7 @@ def points(path: Path, *, mirrored: bool = False) -> None:
 def measured(path: Path) -> None:
     """Write what a rig would measure of the starter with a tie rod that is 0.3 mm too high."""
     built = CAR.with_changes({"hardpoints.tie_rod_inner": [-140.0, -310.0, 280.3]})
-    export.write(characteristics.travel(Model(built))[["toe", "camber"]], path)
+    export.write(characteristics.over(Model(built), "travel")[["toe", "camber"]], path)
 
 
 def texts(folder: str) -> Callable[[Path], Any]:

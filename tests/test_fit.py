@@ -34,7 +34,7 @@ def built(rod: float, ball: float) -> Suspension:
 
 
 def rig(car: Suspension, at: Any = TRAVEL, names: list[str] = CURVES) -> xr.Dataset:
-    return characteristics.travel(Model(car), at)[names]
+    return characteristics.over(Model(car), "travel", at)[names]
 
 
 AS_BUILT = built(1.5, -1.0)
@@ -193,7 +193,7 @@ BY_LOAD = ["toe_by_lateral", "toe_by_braking", "camber_by_lateral", "displacemen
 def soft_rig(car: Suspension, held: Any = "height") -> xr.Dataset:
     """Return toe, and what a rig finds with loads on the wheel."""
     by_load = compliance.linear(Model(car), None, TRAVEL, held=held)
-    return by_load[BY_LOAD].merge(rig(car, names=["toe"]))
+    return by_load[BY_LOAD].merge(rig(car, names=["toe"]), compat="override")
 
 
 @pytest.mark.parametrize("held", ["height", "spring"])

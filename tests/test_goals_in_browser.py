@@ -64,8 +64,7 @@ def middle(box: dict[str, float]) -> np.ndarray:
 
 def value_at(name: str, over: str, millimetres: float) -> float:
     """Return what the compiled model has, in the unit of the reader."""
-    curves = characteristics.travel if over == "travel" else characteristics.steering
-    found = curves(CAR, [millimetres * 1e-3])[name]
+    found = characteristics.over(CAR, over, [millimetres * 1e-3])[name]
     return float(found.values[0] * found.attrs["display_factor"])
 
 

@@ -13,15 +13,14 @@ from kintrafo import (
     Model,
     RigidAxle,
     Suspension,
-    axles,
     characteristics,
     report,
-    rigid_axles,
     variation,
 )
+from kintrafo.assembly.motions import MOTIONS
 from kintrafo.cli import app
 from kintrafo.plots import curves
-from kintrafo.report import axle_chapter, goals_chapter, rigid_axle_chapters
+from kintrafo.report import axle_chapter, goals_chapter
 from kintrafo.study.variation.goals import Limit
 from typer.testing import CliRunner
 
@@ -55,12 +54,12 @@ def goals(tmp_path: Path) -> Path:
 def test_verdicts_are_those_of_the_curves(goals: Path) -> None:
     car = Suspension.load("reference_car")
     target, limit = variation.judge(car, variation.goals(variation.read(goals)))
-    toe = np.rad2deg(characteristics.travel(Model(car), [-0.04, 0.0, 0.04])["toe"].values)
+    toe = np.rad2deg(characteristics.over(Model(car), "travel", [-0.04, 0.0, 0.04])["toe"].values)
     worst = np.abs(toe).argmax()
     assert target.met == (np.abs(toe).max() <= 0.2)
     assert np.rad2deg(target.beyond) == pytest.approx(np.abs(toe)[worst] - 0.2)
     assert target.at == pytest.approx([-0.04, 0.0, 0.04][worst])
-    scrub = characteristics.steering(Model(car), [0.0, 0.04])["scrub_radius"].values
+    scrub = characteristics.over(Model(car), "rack", [0.0, 0.04])["scrub_radius"].values
     assert limit.met == bool((scrub <= 0.025).all())
     assert limit.beyond == pytest.approx(scrub.max() - 0.025)
 
@@ -105,8 +104,8 @@ def test_a_chapter_of_the_report_has_them(goals: Path) -> None:
 @pytest.mark.parametrize("file", ["reference_axle", "rigid_axle"])
 def test_a_chapter_of_an_axle_has_the_curves_of_each_motion(file: str) -> None:
     axle: Any = (Axle if file == "reference_axle" else RigidAxle).load(file)
-    over_roll = axles.roll if file == "reference_axle" else rigid_axles.roll
-    height = over_roll(axle, np.deg2rad([-2.0, 2.0]))["roll_center_height"].values * 1e3
+    over_roll = characteristics.over(axle, "roll", np.deg2rad([-2.0, 2.0]))
+    height = over_roll["roll_center_height"].values * 1e3
     described = {
         "targets": {
             "camber_left": {"over": "left", "value": 0.0, "within": 0.5},
@@ -161,7 +160,7 @@ def test_reports_of_axles_tell_how_many_goals_are_missed(
 
 def test_marks_are_at_their_values(goals: Path) -> None:
     car = Model("reference_car")
-    dataset = characteristics.travel(car, np.linspace(-0.05, 0.05, 11))
+    dataset = characteristics.over(car, "travel", np.linspace(-0.05, 0.05, 11))
     wanted = variation.goals(variation.read(goals))
     (axes,) = curves.figure(dataset, ["toe"], goals=wanted).get_axes()
     (target,) = (one for one in axes.containers if one.get_label() == "target")
@@ -174,7 +173,7 @@ def test_marks_are_at_their_values(goals: Path) -> None:
 
 
 def test_what_is_marked_is_in_sight_however_far_from_the_curve(goals: Path) -> None:
-    dataset = characteristics.travel(Model("reference_car"), np.linspace(-0.05, 0.05, 201))
+    dataset = characteristics.over(Model("reference_car"), "travel", np.linspace(-0.05, 0.05, 201))
     flat = dataset["toe"].copy(data=np.deg2rad(5.0) + 0.01 * dataset["toe"].values)
     wanted = variation.goals(variation.read(goals))
     (axes,) = curves.figure(dataset.assign(toe=flat), ["toe"], goals=wanted).get_axes()
@@ -185,7 +184,7 @@ def test_what_is_marked_is_in_sight_however_far_from_the_curve(goals: Path) -> N
 
 def test_arrows_at_the_end_of_an_axis_are_in_sight() -> None:
     """Where a curve is constant its axis ends a tenth of a unit from it, as this limit does."""
-    dataset = characteristics.travel(Model("reference_car"), np.linspace(-0.05, 0.05, 11))
+    dataset = characteristics.over(Model("reference_car"), "travel", np.linspace(-0.05, 0.05, 11))
     flat = dataset.assign(toe=dataset["toe"].copy(data=np.zeros(11)))
     wanted = variation.goals({"limits": {"toe": {"least": -0.1, "most": 0.1}}})
     (axes,) = curves.figure(flat, ["toe"], goals=wanted).get_axes()
@@ -196,7 +195,7 @@ def test_arrows_at_the_end_of_an_axis_are_in_sight() -> None:
 
 
 def test_what_does_not_vary_has_its_place_where_there_are_goals(goals: Path) -> None:
-    dataset = characteristics.travel(Model("reference_car"), np.linspace(-0.05, 0.05, 11))
+    dataset = characteristics.over(Model("reference_car"), "travel", np.linspace(-0.05, 0.05, 11))
     dataset = dataset.assign(toe=dataset["toe"].copy(data=np.full(11, 0.01)))
     wanted = variation.goals(variation.read(goals))
     without = [name for names in curves.grouped(dataset).values() for name in names]
@@ -223,7 +222,9 @@ def test_goals_of_an_axle_are_those_of_its_sides() -> None:
         },
     }
     wanted = variation.goals(described, ["bump"])
-    dataset = axles.by_side(axles.bump(Axle.load("reference_axle"), np.linspace(-0.05, 0.05, 11)))
+    dataset = characteristics.over(
+        Axle.load("reference_axle"), "bump", np.linspace(-0.05, 0.05, 11)
+    )
     names = ["camber", "toe", "roll_center_height"]
     panels = curves.figure(dataset, names, goals=wanted, columns=2)
     camber, toe, height = panels.get_axes()
@@ -285,9 +286,7 @@ def test_chapters_of_axles_have_what_is_wanted(file: str, figures: Any) -> None:
     }
     wanted = variation.goals(described, OF_AXLES)
     axle: Any = (Axle if file == "reference_axle" else RigidAxle).load(file)
-    make: Any = axle_chapter if file == "reference_axle" else rigid_axle_chapters
-    module: Any = axles if file == "reference_axle" else rigid_axles
-    make(axle, wanted)
+    axle_chapter(axle, wanted)
     expected = {
         ("roll", "roll_moment", "target"): [[1.5, 900.0]],
         ("right", "camber", "target, right"): [[-85.0, 2.0], [40.0, -1.0]],
@@ -295,7 +294,7 @@ def test_chapters_of_axles_have_what_is_wanted(file: str, figures: Any) -> None:
         ("bump", "camber", "limit, left"): [[0.0, 3.0]],
     }
     for (motion, name, label), points in expected.items():
-        words = module.MOTIONS[motion]
+        words = MOTIONS[motion]
         title = words[:1].upper() + words[1:]
         (axes,) = (a for (t, n), a in figures.items() if t.startswith(title) and n == name)
         np.testing.assert_allclose(drawn(axes, label), [points], atol=1e-9)
@@ -308,9 +307,9 @@ def test_chapters_of_axles_have_what_is_wanted(file: str, figures: Any) -> None:
     marked = [key for key, axes in figures.items() if axes.get_legend_handles_labels()[1]]
     assert len(marked) == len(expected)
     with pytest.raises(InputError, match="there is no curve of ackermann_left"):
-        make(axle, [Limit("ackermann_left", "bump", np.zeros(1), 0.0, 1.0)])
+        axle_chapter(axle, [Limit("ackermann_left", "bump", np.zeros(1), 0.0, 1.0)])
     figures.clear()
-    make(axle)
+    axle_chapter(axle)
     assert not any(axes.get_legend_handles_labels()[1] for axes in figures.values())
     assert not any(title.startswith("The right wheel moves") for title, _ in figures)
 
@@ -318,7 +317,7 @@ def test_chapters_of_axles_have_what_is_wanted(file: str, figures: Any) -> None:
 def test_goals_over_one_axis_are_not_mixed_up() -> None:
     limit = {"camber_left": [{"most": 1.0}, {"most": 2.0, "over": "left"}]}
     wanted = variation.goals({"limits": limit}, ["bump", "left"])
-    dataset = axles.by_side(axles.bump(Axle.load("reference_axle"), [-0.01, 0.01]))
+    dataset = characteristics.over(Axle.load("reference_axle"), "bump", [-0.01, 0.01])
     with pytest.raises(InputError, match="camber over bump and left have one axis"):
         curves.figure(dataset, ["camber"], goals=wanted)
     assert curves.figure(dataset, ["camber"], goals=wanted[:1])
@@ -359,16 +358,14 @@ def test_axles_are_compared_with_goals(tmp_path: Path) -> None:
         '[limits.roll_stiffness]\nover = "roll"\nat_deg = [-2, 2]\nmost = 600', encoding="utf-8"
     )
     asked = ["--over", "roll", "--goals", str(tmp_path / "goals.toml"), "--json"]
-    for file, curves_over_roll in (
-        ("reference_axle", axles.roll),
-        ("rigid_axle", rigid_axles.roll),
-    ):
+    for file in ("reference_axle", "rigid_axle"):
         shown = called("compare", file, file, *asked)
         assert shown.exit_code == 0, shown.output
         goals = json.loads(shown.stdout)["goals"]
         assert [goal["file"] for goal in goals] == [file, f"{file} (2)"]
         axle: Any = (Axle if file == "reference_axle" else RigidAxle).load(file)
-        stiffness = curves_over_roll(axle, np.deg2rad([-2.0, 2.0]))["roll_stiffness"].values
+        over_roll = characteristics.over(axle, "roll", np.deg2rad([-2.0, 2.0]))
+        stiffness = over_roll["roll_stiffness"].values
         beyond = stiffness.max() - np.rad2deg(600.0)
         for goal in goals:
             assert goal["beyond"] == pytest.approx(beyond)
@@ -431,7 +428,7 @@ def test_goals_have_a_door() -> None:
     car = Suspension.load("reference_car")
     makers: list[Any] = [
         lambda wrong: axle_chapter(Axle.load("reference_axle"), wrong),
-        lambda wrong: rigid_axle_chapters(RigidAxle.load("rigid_axle"), wrong),
+        lambda wrong: axle_chapter(RigidAxle.load("rigid_axle"), wrong),
         lambda wrong: goals_chapter(Model(car), wrong),
         lambda wrong: variation.judge(car, wrong),
     ]

@@ -13,10 +13,10 @@ from kintrafo import (
     Model,
     PositionError,
     System,
-    axles,
     characteristics,
     variation,
 )
+from kintrafo.assembly.by_wheel import flat
 from kintrafo.generated import four_bar
 from kintrafo.report.grid import Axis, Grid
 from kintrafo.report.marks import of_shown_side
@@ -173,9 +173,9 @@ def test_a_wheel_of_an_axle_moves_as_by_itself() -> None:
     """What is wanted of a wheel in parallel travel is about the curve that its page has."""
     axle = Axle.load("reference_axle")
     travels = np.linspace(-0.06, 0.06, 5)
-    together = axles.bump(axle, travels)
+    together = flat(characteristics.over(axle, "bump", travels))
     for side in axle.sides:
-        alone = characteristics.travel(axle.models[side], travels)
+        alone = characteristics.over(axle.models[side], "travel", travels)
         shared = [str(name) for name in alone if f"{name}_{side}" in together]
         assert len(shared) > 20
         for name in shared:

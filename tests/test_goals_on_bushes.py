@@ -14,7 +14,6 @@ from kintrafo import (
     InputError,
     Model,
     RigidAxle,
-    axles,
     characteristics,
     compliance,
     variation,
@@ -82,7 +81,7 @@ def test_what_can_be_wanted_of_curves_is_what_they_are(name: str) -> None:
     """The curves with rigid joints are those that goals are judged by, where words are the same."""
     make, over, subject = FOUND[name]
     found = flat(make()).sel(data_set="kinematic")
-    of_model = (characteristics.travel if over == "travel" else axles.bump)(subject, AT)
+    of_model = flat(characteristics.over(subject, over, AT))
     known = WAYS[over].known
     same = [n for n in map(str, found) if n in known and words(found[n]) == known[n].long_name]
     assert len(same) >= 4

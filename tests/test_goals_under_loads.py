@@ -12,7 +12,6 @@ from kintrafo import (
     Model,
     RigidAxle,
     Suspension,
-    axles,
     compliance,
     report,
     variation,
@@ -241,8 +240,8 @@ def test_without_bushes_nothing_is_judged(goals: Path) -> None:
 )
 def test_goals_of_both_wheels(axle: Any, bushes: dict[str, Any]) -> None:
     name = "toe_by_lateral_opposed_left"
-    found = flat(compliance.linear(axle, bushes, [0.0, 0.02]))
-    toe = np.rad2deg(found[name].values) * 1e3
+    found = compliance.linear(axle, bushes, [0.0, 0.02])
+    toe = np.rad2deg(flat(found)[name].values) * 1e3
     limits = {name: {"at_mm": [0.0, 20.0], "most": 0.01}}
     wanted = variation.goals({"limits": limits}, ["bump", "roll"])
     # the bushes that are given, and their images on the other side
@@ -250,7 +249,7 @@ def test_goals_of_both_wheels(axle: Any, bushes: dict[str, Any]) -> None:
     (verdict,) = variation.judge(soft, wanted)
     assert np.rad2deg(verdict.beyond) * 1e3 == pytest.approx(toe.max() - 0.01, rel=1e-9)
     (axes,) = curves.figure(
-        axles.by_side(found.drop_dims(["moved", "by"])), [name.removesuffix("_left")], goals=wanted
+        found.drop_dims(["moved", "by"]), [name.removesuffix("_left")], goals=wanted
     ).get_axes()
     (line,) = (line for line in axes.get_lines() if line.get_label() == "limit, left")
     np.testing.assert_allclose(line.get_xydata(), [[0.0, 0.01], [20.0, 0.01]], rtol=1e-12)

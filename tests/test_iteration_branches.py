@@ -162,7 +162,7 @@ def test_positions_on_another_branch_are_refused(travel: float) -> None:
     with pytest.raises(PositionError, match=r"from 286\.59 mm .*that is -11\.9\d mm to"):
         state_at_height(model, design_height(model) + travel, rack_position=RACK)
     with pytest.raises(PositionError, match="out of reach"):
-        characteristics.travel(model, [0.0, travel], rack_position=RACK)
+        characteristics.over(model, "travel", [0.0, travel], rack_position=RACK)
     case = {"travel_mm": 1e3 * travel, "rack_mm": 1e3 * RACK}
     with pytest.raises(PositionError, match=r"out of reach: from 286\.59 mm"):
         loads.static(model, {"case": case})

@@ -92,7 +92,7 @@ def test_each_car_has_the_curves_that_it_has_alone(name: str) -> None:
 def alone(car: Suspension, changes: dict[str, float], at: list[float], name: str) -> object:
     """Return the curve of one car by itself, or why it has none."""
     try:
-        return characteristics.travel(Model(car.with_changes(changes)), at)[name].values
+        return characteristics.over(Model(car.with_changes(changes)), "travel", at)[name].values
     except KintrafoError as error:
         return str(error)
 

@@ -15,12 +15,12 @@ from kintrafo import (
     Model,
     PositionError,
     Suspension,
-    axles,
     characteristics,
     equilibrium,
     simulate,
     state_at_height,
 )
+from kintrafo.assembly.by_wheel import flat
 from kintrafo.study.sweep import positions
 from kintrafo.suspension.points import hardpoints
 from kintrafo.suspension.positions import arm_angles, design_height
@@ -113,7 +113,9 @@ def test_the_seat_is_on_the_line_of_the_link() -> None:
 
 def test_arms_of_two_links_are_wishbones() -> None:
     """All characteristics, the axis of steering among them, which only one of the two knows."""
-    ours, theirs = (characteristics.travel(Model(car), TRAVELS) for car in (as_links(), WISHBONES))
+    ours, theirs = (
+        characteristics.over(Model(car), "travel", TRAVELS) for car in (as_links(), WISHBONES)
+    )
     others = {"arm_rotation", "damper_length", "damper_motion_ratio"}
     # of the planes of arms there, which know no toe link, and of the motion here
     others |= {"roll_center_height_geometric", "swing_arm_length_geometric"}
@@ -146,8 +148,8 @@ def test_it_rests_and_swings_as_the_wishbones() -> None:
 
 
 def test_the_left_one_is_its_image() -> None:
-    right = characteristics.travel(MODEL, TRAVELS)
-    left = characteristics.travel(Model(CAR.mirrored()), TRAVELS)
+    right = characteristics.over(MODEL, "travel", TRAVELS)
+    left = characteristics.over(Model(CAR.mirrored()), "travel", TRAVELS)
     for name in right.data_vars:
         sign = -1.0 if name == "steer" else 1.0
         np.testing.assert_allclose(left[name], sign * right[name], rtol=1e-9, atol=1e-12)
@@ -156,7 +158,7 @@ def test_the_left_one_is_its_image() -> None:
 def test_the_knuckle_turns_about_the_axis_that_is_told() -> None:
     """When the rack moves and the spring keeps its length, no point moves along the axis alone."""
     travel, by = 0.04, 1e-4
-    here = characteristics.travel(MODEL, [travel])
+    here = characteristics.over(MODEL, "travel", [travel])
     caster, kpi = float(here["caster"][0]), float(here["kingpin_inclination"][0])
     axis = np.array([-np.tan(caster), np.tan(kpi), 1.0])  # a right wheel's top leans to the left
     state = state_at_height(MODEL, design_height(MODEL) + travel)
@@ -218,7 +220,7 @@ def test_words_are_those_of_the_kind() -> None:
 def test_a_spring_that_does_not_move_locks_nothing() -> None:
     """Then the motion of steering is not defined, and neither is its axis."""
     flat = CAR.with_changes({"hardpoints.spring_top": [-85.0, -800.0, 200.0]})
-    found = characteristics.travel(Model(flat), [0.0, 0.06])
+    found = characteristics.over(Model(flat), "travel", [0.0, 0.06])
     assert np.isnan(found["caster"][0])
     assert np.isfinite(found["toe"]).all()
     assert np.isfinite(found["caster"][1])
@@ -236,8 +238,8 @@ def test_stops_act_along_the_damper() -> None:
 
 def test_an_axle_of_it_rolls() -> None:
     axle = Axle.from_dict({"axle": "rear", "side": CAR})
-    found = axles.roll(axle, [-0.03, 0.0, 0.03])
-    rate = characteristics.travel(MODEL, [0.0])["wheel_rate"].values[0]
+    found = flat(characteristics.over(axle, "roll", [-0.03, 0.0, 0.03]))
+    rate = characteristics.over(MODEL, "travel", [0.0])["wheel_rate"].values[0]
     half = found["track"].values[1] / 2.0
     assert float(found["roll_stiffness"][1]) == pytest.approx(2.0 * rate * half**2, rel=1e-9)
     np.testing.assert_allclose(found["toe_left"], found["toe_right"][::-1], rtol=0.0, atol=1e-12)

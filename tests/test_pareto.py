@@ -43,7 +43,7 @@ QUICK = ("--population", 4, "--generations", 2)
 
 def numbers_of(suspension: Suspension) -> tuple[float, float, float]:
     """Return deviation of toe [rad], roll-centre height [m] and scrub radius [m], by the curves."""
-    found = characteristics.travel(Model(suspension), [-0.05, 0.0, 0.05])
+    found = characteristics.over(Model(suspension), "travel", [-0.05, 0.0, 0.05])
     toe = np.hypot(*found["toe"].values[[0, 2]]) / np.sqrt(2.0)
     return float(toe), *(float(found[n][1]) for n in (*HEIGHT, "scrub_radius"))
 

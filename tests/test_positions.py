@@ -419,7 +419,7 @@ class TestStatesOfRestKnowTheirInputs:
         """States, positions and kinematics count from upright; characteristics from design."""
         travels = np.array([-0.05, 0.0, 0.04])
         positions = sweep.positions(MODEL, travels)
-        over_travel = characteristics.travel(MODEL, travels)
+        over_travel = characteristics.over(MODEL, "travel", travels)
         angles = positions["arm_angle"].values.ravel()
         assert angles == pytest.approx(arm_angles(MODEL, design_height(MODEL) + travels), rel=1e-14)
         turned = MODEL.design_state[0] - angles

@@ -10,13 +10,13 @@ from kintrafo import (
     InputError,
     Model,
     Suspension,
-    axles,
     characteristics,
     equilibrium,
     loads,
     simulate,
     state_at_height,
 )
+from kintrafo.assembly.by_wheel import flat
 from kintrafo.suspension.points import hardpoints
 from kintrafo.suspension.positions import arm_angles, design_height
 from kintrafo.suspension.reach import at_rest
@@ -72,8 +72,8 @@ def test_the_rocker_is_where_the_rod_holds_it(car: Suspension) -> None:
 
 @ROCKERS
 def test_the_wheel_is_guided_as_by_the_double_wishbone(car: Suspension) -> None:
-    one = characteristics.travel(Model(car), TRAVELS)
-    two = characteristics.travel(Model(WISHBONES), TRAVELS)
+    one = characteristics.over(Model(car), "travel", TRAVELS)
+    two = characteristics.over(Model(WISHBONES), "travel", TRAVELS)
     for name in ("camber", "toe", "caster", "roll_center_height_kinematic", "anti_dive", "trail"):
         np.testing.assert_allclose(one[name], two[name], rtol=1e-9, atol=1e-12)
     assert float(abs(one["motion_ratio"] - two["motion_ratio"]).max()) > 0.05
@@ -82,7 +82,7 @@ def test_the_wheel_is_guided_as_by_the_double_wishbone(car: Suspension) -> None:
 @ROCKERS
 def test_motion_ratio_and_wheel_rate_are_derivatives(car: Suspension) -> None:
     fine = np.linspace(-0.07, 0.07, 1401)  # differences of second order over 0.2 mm
-    curves = characteristics.travel(Model(car), fine)
+    curves = characteristics.over(Model(car), "travel", fine)
     found = points_at(fine, car)
     length = np.linalg.norm(found["spring_top"] - found["spring_seat"], axis=1)
     np.testing.assert_allclose(curves["spring_length"], length, rtol=1e-12)
@@ -137,7 +137,7 @@ def test_what_the_equations_have_is_read_from_the_file() -> None:
     )
     model = Model(stopped)
     assert model.equations is MODEL.equations
-    rates = [characteristics.travel(m, [0.05])["wheel_rate"].item() for m in (MODEL, model)]
+    rates = [characteristics.over(m, "travel", [0.05])["wheel_rate"].item() for m in (MODEL, model)]
     assert rates[1] > rates[0] + 2e4
     assert set(CAR.parameters()) == set(MODEL.equations.PARAMETERS)
 
@@ -179,6 +179,6 @@ def test_an_axle_of_push_rods() -> None:
         "rate_Nm_per_deg": 10.0,
     }
     axle = Axle.from_dict({"axle": "rear", "side": CAR, "anti_roll_bar": bar})
-    found = axles.roll(axle, np.deg2rad([-1.0, 0.0, 1.0]))
+    found = flat(characteristics.over(axle, "roll", np.deg2rad([-1.0, 0.0, 1.0])))
     assert float(found["bar_share"][1]) > 0.0
     np.testing.assert_allclose(found["roll_moment"][0], -found["roll_moment"][2], rtol=1e-9)

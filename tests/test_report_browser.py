@@ -428,7 +428,7 @@ def test_wheel_rate_jumps_where_the_stops_begin_to_act(browser, tmp_path_factory
         browser, kintrafo.report.write(car, tmp_path_factory.mktemp("stops") / "stops.html")
     )
     travels = np.linspace(-0.09, 0.09, 61)  # 3 mm, between the lines of the grid and on them
-    exact = kintrafo.characteristics.travel(car, travels, rack_position=0.011)["wheel_rate"]
+    exact = kintrafo.characteristics.over(car, "travel", travels, rack_position=0.011)["wheel_rate"]
     shown = []
     for travel in travels:
         watched.page.evaluate(f"kintrafo.set({{travel: {travel}, rack: 0.011}})")
@@ -448,7 +448,7 @@ def test_what_is_interpolated_says_so(browser, tmp_path):
         watched.page.evaluate(f"kintrafo.set({{ travel: {travel}, rack: 0 }})")
         cell = watched.page.locator('[data-now="bump_steer"]').inner_text()
         told[travel] = cell
-    exact = kintrafo.characteristics.travel(MODEL, list(told))["bump_steer"].values
+    exact = kintrafo.characteristics.over(MODEL, "travel", list(told))["bump_steer"].values
     for (travel, text), value in zip(told.items(), np.degrees(exact) * 1e-3, strict=True):
         assert text.startswith("\u2248") == (travel == 0.010), told
         number = float(text.lstrip("\u2248\u00a0").replace("\u2212", "-"))

@@ -5,12 +5,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from kintrafo import Model, characteristics, state_at_height
+from kintrafo.assembly.measures.corner import AT_STOPS
 from kintrafo.report.accuracy import measure
 from kintrafo.report.curves import curves, gaps_on
 from kintrafo.report.grid import Axis, Grid
 from kintrafo.report.plotted import shown_range
 from kintrafo.report.poses import poses
-from kintrafo.study.characteristics.catalogue import AT_STOPS
 from kintrafo.suspension.positions import design_height
 from scipy.optimize import brentq
 
@@ -77,7 +77,7 @@ def test_nothing_else_jumps():
 
     touching = brentq(gap, 0.0, 0.1, xtol=1e-12)
     beside = 1e-7  # m
-    found = characteristics.travel(CAR, [touching - beside, touching + beside])
+    found = characteristics.over(CAR, "travel", [touching - beside, touching + beside])
     for name, variable in found.data_vars.items():
         before, behind = variable.values
         if name in AT_STOPS:

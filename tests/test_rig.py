@@ -12,13 +12,11 @@ from kintrafo import (
     Model,
     PositionError,
     RigidAxle,
-    axles,
     characteristics,
     compare,
     compliance,
     export,
     rig,
-    rigid_axles,
 )
 from kintrafo.plots.curves import _alone
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
@@ -53,9 +51,8 @@ def test_units_and_order_are_those_of_the_file(loop: Path) -> None:
 @pytest.mark.parametrize("over", ["travel", "rack"])
 def test_what_is_exported_is_read_back(tmp_path: Path, over: str) -> None:
     """Our own curves as CSV, in units of people, are those of the car to the digits written."""
-    curves = characteristics.travel if over == "travel" else characteristics.steering
     positions = [-0.03, 0.01, 0.03]
-    written = curves(MODEL, positions)
+    written = characteristics.over(MODEL, over, positions)
     export.write(written, tmp_path / "a.csv")
     read = rig.measured_curves(tmp_path / "a.csv")
     assert {*map(str, read)} >= {"toe", "camber", "scrub_radius"}
@@ -67,14 +64,14 @@ def test_what_is_exported_is_read_back(tmp_path: Path, over: str) -> None:
     assert {*read} == {*written}
     # held elsewhere, they are those of there
     held = {"rack_position": 0.02} if over == "travel" else {"travel": 0.02}
-    export.write(curves(MODEL, positions, **held), tmp_path / "b.csv")
+    export.write(characteristics.over(MODEL, over, positions, **held), tmp_path / "b.csv")
     both = rig.beside(rig.measured_curves(tmp_path / "b.csv"), {"car": MODEL})
     np.testing.assert_allclose(both["toe"][0], both["toe"][1], rtol=1e-7)
 
 
 def test_characteristics_are_those_at_the_positions(loop: Path) -> None:
     both = rig.beside(rig.measured_curves(loop), {"car": MODEL}, "rig")
-    expected = characteristics.travel(MODEL, [-0.04, 0.0, 0.04, 0.0])
+    expected = characteristics.over(MODEL, "travel", [-0.04, 0.0, 0.04, 0.0])
     for name in ("toe", "camber", "wheel_rate"):
         np.testing.assert_array_equal(both[name].sel(data_set="car"), expected[name])
     toe = next(d for d in compare.differences(both) if d.name == "toe")
@@ -99,7 +96,10 @@ WRONG = [
     ("", "empty"),
     ("wheel_travel [mm],toe [deg],toe [deg]\n1,2,3\n2,3,4\n", "toe is in 2 columns"),
     ("wheel_travel [mm];wheel_rate [N/m]\n1;25,000\n2.5;26,000\n", "points and commas"),
-    ("rack_position [mm],wheel_rate [N/mm]\n1,2\n2,3\n", "known over wheel_travel only"),
+    (
+        "rack_position [mm],wheel_rate [N/mm]\n1,2\n2,3\n",
+        "known over wheel_travel only",
+    ),
 ]
 
 
@@ -131,7 +131,7 @@ def test_differences_are_where_both_are_known(tmp_path: Path) -> None:
     assert np.rad2deg(toe.first) == pytest.approx(2.0)
     assert np.isnan([camber.first, camber.at_design]).all()
     assert camber.where == pytest.approx(0.04)
-    with pytest.raises(InputError, match="that of a model"):
+    with pytest.raises(InputError, match="that of a subject"):
         rig.beside(rig.measured_curves(path), {"measured": MODEL})
 
 
@@ -259,8 +259,8 @@ def test_compliance_that_there_is_not(models: Any, changes: Any, words: str) -> 
     "door",
     [
         lambda names: compare.compare(dict.fromkeys(names, MODEL)),
-        lambda names: axles.compare({name: Axle.load("reference_axle") for name in names}),
-        lambda names: rigid_axles.compare({name: RigidAxle.load("rigid_axle") for name in names}),
+        lambda names: compare.compare({name: Axle.load("reference_axle") for name in names}),
+        lambda names: compare.compare({name: RigidAxle.load("rigid_axle") for name in names}),
         lambda names: rig.beside(xr.Dataset(), dict.fromkeys(names, MODEL)),
     ],
 )
@@ -268,7 +268,7 @@ def test_names_of_data_sets_differ_as_texts(door: Any) -> None:
     for names, words in (
         (("1", 1), "has the labels '1' and 1"),
         (("a", "a\0"), r"has the labels 'a' and 'a\\x00'"),
-        ((1, 2), r"name in (models|axles) = 1: a text is needed"),
+        ((1, 2), r"name in subjects = 1: a text is needed"),
     ):
         with pytest.raises(InputError, match=words):
             door(names)
@@ -290,4 +290,4 @@ def test_compliance_by_the_command(kintrafo: Any, tmp_path: Path) -> None:  # no
     code, _, err = kintrafo("compare", "reference_car", "a.toml", "--held", "height")
     assert (code, "has no [bushings]" in err) == (2, True)
     code, _, err = kintrafo("compare", "reference_axle", "reference_axle", "--held", "height")
-    assert (code, "not for the files of axles" in " ".join(err.split())) == (2, True)
+    assert (code, "has no [bushings]" in " ".join(err.split())) == (2, True)

@@ -20,14 +20,16 @@ from kintrafo import (
     RigidAxle,
     RigidAxleModel,
     Suspension,
+    characteristics,
+    compare,
     equilibrium,
-    rigid_axles,
     roads,
 )
 from kintrafo.assembly.beam import Beam
+from kintrafo.assembly.by_wheel import flat
+from kintrafo.assembly.measures import beam_rolling as formulas
+from kintrafo.assembly.measures.rigid_axle import MEASURES
 from kintrafo.study.checkup import checkup
-from kintrafo.study.rigid import formulas
-from kintrafo.study.rigid.catalogue import MEASURES
 from kintrafo.study.scenario import Scenario, run
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import fsolve
@@ -209,14 +211,14 @@ def test_rates_at_the_wheels_are_those_of_the_energy() -> None:
         return found.energy(0.5 * (left + right), math.asin(0.5 * (left - right) / half))
 
     at = (0.05, -0.02)
-    told = rigid_axles.single(LOPSIDED, [0.05], side="left")
+    told = flat(characteristics.over(LOPSIDED, "left", [0.05]))
     assert set(told.sizes) == {"wheel_travel"}
     model = RigidAxleModel(LOPSIDED)
     beam = Beam(model, model.states_at(*at)[None])
-    forces = [formulas.wheel_force(beam, side)[0] for side in ("left", "right")]
+    forces = [beam.wheel_force(side)[0] for side in ("left", "right")]
     np.testing.assert_allclose(forces, slopes(energy, at), rtol=0.0, atol=5e-5)
     second = slopes(lambda a, b: slopes(energy, (a, b)), at)
-    np.testing.assert_allclose(formulas.of_all(beam)[0], second, rtol=0.0, atol=1e-2)
+    np.testing.assert_allclose((beam.springs + beam.bar)[0], second, rtol=0.0, atol=1e-2)
     rates = [formulas.wheel_rate(beam, side)[0] for side in ("left", "right")]
     np.testing.assert_allclose(rates, second.sum(axis=1), rtol=0.0, atol=1e-2)
     alone = [formulas.wheel_rate_alone(beam, side)[0] for side in ("left", "right")]
@@ -232,7 +234,7 @@ def test_springs_across_make_the_roll_stiffness_of_the_book() -> None:
             "spring.force_at_design_N": 0.0,
         }
     )
-    told = rigid_axles.bump(plain, [0.0])
+    told = flat(characteristics.over(plain, "bump", [0.0]))
     # rounding of forces over rates
     book = 48000.0 * 1.0**2 / 2.0 + math.degrees(180.0)
     assert float(told["roll_stiffness"][0]) == pytest.approx(book, rel=1e-12)
@@ -273,7 +275,7 @@ def planar(slope: float, height: float) -> RigidAxle:
 def test_the_roll_centre_is_where_a_panhard_rod_crosses_the_middle(
     slope: float, height: float
 ) -> None:
-    told = rigid_axles.bump(planar(slope, height), [0.0])
+    told = flat(characteristics.over(planar(slope, height), "bump", [0.0]))
     # exact at design, to rounding
     assert float(told["roll_center_height"][0]) == pytest.approx(1e-3 * height, rel=1e-11)
     # links along x that rise to the front turn the axle out of the curve
@@ -284,7 +286,7 @@ def test_the_roll_centre_is_where_a_panhard_rod_crosses_the_middle(
 
 
 def test_the_roll_centre_of_triangulated_links_is_on_the_line_through_their_meeting_point() -> None:
-    told = rigid_axles.bump(TRIANGULATED, [0.0])
+    told = flat(characteristics.over(TRIANGULATED, "bump", [0.0]))
     # the upper links meet in the centre plane behind the axle; the line is along the lower links
     part = 120.0 / (450.0 - 120.0)
     meet = np.array([-20.0, 530.0]) + part * np.array([-20.0 - 420.0, 530.0 - 500.0])
@@ -301,7 +303,7 @@ def test_anti_squat_is_that_of_the_side_view(torque_on: str) -> None:
     axle = planar(0.04, 400.0).with_changes(
         {"drive.torque_on": torque_on, "brakes.torque_on": torque_on}
     )
-    told = rigid_axles.bump(axle, [0.0])
+    told = flat(characteristics.over(axle, "bump", [0.0]))
     lower, upper = 0.04, (490.0 - 530.0) / 500.0
     # z = 310 + lower (x - 20) and z = 530 + upper (x + 20)
     x = (530.0 + 20.0 * upper - 310.0 + 20.0 * lower) / (lower - upper)
@@ -311,17 +313,17 @@ def test_anti_squat_is_that_of_the_side_view(torque_on: str) -> None:
     assert float(told["anti_squat"][0]) == pytest.approx(whole, rel=1e-10)
     assert float(told["anti_lift_braked"][0]) == pytest.approx((1.0 - 0.65) * whole, rel=1e-10)
     # in front, the same path dives and lifts the other way
-    front = rigid_axles.bump(axle.with_changes({"rigid_axle": "front"}), [0.0])
+    front = flat(characteristics.over(axle.with_changes({"rigid_axle": "front"}), "bump", [0.0]))
     assert float(front["anti_lift_driven"][0]) == pytest.approx(-whole, rel=1e-10)
     assert float(front["anti_dive"][0]) == pytest.approx(-0.65 * whole, rel=1e-10)
     assert "anti_squat" not in front
     # the axle turns about the pole as it rises: its nose, which points to the pole, down
     travel = 1e-5
-    nose = rigid_axles.bump(axle, [-travel, travel])["pinion_angle"].values
+    nose = flat(characteristics.over(axle, "bump", [-travel, travel]))["pinion_angle"].values
     by = (nose[1] - nose[0]) / (2.0 * travel)
     assert by == pytest.approx(-1e3 / x, rel=1e-6)  # the square of the travel
     turned = axle.with_changes({"rigid_axle": "front"})
-    other = rigid_axles.bump(turned, [-travel, travel])["pinion_angle"].values
+    other = flat(characteristics.over(turned, "bump", [-travel, travel]))["pinion_angle"].values
     np.testing.assert_allclose(other, -nose, rtol=0.0, atol=1e-15)
 
 
@@ -346,7 +348,7 @@ def test_guidance_is_that_of_the_root_finder(axle: RigidAxle) -> None:
     # the roll centre does not move along the line through the contacts
     assert line @ moves[1:] == pytest.approx(0.0, abs=1e-9)
     assert float(formulas.jacking(beam)[0]) == pytest.approx(-by[1, 0] / by[2, 0], abs=1e-9)
-    assert float(formulas.path(beam, "carrier")[0]) == pytest.approx(by[0, 0] / by[2, 0], abs=1e-9)
+    assert float(beam.path_slope("carrier")[0]) == pytest.approx(by[0, 0] / by[2, 0], abs=1e-9)
 
 
 def test_contacts_are_the_lowest_points_of_the_wheels() -> None:
@@ -382,11 +384,9 @@ def test_the_mirror_image_is_the_mirror_image() -> None:
         image["hardpoints"][name] = [left[name][0], -left[name][1], left[name][2]]
     for motion in ("bump", "roll"):
         along = np.array([-0.04, 0.0, 0.05])
-        ours = rigid_axles.over(LOPSIDED, motion)
-        name, *_ = ours.sizes
-        call = getattr(rigid_axles, motion)
-        ours = call(LOPSIDED, along)
-        theirs = call(RigidAxle.from_dict(image), along if motion == "bump" else -along)
+        ours = flat(characteristics.over(LOPSIDED, motion, along))
+        mirrored = along if motion == "bump" else -along
+        theirs = flat(characteristics.over(RigidAxle.from_dict(image), motion, mirrored))
         odd = {"axle_steer", "heave_steer", "axle_lateral", "jacking", "roll_moment"}
         for variable in ours.data_vars:
             stem, _, side = str(variable).rpartition("_")
@@ -487,13 +487,13 @@ def test_stops_and_the_curve_of_the_damper_act_on_both_sides() -> None:
         curve = PchipInterpolator([-1.0, 0.0, 1.0], [-3000.0, 0.0, 1000.0])
         resists = curve(-float(signals[f"{side}_damper_velocity"]))
         assert float(signals[f"{side}_damper_damper_force"]) == pytest.approx(resists, rel=1e-12)
-    rates = rigid_axles.bump(axle, [0.0, 0.05])["wheel_rate_left"].values
+    rates = flat(characteristics.over(axle, "bump", [0.0, 0.05]))["wheel_rate_left"].values
     assert rates[1] > rates[0] + 9e4
 
 
 def test_the_damper_ends_the_travel() -> None:
     short = AXLE.with_changes({"damper.length_min_mm": 450.0, "damper.length_max_mm": 540.0})
-    curves = rigid_axles.over(short, "bump")
+    curves = flat(characteristics.over(short, "bump"))
     model = RigidAxleModel(short)
     for end, part, limit in ((0.3, 1, 0.45), (-0.3, 0, 0.54)):
         at = end * model.farthest(end, end)
@@ -633,7 +633,6 @@ def test_other_doors_refuse_it_by_name() -> None:
         "export-points rigid_axle a.csv",
         "topology rigid_axle",
         "compare rigid_axle reference_car",
-        "compare rigid_axle reference_axle",
         "simulate rigid_axle --height 400",
         "simulate rigid_axle --rack 5",
         "characteristics rigid_axle --motion steer",
@@ -647,7 +646,15 @@ def test_commands_that_have_nothing_for_it_say_so(kintrafo: Any, line: str) -> N
     code, out, err = kintrafo(*shlex.split(line))
     assert code != 0, out
     assert out == ""
-    words = ("rigid axle", "rigid-axle", "only for", "steer", "rack")
+    words = (
+        "rigid axle",
+        "rigid-axle",
+        "only for",
+        "steer",
+        "rack",
+        "are bump",
+        "one sort",
+    )
     assert any(word in err for word in words), err
     assert "Traceback" not in err
     assert not Path("a.csv").exists()
@@ -701,11 +708,11 @@ def test_rods_have_names_that_files_and_tables_can_hold(name: str) -> None:
 
 def test_positions_beyond_reach_are_refused() -> None:
     with pytest.raises(PositionError, match=r"left wheel at \+900 mm"):
-        rigid_axles.bump(AXLE, [0.0, 0.9])
+        flat(characteristics.over(AXLE, "bump", [0.0, 0.9]))
     with pytest.raises(PositionError, match="less than 45 deg"):
-        rigid_axles.roll(AXLE, [1.0])
+        flat(characteristics.over(AXLE, "roll", [1.0]))
     with pytest.raises(InputError, match="finite"):
-        rigid_axles.bump(AXLE, [math.nan])
+        flat(characteristics.over(AXLE, "bump", [math.nan]))
     with pytest.raises(PositionError, match="no stable equilibrium"):
         equilibrium(
             RigidAxleModel(
@@ -719,9 +726,9 @@ def test_what_is_given_comes_back() -> None:
 
 
 def test_two_axles_are_compared_over_the_same_positions() -> None:
-    found = rigid_axles.compare({"a": AXLE, "b": TRIANGULATED}, over="roll")
-    assert found.sizes == {"data_set": 2, "roll_angle": 33}
-    alone = rigid_axles.over(TRIANGULATED, "roll")
+    found = compare.compare({"a": AXLE, "b": TRIANGULATED}, over="roll")
+    assert found.sizes == {"data_set": 2, "wheel": 2, "roll_angle": 33}
+    alone = flat(characteristics.over(TRIANGULATED, "roll"))
     np.testing.assert_array_equal(found["roll_steer"].sel(data_set="b"), alone["roll_steer"])
 
 

@@ -19,9 +19,9 @@ from kintrafo import (
     PositionError,
     RigidAxle,
     RigidAxleModel,
+    characteristics,
     compliance,
     loads,
-    rigid_axles,
 )
 from kintrafo.assembly.by_wheel import flat
 from kintrafo.study.checkup import checkup
@@ -254,7 +254,7 @@ def test_springs_that_carry_the_axle_are_as_soft_as_its_wheel_rate_and_roll_stif
     # toe and the axle's pitch turn: 2e-5
     axle = LOPSIDED.with_changes({"wheel.camber_deg": 0.0})
     found = flat(compliance.linear(axle, hard, [0.03], held="spring"))["flexibility"][0]
-    kinematic = rigid_axles.bump(axle, [0.03])
+    kinematic = flat(characteristics.over(axle, "bump", [0.03]))
     vertical = found.sel(moved=["z_left", "z_right"], by=["fz_left", "fz_right"]).values
     stiff = np.linalg.inv(vertical)
     for i, side in enumerate(SIDES):
@@ -497,7 +497,7 @@ def test_five_rods_move_only_as_their_bushes_give_way() -> None:
     # in roll the fifth rod strains the others
     assert rates[1] > 1.02 * rates[0]
     for refused in (
-        lambda: rigid_axles.bump(FIVE),
+        lambda: flat(characteristics.over(FIVE, "bump")),
         lambda: loads.static(FIVE),
         lambda: checkup(FIVE),
         lambda: RigidAxleModel(FIVE),

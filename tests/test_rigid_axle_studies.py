@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, Model, RigidAxle, rig, rigid_axles, roads, variation
+from kintrafo import Axle, InputError, Model, RigidAxle, characteristics, rig, roads, variation
+from kintrafo.assembly.by_wheel import flat
 from kintrafo.study.scenario import Scenario, run
 from kintrafo.suspension.rigid.model import RigidAxleModel
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
@@ -86,7 +87,9 @@ def test_cars_of_a_tolerance_are_where_the_root_finder_puts_them() -> None:
 def test_an_optimum_and_a_fit_find_the_axle_that_was_meant() -> None:
     moved = {"rods.panhard_rod.axle.z": 12.0, "rods.left_link.chassis.z": -7.0}
     meant = AXLE.with_changes({"rods.panhard_rod.axle.z": 412.0, "rods.left_link.chassis.z": 298.0})
-    height = 1e3 * rigid_axles.bump(meant, [-0.04, 0.04])["roll_center_height"].values
+    height = (
+        1e3 * flat(characteristics.over(meant, "bump", [-0.04, 0.04]))["roll_center_height"].values
+    )
     targets = {
         "axle_steer": {"over": "roll", "at_deg": np.rad2deg(ROLLS), "within": 1e-3,
                        "value": np.rad2deg(steer(meant))},
@@ -97,7 +100,7 @@ def test_an_optimum_and_a_fit_find_the_axle_that_was_meant() -> None:
     assert found.success
     for place, by in moved.items():
         assert found.moved[place] == pytest.approx(by, abs=0.02)
-    rig = rigid_axles.roll(meant, np.deg2rad(np.linspace(-4.0, 4.0, 9)))
+    rig = flat(characteristics.over(meant, "roll", np.deg2rad(np.linspace(-4.0, 4.0, 9))))
     fitted = variation.fit(AXLE, rig[["axle_steer", "roll_center_height"]], free)
     assert fitted.success
     for place, by in moved.items():
@@ -235,7 +238,7 @@ most = 0.1
         code, out, err = kintrafo(command, "rigid_axle", *rest)
         assert code == 0, err
         assert told in " ".join(out.split())
-    better = rigid_axles.bump(RigidAxle.load("better.toml"), [0.0])
+    better = flat(characteristics.over(RigidAxle.load("better.toml"), "bump", [0.0]))
     assert float(better["roll_center_height"][0]) == pytest.approx(0.42, abs=1e-5)
     code, _, err = kintrafo("kinematics", "rigid_axle")
     assert code != 0

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, Model, RigidAxle, axles, compliance
+from kintrafo import Axle, InputError, Model, RigidAxle, characteristics, compliance
+from kintrafo.assembly.by_wheel import flat
 from kintrafo.study.sheet import sheet, tabulated
 from kintrafo.suspension.positions import arm_angles, design_height
 from kintrafo.suspension.reach import at_rest
@@ -54,7 +55,7 @@ def test_the_values_are_those_of_the_curves_at_design_in_the_units_for_people():
     here = found["iso_8855"].sel(quantity="toe_by_braking_opposed_left")
     toe = np.degrees(curves["toe_by_braking_opposed"].sel(wheel="left").item()) * 1e3
     assert here.item() == pytest.approx(toe, rel=1e-12)
-    roll = axles.roll(axle, [0.0])["roll_stiffness"].item() * np.pi / 180.0
+    roll = flat(characteristics.over(axle, "roll", [0.0]))["roll_stiffness"].item() * np.pi / 180.0
     assert found["iso_8855"].sel(quantity="roll_stiffness").item() == pytest.approx(roll)
     units = dict(zip(found["quantity"].values, found["unit"].values, strict=True))
     assert units["toe_by_aligning_opposed_left"] == "deg/100 N m"
@@ -84,7 +85,7 @@ def test_a_table_has_both_wheels_side_by_side():
 
 
 def test_what_cannot_be_is_refused_by_name():
-    with pytest.raises(InputError, match=r"subject = .*kintrafo.Model, kintrafo.Axle"):
+    with pytest.raises(InputError, match=r"subject = .*Suspension or Model, an Axle"):
         sheet("reference_car")
     with pytest.raises(InputError, match="held"):
         sheet(Model("reference_car"), held="tight")

@@ -4,7 +4,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import Axle, InputError, axles, compliance, loads
+from kintrafo import Axle, InputError, characteristics, compliance, loads
+from kintrafo.assembly.by_wheel import flat
 from kintrafo.assembly.rig import Extent
 from kintrafo.suspension.axle.bar import AntiRollBar
 
@@ -100,7 +101,9 @@ def test_an_axle_rolls_as_much_more() -> None:
     assert YIELDING.bar is not None
     share = YIELDING.bar.rate() / YIELDING.bar.rate_of_bar()
     extent = Extent(roll=0.02)
-    stiff, soft = (axles.over(axle, "roll", extent) for axle in (STIFF, YIELDING))
+    stiff, soft = (
+        flat(characteristics.over(axle, "roll", extent=extent)) for axle in (STIFF, YIELDING)
+    )
     for name in ("roll_stiffness_bar", "bar_torque", "link_force_left"):
         assert soft[name].values == pytest.approx(share * stiff[name].values, rel=1e-9, abs=1e-6)
     cases = {"corner": {"left": {"travel_mm": -20.0}, "right": {"travel_mm": 25.0}}}
@@ -122,7 +125,7 @@ def test_the_matrix_of_both_contacts_has_the_bar() -> None:
         return np.linalg.inv(found[np.ix_(vertical, vertical)])
 
     by = 1e-3
-    twists = axles.over(STIFF, "left")["bar_twist"]
+    twists = flat(characteristics.over(STIFF, "left"))["bar_twist"]
     slope = float(twists.interp(wheel_travel=by) - twists.interp(wheel_travel=-by)) / (2.0 * by)
     slopes = np.array([slope, -slope])
     added = stiffness(YIELDING) - stiffness(without)

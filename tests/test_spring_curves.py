@@ -13,11 +13,11 @@ from kintrafo import (
     Model,
     RigidAxle,
     Suspension,
-    axles,
     characteristics,
     compliance,
     variation,
 )
+from kintrafo.assembly.by_wheel import flat
 from kintrafo.suspension import data
 from kintrafo.suspension.plausibility import plausibility
 from kintrafo.suspension.rigid import data as rigid_data
@@ -96,7 +96,7 @@ def test_the_force_is_that_of_the_points(name, interpolation):
     )
     curve, _ = expected_curve(interpolation)
     at = np.linspace(-0.06, 0.06, 13)
-    found = characteristics.travel(model, at)["spring_length"].values
+    found = characteristics.over(model, "travel", at)["spring_length"].values
     for travel, length in zip(at, found, strict=True):
         state = kintrafo.state_at_height(model, float(travel) + kintrafo_height(model))
         signals = model.signals(state)
@@ -117,10 +117,10 @@ def test_what_is_computed_uses_the_rate_where_it_is(name, interpolation):
     """Wheel rate, ride frequency and eigenvalues beside those of a straight spring there."""
     model = Model(curved(name, interpolation))
     _, rate = expected_curve(interpolation)
-    found = characteristics.travel(model, [0.0]).isel(wheel_travel=0)
+    found = characteristics.over(model, "travel", [0.0]).isel(wheel_travel=0)
     there = float(rate(compression_of(interpolation, 4000.0)))
     tangent = Model(with_spring(name, rate_N_per_m=there, force_at_design_N=4000.0))
-    beside = characteristics.travel(tangent, [0.0]).isel(wheel_travel=0)
+    beside = characteristics.over(tangent, "travel", [0.0]).isel(wheel_travel=0)
     for what in ("wheel_rate", "ride_rate", "motion_ratio"):
         assert float(found[what]) == pytest.approx(float(beside[what]), rel=1e-9)
     assert float(found["wheel_rate"]) > 1000.0
@@ -154,7 +154,7 @@ def test_an_axle_rolls_on_the_rates_where_its_springs_are():
     one, other = (
         Axle.from_dict({"axle": "front", "right": side, "left": side.mirrored()}) for side in sides
     )
-    rolled = [axles.roll(each, [0.0]) for each in (one, other)]
+    rolled = [flat(characteristics.over(each, "roll", [0.0])) for each in (one, other)]
     for quantity in ("roll_stiffness", "roll_stiffness_with_tyres"):
         found, expected = (float(each[quantity][0]) for each in rolled)
         assert found == pytest.approx(expected, rel=1e-9)
@@ -190,7 +190,7 @@ def test_a_flat_piece_has_no_rate():
     length = np.array(float(model.signal("spring_length", model.design_state)))
     assert float(rate_at(model.parameters, length)) == 0.0
     step = 1e-3
-    found = characteristics.travel(model, [-step, 0.0, step])
+    found = characteristics.over(model, "travel", [-step, 0.0, step])
     turning = 4e3 * np.diff(found["motion_ratio"].values[[0, 2]])[0] / (2.0 * step)
     assert float(found["wheel_rate"][1]) == pytest.approx(turning, rel=1e-4)
     assert abs(turning) < 3e3
@@ -206,7 +206,7 @@ def test_many_cars_have_the_numbers_of_each():
     found = variation.cars(car, values, positions=[-0.03, 0.0, 0.03], names=["wheel_rate"])
     for which in range(4):
         changes = {place: float(column[which]) for place, column in values.items()}
-        alone = characteristics.travel(Model(car.with_changes(changes)), [-0.03, 0.0, 0.03])
+        alone = characteristics.over(Model(car.with_changes(changes)), "travel", [-0.03, 0.0, 0.03])
         # as a rate of 1e5 N/m is found alone: lengths to 1e-14 m, times how fast rates change
         np.testing.assert_allclose(
             found["wheel_rate"].values[which], alone["wheel_rate"], rtol=1e-9
@@ -273,8 +273,8 @@ def test_a_rate_beside_a_curve_is_no_variable():
     found = variation.sensitivity(car, ["spring.force_at_design_N"], positions=[0.0])
     step = 1.0
     up, down = (
-        characteristics.travel(
-            Model(car.with_changes({"spring.force_at_design_N": 4000.0 + s})), [0.0]
+        characteristics.over(
+            Model(car.with_changes({"spring.force_at_design_N": 4000.0 + s})), "travel", [0.0]
         )["wheel_rate"][0]
         for s in (step, -step)
     )

@@ -18,13 +18,13 @@ from kintrafo import (
     PositionError,
     Suspension,
     arm_angles,
-    axles,
     characteristics,
     equilibrium,
     loads,
     state_at_height,
     travel_range,
 )
+from kintrafo.assembly.by_wheel import flat
 from kintrafo.assembly.usual import usual_rack
 from kintrafo.study.compare import compare
 from kintrafo.study.sweep import positions
@@ -94,7 +94,7 @@ def wheel_at(car: Suspension, travel: float) -> tuple[np.ndarray, np.ndarray, np
 def test_wheel_swings_about_the_hinge(name: str) -> None:
     car = CARS[name]
     side, model = car.vehicle.sign, Model(car)
-    found, path = characteristics.travel(model, TRAVELS), positions(model, TRAVELS)
+    found, path = characteristics.over(model, "travel", TRAVELS), positions(model, TRAVELS)
     _, _, at_design = wheel_at(car, 0.0)
     # roundings of lengths and angles below 1
     near: dict[str, float] = {"rtol": 0.0, "atol": 1e-13}
@@ -120,7 +120,7 @@ def test_instant_centres_are_where_the_hinge_passes(name: str) -> None:
     """
     car = CARS[name]
     start, axis = hinge(car)
-    found = characteristics.travel(Model(car), TRAVELS)
+    found = characteristics.over(Model(car), "travel", TRAVELS)
     given = car.vehicle
     lever = 2600.0 / 550.0 * 0.3  # as the file has them
     for i, travel in enumerate(TRAVELS):
@@ -243,7 +243,7 @@ def test_rests_where_its_moments_balance() -> None:
 
 def test_what_belongs_to_steering_is_not_there() -> None:
     model = Model(CAR)
-    found = characteristics.travel(model, TRAVELS)
+    found = characteristics.over(model, "travel", TRAVELS)
     assert not OF_STEERING & set(found)
     assert "rack_position" not in found.coords
     assert "rack_position" not in positions(model, TRAVELS).coords
@@ -256,9 +256,9 @@ def test_what_belongs_to_steering_is_not_there() -> None:
 @pytest.mark.parametrize(
     "ask",
     [
-        characteristics.steering,
-        lambda model: characteristics.steering(model, [0.0]),
-        lambda model: characteristics.travel(model, TRAVELS, rack_position=0.005),
+        lambda model: characteristics.over(model, "rack"),
+        lambda model: characteristics.over(model, "rack", [0.0]),
+        lambda model: characteristics.over(model, "travel", TRAVELS, rack_position=0.005),
         lambda model: positions(model, [0.0], [0.0, 0.01]),
         usual_rack,
         lambda model: equilibrium(model, rack_position=-0.001),
@@ -323,12 +323,12 @@ REAR = {"axle": "rear", "side": CAR}
 
 def test_axle_has_no_rack_between_its_sides() -> None:
     axle = Axle.from_dict(REAR | {"anti_roll_bar": BAR})
-    found = axles.bump(axle, TRAVELS)
-    one = characteristics.travel(Model(CAR), TRAVELS)
+    found = flat(characteristics.over(axle, "bump", TRAVELS))
+    one = characteristics.over(Model(CAR), "travel", TRAVELS)
     np.testing.assert_allclose(found["camber_left"], one["camber"], rtol=0.0, atol=1e-13)
     assert "rack_position" not in found.coords
     with pytest.raises(InputError, match="'steer': it has no rack"):
-        axles.steer(axle)
+        flat(characteristics.over(axle, "steer"))
     with pytest.raises(InputError, match="no rack"):
         Axle.from_dict(REAR | {"steering": {"angle_deg": [-90.0, 90.0], "rack_mm": [-9.0, 9.0]}})
     held = loads.static(axle, {"corner": {"contact_g": [0.0, 0.5, 1.0]}}, static_load=3400.0)

@@ -538,7 +538,7 @@ def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     for name, text in re.findall(r"```toml\n# (\S+)\n(.*?)```", page, flags=re.DOTALL):
         (tmp_path / name).write_text(text, encoding="utf-8")
     built = CAR.with_changes({"hardpoints.tie_rod_inner": [-140.0, -310.0, 280.3]})
-    measured = characteristics.travel(Model(built))
+    measured = characteristics.over(Model(built), "travel")
     export.write(measured[["toe", "camber"]], tmp_path / "rig.csv")
     bushes = {
         "arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 900.0},

@@ -145,7 +145,7 @@ TINY = (5e-324, 1e-320, 1e-200, 1e-13, 1e12, 1e200, 1e308)
 def test_amounts_beyond_all_measure(value: float) -> None:
     """Their squares would be zero or infinite: no raw error, whatever study asks."""
     car = Suspension.load("reference_car")
-    measured = kintrafo.characteristics.travel(Model(car), [-0.02, 0.0, 0.02])[["toe"]]
+    measured = kintrafo.characteristics.over(Model(car), "travel", [-0.02, 0.0, 0.02])[["toe"]]
     place = "hardpoints.tie_rod_inner.z"
     goal = {"toe": {"value": 0.1, "within": 1.0}}
     for study in (

@@ -8,7 +8,7 @@ import tomllib
 from pathlib import Path
 
 import xarray as xr
-from kintrafo import Axle, axles, variation
+from kintrafo import Axle, characteristics, variation
 from kintrafo.plots.curves import figure
 from kintrafo.plots.figures import STYLE, save
 from matplotlib import rc_context
@@ -27,7 +27,7 @@ def described() -> str:
 if __name__ == "__main__":
     axle = Axle.load("reference_axle")
     goals = variation.goals(tomllib.loads(described()), ["bump", "roll", "left", "right"])
-    curves = {name: axles.by_side(axles.over(axle, over))[name] for over, name in DRAWN.items()}
+    curves = {name: characteristics.over(axle, over)[name] for over, name in DRAWN.items()}
     with rc_context(STYLE):
         drawn = figure(xr.Dataset(curves), [*curves], title="reference axle", alone=False,
                        columns=2, goals=goals)  # fmt: skip

@@ -1,7 +1,7 @@
 """The protocol that every analysis is written for: an assembly has wheels."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
@@ -20,6 +20,7 @@ from .anti_roll_bar import Bar, RollBar
 from .coupling import Place
 from .held import Held
 from .load import Load, known
+from .measures.measure import Measure
 from .poses import Assembled
 from .quantity import RACK, Quantity
 from .rig import Extent, RigMotion, RigPosition, WheelReach
@@ -126,6 +127,21 @@ class Assembly(ABC):
         """The motion of a rig in which all wheels rise and fall together."""
         return next(iter(self.motions))
 
+    @property
+    def symmetric(self) -> bool:
+        """Whether one side is the mirror image of the other."""
+        return True
+
+    @property
+    @abstractmethod
+    def words(self) -> str:
+        """What it is, in sentences."""
+
+    @property
+    def own_sections(self) -> Mapping[str, Any]:
+        """What its own file says besides the files of its sides, by section; of an axle."""
+        return {}
+
     # -- where a rig holds it ---------------------------------------------------------------------
 
     @abstractmethod
@@ -177,6 +193,51 @@ class Assembly(ABC):
     @abstractmethod
     def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
         """Refuse what cannot be held in a motion: a travel, or a rack that it moves itself."""
+
+    def refuse_motion(self, motion: str) -> None:
+        """Refuse a motion that it does not have, with the reason where there is one.
+
+        Raises
+        ------
+        InputError
+        """
+        del motion
+
+    def refuse_of_steering(self, names: Iterable[str]) -> None:
+        """Refuse characteristics that it does not have because nothing steers it.
+
+        Raises
+        ------
+        InputError
+        """
+        del names
+
+    def refuse_positions(self, given: Arguments, motion: str, along: Array) -> None:
+        """Refuse positions that a motion does not have, whatever the wheels reach."""
+        del given, motion, along
+
+    @property
+    def steered_by(self) -> str | None:
+        """The motion in which the steering moves, if it has one."""
+        return None
+
+    # -- what it is measured by -------------------------------------------------------------------
+
+    @abstractmethod
+    def measures(self, motion: str) -> tuple[Measure, ...]:
+        """Return its characteristics over a motion."""
+
+    @abstractmethod
+    def kinematics(self, position: RigPosition) -> Any:
+        """Return what the formulas of its measures take: how wheels are and how they move first.
+
+        Raises
+        ------
+        PositionError
+            If a position is out of reach; the message states the range.
+        InputError
+            If it does not move with rigid joints, or a drop link does not reach.
+        """
 
     # -- its equations of motion ------------------------------------------------------------------
 

@@ -30,6 +30,9 @@ from .coupling import STEERING, Place, on_the_rack
 from .held import Held
 from .load import RACK as THE_RACK
 from .load import Load
+from .measures.axle import OVER_STEERING, OVER_TRAVEL
+from .measures.measure import Measure
+from .pair import Pair
 from .poses import Assembled, Poses
 from .quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from .rest import settled
@@ -46,6 +49,8 @@ _NO_REST = (
     "the axle has no stable equilibrium near that of its sides. Check the anti-roll bar's "
     "free_twist_deg and rate, or the heights of the road."
 )
+# Motions of the rack, both wheels at one height.
+_STEERING = ("steer", "rack")
 
 
 class AxleAssembly(Assembly):
@@ -67,7 +72,10 @@ class AxleAssembly(Assembly):
         self.motions = motions_of_two(motions.MOTIONS)
         if self.steered:
             over = STEERING_WHEEL if motions.turns_the_rack(axle) else RACK
-            self.motions["steer"] = RigMotion(over, motions.MOTIONS["steer"], "steering")
+            self.motions |= {
+                "steer": RigMotion(over, motions.MOTIONS["steer"], "steering"),
+                "rack": RigMotion(RACK, "the rack moves, both wheels at one height", "the rack"),
+            }
 
     @property
     def subject(self) -> Axle:
@@ -104,6 +112,38 @@ class AxleAssembly(Assembly):
         """Whether the file of a side has bushes."""
         return any(side.bushings for side in self.axle.sides.values())
 
+    @property
+    def symmetric(self) -> bool:
+        """Whether both sides have the same data."""
+        return self.axle.symmetric
+
+    @property
+    def words(self) -> str:
+        """What it is, in sentences."""
+        on_rack = ", on one rack" if self.steered else ""
+        words = [
+            f"Both wheels of the {self.axle.heading()}{on_rack}.",
+            "One side is the mirror image of the other." if self.symmetric else "The sides differ.",
+        ]
+        bar = self.axle.bar
+        if bar is not None:
+            rate, part = np.deg2rad(bar.rate()), bar.link_on.replace("_", " ")
+            soft = ", its bushes or drop links included" if bar.gives_way() else ""
+            words.append(f"Anti-roll bar: {rate:.4g} N m/deg{soft}, drop links on the {part}.")
+        return " ".join(words)
+
+    @property
+    def own_sections(self) -> Mapping[str, Any]:
+        """What its own file says."""
+        axle = self.axle
+        found = {
+            "anti_roll_bar": axle.bar,
+            "drive": axle.drive,
+            "brakes": axle.brakes,
+            "steering": axle.steering,
+        }
+        return {name: section for name, section in found.items() if section is not None}
+
     def usual(
         self, motion: str, extent: Extent | None = None, *, travel: float = 0.0, rack: float = 0.0
     ) -> Array:
@@ -115,16 +155,18 @@ class AxleAssembly(Assembly):
         if motion == "steer":
             angles = motions.steering_angles(self.axle, far)
             return motions.racks(self.axle, far) if angles is None else angles
+        if motion == "rack":
+            return motions.racks(self.axle, far)
         return motions.travels(self.axle, far, (motion,) if motion in SIDES else SIDES)
 
     def position(
         self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
     ) -> RigPosition:
         """Return where wheels and rack are along a motion."""
-        if motion == "steer":
-            turns = self.motions["steer"].along is STEERING_WHEEL
-            racks = rack_of(self.axle, along)[0] if turns else along
-            return RigPosition(dict.fromkeys(SIDES, np.full_like(along, travel)), racks)
+        if motion in _STEERING:
+            turns = self.motions[motion].along is STEERING_WHEEL
+            racks, per_turn = rack_of(self.axle, along) if turns else (along, None)
+            return RigPosition(dict.fromkeys(SIDES, np.full_like(along, travel)), racks, per_turn)
         if motion == "roll":
             left, right = motions.opposite(self.axle, along, rack)
         else:
@@ -135,13 +177,13 @@ class AxleAssembly(Assembly):
 
     def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
         """Return what a motion holds."""
-        return {TRAVEL: travel} if motion == "steer" else super().held_in(motion, travel, rack)
+        return {TRAVEL: travel} if motion in _STEERING else super().held_in(motion, travel, rack)
 
     def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
         """Refuse a rack that the motion moves, and a travel that is for steering."""
-        if motion == "steer" and rack:
-            given.refuse("rack_position: the motion 'steer' moves the rack. Leave it out.")
-        if motion != "steer" and travel:
+        if motion in _STEERING and rack:
+            given.refuse(f"rack_position: the motion {motion!r} moves the rack. Leave it out.")
+        if motion not in _STEERING and travel:
             given.refuse("travel: it is for the motion 'steer'; others move the wheels by along.")
 
     @cached_property
@@ -170,6 +212,41 @@ class AxleAssembly(Assembly):
     def refuse_unsteered(self, what: str) -> None:
         """Refuse what moves a rack where there is none."""
         self.axle.right.refuse_without_rack(what)
+
+    def refuse_positions(self, given: Arguments, motion: str, along: Array) -> None:
+        """Refuse angles of a steering wheel whose motion of the rack nothing says, or beyond it."""
+        if motion != "steer":
+            return
+        if self.motions[motion].along is not STEERING_WHEEL:
+            given.refuse(
+                "along: nothing says how the steering wheel moves the rack. Give [rack] "
+                "travel_per_turn_mm in the hardpoint file, or [steering] in the axle's; or take "
+                "the motion 'rack', over displacements of it."
+            )
+        elif self.axle.steering is not None:
+            problem = self.axle.steering.beyond(along)
+            if problem:
+                given.refuse(problem)
+
+    @property
+    def steered_by(self) -> str | None:
+        """The motion of the steering wheel, or of the rack where nothing says how it moves that."""
+        turns = self.steered and self.motions["steer"].along is STEERING_WHEEL
+        return "steer" if turns else "rack" if self.steered else None
+
+    def refuse_motion(self, motion: str) -> None:
+        """Refuse steering without a rack."""
+        if motion in ("rack", "steer"):
+            self.axle.right.refuse_without_rack(f"the motion {motion!r}")
+
+    def measures(self, motion: str) -> tuple[Measure, ...]:
+        """Return its characteristics over a motion."""
+        return OVER_STEERING if motion in _STEERING else OVER_TRAVEL
+
+    def kinematics(self, position: RigPosition) -> Pair:
+        """Return how both wheels are and how they move first."""
+        left, right = (position.travels[side] for side in SIDES)
+        return Pair.at(self.axle, left, right, position.rack, position.per_turn)
 
     def poses(self, position: RigPosition) -> dict[str, Assembled]:
         """Return the parts of both sides with rigid joints."""

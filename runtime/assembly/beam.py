@@ -14,7 +14,8 @@ import numpy as np
 
 from ..core.vectors import cross
 from ..suspension.axle.axle import LEFT, RIGHT
-from ..suspension.corner import UP, Array
+from ..suspension.corner import UP, Array, Vehicle
+from ..suspension.input.units import in_metres
 from ..suspension.rigid.axle import RigidAxle
 from ..suspension.rigid.model import HEAVE, ROLL, RigidAxleModel
 from ..suspension.spring_table import rate_at
@@ -43,6 +44,16 @@ class Beam:
     def axle(self) -> RigidAxle:
         """The axle."""
         return self.model.axle
+
+    @property
+    def end(self) -> str:
+        """At which end of the vehicle it is."""
+        return self.axle.rigid_axle
+
+    @cached_property
+    def vehicles(self) -> tuple[Vehicle, ...]:
+        """What the vehicle adds, the left wheel first."""
+        return tuple(vehicle_of(self.axle, side) for side in SIDES)
 
     # -- where it is ----------------------------------------------------------------------------
 
@@ -127,6 +138,28 @@ class Beam:
         """How fast the left wheel rises in roll, and the right one falls [m/rad]."""
         return self.axle.half_track * np.cos(self.coordinate("roll"))
 
+    @cached_property
+    def rolled(self) -> tuple[Array, Array]:
+        """Travels of both wheels, and lateral motion of both contacts, by a roll of the body.
+
+        The body rolls by -roll; (n, 2) each, the left wheel first [m/rad].
+        """
+        senses = np.array([SENSE[side] for side in SIDES])
+        moved = [-self.contact_rate(side, ROLL)[:, 1] for side in SIDES]
+        return -senses * self.lever[:, None], np.stack(moved, -1)
+
+    def path_slope(self, torque_on: str, side: str = "") -> Array:
+        """Return how far forward the axle goes per rise in heave, where a force acts [1].
+
+        That is the middle of the contacts if the axle holds the torque, the middle of the wheels
+        if the body does.
+        """
+        del side
+        place = self.wheel_center if torque_on == "body" else self.contact
+        velocity = self.velocity(0.5 * (place(LEFT) + place(RIGHT)), HEAVE)
+        slope: Array = velocity[:, 0] / velocity[:, 2]
+        return slope
+
     # -- its springs ----------------------------------------------------------------------------
 
     @cached_property
@@ -170,6 +203,37 @@ class Beam:
             np.diag([0.0, -rate]), (roll.size, 2, 2)
         )
 
+    def wheel_force(self, side: str) -> Array:
+        """Return the vertical force at a wheel that springs, stops and bar take [N]."""
+        work = self.of_springs[0] + self.of_bar[0]
+        return -0.5 * (work[:, 0] + SENSE[side] * work[:, 1] / self.lever)
+
+    @cached_property
+    def springs(self) -> Array:
+        """The stiffness of springs and stops at both wheels, (n, 2, 2) [N/m]."""
+        return self._stiffness(*self.of_springs)
+
+    @cached_property
+    def bar(self) -> Array:
+        """The stiffness of the anti-roll bar at both wheels, (n, 2, 2) [N/m]."""
+        return self._stiffness(*self.of_bar)
+
+    def _stiffness(self, forces: Array, slopes: Array) -> Array:
+        """Return the derivatives of both wheels' forces by both travels, left first [N/m].
+
+        Vertical forces through the wheel centres do the same virtual work as springs and bar: with
+        the heights z of both wheels and the coordinates q, ``F = -Q (dz/dq)^-1``.
+        """
+        lever, bend = self.lever, -self.axle.half_track * np.sin(self.coordinate("roll"))
+        signs = np.array([SENSE[side] for side in SIDES])
+        # of -(Q_heave + s Q_roll / lever) / 2 by heave and roll
+        by_roll = slopes[:, 1, :] / lever[:, None]
+        by_roll[:, 1] -= forces[:, 1] * bend / lever**2
+        by_coordinates = -0.5 * (slopes[:, None, 0, :] + signs[:, None] * by_roll[:, None, :])
+        # heave is the mean of the travels; roll grows by half their difference over the lever
+        heave, roll = by_coordinates[..., 0], by_coordinates[..., 1] / lever[:, None]
+        return np.stack([0.5 * (heave + sign * roll) for sign in signs], -1)
+
     def growth(self, path: str) -> Array:
         """Return how the length of a spring or a damper grows in heave and in roll, (n, 2)."""
         return np.stack([self._at_unit_rate[by][0][f"{path}_velocity"] for by in COORDINATES], -1)
@@ -195,6 +259,27 @@ class Beam:
         work = acting[:, None] * growth
         slopes_of_work = growth[..., :, None] * changes[..., None, :]
         return work, slopes_of_work + acting[:, None, None] * np.stack(bends, -2)
+
+
+def vehicle_of(axle: RigidAxle, side: str) -> Vehicle:
+    """Return what the vehicle adds to a wheel of a rigid axle, in SI units."""
+    tyre, given = axle.tyre, axle.vehicle
+    lengths = given.wheelbase_mm, given.center_of_gravity_height_mm
+    wheelbase, height = (None if n is None else in_metres(n, "mm") for n in lengths)
+    front = axle.rigid_axle == "front"
+    return Vehicle(
+        side=SENSE[side],
+        tyre_radius=axle.tyre_radius(),
+        tyre_rate=tyre.rate_N_per_m,
+        tyre_lateral_rate=tyre.lateral_rate_N_per_m,
+        tyre_longitudinal_rate=tyre.longitudinal_rate_N_per_m,
+        wheelbase=wheelbase,
+        center_of_gravity_height=height,
+        front_brake_share=given.front_brake_share,
+        front=True if front else None,
+        rear=None if front else True,
+        steered=None,
+    )
 
 
 def parameters_of(model: RigidAxleModel, side: str) -> Mapping[str, float]:

@@ -20,6 +20,8 @@ WHEEL, DATA_SET = "wheel", "data_set"
 """The dimension of the wheels, and that of several sets of curves beside each other."""
 
 _ATTRIBUTES = {"long_name": "wheel"}
+SIDES = ("left", "right")
+"""The wheels of an axle."""
 
 
 def wheel_coordinate(wheels: Sequence[str]) -> xr.Variable:
@@ -87,18 +89,21 @@ def flat(dataset: xr.Dataset) -> xr.Dataset:
         given.dataset(dataset)
     if WHEEL not in dataset.dims:
         return dataset.drop_vars(WHEEL, errors="ignore")
-    found: dict[str, xr.DataArray] = {}
+    found: dict[str, xr.Variable] = {}
     for name, data in dataset.items():
         if WHEEL not in data.dims:
-            found[str(name)] = data
+            found[str(name)] = data.variable
             continue
         for wheel in map(str, dataset[WHEEL].values):
-            own = data.sel({WHEEL: wheel}, drop=True)
+            own = data.sel({WHEEL: wheel}, drop=True).variable
             words = f"{data.attrs.get('long_name', name)}, {wheel}"
-            found[f"{name}_{wheel}"] = own.assign_attrs(long_name=words)
-    # of the variables first: their order of dimensions is that of the rows of a table
-    table = xr.Dataset(found, attrs=dataset.attrs)
-    return table.assign_coords({n: c for n, c in dataset.coords.items() if n != WHEEL})
+            found[f"{name}_{wheel}"] = xr.Variable(
+                own.dims, own.data, own.attrs | {"long_name": words}
+            )
+    others = dataset.drop_vars(WHEEL).coords
+    order = [*(str(dim) for dim in dataset.sizes if dim in others), *map(str, others)]
+    coords = {name: others[name].variable for name in dict.fromkeys(order)}
+    return xr.Dataset(found, coords, dataset.attrs)
 
 
 def together(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
@@ -127,14 +132,3 @@ def together(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
             attributes = data.attrs | {"long_name": words}
             found[stem] = xr.Variable((WHEEL, *data.dims), values, attributes)
     return xr.Dataset(found, {**dataset.coords, WHEEL: wheel_coordinate(wheels)}, dataset.attrs)
-
-
-def beside(dataset: xr.Dataset) -> xr.Dataset:
-    """Return a dataset whose wheels are sets of curves beside each other, as they are drawn."""
-    with Arguments("beside") as given:
-        given.dataset(dataset)
-    if WHEEL not in dataset.dims:
-        return dataset.drop_vars(WHEEL, errors="ignore")
-    return dataset.rename({WHEEL: DATA_SET}).assign_coords(
-        {DATA_SET: (DATA_SET, dataset[WHEEL].values, {"long_name": "side"})}
-    )

@@ -1,6 +1,6 @@
 """A corner as an assembly: one wheel."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import Any, Literal
 
@@ -9,21 +9,24 @@ import numpy as np
 from ..core.arguments import Arguments
 from ..core.named_types import ArrayLike
 from ..suspension.bushes import described_bushings, softness_of_rack
-from ..suspension.corner import Array
+from ..suspension.corner import Array, Corner
 from ..suspension.input.vehicle import Tyre
 from ..suspension.kinds import Suspension
 from ..suspension.model import Model
-from ..suspension.positions import arm_angles, design_height
+from ..suspension.positions import PositionError, arm_angles, design_height
 from ..suspension.reach import at_rest, height_and_slope, travel_range
 from .assembly import Assembly, Bushings
 from .coupling import Place, on_the_rack, rules_of
 from .from_model import corner
 from .held import Held
 from .load import Load
+from .measures.corner import OF_STEERING, OVER_RACK, OVER_TRAVEL
+from .measures.measure import Measure
 from .poses import Assembled, Poses
 from .quantity import RACK, TRAVEL, Quantity
 from .rest import forces_of, nearest
 from .rig import Extent, RigMotion, RigPosition, WheelReach
+from .single import Single
 from .soft_lines import SoftLines, soft_lines
 from .usual import usual_rack, usual_travel
 from .wheel_names import WheelNames
@@ -69,6 +72,11 @@ class CornerAssembly(Assembly):
     def has_bushes(self) -> bool:
         """Whether its file has bushes."""
         return bool(self.subject.bushings)
+
+    @property
+    def words(self) -> str:
+        """What it is, in a sentence."""
+        return f"A {self.subject.heading()}, {self.wheels[0]} side."
 
     def usual(
         self, motion: str, extent: Extent | None = None, *, travel: float = 0.0, rack: float = 0.0
@@ -126,6 +134,42 @@ class CornerAssembly(Assembly):
     def refuse_unsteered(self, what: str) -> None:
         """Refuse what moves a rack where there is none."""
         self.subject.refuse_without_rack(what)
+
+    @property
+    def steered_by(self) -> str | None:
+        """The motion of the rack."""
+        return "rack" if self.steered else None
+
+    def refuse_motion(self, motion: str) -> None:
+        """Refuse steering without a rack."""
+        if motion in ("rack", "steer"):
+            self.subject.refuse_without_rack(f"the motion {motion!r}")
+
+    def refuse_of_steering(self, names: Iterable[str]) -> None:
+        """Refuse characteristics that have no meaning for a wheel that nothing steers."""
+        for name in names:
+            if name in OF_STEERING:
+                self.subject.refuse_without_rack(name)
+
+    def measures(self, motion: str) -> tuple[Measure, ...]:
+        """Return its characteristics over a motion."""
+        return OVER_RACK if motion == "rack" else OVER_TRAVEL
+
+    def kinematics(self, position: RigPosition) -> Single:
+        """Return how the wheel is and how it moves first."""
+        travel, rack = position.travels[self.wheels[0]], position.rack
+
+        def straight() -> Corner | None:
+            try:
+                return corner_at(self.model, travel[:1], np.zeros(1))
+            except PositionError:
+                return None
+
+        return Single(
+            corner_at(self.model, travel, rack),
+            lambda: corner_at(self.model.mirror_image, travel, rack),
+            straight,
+        )
 
     def poses(self, position: RigPosition) -> dict[str, Assembled]:
         """Return its parts with rigid joints."""
@@ -210,6 +254,17 @@ class CornerAssembly(Assembly):
     def without_friction(self) -> "CornerAssembly":
         """Return the same without friction."""
         return CornerAssembly(self.model.of_another(self.subject.without_friction()))
+
+
+def corner_at(model: Model, travels: Array, rack: Array) -> Corner:
+    """Return the corner at wheel travels and displacements of the rack [m].
+
+    Raises
+    ------
+    PositionError
+        If the wheel cannot be there.
+    """
+    return corner(model, arm_angles(model, design_height(model) + travels, rack), rack)
 
 
 def poses_of(model: Model, travels: Array, rack: Array) -> Poses:

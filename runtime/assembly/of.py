@@ -86,6 +86,25 @@ def given_model(given: Arguments, model: Any) -> Assembly:
     return assembly_of(model) if isinstance(model, MODELS) else None  # type: ignore[return-value]
 
 
+def given_assemblies(given: Arguments, name: str, subjects: Any) -> dict[str, Assembly]:
+    """Return the assemblies of an argument by their names, or refuse what is none.
+
+    Parameters
+    ----------
+    given : Arguments
+    name : str
+        Of the argument.
+    subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
+    """
+    by_name = given.mapping(name, subjects, "names and suspensions or axles")
+    for known in by_name:
+        given.text(f"name in {name}", known)
+    given.labels(name, by_name)
+    return {
+        known: given_assembly(given, one, f"{name}[{known!r}]") for known, one in by_name.items()
+    }
+
+
 def given_assembly(given: Arguments, subject: Any, name: str = "subject") -> Assembly:
     """Return the assembly of an argument, or refuse it; nothing is to be asked of what is refused.
 

@@ -1,6 +1,7 @@
 """Both wheels of an axle and its anti-roll bar, in many positions."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -10,12 +11,17 @@ from ..core.vectors import cross
 from ..suspension.axle import Axle
 from ..suspension.axle.axle import LEFT, RIGHT
 from ..suspension.axle.bar import HalfBar
-from ..suspension.corner import Array, Corner
+from ..suspension.corner import Array, Corner, Vehicle
 from ..suspension.model import Model
 from ..suspension.points import carried
-from ..suspension.positions import arm_angles, design_height
+from ..suspension.positions import PositionError, arm_angles, design_height
 from ..suspension.reach import at_rest, height_and_slope
+from . import motions, wheel
 from .from_model import corner
+from .line import inclination_rate
+
+SENSE = {LEFT: 1.0, RIGHT: -1.0}
+"""In which direction each side's angle twists the bar."""
 
 # The slope of a half's angle over travel is exact; its change is a difference of fourth order over
 # this step of the arm's angle [rad]: an error of the fourth power of that, and rounding over it.
@@ -56,15 +62,29 @@ class Pair:
         Wheel travel of each side [m].
     halves : dict of str to Half
         By side; empty without an anti-roll bar.
+    rack : ndarray
+        Displacement of the rack [m].
+    per_turn : ndarray or None
+        Rack travel for one turn of the steering wheel there, with its sign [m]; None where no
+        steering wheel turns.
     """
 
     axle: Axle
     corners: dict[str, Corner]
     travel: dict[str, Array]
     halves: dict[str, Half]
+    rack: Array
+    per_turn: Array | None = None
 
     @classmethod
-    def at(cls, axle: Axle, left: ArrayLike, right: ArrayLike, rack: ArrayLike) -> "Pair":
+    def at(
+        cls,
+        axle: Axle,
+        left: ArrayLike,
+        right: ArrayLike,
+        rack: ArrayLike,
+        per_turn: Array | None = None,
+    ) -> "Pair":
         """Return an axle at wheel travels and displacements of the rack [m].
 
         Raises
@@ -88,7 +108,31 @@ class Pair:
                 side: _half(axle.models[side], half, angles[side], racks, travels[side], side)
                 for side, half in axle.halves.items()
             },
+            rack=racks,
+            per_turn=per_turn,
         )
+
+    @property
+    def end(self) -> str:
+        """At which end of the vehicle it is."""
+        return self.axle.end
+
+    @property
+    def vehicles(self) -> tuple[Vehicle, ...]:
+        """What the vehicle adds, the left wheel first."""
+        return tuple(corner.vehicle for corner in self.corners.values())
+
+    @property
+    def left(self) -> Corner:
+        """The left wheel."""
+        return self.corners[LEFT]
+
+    @property
+    def right(self) -> Corner:
+        """The right wheel."""
+        return self.corners[RIGHT]
+
+    # -- its anti-roll bar ------------------------------------------------------------------------
 
     @property
     def twist(self) -> Array:
@@ -104,6 +148,94 @@ class Pair:
         if bar is None:
             return np.zeros_like(self.travel[LEFT])
         return bar.rate() * (self.twist - bar.free_twist())
+
+    # -- forces and rates -------------------------------------------------------------------------
+
+    def contact(self, side: str) -> Array:
+        """Return the lowest point of a wheel as a thin disc, (n, 3) [m]."""
+        return wheel.contact(self.corners[side])
+
+    def wheel_force(self, side: str) -> Array:
+        """Return the vertical force that spring, stops and bar take at the wheel [N]."""
+        force = wheel.wheel_force(self.corners[side])
+        if side in self.halves:
+            force = force + SENSE[side] * self.torque * self.halves[side].slope
+        return force
+
+    @property
+    def springs(self) -> Array:
+        """The stiffness of springs and stops at both wheels, (n, 2, 2) [N/m]."""
+        return _diagonal(*(wheel.wheel_rate(corner) for corner in self.corners.values()))
+
+    @property
+    def bar(self) -> Array:
+        """The stiffness of the anti-roll bar at both wheels, (n, 2, 2) [N/m]."""
+        given = self.axle.bar
+        if given is None:
+            return np.zeros((*self.twist.shape, 2, 2))
+        slopes = np.stack([SENSE[side] * self.halves[side].slope for side in (LEFT, RIGHT)], -1)
+        bent = (SENSE[s] * self.torque * self.halves[s].curvature for s in (LEFT, RIGHT))
+        stiffness: Array = given.rate() * slopes[..., :, None] * slopes[..., None, :]
+        return stiffness + _diagonal(*bent)
+
+    @property
+    def rolled(self) -> tuple[Array, Array]:
+        """Travels of both wheels, and lateral motion of both contacts, by a roll of the body.
+
+        The wheel centres move oppositely; (n, 2) each, the left wheel first [m/rad].
+        """
+        line = self.left.center - self.right.center
+        # of the roll angle by travel of the right wheel up and the left one down
+        rate = self.left.travel.velocity + self.right.travel.velocity
+        by_travel = inclination_rate(line, rate)
+        opposite = np.stack([-np.ones_like(by_travel), np.ones_like(by_travel)], -1)
+        travels = opposite / by_travel[:, None]
+        moved = [wheel.contact_rate(corner)[..., 1] for corner in self.corners.values()]
+        return travels, np.stack(moved, -1) * travels
+
+    def path_slope(self, torque_on: str, side: str) -> Array:
+        """Return how far forward goes per rise where a longitudinal force acts, v_x / v_z [1].
+
+        That is the contact, fixed to the carrier; the wheel centre if the body holds the torque.
+        """
+        corner = self.corners[side]
+        on_body = torque_on == "body"
+        velocity = corner.travel.velocity if on_body else wheel.contact_velocity(corner)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            slope: Array = velocity[..., 0] / velocity[..., 2]
+        return slope
+
+    # -- steered ----------------------------------------------------------------------------------
+
+    @property
+    def wheelbase(self) -> float:
+        """The wheelbase [m]."""
+        found = self.left.vehicle.wheelbase
+        assert found is not None  # what needs it is left out where it is not known
+        return found
+
+    @property
+    def design_track(self) -> float:
+        """The distance of the wheel centres at design [m]."""
+        return motions.track(self.axle)
+
+    @cached_property
+    def turned(self) -> tuple[Array, Array]:
+        """Steer angles without static toe, the left wheel first [rad].
+
+        No numbers where the wheels cannot be straight ahead at these heights.
+        """
+        try:
+            middle = Pair.at(self.axle, self.travel[LEFT][:1], self.travel[RIGHT][:1], 0.0)
+            static = [wheel.steer(corner) for corner in middle.corners.values()]
+        except PositionError:
+            static = [np.array([np.nan])] * 2
+        return wheel.steer(self.left) - static[0], wheel.steer(self.right) - static[1]
+
+
+def _diagonal(left: Array, right: Array) -> Array:
+    nothing = np.zeros_like(left)
+    return np.stack([np.stack([left, nothing], -1), np.stack([nothing, right], -1)], -2)
 
 
 def _half(model: Model, half: HalfBar, angle: Array, rack: Array, travel: Array, side: str) -> Half:

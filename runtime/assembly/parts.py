@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.vectors import cross
-from ..suspension.corner import UP, RoadWheel, Vehicle
+from ..suspension.corner import UP, RoadWheel
 from ..suspension.rigid.axle import RigidAxle
 from ..suspension.rigid.model import RigidAxleModel
 from ..suspension.rigid.structure import BEAM, CHASSIS, MIDDLE
 from ..suspension.structure import Line, Structure
 from ..suspension.wheel_loads import UNITS
 from ..systems.allowed import Allowed
-from .beam import COORDINATES, SENSE, SIDES, parameters_of
+from .beam import COORDINATES, SENSE, SIDES, parameters_of, vehicle_of
 from .load import Load, known
 from .mass import PartMass
 from .poses import CENTER, CONTACT, forces_along, road_axes
@@ -100,11 +100,9 @@ class Parts:
     @cached_property
     def wheels(self) -> dict[str, RoadWheel]:
         """Both wheels, the left one first, by their parts."""
-        radius, tyre = self.axle.tyre_radius(), self.axle.tyre
-        rates = tyre.rate_N_per_m, tyre.lateral_rate_N_per_m, tyre.longitudinal_rate_N_per_m
         return {
             f"wheel_{side}": RoadWheel(
-                Vehicle(SENSE[side], radius, *rates),
+                vehicle_of(self.axle, side),
                 self.points[f"{CENTER}_{side}"],
                 self.design[f"{CENTER}_{side}"],
                 SENSE[side] * self.wheel_axis(side),

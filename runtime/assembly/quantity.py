@@ -1,11 +1,9 @@
 """What a number is called, its unit, its definition and its sign."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from ..core.quantities import Display, display_of
-from ..suspension.corner import Array, Corner, Vehicle
 
 _DEG_PER_MM = display_of({"units": "rad"}).factor * 1e-3
 
@@ -22,10 +20,6 @@ class Quantity:
         SI unit; "1" for a pure number.
     long_name, definition, sign : str
         In words; the definition in one line.
-    formula : callable or None
-        Takes a `Corner`; None for those of a whole axle.
-    needs : tuple of str
-        Attributes of `Vehicle` without which it is not defined.
     display : Display or None
         Unit for a person, where it is not the usual one.
     """
@@ -35,13 +29,7 @@ class Quantity:
     long_name: str
     definition: str
     sign: str
-    formula: Callable[[Corner], Array] | None = None
-    needs: tuple[str, ...] = ()
     display: Display | None = None
-
-    def known_to(self, vehicle: Vehicle) -> bool:
-        """Return whether everything that it needs is given."""
-        return all(getattr(vehicle, name) is not None for name in self.needs)
 
     def attributes(self) -> dict[str, Any]:
         """Return the attributes of the variable in a dataset."""

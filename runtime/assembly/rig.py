@@ -36,10 +36,13 @@ class RigPosition:
         Heights of the wheel centres above design by the names of the wheels [m].
     rack : ndarray, shape () or (n,)
         Displacement of the rack [m]; zero where there is none.
+    per_turn : ndarray or None
+        Where a steering wheel turns, the rack travel for one turn of it there, with its sign [m].
     """
 
     travels: Mapping[str, Array]
     rack: Array
+    per_turn: Array | None = None
 
 
 @dataclass(frozen=True)

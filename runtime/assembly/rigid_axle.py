@@ -24,6 +24,8 @@ from .axle import motions_of_two
 from .beam import SIDES, Beam
 from .held import Held
 from .load import Load
+from .measures.measure import Measure
+from .measures.rigid_axle import MEASURES
 from .motions import MOTIONS, USUAL_ROLL, USUAL_ROLL_STEP
 from .parts import Parts
 from .poses import Assembled
@@ -116,6 +118,12 @@ class RigidAxleAssembly(Assembly):
         """One body carries both wheels."""
         return True
 
+    @property
+    def words(self) -> str:
+        """What it is, in a sentence."""
+        rods = ", ".join(self.axle.rods).replace("_", " ")
+        return f"A {self.axle.heading()} on {len(self.axle.rods)} rods, {rods}."
+
     def usual(
         self, motion: str, extent: Extent | None = None, *, travel: float = 0.0, rack: float = 0.0
     ) -> Array:
@@ -193,6 +201,16 @@ class RigidAxleAssembly(Assembly):
         if self.model.farthest(heave + rise, heave - rise) < 1.0:
             raise PositionError(_NO_REST)
         return found
+
+    def measures(self, motion: str) -> tuple[Measure, ...]:
+        """Return its characteristics, the same over all motions."""
+        del motion
+        return MEASURES
+
+    def kinematics(self, position: RigPosition) -> Beam:
+        """Return how the axle is and how it moves first."""
+        model = self.model if self.moves_rigidly else RigidAxleModel(self.axle)
+        return Beam(model, model.states_at(*(position.travels[side] for side in SIDES)))
 
     def poses(self, position: RigPosition) -> dict[str, Assembled]:
         """Return its parts with rigid joints."""

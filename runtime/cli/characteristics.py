@@ -1,21 +1,33 @@
-"""``kintrafo characteristics``: all characteristics over wheel travel and over the rack."""
+"""``kintrafo characteristics``: all characteristics over the motions of a rig."""
 
 from math import radians
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.markup import escape
-from rich.table import Table
 
-from ..core.tabulated import significant
-from . import axles, rigid
 from . import goals as wanted
-from .console import console, print_json
-from .options import Bump, File, Force, Json, Of, RackExtent, Rebound, Step, among, load, metres
-from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, named, only, title_of
+from .console import console, curve_table, print_json, print_table
+from .options import Bump, File, Force, Json, Of, RackExtent, Rebound, Step, among, metres
+from .outputs import (
+    Figures,
+    Formats,
+    Out,
+    Outputs,
+    Plot,
+    name_files,
+    named,
+    of_both,
+    only,
+    title_of,
+)
+from .subject import assembly_of_file
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from xarray import Dataset
+
+    from ..assembly.assembly import Assembly
 
 EXAMPLES = (
     "kintrafo characteristics reference_car",
@@ -23,6 +35,31 @@ EXAMPLES = (
     "kintrafo characteristics my_car.toml --figures figures --format svg",
     "kintrafo characteristics my_car.toml --goals goals.toml --plot curves.png",
     "kintrafo characteristics reference_axle --motion bump --motion roll -o axle.csv",
+)
+# Those of an assembly, where nothing is chosen, are these; what an axle has besides is asked for.
+_USUAL = ("travel", "rack", "bump", "roll", "left", "steer")
+# Curves that stand in tables of motions of an axle; over parallel travel all are told at design.
+_TOLD = {
+    "roll": (
+        "roll_moment",
+        "roll_moment_gradient",
+        "roll_stiffness",
+        "roll_center_height",
+        "roll_center_lateral",
+        "inclination",
+        "axle_steer",
+        "axle_lateral",
+    ),
+    "steer": ("steer", "ackermann", "turning_circle", "steering_ratio"),
+    "rack": ("steer", "ackermann", "turning_circle"),
+}
+_OF_ONE_WHEEL = (
+    "wheel_force",
+    "bar_torque",
+    "track",
+    "roll_center_height",
+    "axle_steer",
+    "axle_lateral",
 )
 
 
@@ -36,8 +73,9 @@ def command(
         list[str] | None,
         typer.Option(
             metavar="NAME",
-            help="Of an axle: what the rig does, of bump, roll, left, right, steer. May be "
-            "repeated. Default: bump, roll, left, steer. A rigid axle is not steered.",
+            help="What the rig does: of a suspension travel or rack, of an axle bump, roll, left, "
+            "right, steer or rack. May be repeated. Default: travel and rack; bump, roll, left "
+            "and steer. What is not steered has no rack and no steer.",
         ),
     ] = None,
     roll: Annotated[
@@ -62,28 +100,20 @@ def command(
     force: Force = False,
     json: Json = False,
 ) -> None:
-    """All characteristics over wheel travel, and over a rack; a table of them at design.
+    """All characteristics over the motions of a rig; tables of them at design.
 
-    Data files and pages are written twice, with _travel and _rack behind their names. Of an axle
-    they go over the motions of a rig, with _bump, _roll, _left and _steer.
+    Data files and pages are written once for each motion, with its name behind theirs: _travel and
+    _rack of a suspension, _bump, _roll, _left and _steer of an axle.
     """
-    from ..assembly.motions import MOTIONS
     from ..assembly.rig import Extent
-    from ..study import characteristics, export, sweep
-    from ..study.characteristics.datasets import refuse_of_steering
-    from ..suspension.axle import Axle
-    from ..suspension.kinds import Suspension
+    from ..study import export
+    from ..study.characteristics.datasets import over
+    from ..study.variation.ways import ways_of
 
     if goals and (travel or rack):
         raise typer.BadParameter(wanted.ELSEWHERE)
-    of_axle, of_rigid_axle = axles.is_axle(file), rigid.is_rigid_axle(file)
-    if of_rigid_axle:
-        steered, chosen = False, rigid.motions(motion)
-    else:
-        steered = (Axle if of_axle else Suspension).load(file).steered()
-        usual = ["bump", "roll", "left", *(["steer"] if steered else [])]
-        chosen = among(motion or usual, MOTIONS, "--motion")
-    ways = ["travel", "rack"] if steered else ["travel"]
+    assembly = assembly_of_file(file)
+    chosen = _motions(assembly, motion)
     outputs = Outputs.of(
         out,
         plot,
@@ -91,71 +121,106 @@ def command(
         formats,
         force=force,
         inputs=[file, *([goals] if goals else [])],
-        suffixes=[f"_{name}" for name in (chosen if of_axle or of_rigid_axle else ways)],
+        suffixes=[f"_{name}" for name in chosen],
     )
-    if of_axle or of_rigid_axle:
-        extent = Extent(
-            rebound=metres(rebound),
-            bump=metres(bump),
-            roll=None if roll is None else radians(roll),
-            rack=metres(rack_extent),
-            step=step / 1e3,
-        )
-        if of_rigid_axle:
-            steering = {"--rack-extent": rack_extent, "--rack": rack or None}
-            axles.refuse_options("what has a rack", steering | {"--travel": travel or None})
-            rigid.characteristics(file, chosen, extent, outputs, of=of, goals=goals, json=json)
-            return
-        held = {"travel": travel / 1e3, "rack": rack / 1e3}
-        axles.characteristics(file, chosen, extent, held, outputs, of=of, goals=goals, json=json)
-        return
-    axles.refuse_options("the file of an axle", {"--motion": motion, "--roll": roll})
-    aims = wanted.read(goals, ways)
-    model = load(file)
-    ends: dict[str, Any] = {"rebound": metres(rebound), "bump": metres(bump)}
-    at_travel, at_rack, spacing = travel / 1e3, rack / 1e3, step / 1e3
-    travels = sweep.usual_travel(model, **ends, step=spacing, rack=at_rack)
-    curves = {"travel": characteristics.travel(model, travels, rack_position=at_rack)}
-    if steered or rack_extent is not None or travel:
-        racks = sweep.usual_rack(model, extent=metres(rack_extent), step=spacing, travel=at_travel)
-        curves["rack"] = characteristics.steering(model, racks, travel=at_travel)
-    refuse_of_steering(model.suspension, of or ())
-    drawn = named(of, curves)
-    judged = wanted.judged({file: model.suspension}, aims)
+    _refuse_options(assembly, roll=roll, rack_extent=rack_extent, travel=travel, rack=rack)
+    aims = wanted.read(goals, chosen, ways_of(assembly.subject)) if goals else []
+    extent = Extent(
+        rebound=metres(rebound),
+        bump=metres(bump),
+        roll=None if roll is None else radians(roll),
+        rack=metres(rack_extent),
+        step=step / 1e3,
+    )
+    curves = {}
+    for name in chosen:
+        steers = name in {"rack", "steer"}
+        held = {"travel": travel / 1e3} if steers else {"rack_position": rack / 1e3}
+        curves[name] = over(assembly, name, extent=extent, **held)
+    assembly.refuse_of_steering(of or ())
+    # both wheels of an axle are drawn together
+    drawn = named(of_both(of) if len(assembly.wheels) > 1 else of, curves)
+    judged = wanted.judged({file: assembly.subject}, aims) if aims else []
     if outputs.drawn:
         wanted.refuse_beyond(aims, curves)
     written = [
         path
-        for over, dataset in curves.items()
+        for name, dataset in curves.items()
         for path in outputs.write(
-            dataset, title=title_of(file), suffix=f"_{over}", names=drawn[over], goals=aims
+            dataset,
+            title=_title(assembly, file, name),
+            suffix=f"_{name}",
+            names=drawn[name],
+            goals=[goal for goal in aims if goal.over == name],
         )
     ]
     if json:
-        found = {f"over_{over}": export.as_dict(curves[over]) for over in curves}
+        found = {f"over_{name}": export.as_dict(curves[name]) for name in curves}
         print_json(found | ({"goals": judged} if aims else {}))
         return
-    told = {over: only(of, dataset) for over, dataset in curves.items()}
-    for over in filter(told.get, told):
-        console.print(_at_design(told[over], f"{file}: characteristics over {over}, at design"))
+    _print(assembly, file, curves, of)
     if aims:
         console.print(wanted.table(judged, f"{file}: targets and limits of {goals}"))
     name_files(written)
 
 
-def _at_design(dataset: "Dataset", title: str) -> Table:
-    """Return the table of all variables at zero of the dataset's dimension."""
-    from ..core.quantities import displayed, long_name, unit_or_stroke
+def _motions(assembly: "Assembly", wanted: list[str] | None) -> list[str]:
+    """Return the motions that are asked for, or the usual ones."""
+    if not wanted:
+        several = [name for name in _USUAL if name in assembly.motions]
+        return [name for name in several if name != "rack" or "steer" not in several]
+    for name in wanted:
+        if name not in assembly.motions:
+            assembly.refuse_motion(name)
+    return among(wanted, assembly.motions, "--motion")
 
-    (along,) = dataset.sizes
-    index = int(abs(dataset[along].values).argmin())
-    table = Table(title=escape(title))
-    table.add_column("characteristic")
-    table.add_column("value", justify="right")
-    table.add_column("unit")
-    table.add_column("sign")
-    for data in dataset.values():
-        unit = unit_or_stroke(data.attrs)
-        value = significant(float(displayed(data)[index]))
-        table.add_row(long_name(data), value, unit, str(data.attrs.get("sign", "")))
-    return table
+
+def _refuse_options(
+    assembly: "Assembly",
+    *,
+    roll: float | None,
+    rack_extent: float | None,
+    travel: float,
+    rack: float,
+) -> None:
+    """Refuse options that a file does not have."""
+    if roll is not None and "roll" not in assembly.motions:
+        raise typer.BadParameter("--roll is only for the file of an axle")
+    if assembly.steered:
+        return
+    of_rack = {"--rack-extent": rack_extent, "--rack": rack or None, "--travel": travel or None}
+    for option, value in of_rack.items():
+        if value is not None:
+            raise typer.BadParameter(f"{option} is only for what has a rack")
+
+
+def _title(assembly: "Assembly", file: str, motion: str) -> str:
+    """Return what stands above curves."""
+    if len(assembly.wheels) == 1:
+        return title_of(file)
+    return f"{title_of(file)}: {assembly.motions[motion].words}"
+
+
+def _print(
+    assembly: "Assembly", file: str, curves: "Mapping[str, Dataset]", of: list[str] | None
+) -> None:
+    """Print what is known at design, and of further motions of an axle curves."""
+    from ..assembly.by_wheel import flat
+    from ..study.characteristics.at_design import at_design
+
+    for motion, dataset in curves.items():
+        shown = only(of, dataset)
+        if len(assembly.wheels) == 1:
+            for table in at_design(shown, f"{file}: characteristics over {motion}, "):
+                print_table(table)
+        elif motion == assembly.usual_motion:
+            for table in at_design(shown, f"{file}: "):
+                print_table(table)
+        else:
+            if not of:
+                told = _TOLD.get(motion, _OF_ONE_WHEEL)
+                shown = dataset[[name for name in told if name in dataset]]
+            flattened = flat(shown)
+            if flattened.data_vars:
+                words = f"{file}: {assembly.motions[motion].words}"
+                console.print(curve_table(flattened, list(map(str, flattened)), words))

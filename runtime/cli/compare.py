@@ -7,22 +7,22 @@ from rich.markup import escape
 from rich.table import Table
 
 from ..core.tabulated import significant
-from . import axles, rigid
 from . import goals as wanted
 from .compliance import Held
 from .console import console, print_json, progress_bar, say
-from .options import Files, Force, Json, Of, among, load
+from .options import Files, Force, Json, Of, among
 from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, title_of
+from .subject import assembly_of_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from xarray import Dataset
 
+    from ..assembly.assembly import Assembly
     from ..study.compare import Difference
     from ..study.variation.ways import Subject
     from ..suspension.axle import Axle
-    from ..suspension.model import Model
 
 EXAMPLES = (
     "kintrafo compare reference_car my_car.toml",
@@ -60,22 +60,24 @@ def command(
     force: Force = False,
     json: Json = False,
 ) -> None:
-    """Compare the characteristics of two or more suspensions, or with curves that were measured.
+    """Compare the characteristics of two or more files, or with curves that were measured.
 
     Differences are those from the first file: at design, and where they are largest. Data files
-    have all characteristics. A file .csv has measured curves, wheel_travel [mm] or rack_position
-    [mm] and toe [deg] and so on in its first line: the others are compared with it.
+    have all characteristics. A file .csv has measured curves, wheel_travel [mm], rack_position
+    [mm] or roll_angle [deg], and toe [deg] (of an axle toe_left [deg]) and so on in its first line:
+    the others are compared with it.
     """
+    from ..assembly.by_wheel import flat
     from ..study import compare
-    from ..study.compliance.linear import COMPLIANCES
-    from ..study.variation.ways import ways_of
+    from ..study.variation.ways import compliances_over, ways_of
 
     outputs = Outputs.of(
         out, plot, figures, formats, force=force, inputs=[*files, *([goals] if goals else [])]
     )
     dataset, way, subjects = _compared(files, over, held)
     known = ways_of(next(iter(subjects.values())))
-    looked_at = [way] if {*dataset}.isdisjoint(COMPLIANCES) else [way, held or "height"]
+    table = flat(dataset)
+    looked_at = [way, held or "height"] if {*table} & {*compliances_over(way)} else [way]
     aims = wanted.read(goals, looked_at, known)
     if aims:
         wanted.refuse_elsewhere(dataset)
@@ -83,24 +85,24 @@ def command(
         wanted.refuse_beyond(aims, dict.fromkeys(looked_at, dataset))
     judged = wanted.judged(subjects, aims)
     both = [f"{name}_{side}" for name in of or () for side in ("left", "right")]
-    of = [n for n in of or () if n in dataset or f"{n}_left" not in dataset] + [
-        name for name in both if name in dataset
+    of = [n for n in of or () if n in table or f"{n}_left" not in table] + [
+        name for name in both if name in table
     ]
-    shown = among(of, map(str, dataset.data_vars)) if of else [str(n) for n in dataset.data_vars]
+    shown = among(of, map(str, table.data_vars)) if of else [str(n) for n in table.data_vars]
     found = [difference for difference in compare.differences(dataset) if difference.name in shown]
     first, *others = (str(name) for name in dataset["data_set"].values)
-    drawn = dataset.assign_coords(data_set=_titles(dataset["data_set"].values))
+    drawn = table.assign_coords(data_set=_titles(dataset["data_set"].values))
     title = " and ".join(map(str, drawn["data_set"].values))
     written = outputs.write(
         dataset, title=title, names=shown if of else (), drawn=drawn, goals=aims
     )
     if json:
-        told = [vars(difference) | {"units": _units(dataset, difference)} for difference in found]
+        told = [vars(difference) | {"units": _units(table, difference)} for difference in found]
         print_json({"differences": told, "goals": judged} if aims else told)
         return
     for name in others:
         chosen = [difference for difference in found if difference.data_set == name]
-        console.print(_table(dataset, chosen, first, name))
+        console.print(_table(table, chosen, first, name))
     if aims:
         console.print(wanted.table(judged, f"targets and limits of {goals}"))
     if dataset.attrs.get("left_out"):
@@ -126,54 +128,59 @@ class _Compared(NamedTuple):
 
 
 def _compared(files: list[str], over: str | None, held: Held | None) -> _Compared:
+    from ..study import compare
+    from ..study.characteristics.datasets import given_motion
+
     measured = [file for file in files if file.lower().endswith(".csv")]
-    of_rigid, of_axles = rigid.all_rigid(files), axles.all_axles(files)
-    if held is not None and (of_rigid or of_axles):
-        raise typer.BadParameter("--held is not for the files of axles")
-    if of_rigid:
-        return _Compared(*rigid.compared(files, over or "bump"))
-    if of_axles:
-        return _Compared(*axles.compared(files, over or "bump"))
-    if over not in (None, "travel", "rack"):
-        raise typer.BadParameter(f"--over {over} is only for the files of axles")
-    models = _models([file for file in files if file not in measured])
+    assemblies = _assemblies([file for file in files if file not in measured])
+    subjects = {name: assembly.subject for name, assembly in assemblies.items()}
     if measured:
-        dataset, way = _beside(models, measured, over, held or "height")
-    else:
-        dataset, way = _together(models, over or "travel", held), over or "travel"
-    return _Compared(dataset, way, {name: model.suspension for name, model in models.items()})
+        dataset, way = _beside(assemblies, measured, over, held or "height")
+        return _Compared(dataset, way, subjects)
+    for file, assembly in assemblies.items():
+        if over is not None and over not in assembly.motions:
+            assembly.refuse_motion(over)
+            there = ", ".join(assembly.motions)
+            raise typer.BadParameter(f"--over {over}: the motions of a rig with {file} are {there}")
+    first = next(iter(assemblies.values()))
+    with progress_bar("characteristics") as progress:
+        dataset = compare.compare(assemblies, over=over, held=held, progress=progress)
+    return _Compared(dataset, given_motion(first, over), subjects)
 
 
-def _models(files: list[str]) -> "dict[str, Model]":
+def _assemblies(files: list[str]) -> "dict[str, Assembly]":
+    """Return what files describe; refuse suspensions beside axles."""
     from ..core.quantities import distinct
 
-    return dict(zip(distinct(files), map(load, files), strict=True))
-
-
-def _together(models: "dict[str, Model]", over: Any, held: Held | None) -> "Dataset":
-    """Return the curves of suspensions over each other."""
-    from ..study import compare
-
-    with progress_bar("characteristics") as progress:
-        return compare.compare(models, over=over, held=held, progress=progress)
+    found = dict(zip(distinct(files), map(assembly_of_file, files), strict=True))
+    motions = [assembly.usual_motion for assembly in found.values()]
+    if len({*motions}) > 1:
+        other = next(i for i, motion in enumerate(motions) if motion != motions[0])
+        raise typer.BadParameter(
+            f"{files[0]} and {files[other]}: one is a suspension and the other an axle. Compare "
+            "files of one sort."
+        )
+    return found
 
 
 def _beside(
-    models: "dict[str, Model]", measured: list[str], over: str | None, held: Held
+    assemblies: "dict[str, Assembly]", measured: list[str], over: str | None, held: Held
 ) -> "tuple[Dataset, str]":
-    """Return the curves of suspensions beside those of a measurement, and what they are over."""
+    """Return curves beside those of a measurement, and the motion that they are over."""
     from ..study import rig
-    from ..study.characteristics.datasets import ALONG
 
     if len(measured) > 1:
         raise typer.BadParameter(f"one file of measured curves, not {len(measured)}")
     curves = rig.measured_curves(measured[0])
-    if over is not None and ALONG[over].name not in curves.dims:
-        raise typer.BadParameter(f"--over {over}: the measured curves are not over that")
-    if not models:
+    if not assemblies:
         raise typer.BadParameter("a hardpoint file is needed besides the measured curves")
-    way = next((name for name, along in ALONG.items() if along.name in curves.dims), "travel")
-    return rig.beside(curves, models, measured[0], held=held), way
+    first = next(iter(assemblies.values()))
+    way = rig.motion_of(first, curves) or first.usual_motion
+    if over is not None and (
+        over not in first.motions or first.motions[over].along.name not in curves.dims
+    ):
+        raise typer.BadParameter(f"--over {over}: the measured curves are not over that")
+    return rig.beside(curves, assemblies, measured[0], held=held), way
 
 
 def _titles(files: "Iterable[Any]") -> list[str]:

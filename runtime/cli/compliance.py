@@ -180,7 +180,7 @@ def _linear(
     rig: _Rig, held: Held, outputs: Outputs, *, of: list[str] | None, goals: Path | None, json: bool
 ) -> None:
     """Write and print compliance to first order."""
-    from ..assembly.by_wheel import beside, flat
+    from ..assembly.by_wheel import flat
     from ..study import compliance, export
     from ..study.compliance.tables import compliances, compliances_of_beam
     from ..study.variation.ways import ways_of, with_bushes
@@ -190,14 +190,14 @@ def _linear(
         rig.assembly, rig.bushings, rig.travels(), rack_position=rig.rack, held=held
     )
     curves = found.drop_dims(["moved", "by"])
-    columns, drawn = flat(curves), beside(curves)
-    names = named(of_both(of), {held: drawn})[held]
+    columns = flat(curves)
+    names = named(of_both(of), {held: curves})[held]
     aims = wanted.read(goals, [held], ways_of(subject))
     judged = wanted.judged({rig.file: with_bushes(subject, rig.bushings)}, aims) if aims else []
     if outputs.drawn:
         wanted.refuse_beyond(aims, {held: columns})
     title = f"{title_of(rig.file)}: compliance, {found.attrs['held']}"
-    written = outputs.write(found, title=title, names=names, rows=columns, drawn=drawn, goals=aims)
+    written = outputs.write(found, title=title, names=names, rows=columns, drawn=curves, goals=aims)
     if json:
         print_json(export.as_dict(flat(found)) | ({"goals": judged} if aims else {}))
         return

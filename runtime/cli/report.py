@@ -142,11 +142,12 @@ def _of_one_side(axle: "Axle | None") -> frozenset[str]:
     """Return what the page of one side of an axle leaves out."""
     if axle is None:
         return frozenset()
-    from ..study.characteristics.catalogue import AXLE
+    from ..assembly.measures.corner import BOTH
 
     # what both wheels decide: the page knows but one side, and takes the other for its image
-    without = frozenset() if axle.symmetric else frozenset(AXLE)
-    return without if axle.end == "front" else frozenset(AXLE) | {"anti_dive", "anti_lift_braked"}
+    both = frozenset(measure.name for measure in BOTH)
+    without = frozenset() if axle.symmetric else both
+    return without if axle.end == "front" else both | {"anti_dive", "anti_lift_braked"}
 
 
 def _of_page(axle: "Axle | None", goals: "Sequence[Goal]") -> "Sequence[Goal]":

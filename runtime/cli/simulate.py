@@ -204,8 +204,7 @@ class _Run:
         """Return a motion as it is drawn: both wheels beside each other."""
         from ..study.scenario import by_wheel
 
-        together = by_wheel(self.model, motion)
-        return together.rename(wheel="data_set") if "wheel" in together.dims else together
+        return by_wheel(self.model, motion)
 
 
 def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:

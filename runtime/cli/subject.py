@@ -7,6 +7,7 @@ from .console import problems
 from .options import load as load_model
 
 if TYPE_CHECKING:
+    from ..assembly.assembly import Assembly
     from ..suspension.axle import Axle
     from ..suspension.axle.equations import AxleModel
     from ..suspension.kinds import Suspension
@@ -44,6 +45,15 @@ def model_of(file: str, *, wheel_loads: bool = False) -> "Model | AxleModel | Ri
             wheel_loads=wheel_loads,
             progress=lambda text: status.update(f"the equations: {text}"),
         )
+
+
+def assembly_of_file(file: str) -> "Assembly":
+    """Return what the file describes, as an assembly."""
+    from ..assembly.of import assembly_of
+
+    found = assembly_of(described_by(file))
+    assert found is not None
+    return found
 
 
 def studied(file: str) -> "Suspension | RigidAxle":

@@ -22,10 +22,12 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, ScalarFormatter
 from numpy.typing import NDArray
 
+from ..assembly.by_wheel import WHEEL
 from ..core.arguments import Arguments, shown
 from ..core.errors import InputError
 from ..core.files import Paths, refuse, replacing
 from ..core.quantities import bracketed, display_of, displayed, long_name
+from ..study.characteristics.datasets import DATA_SET
 from ..study.characteristics.groups import ORDER, group_of
 from ..study.variation.goals import Goal
 from .figures import BLUE, GREEN, METADATA, ORANGE, STYLE, lay_out, save, written_plainly
@@ -38,8 +40,8 @@ FORMATS = ("png", "svg", "pdf")
 # Told apart in colour and, by the dashes, in black and white too.
 _COLOURS = (BLUE, ORANGE, GREEN, "#cc79a7", "#56b4e9", "#e69f00", "#000000")
 _DASHES = ("-", "--", "-.", ":")
-# The dimension of several suspensions that are compared.
-_FAMILY = "data_set"
+# The dimensions of several suspensions that are compared, and of both wheels of an axle.
+_FAMILIES = (DATA_SET, WHEEL)
 # Positions have a design value at zero; time has not.
 _WITH_DESIGN = ("wheel_travel", "rack_position", "roll_angle", "steering_wheel_angle")
 # More lines than this are a carpet: some of them are drawn.
@@ -387,7 +389,7 @@ def _describe_panel(axes: Axes, data: xr.DataArray) -> None:
 
 def _styles(data: xr.DataArray, count: int) -> list[tuple[Any, str]]:
     """Return colour and dashes of each line: a scale for numbers, contrast for names."""
-    if count > 1 and _FAMILY not in data.dims:
+    if count > 1 and _family(data) is None:
         scale = colormaps["viridis"]
         return [(scale(0.9 * index / (count - 1)), "-") for index in range(count)]
     return [
@@ -397,7 +399,13 @@ def _styles(data: xr.DataArray, count: int) -> list[tuple[Any, str]]:
 
 def _along(data: xr.DataArray) -> str:
     """Return the dimension along the axis."""
-    return next(str(d) for d in data.dims if d != _FAMILY) if data.ndim > 1 else str(data.dims[0])
+    dims = [str(d) for d in data.dims]
+    return next(d for d in dims if d not in _FAMILIES) if data.ndim > 1 else dims[0]
+
+
+def _family(data: xr.DataArray) -> str | None:
+    """Return the dimension of lines that have names."""
+    return next((name for name in _FAMILIES if name in data.dims), None)
 
 
 def _lines(data: xr.DataArray) -> tuple[str, list[tuple[str, Array]]]:
@@ -489,7 +497,8 @@ def _name_lines(
     """Name the lines: few beside them, wherever a panel has room; else in one legend."""
     named = False
     for axes, data in zip(panels, curves, strict=False):
-        if data.ndim < 2 or _FAMILY not in data.dims or data.sizes[_FAMILY] > _FEW_NAMES:
+        family = _family(data)
+        if data.ndim < 2 or family is None or data.sizes[family] > _FEW_NAMES:
             continue
         names = [name for name, _ in _lines(data)[1]]
         named |= label_lines(axes, _drawn_lines(axes, len(names)), names, shape)
@@ -519,7 +528,7 @@ class _Named:
 def _named_lines(axes: Axes, data: xr.DataArray) -> _Named:
     along, lines = _lines(data)
     across = next(d for d in data.dims if d != along)
-    title = None if across == _FAMILY else long_name(data[across])
+    title = None if across in _FAMILIES else long_name(data[across])
     return _Named(_drawn_lines(axes, len(lines)), [label for label, _ in lines], title)
 
 

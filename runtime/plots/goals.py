@@ -7,10 +7,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from ..assembly.by_wheel import SIDES, WHEEL
 from ..core.errors import InputError
 from ..core.quantities import display_of
-from ..study.axles.catalogue import SIDES
-from ..study.characteristics.datasets import DATA_SET
 from ..study.variation.goals import Goal, Limit, Target
 from ..study.variation.ways import way
 
@@ -30,7 +29,7 @@ def about(goals: Iterable[Goal], data: xr.DataArray, along: str) -> dict[str, li
     goals : iterable of Goal
         Those of other curves are left out.
     data : xarray.DataArray
-        The curves; those of both wheels of an axle may be together, see `kintrafo.axles.by_side`.
+        The curves; those of both wheels of an axle are over ``wheel``.
     along : str
         The dimension along the axis.
 
@@ -48,7 +47,7 @@ def about(goals: Iterable[Goal], data: xr.DataArray, along: str) -> dict[str, li
     own = [goal for goal in goals if way(goal.over).along.name == along]
     name = str(data.name)
     found = {"": [goal for goal in own if goal.name == name]}
-    if DATA_SET in data.dims and [*data[DATA_SET].values] == [*SIDES]:
+    if WHEEL in data.dims:
         both = [[goal for goal in own if goal.name == f"{name}_{side}"] for side in SIDES]
         found[""] += [goal for goal in both[0] if _has_like(both[1], goal)]
         for side, some, others in zip(SIDES, both, reversed(both), strict=True):

@@ -7,7 +7,6 @@ from .chapters import (
     elastokinematics_chapter,
     goals_chapter,
     loads_chapter,
-    rigid_axle_chapters,
     sheet_chapter,
 )
 from .page import ENDINGS, write, write_chapters
@@ -20,7 +19,6 @@ __all__ = [
     "elastokinematics_chapter",
     "goals_chapter",
     "loads_chapter",
-    "rigid_axle_chapters",
     "sheet_chapter",
     "write",
     "write_chapters",

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..assembly.from_model import gaps
-from ..study import characteristics
-from ..study.characteristics.catalogue import AT_STOPS
+from ..assembly.measures.corner import AT_STOPS
+from ..study.characteristics.datasets import over
 from ..study.characteristics.groups import group_of
 from ..suspension.model import Model
 from ..suspension.positions import arm_angles, design_height
@@ -114,11 +114,11 @@ def curves(
     """
     tell("characteristics over wheel travel")
     rack = racks_of(model, rack)
-    lengthwise = [characteristics.travel(model, travel, rack_position=float(r)) for r in rack]
+    lengthwise = [over(model, "travel", travel, rack_position=float(r)) for r in rack]
     found = _stacked(lengthwise, "wheel_travel", "travel")
     if model.suspension.steered():
         tell("characteristics over rack displacement")
-        crosswise = [characteristics.steering(model, rack, travel=float(t)) for t in travel]
+        crosswise = [over(model, "rack", rack, travel=float(t)) for t in travel]
         found += _stacked(crosswise, "rack_position", "rack")
     return [curve for curve in found if np.isfinite(curve.values).any()]
 

@@ -7,10 +7,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ..assembly.by_wheel import SIDES, WHEEL
 from ..plots.goals import but_name
-from ..study import axles
-from ..study.axles.catalogue import SIDES
-from ..study.characteristics.datasets import KNOWN
+from ..study.characteristics.datasets import KNOWN, over
 from ..study.variation.goals import Goal, Limit, Target, words_of
 from ..study.variation.ways import way
 from ..suspension.axle import Axle
@@ -157,17 +156,13 @@ def of_shown_side(axle: Axle, goals: Sequence[Goal], side: str) -> list[Goal]:
 
 def _alike(axle: Axle) -> set[str]:
     """Return which characteristics both wheels have alike in parallel travel."""
-    curves = axles.over(axle, "bump")
-    left, right = SIDES
+    curves = over(axle, "bump")
+    both = {n: curves[n].values for n in KNOWN["travel"] if n in curves and WHEEL in curves[n].dims}
     return {
         name
-        for name in KNOWN["travel"]
-        if f"{name}_{left}" in curves
-        and np.allclose(
-            curves[f"{name}_{left}"], curves[f"{name}_{right}"], rtol=1e-9, atol=1e-12,
-            equal_nan=True,
-        )
-    }  # fmt: skip
+        for name, (left, right) in both.items()
+        if np.allclose(left, right, rtol=1e-9, atol=1e-12, equal_nan=True)
+    }
 
 
 def _place(goal: Goal, side: str) -> tuple[str, str]:

@@ -259,10 +259,9 @@ class _AxleLook:
 def _over(assembly: Assembly, motion: str, along: Any = None) -> "xr.Dataset":
     """Return characteristics over a motion as columns."""
     from ..assembly.by_wheel import flat  # noqa: PLC0415 (slow to import)
-    from . import axles, rigid  # noqa: PLC0415
+    from .characteristics.datasets import over  # noqa: PLC0415
 
-    study: Any = rigid if assembly.on_a_beam else axles
-    return flat(getattr(study, motion)(assembly.subject, along))
+    return flat(over(assembly, motion, along))
 
 
 def as_dict(found: Checkup) -> dict[str, Any]:

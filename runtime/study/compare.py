@@ -1,104 +1,164 @@
-"""Several suspensions side by side: their characteristics, and by how much they differ."""
+"""Several suspensions or axles side by side: their characteristics, and how much they differ."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..assembly.usual import usual_rack, usual_travel
+from ..assembly.assembly import Assembly
+from ..assembly.by_wheel import flat
+from ..assembly.of import given_assemblies
+from ..assembly.quantity import RACK
 from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.memory import positions_given
-from ..suspension.model import Model
-from . import characteristics
-from .characteristics.datasets import DATA_SET
+from ..core.named_types import ArrayLike
+from .characteristics.datasets import DATA_SET, dataset, given_motion
 from .compliance.flexibility import HELD, Held
-from .compliance.linear import COMPLIANCES, linear
-from .sweep import RACK
+from .compliance.linear import linear
 
 Array = NDArray[np.float64]
-Over = Literal["travel", "rack"]
 
-# A position so near to zero is that of design, of a rig as well [m].
+# A position so near to zero is that of design, of a rig as well [m] or [rad].
 _AT_DESIGN = 5e-4
 
 
 def compare(
-    models: Mapping[str, Model],
-    positions: Array | None = None,
+    subjects: Mapping[str, Any],
+    along: ArrayLike | None = None,
     *,
-    over: Over = "travel",
+    over: str | None = None,
     held: Held | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
-    """Return the characteristics of several suspensions over the same positions.
+    """Return the characteristics of several suspensions or axles over the same positions.
 
     Parameters
     ----------
-    models : mapping of str to Model
-        Two or more, by the names that stand beside their curves.
-    positions : ndarray, optional
-        Wheel travel, or displacement of the rack [m]; by default the usual range, as far as all of
-        the suspensions reach it.
-    over : {'travel', 'rack'}, optional
-        What varies.
+    subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
+        Two or more with a common motion, by the names that stand beside their curves.
+    along : array_like, shape (n,), optional
+        What varies, as of `kintrafo.characteristics.over` [m] or [rad]; by default the usual range,
+        as far as all of them go.
+    over : str, optional
+        The motion; by default 'travel', of axles 'bump'. Where nothing says how the steering wheel
+        of one of them moves its rack, 'steer' goes over the rack for all.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
         With it, their compliance on the bushes of their files comes too, over wheel travel: what
-        holds the wheel under loads, see `kintrafo.compliance.linear`.
+        holds the wheels under loads, see `kintrafo.compliance.linear`.
     progress : callable, optional
         Called with the part that is done, up to 1.
 
     Returns
     -------
     xarray.Dataset
-        As that of `kintrafo.characteristics`, with the further dimension ``data_set``. Beside a
-        suspension that nothing steers, only what all of them have.
+        As that of `kintrafo.characteristics.over`, with the further dimension ``data_set``; what
+        not all of them have is left out.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+    PositionError
+        If one of them does not reach a position.
     """
     with Arguments("compare") as given:
-        given.by_name("models", models, "models", Model, Model.NEEDED)
-        given.among("over", over, ("travel", "rack"))
+        assemblies = given_assemblies(given, "subjects", subjects)
         given.function("progress", progress)
-        if positions is not None:
-            positions = positions_given(given, "positions", positions, "m")
-        if held is not None and not given.refused:
-            given.among("held", held, HELD)
-            _refuse_rigid(given, models, over)
-    if len(models) < 2:
-        problem = f"{len(models)} data set; two or more are needed for a comparison."
+    if len(assemblies) < 2:
+        problem = f"{len(assemblies)} data set; two or more are needed for a comparison."
         raise InputError([problem], "compare")
-    if positions is None:
-        positions = common_positions(models, over=over)
-    curves = characteristics.travel if over == "travel" else characteristics.steering
+    motion = _common_motion(assemblies, over)
+    with Arguments("compare") as given:
+        if along is not None:
+            units = next(iter(assemblies.values())).motions[motion].along.units
+            along = positions_given(given, "along", along, units)
+            for assembly in assemblies.values() if not given.refused else ():
+                assembly.refuse_positions(given, motion, along)
+        if held is not None:
+            given.among("held", held, HELD)
+            _refuse_compliance(given, assemblies, motion)
+    positions = common_positions([*assemblies.values()], motion) if along is None else along
     datasets = []
-    for index, model in enumerate(models.values()):
-        found = curves(model, positions)
-        datasets.append(found if held is None else on_bushes(found, model, positions, held))
+    for index, assembly in enumerate(assemblies.values()):
+        found = dataset(assembly, motion, positions)
+        if held is not None:
+            found = with_compliance(found, assembly, positions, held)
+        datasets.append(found)
         if progress is not None:
-            progress((index + 1) / len(models))
-    # what belongs to steering, a suspension that nothing steers has not: no gaps in the others
-    steered = [model.suspension.steered() for model in models.values()]
-    if not all(steered):
-        common = set.intersection(*(set(dataset) for dataset in datasets))
-        datasets = [dataset[[n for n in dataset if n in common]] for dataset in datasets]
-        datasets = [dataset.drop_vars(RACK, errors="ignore") for dataset in datasets]
-    names = xr.Variable(DATA_SET, list(models), {"long_name": "data set"})
-    return xr.concat(datasets, names, coords="minimal", compat="override", combine_attrs="override")
+            progress((index + 1) / len(assemblies))
+    return beside_each_other(assemblies, datasets)
 
 
-def _refuse_rigid(given: Arguments, models: Mapping[str, Model], over: Over) -> None:
-    """Refuse compliance over the rack, and that of suspensions on rigid joints."""
-    if over != "travel":
-        given.refuse("held: compliance is over wheel travel. Leave it out over the rack.")
-    for name, model in models.items():
-        if not model.suspension.bushings:
-            given.refuse(f"held: {name} has no [bushings], and nothing in it gives way.")
+def beside_each_other(names: Mapping[str, Any], datasets: Sequence[xr.Dataset]) -> xr.Dataset:
+    """Return datasets over one motion as one, with the dimension ``data_set``."""
+    common = [
+        n
+        for n in datasets[0]
+        if all(n in each and _alike(each[n], datasets[0][n]) for each in datasets)
+    ]
+    # where one has a rack and another has none, neither is held
+    racks = all(RACK.name in each.coords for each in datasets)
+    parts = [
+        each[common] if racks else each[common].drop_vars(RACK.name, errors="ignore")
+        for each in datasets
+    ]
+    labels = xr.Variable(DATA_SET, list(names), {"long_name": "data set"})
+    return xr.concat(
+        parts,
+        labels,
+        coords="minimal",
+        compat="override",
+        combine_attrs="override",
+        join="override",
+    )
 
 
-def on_bushes(
-    found: xr.Dataset, model: Model, travels: Array, held: Held, rack_position: float = 0.0
+def _alike(one: xr.DataArray, other: xr.DataArray) -> bool:
+    """Return whether both are of each wheel, or both of the axle."""
+    return one.dims == other.dims
+
+
+def _common_motion(assemblies: Mapping[str, Assembly], over: str | None) -> str:
+    """Return the motion over which all assemblies are compared.
+
+    Raises
+    ------
+    InputError
+        If some do not have it, or have no motion in common.
+    """
+    first = next(iter(assemblies.values()))
+    for name, assembly in assemblies.items():
+        if first.motions.keys().isdisjoint(assembly.motions):
+            problem = (
+                f"{name} has the motions {', '.join(assembly.motions)}, and the first one "
+                f"{', '.join(first.motions)}: suspensions are not compared with axles."
+            )
+            raise InputError([problem], "compare")
+    for assembly in assemblies.values():
+        motion = given_motion(assembly, over, "over")
+    if len({assembly.motions[motion].along.name for assembly in assemblies.values()}) > 1:
+        return "rack"  # of some nothing says how the steering wheel moves it
+    return motion
+
+
+def _refuse_compliance(given: Arguments, assemblies: Mapping[str, Assembly], motion: str) -> None:
+    """Refuse compliance over other motions than the usual one, and that of rigid joints."""
+    usual = next(iter(assemblies.values())).usual_motion
+    if motion != usual:
+        given.refuse(
+            f"held: compliance is over wheel travel, {usual!r}. Leave it out over {motion!r}."
+        )
+    for name, assembly in assemblies.items():
+        if not assembly.has_bushes:
+            given.refuse(f"held: {name} has no [bushings], and nothing in it deflects.")
+
+
+def with_compliance(
+    found: xr.Dataset, assembly: Assembly, travels: Array, held: Held, rack_position: float = 0.0
 ) -> xr.Dataset:
     """Return characteristics over wheel travel with compliance beside them.
 
@@ -106,62 +166,45 @@ def on_bushes(
     ----------
     found : xarray.Dataset
         Characteristics at the same travels.
-    model : Model
+    assembly : Assembly
         Its file has bushes.
     travels : ndarray
-        Wheel travel [m].
+        Wheel travel, of an axle in parallel [m].
     held : {'height', 'tyre', 'spring', 'locked'}
-        What holds the wheel under loads.
+        What holds the wheels under loads.
     rack_position : float, optional
         [m]
     """
-    soft = linear(model, None, travels, rack_position=rack_position, held=held)
-    return found.assign({name: soft[name].variable for name in COMPLIANCES if name in soft})
+    soft = linear(assembly, None, travels, held=held, rack_position=rack_position)
+    curves = soft.drop_dims(["moved", "by"])
+    return found.assign({str(name): data.variable for name, data in curves.items()})
 
 
-def common_positions(models: Mapping[str, Model], *, over: Over = "travel") -> Array:
-    """Return the usual positions that all suspensions can take [m].
+def common_positions(assemblies: Sequence[Assembly], motion: str) -> Array:
+    """Return the usual positions of a motion that all assemblies take, zero included [m] or [rad].
 
-    Parameters
-    ----------
-    models : mapping of str to Model
-    over : {'travel', 'rack'}, optional
-        What varies.
-
-    Returns
-    -------
-    ndarray
-        Zero included.
+    They are those of the first one that lie within, with the nearer ends.
     """
-    with Arguments("compare") as given:
-        for model in given.mapping("models", models, "names and models").values():
-            given.kind("model", model, Model, Model.NEEDED)
-        if not models:
-            given.refuse("models is empty: one or more are needed.")
-        given.among("over", over, ("travel", "rack"))
-    grids = [
-        usual_travel(model) if over == "travel" else usual_rack(model) for model in models.values()
-    ]
-    lowest, highest = max(g[0] for g in grids), min(g[-1] for g in grids)
-    if over == "travel":
-        return usual_travel(next(iter(models.values())), rebound=-lowest, bump=highest)
-    return usual_rack(next(iter(models.values())), extent=min(-lowest, highest))
+    grids = [assembly.usual(motion) for assembly in assemblies]
+    low, high = max(grid[0] for grid in grids), min(grid[-1] for grid in grids)
+    inner = grids[0][(grids[0] > low) & (grids[0] < high)]
+    return np.union1d(inner, [low, high])
 
 
 @dataclass(frozen=True)
 class Difference:
-    """By how much one characteristic of a suspension differs from the first one's, SI units.
+    """How much one characteristic differs from that of the first suspension or axle, SI units.
 
     Attributes
     ----------
     name, data_set : str
-        Characteristic, and the suspension that is compared with the first.
+        Characteristic, as in a flat table, and what is compared with the first one.
     first, other : float
         Both values at the design position; NaN where they are not defined.
     largest : float
         The difference, other minus first, where it is largest; NaN where there is none.
     where : float
-        Position of the largest difference [m].
+        Position of the largest difference [m] or [rad].
     """
 
     name: str
@@ -183,7 +226,7 @@ def differences(dataset: xr.Dataset) -> list[Difference]:
     Parameters
     ----------
     dataset : xarray.Dataset
-        From `compare`.
+        From `compare`; of axles each wheel has differences of its own.
 
     Returns
     -------
@@ -200,7 +243,8 @@ def differences(dataset: xr.Dataset) -> list[Difference]:
     """
     with Arguments("differences") as given:
         given.dataset(dataset, over=DATA_SET)
-    curves = {str(n): data for n, data in dataset.items() if DATA_SET in data.dims}
+    table = flat(dataset)
+    curves = {str(n): data for n, data in table.items() if DATA_SET in data.dims}
     return [
         _difference(name, data, label)
         for name, data in curves.items()

@@ -1,8 +1,9 @@
 """Datasets as files: CSV and Excel for people, netCDF and Parquet for programs.
 
-CSV and Excel have one line of names with units, such as ``camber [deg]``, and values in the units
-that people read. netCDF and Parquet keep SI units, all digits, and the description of every
-variable.
+CSV and Excel have one line of names with units, such as ``camber [deg]``, and values in display
+units. netCDF and Parquet keep SI units, all digits, and the description of every variable. All but
+netCDF are flat tables: where a dataset has the dimension ``wheel`` they have a column for each
+wheel, ``camber_left`` and ``camber_right``.
 """
 
 import re
@@ -13,6 +14,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ..assembly.by_wheel import flat
 from ..core.arguments import Arguments, shown
 from ..core.errors import InputError
 from ..core.files import Paths, replacing
@@ -117,22 +119,23 @@ def as_dict(dataset: xr.Dataset) -> dict[str, Any]:
     -------
     dict
         ``coordinates`` and ``variables``, each by name: ``units``, ``long_name``, ``sign``,
-        ``dimensions`` and ``values``.
+        ``dimensions`` and ``values``. What each wheel of an axle has is there for either wheel.
     """
     with Arguments("export") as given:
         given.dataset(dataset)
+    table = flat(dataset)
 
     def described(data: xr.DataArray) -> dict[str, Any]:
         texts = {key: data.attrs.get(key, "") for key in ("units", "long_name", "sign")}
         return {**texts, "dimensions": list(data.dims), "values": data.values.tolist()}
 
     return {
-        "coordinates": {str(name): described(data) for name, data in dataset.coords.items()},
-        "variables": {str(name): described(data) for name, data in dataset.items()},
+        "coordinates": {str(name): described(data) for name, data in table.coords.items()},
+        "variables": {str(name): described(data) for name, data in table.items()},
     }
 
 
-def _flat(dataset: xr.Dataset) -> Any:
+def _frame(dataset: xr.Dataset) -> Any:
     """Return a data frame with one row for each point, coordinates first."""
     frame = dataset.to_dataframe(dim_order=list(dataset.sizes)).reset_index()
     scalars = [name for name in dataset.coords if name not in dataset.sizes]
@@ -140,8 +143,9 @@ def _flat(dataset: xr.Dataset) -> Any:
 
 
 def _for_people(dataset: xr.Dataset) -> Any:
-    """Return a data frame in the units that people read, with names that say them."""
-    frame = _flat(dataset)
+    """Return a data frame in display units, with names that say them."""
+    dataset = flat(dataset)
+    frame = _frame(dataset)
     for name in frame.select_dtypes("number").columns:
         values = frame[name] * display_of(dataset[name].attrs).factor
         greatest = values[np.isfinite(values)].abs().max()
@@ -191,7 +195,8 @@ def _write_netcdf(dataset: xr.Dataset, path: Path) -> None:
 def _write_parquet(dataset: xr.Dataset, path: Path) -> None:
     pyarrow = require("pyarrow", purpose="Writing Parquet", extra="parquet")
     parquet = require("pyarrow.parquet", purpose="Writing Parquet", extra="parquet")
-    frame = _flat(dataset)
+    dataset = flat(dataset)
+    frame = _frame(dataset)
     fields = [
         pyarrow.field(name, pyarrow.array(frame[name]).type, metadata=_texts(dataset[name].attrs))
         for name in frame.columns

@@ -2,33 +2,34 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..assembly.quantity import RACK, ROLL, TRAVEL, Quantity
+from ..assembly.assembly import Assembly
+from ..assembly.by_wheel import flat
+from ..assembly.of import given_assemblies
+from ..assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.suggestions import nearest
 from ..core.tables import Column, Table, read_table
 from ..core.units import in_si
-from ..suspension.model import Model
-from ..suspension.rigid.model import RigidAxleModel
-from . import characteristics, rigid
-from .characteristics.datasets import ALONG, DATA_SET, KNOWN
-from .compare import on_bushes
+from .characteristics.datasets import ALONG, DATA_SET, KNOWN, OF_AXLES, dataset
+from .compare import with_compliance
 from .compliance.flexibility import HELD, Held
-from .compliance.linear import COMPLIANCES
-from .rigid.catalogue import MEASURES
+from .compliance.linear import COMPLIANCES, COMPLIANCES_OF_AXLES
 
 Array = NDArray[np.float64]
 
-_OF_RIGID_AXLES = {measure.quantity.name: measure.quantity for measure in MEASURES}
-_ALONG = {quantity.name: quantity for quantity in (*ALONG.values(), ROLL)}
-_KNOWN = {ALONG[over].name: known for over, known in KNOWN.items()}
-_KNOWN[TRAVEL.name] = _OF_RIGID_AXLES | _KNOWN[TRAVEL.name] | COMPLIANCES
-_KNOWN[ROLL.name] = _OF_RIGID_AXLES
+_ALONG = {quantity.name: quantity for quantity in (*ALONG.values(), ROLL, STEERING_WHEEL)}
+_SOFT = COMPLIANCES_OF_AXLES | COMPLIANCES
+_KNOWN: dict[str, dict[str, Quantity]] = {name: dict(known) for name, known in OF_AXLES.items()}
+for _over, _known in KNOWN.items():
+    _KNOWN[ALONG[_over].name] |= _known
+_KNOWN[TRAVEL.name] |= _SOFT
 _EVERY = {name: quantity for known in _KNOWN.values() for name, quantity in known.items()}
 # What is held moves by less than this [m], and by less than this part of what does not.
 _NOISE, _PART_OF_NOISE = 1e-4, 1e-2
@@ -39,8 +40,10 @@ def measured_curves(path: str | Path) -> xr.Dataset:
 
     The first line names the columns, each with its unit: ``wheel_travel [mm]`` or
     ``rack_position [mm]``, and characteristics, such as ``toe [deg]`` or ``wheel_rate [N/mm]``, by
-    their names in kintrafo; over wheel travel compliance as well, ``toe_by_lateral [deg/kN]``. Of a
-    rigid axle they are over ``wheel_travel`` of both wheels or ``roll_angle [deg]``.
+    their names in kintrafo; over wheel travel compliance, too, ``toe_by_lateral [deg/kN]``. Of an
+    axle they are over ``wheel_travel`` of both wheels, ``roll_angle [deg]``, ``rack_position`` or
+    ``steering_wheel_angle [deg]``, and what each wheel has ends in ``_left`` or ``_right``,
+    ``toe_left [deg]``.
     Columns of other names are left out. How names and units may be written, `kintrafo.core.tables`
     says: ``Wheel Travel (mm)`` is the same, and units may stand in a row or comment of their own.
     Rows may be in any order, and a
@@ -55,7 +58,8 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Over ``wheel_travel``, ``rack_position`` [m] or ``roll_angle`` [rad]; SI units. The
+        Over ``wheel_travel``, ``rack_position`` [m], ``roll_angle`` or ``steering_wheel_angle``
+        [rad]; SI units. The
         attribute ``left_out`` names the columns that were not read.
 
     Raises
@@ -119,7 +123,7 @@ def _told_apart(sheet: Table, places: Mapping[str, Array]) -> tuple[str, list[tu
 
 def beside(
     measured: xr.Dataset,
-    models: Mapping[str, Model | RigidAxleModel],
+    subjects: Mapping[str, Any],
     name: str = "measured",
     *,
     held: Held = "height",
@@ -130,17 +134,18 @@ def beside(
     ----------
     measured : xarray.Dataset
         From `measured_curves`.
-    models : mapping of str to Model or RigidAxleModel
+    subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
         By the names that stand beside their curves.
     name : str, optional
         That of the measurement.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
-        What held the wheel when compliance was measured, see `kintrafo.compliance.linear`.
+        What held the wheels when compliance was measured, see `kintrafo.compliance.linear`.
 
     Returns
     -------
     xarray.Dataset
-        As of `kintrafo.compare.compare`, with what was measured as the first ``data_set``.
+        The curves that were measured, by the names of their columns, over ``data_set``: the
+        measurement is the first, then come the `subjects`. `kintrafo.compare.differences` takes it.
 
     Raises
     ------
@@ -151,22 +156,23 @@ def beside(
     """
     with Arguments("beside") as given:
         given.dataset(measured)
-        given.by_name("models", models, "models", (Model, RigidAxleModel), Model.NEEDED)
+        assemblies = given_assemblies(given, "subjects", subjects)
         given.text("name", name)
         given.among("held", held, HELD)
-        if not given.refused and name in models:
-            given.refuse(f"name = {name!r} is that of a model, too. Choose another one.")
-        if not (models or given.refused):
-            given.refuse("models is empty: one or more are needed.")
+        if not given.refused and name in assemblies:
+            given.refuse(f"name = {name!r} is that of a subject, too. Choose another one.")
+        if not (assemblies or given.refused):
+            given.refuse("subjects is empty: one or more are needed.")
         if not given.refused and len({*measured.dims} & {*_ALONG}) != 1:
             given.refuse("measured: what kintrafo.rig.measured_curves returns is needed.")
         if not given.refused:
-            _refuse_other_ways(given, models, measured)
+            for label, assembly in assemblies.items():
+                _refuse_other_motions(given, label, assembly, measured)
     found = [measured]
-    for model in models.values():
-        whole = _curves(model, measured, held)
+    for assembly in assemblies.values():
+        whole = flat(_curves(assembly, measured, held))
         found.append(whole[[n for n in map(str, measured) if n in whole]])
-    names = xr.Variable(DATA_SET, [name, *models], {"long_name": "data set"})
+    names = xr.Variable(DATA_SET, [name, *assemblies], {"long_name": "data set"})
     # positions are the same and may repeat: nothing is to be aligned
     return xr.concat(
         found, names, join="override", coords="minimal", compat="override",
@@ -174,34 +180,45 @@ def beside(
     )  # fmt: skip
 
 
-def _refuse_other_ways(
-    given: Arguments, models: Mapping[str, Model | RigidAxleModel], measured: xr.Dataset
+def motion_of(assembly: Assembly, measured: xr.Dataset) -> str | None:
+    """Return the motion of an assembly in which what varies along measured curves varies.
+
+    Over wheel travel it is the usual one: both wheels of an axle move in parallel.
+    """
+    for motion, how in assembly.motions.items():
+        if how.along.name in measured.dims:
+            return motion
+    return None
+
+
+def _refuse_other_motions(
+    given: Arguments, name: str, assembly: Assembly, measured: xr.Dataset
 ) -> None:
-    """Refuse curves over what a suspension, or a rigid axle, does not have."""
-    for model in models.values():
-        other = RACK if isinstance(model, RigidAxleModel) else ROLL
-        if other.name in measured.dims:
-            given.refuse(f"measured: curves over {other.name}, which {model!r} does not have.")
+    """Refuse curves over what an assembly does not have."""
+    if motion_of(assembly, measured) is None:
+        (along,) = {*measured.dims} & {*_ALONG}
+        known = ", ".join(dict.fromkeys(how.along.name for how in assembly.motions.values()))
+        given.refuse(
+            f"measured: curves over {along}, which {name} does not have; there is {known}."
+        )
 
 
-def _curves(model: Model | RigidAxleModel, measured: xr.Dataset, held_by: Held) -> xr.Dataset:
+def _curves(assembly: Assembly, measured: xr.Dataset, held_by: Held) -> xr.Dataset:
     """Return the characteristics at the positions of a measurement."""
-    if isinstance(model, RigidAxleModel):
-        if TRAVEL.name in measured.dims:
-            return rigid.bump(model.axle, measured[TRAVEL.name].values)
-        return rigid.roll(model.axle, measured[ROLL.name].values)
 
-    def held(name: str) -> float:
-        return float(measured[name]) if name in measured.coords else 0.0
+    def held(quantity: Quantity) -> float:
+        return float(measured[quantity.name]) if quantity.name in measured.coords else 0.0
 
-    if TRAVEL.name in measured.dims:
-        travels = measured[TRAVEL.name].values
-        rack = held(RACK.name)
-        found = characteristics.travel(model, travels, rack_position=rack)
-        if not (model.suspension.bushings and {*map(str, measured)} & {*COMPLIANCES}):
-            return found
-        return on_bushes(found, model, travels, held_by, rack)
-    return characteristics.steering(model, measured[RACK.name].values, travel=held(TRAVEL.name))
+    motion = motion_of(assembly, measured)
+    assert motion is not None  # others were refused
+    along = assembly.motions[motion].along
+    travel = 0.0 if along is TRAVEL else held(TRAVEL)
+    rack = 0.0 if along is RACK or not assembly.steered else held(RACK)
+    values = measured[along.name].values
+    found = dataset(assembly, motion, values, travel=travel, rack=rack)
+    if along is TRAVEL and assembly.has_bushes and {*map(str, measured)} & {*_SOFT}:
+        return with_compliance(found, assembly, values, held_by, rack)
+    return found
 
 
 def _check(sheet: Table, columns: Sequence[Column], units: Mapping[str, str]) -> None:

@@ -11,15 +11,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import flat
+from ..assembly.of import given_assembly
 from ..core.arguments import Arguments
 from ..core.quantities import attributes, displayed, long_name, unit_or_stroke
 from ..core.tabulated import Tabulated, significant
-from ..suspension.axle import Axle
-from ..suspension.model import Model
-from ..suspension.rigid import RigidAxle
-from . import axles, characteristics, compliance, rigid
+from .characteristics.datasets import dataset
 from .compliance.flexibility import HELD, Held
+from .compliance.linear import linear
 from .loads.sheets import without_side
 
 QUANTITY = "quantity"
@@ -47,11 +47,10 @@ _PARTS = {
     "steered": ("steer_gradient", "steering_ratio"),
 }  # fmt: skip
 _COMPLIANCE = "compliance"
-_NEEDED = "a kintrafo.Model, kintrafo.Axle or kintrafo.RigidAxle is needed"
 
 
 def sheet(
-    subject: Model | Axle | RigidAxle,
+    subject: Any,
     bushings: Mapping[str, Any] | None = None,
     *,
     held: Held = "height",
@@ -60,8 +59,7 @@ def sheet(
 
     Parameters
     ----------
-    subject : Model, Axle or RigidAxle
-        Of what.
+    subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
     bushings : mapping, optional
         As of `kintrafo.compliance.linear`, in the place of those of the file. Where neither has
         any, the sheet has no compliance.
@@ -89,17 +87,18 @@ def sheet(
 
     Examples
     --------
-    >>> found = sheet(Model("reference_car"))
+    >>> from kintrafo import load
+    >>> found = sheet(load("reference_car"))
     >>> row = found.sel(quantity="steer_gradient")
     >>> float(row["iso_8855"]) == -float(row["sae_j670"]), str(row["unit"].values)
     (True, 'deg/mm')
     """
     with Arguments("sheet") as given:
-        given.kind("subject", subject, (Model, Axle, RigidAxle), _NEEDED)
+        assembly = given_assembly(given, subject)
         given.among("held", held, HELD)
-    found = dict(_kinematic(subject))
-    if bushings is not None or has_bushes(subject):
-        found |= _compliant(subject, bushings, held)
+    found = dict(_kinematic(assembly))
+    if bushings is not None or assembly.has_bushes:
+        found |= _compliant(assembly, bushings, held)
     return _dataset(found, held)
 
 
@@ -149,11 +148,11 @@ def _rows(here: xr.Dataset, values: Sequence[str]) -> Iterator[tuple[str, ...]]:
 # -- what stands in it ----------------------------------------------------------------------------
 
 
-def _kinematic(subject: Model | Axle | RigidAxle) -> Iterator[tuple[str, tuple[str, xr.DataArray]]]:
+def _kinematic(assembly: Assembly) -> Iterator[tuple[str, tuple[str, xr.DataArray]]]:
     """Yield the characteristics at design with the parts of the sheet, by their names."""
     known: dict[str, xr.DataArray] = {}
-    for dataset in _curves(subject):
-        known = {str(name): data for name, data in dataset.items()} | known
+    for curves in _curves(assembly):
+        known = {str(name): data for name, data in curves.items()} | known
     for part, stems in _PARTS.items():
         for stem in stems:
             for name in (stem, *(f"{stem}{side}" for side in _SIDES)):
@@ -161,34 +160,21 @@ def _kinematic(subject: Model | Axle | RigidAxle) -> Iterator[tuple[str, tuple[s
                     yield name, (part, known[name])
 
 
-def _curves(subject: Model | Axle | RigidAxle) -> list[xr.Dataset]:
-    """Return all characteristics at design."""
-    here = [0.0]
-    if isinstance(subject, RigidAxle):
-        return [rigid.bump(subject, here)]
-    if isinstance(subject, Axle):
-        steered = [axles.steer(subject, here)] if subject.steered() else []
-        return [axles.bump(subject, here), *steered]
-    over_travel = characteristics.travel(subject, here)
-    if not subject.suspension.steered():
-        return [over_travel]
-    return [over_travel, characteristics.steering(subject, here)]
-
-
-def has_bushes(subject: Model | Axle | RigidAxle) -> bool:
-    """Tell whether the files of a suspension or an axle have bushes."""
-    if isinstance(subject, Axle):
-        return any(side.bushings for side in subject.sides.values())
-    return bool((subject if isinstance(subject, RigidAxle) else subject.suspension).bushings)
+def _curves(assembly: Assembly) -> list[xr.Dataset]:
+    """Return all characteristics at design, by the names of their columns."""
+    steering = () if assembly.steered_by is None else (assembly.steered_by,)
+    return [
+        flat(dataset(assembly, motion, np.zeros(1)))
+        for motion in (assembly.usual_motion, *steering)
+    ]
 
 
 def _compliant(
-    subject: Model | Axle | RigidAxle, bushings: Mapping[str, Any] | None, held: Held
+    assembly: Assembly, bushings: Mapping[str, Any] | None, held: Held
 ) -> dict[str, tuple[str, xr.DataArray]]:
-    """Return the compliances at design, by their names."""
-    found = flat(compliance.linear(subject, bushings, [0.0], held=held))
-    curves = found.drop_dims(["moved", "by"])
-    return {str(name): (_COMPLIANCE, data) for name, data in curves.items()}
+    """Return the compliances at design, by the names of their columns."""
+    found = flat(linear(assembly, bushings, [0.0], held=held)).drop_dims(["moved", "by"])
+    return {str(name): (_COMPLIANCE, data) for name, data in found.items()}
 
 
 def _dataset(rows: Mapping[str, tuple[str, xr.DataArray]], held: Held) -> xr.Dataset:

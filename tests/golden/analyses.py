@@ -20,17 +20,16 @@ from kintrafo import (
     RigidAxle,
     RigidAxleModel,
     Suspension,
-    axles,
     characteristics,
     checkup,
     compliance,
     loads,
-    rigid_axles,
     scenario,
     sheet,
     sweep,
     variation,
 )
+from kintrafo.assembly.by_wheel import flat
 
 from .subjects import AXLES, BUSHES, CORNERS, RIGID_AXLES
 
@@ -65,7 +64,7 @@ def _of_corner(suspension: Suspension, bushes: Any) -> Analyses:
     steered = suspension.steered()
     found: Analyses = {
         "check": lambda: _facts(checkup.as_dict(checkup.checkup(model))),
-        "travel": partial(characteristics.travel, model, TRAVEL),
+        "travel": _flat(characteristics.over, model, "travel", TRAVEL),
         "positions": partial(sweep.positions, model, TRAVEL, RACK if steered else None),
         "static loads": partial(loads.static, model),
         "elastokinematics": partial(compliance.elastokinematics, model, bushes, along=TRAVEL),
@@ -79,9 +78,9 @@ def _of_corner(suspension: Suspension, bushes: Any) -> Analyses:
         "tolerance": partial(_tolerance, suspension),
     }
     if steered:
-        found["steering"] = partial(characteristics.steering, model, RACK, travel=0.01)
-        found["travel, steered"] = partial(
-            characteristics.travel, model, TRAVEL, rack_position=0.01
+        found["steering"] = _flat(characteristics.over, model, "rack", RACK, travel=0.01)
+        found["travel, steered"] = _flat(
+            characteristics.over, model, "travel", TRAVEL, rack_position=0.01
         )
     for held in HELD:
         found[f"compliance, {held}"] = partial(
@@ -97,10 +96,10 @@ def _of_corner(suspension: Suspension, bushes: Any) -> Analyses:
 def _of_axle(axle: Axle, bushes: Any) -> Analyses:
     found: Analyses = {
         "check": lambda: _looked(checkup.checkup(axle)),
-        "bump": partial(axles.bump, axle, TRAVEL),
-        "roll": partial(axles.roll, axle, ROLL),
-        "left": partial(axles.single, axle, TRAVEL, side="left"),
-        "right": partial(axles.single, axle, TRAVEL, side="right"),
+        "bump": _flat(characteristics.over, axle, "bump", TRAVEL),
+        "roll": _flat(characteristics.over, axle, "roll", ROLL),
+        "left": _flat(characteristics.over, axle, "left", TRAVEL),
+        "right": _flat(characteristics.over, axle, "right", TRAVEL),
         "static loads": partial(loads.static, axle),
         "elastokinematics, bump": partial(
             compliance.elastokinematics, axle, bushes, "bump", TRAVEL
@@ -109,7 +108,7 @@ def _of_axle(axle: Axle, bushes: Any) -> Analyses:
         "sheet": partial(sheet.sheet, axle, bushes),
     }
     if axle.steered:
-        found["steer"] = partial(axles.steer, axle, rack=RACK)
+        found["steer"] = _flat(characteristics.over, axle, "rack", RACK)
     return found | _compliance(axle, bushes)
 
 
@@ -132,9 +131,9 @@ def _of_rigid_axle(axle: RigidAxle, bushes: Any) -> Analyses:
 
     return {
         "check": lambda: _looked(checkup.checkup(axle)),
-        "bump": partial(rigid_axles.bump, axle, TRAVEL),
-        "roll": partial(rigid_axles.roll, axle, ROLL),
-        "left": partial(rigid_axles.single, axle, TRAVEL, side="left"),
+        "bump": _flat(characteristics.over, axle, "bump", TRAVEL),
+        "roll": _flat(characteristics.over, axle, "roll", ROLL),
+        "left": _flat(characteristics.over, axle, "left", TRAVEL),
         "static loads": partial(loads.static, axle),
         "elastokinematics, bump": partial(
             compliance.elastokinematics, axle, bushes, "bump", TRAVEL
@@ -160,6 +159,11 @@ def _compliance(axle: Axle | RigidAxle, bushes: Any) -> Analyses:
                 compliance.nonlinear, axle, bushes, under, amounts, wheels=wheels
             )
     return found
+
+
+def _flat(analysis: Callable[..., xr.Dataset], *args: Any, **options: Any) -> Any:
+    """Return an analysis whose result has no dimension of the wheels."""
+    return lambda: flat(analysis(*args, **options))
 
 
 def _tolerance(suspension: Suspension) -> xr.Dataset:

@@ -1,8 +1,7 @@
 """What a report has besides the suspension that is moved: a file for each kind of chapter.
 
 `chapter`     what a chapter is
-`axle`        both wheels and the anti-roll bar over the motions of a rig
-`rigid_axle`  a rigid axle, drawn and over the motions of a rig
+`axle`        both wheels of an axle, or a rigid axle, over the motions of a rig
 `loads`       load cases, with the free bodies
 `compliance`  how the wheel gives way on its bushes
 `goals`       targets and limits of characteristics
@@ -16,7 +15,6 @@ from .compliance import compliance_chapter
 from .elastokinematics import elastokinematics_chapter
 from .goals import goals_chapter
 from .loads import loads_chapter
-from .rigid_axle import rigid_axle_chapters
 from .sheet import sheet_chapter
 
 __all__ = [
@@ -26,6 +24,5 @@ __all__ = [
     "elastokinematics_chapter",
     "goals_chapter",
     "loads_chapter",
-    "rigid_axle_chapters",
     "sheet_chapter",
 ]

@@ -1,20 +1,24 @@
-"""The chapter about an axle."""
+"""The chapter about an axle, of two corners or rigid: what a rig finds of both wheels."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
-import numpy as np
 import xarray as xr
+from matplotlib import rc_context
 
+from ...assembly.assembly import Assembly
+from ...assembly.by_wheel import WHEEL
+from ...assembly.of import given_assembly
 from ...core.arguments import Arguments
 from ...core.tabulated import Tabulated
-from ...study import axles
-from ...study.axles.sheet import at_design
-from ...study.characteristics.datasets import KNOWN
+from ...plots.figures import STYLE
+from ...plots.rigid_axle import views
+from ...study.characteristics.at_design import at_design
+from ...study.characteristics.datasets import KNOWN, dataset
+from ...study.checkup import checkup
 from ...study.variation.goals import Goal, check_goals
-from ...study.variation.ways import dataset_of
-from ...suspension.axle import Axle
 from .chapter import Chapter, Picture
-from .curves import pictures, positions_of, with_wanted
+from .curves import pictures, positions_over, with_wanted
 
 # The curves of each motion; those that an axle does not have are left out.
 _DRAWN = {
@@ -23,99 +27,125 @@ _DRAWN = {
         "roll_stiffness",
         "roll_center_height",
         "roll_center_lateral",
+        "axle_steer",
+        "axle_lateral",
         "camber",
         "inclination",
         "steer",
         "jacking",
+        "wheel_force",
         "link_force",
     ),
     "bump": (
         "roll_center_height",
         "track_change",
+        "axle_lateral",
+        "axle_longitudinal",
+        "axle_steer",
+        "pinion_angle",
+        "roll_steer",
         "roll_stiffness",
         "anti_dive",
         "anti_lift_driven",
         "anti_lift_braked",
         "anti_squat",
+        "wheel_rate",
+        "damper_motion_ratio",
     ),
-    "left": ("wheel_force", "bar_torque", "roll_center_height"),
+    "left": (
+        "wheel_force",
+        "bar_torque",
+        "roll_center_height",
+        "camber",
+        "axle_steer",
+        "axle_lateral",
+    ),
     "steer": ("steer", "ackermann", "turning_circle", "steering_ratio", "camber", "rack_position"),
 }
 
 
-def axle_chapter(axle: Axle, goals: Sequence[Goal] = ()) -> Chapter:
-    """Return what a rig finds of both wheels.
+def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
+    """Return what a rig finds of both wheels; a rigid axle is drawn, too.
 
     Parameters
     ----------
-    axle : Axle
+    axle : Axle, AxleModel, RigidAxle or RigidAxleModel
     goals : sequence of Target and Limit, optional
         From `kintrafo.variation.goals`: those over its motions are drawn into the curves.
 
     Returns
     -------
     Chapter
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
     """
     with Arguments("axle_chapter") as given:
-        given.kind("axle", axle, Axle, Axle.NEEDED)
+        assembly = given_assembly(given, axle, "axle")
+        if not given.refused and len(assembly.wheels) < 2:
+            given.refuse("axle: one wheel has no such chapter. Give an Axle or a RigidAxle.")
         check_goals(given, "goals", goals)
     wanted = {goal.over for goal in goals}
-    drawn = [m for m in _DRAWN if m != "steer" or axle.steered()] + ["right"] * ("right" in wanted)
-    curves = {motion: _over(axle, motion, goals) for motion in drawn}
-    on_rack = ", on one rack" if axle.steered() else ""
-    words = [f"Both wheels of the {axle.heading()}{on_rack}."]
-    words.append(
-        "One side is the mirror image of the other." if axle.symmetric else "The sides differ."
-    )
-    if axle.bar is not None:
-        rate = np.deg2rad(axle.bar.rate())
-        part = axle.bar.link_on.replace("_", " ")
-        soft = ", its bushes or drop links included" if axle.bar.gives_way() else ""
-        words.append(f"Anti-roll bar: {rate:.4g} N m/deg{soft}, drop links on the {part}.")
-    # what a wheel has by itself, the page has already, if the sides are alike
-    whole = curves["bump"]
-    if axle.symmetric:
-        own = {f"{q.name}_{side}" for q in KNOWN["travel"].values() for side in axle.sides}
-        whole = whole.drop_vars([n for n in own if n in whole and not n.startswith("anti_")])
+    drawn = [*(m for m in _DRAWN if m in assembly.motions), *["right"] * ("right" in wanted)]
+    curves = {m: dataset(assembly, m, positions_over(assembly, m, goals)) for m in drawn}
+    words, looks, drawings = _of_a_beam(assembly) if assembly.on_a_beam else ((), (), ())
     return Chapter(
         title="The axle",
-        words=(" ".join(words),),
-        tables=(*at_design(whole, "Over parallel travel: "), _data_of(axle)),
-        pictures=tuple(_pictures(curves, goals)),
+        words=(assembly.words, *words),
+        tables=(
+            *looks,
+            *at_design(_not_on_the_page(assembly, curves["bump"]), "Over parallel travel: "),
+            *_input_data(assembly),
+        ),
+        pictures=(*drawings, *_pictures(assembly, curves, goals)),
     )
 
 
-def _data_of(axle: Axle) -> Tabulated:
-    """Return what the axle's own file says."""
-    sections = {
-        "anti_roll_bar": axle.bar,
-        "drive": axle.drive,
-        "brakes": axle.brakes,
-        "steering": axle.steering,
-    }
+def _of_a_beam(
+    assembly: Assembly,
+) -> tuple[tuple[str, ...], tuple[Tabulated, ...], tuple[Picture, ...]]:
+    """Return a first look at an axle that nothing on the page moves: words, tables, drawings."""
+    found = checkup(assembly)
+    assert found.axle is not None
+    words = [f"Problem: {text}" for text in found.problems]
+    words += [f"Note: {text}" for text in found.notes]
+    look = Tabulated("First look", ("", "value"), tuple(found.axle.rows.items()), frozenset({0, 1}))
+    with rc_context(STYLE):
+        drawing = Picture.of(
+            views(assembly.subject), "The axle from above, from the left and from behind"
+        )
+    return tuple(words), (look,), (drawing,)
+
+
+def _not_on_the_page(assembly: Assembly, whole: xr.Dataset) -> xr.Dataset:
+    """Return what the page does not have: of like sides it has one wheel by itself."""
+    if assembly.on_a_beam or not assembly.symmetric:
+        return whole
+    own = [n for n, data in whole.items() if WHEEL in data.dims and n in KNOWN["travel"]]
+    return whole.drop_vars([name for name in own if not str(name).startswith("anti_")])
+
+
+def _input_data(assembly: Assembly) -> Iterator[Tabulated]:
+    """Yield a table of what the axle's own file says, if it says anything."""
     rows = [
         (f"[{name}] {key}", str(value))
-        for name, section in sections.items()
-        if section is not None
+        for name, section in assembly.own_sections.items()
         for key, value in section.model_dump(exclude_none=True).items()
     ]
-    title = "Input data of the axle"
-    return Tabulated(title, ("key", "value"), tuple(rows), frozenset({0, 1}))
+    if assembly.own_sections:
+        title = "Input data of the axle"
+        yield Tabulated(title, ("key", "value"), tuple(rows), frozenset({0, 1}))
 
 
-def _over(axle: Axle, motion: str, goals: Sequence[Goal]) -> xr.Dataset:
-    """Return all that is told over a motion, at the positions of goals, too."""
-    if motion == "steer":
-        return axles.over(axle, motion)
-    return dataset_of(axle, motion, positions_of(axle, motion, goals))
-
-
-def _pictures(curves: dict[str, xr.Dataset], goals: Sequence[Goal]) -> Iterator[Picture]:
-    for motion, dataset in curves.items():
-        drawn = axles.by_side(dataset)
+def _pictures(
+    assembly: Assembly, curves: Mapping[str, xr.Dataset], goals: Sequence[Goal]
+) -> Iterator[Picture]:
+    for motion, found in curves.items():
         own = [goal for goal in goals if goal.over == motion]
         # what the motion goes over, as the rack where no ratio is known, is no curve of it
-        names = with_wanted(drawn, _DRAWN.get(motion, ()), own)
-        words = axles.MOTIONS[motion]
+        names = with_wanted(found, _DRAWN.get(motion, ()), own)
+        words = assembly.motions[motion].words
         title = words[:1].upper() + words[1:]
-        yield from pictures(drawn, names, title, f"Curves: {words}", goals=own)
+        yield from pictures(found, names, title, f"Curves: {words}", goals=own)

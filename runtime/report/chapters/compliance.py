@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 import xarray as xr
 
-from ...assembly.by_wheel import beside
 from ...core.arguments import Arguments
 from ...plots.curves import grouped
 from ...study.compliance.flexibility import HELD
@@ -32,7 +31,7 @@ def compliance_chapter(found: xr.Dataset, goals: Sequence[Goal] = ()) -> Chapter
     with Arguments("compliance_chapter") as given:
         given.dataset(found, over="wheel_travel")
         check_goals(given, "goals", goals)
-    curves = beside(found.drop_dims([name for name in ("moved", "by") if name in found.dims]))
+    curves = found.drop_dims([name for name in ("moved", "by") if name in found.dims])
     own = [goal for goal in goals if HELD.get(goal.over) == found.attrs["held"]]
     usual = [str(name) for group in grouped(curves, own).values() for name in group]
     names = with_wanted(curves, usual, own)

@@ -8,10 +8,11 @@ import xarray as xr
 from matplotlib import rc_context
 from numpy.typing import NDArray
 
+from ...assembly.assembly import Assembly
+from ...assembly.by_wheel import SIDES
 from ...core.errors import InputError
 from ...plots.curves import figure
 from ...plots.figures import STYLE
-from ...study.axles.catalogue import SIDES
 from ...study.variation.goals import Goal
 from ...study.variation.ways import Looked, usual_positions
 from .chapter import Picture
@@ -35,7 +36,7 @@ def pictures(
     Parameters
     ----------
     dataset : xarray.Dataset
-        Those of both wheels of an axle together, see `kintrafo.axles.by_side`.
+        Those of both wheels of an axle over ``wheel``.
     names : sequence of str
     title : str
         Above each picture.
@@ -98,8 +99,20 @@ def positions_of(looked: Looked, over: str, goals: Iterable[Goal]) -> NDArray[np
 
     Beyond the usual ones they are as near to each other: curves are no straight lines there.
     """
-    usual = usual_positions(looked, over)
-    own = np.concatenate([usual[:1], *(goal.at for goal in goals if goal.over == over)])
+    return _reaching(usual_positions(looked, over), over, goals)
+
+
+def positions_over(assembly: Assembly, motion: str, goals: Iterable[Goal]) -> NDArray[np.float64]:
+    """Return the same of a motion of an assembly."""
+    return _reaching(assembly.usual(motion), motion, goals)
+
+
+def _reaching(usual: NDArray[np.float64], over: str, goals: Iterable[Goal]) -> NDArray[np.float64]:
+    """Return usual positions, with those of goals and what is between."""
+    wanted = [goal.at for goal in goals if goal.over == over]
+    if not wanted:
+        return usual
+    own = np.concatenate([usual[:1], *wanted])
     step = float(np.diff(usual).max())
     ends = (usual[0], min(usual[0], own.min())), (usual[-1], max(usual[-1], own.max()))
     # of what is so far that nothing reaches it, it is enough that it is refused

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from ...core.arguments import Arguments
 from ...core.quantities import display_of
 from ...core.tabulated import Tabulated, significant
-from ...study.axles import by_side
 from ...study.compliance.flexibility import HELD
 from ...study.variation.goals import Goal, Verdict, judge, words_of
 from ...study.variation.ways import Looked, dataset_of, judged_model, way
@@ -57,7 +56,7 @@ def goals_chapter(subject: Model | Axle | RigidAxle, goals: Sequence[Goal]) -> C
 def _drawn(looked: Looked, goals: Sequence[Goal], over: str) -> tuple[Picture, ...]:
     """Return the curves that goals over something are about, with these."""
     own = [goal for goal in goals if goal.over == over]
-    dataset = by_side(dataset_of(looked, over, positions_of(looked, over, own)))
+    dataset = dataset_of(looked, over, positions_of(looked, over, own))
     kind = "Compliance" if over in HELD else "Curves"
     words = f"{kind} over {way(over).words} with targets and limits"
     title = f"{words}\n{HELD[over]}" if over in HELD else words

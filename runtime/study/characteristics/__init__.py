@@ -1,15 +1,14 @@
-"""Kinematic characteristics of a wheel suspension, over wheel travel and over rack travel.
+"""Kinematic characteristics of a suspension, an axle or a rigid axle, over the motions of a rig.
 
-    `travel`, `steering`     the characteristics as labelled arrays
-    `wheel`, `axle`          the formulas, independent of the mechanism
-    `from_model`             what they are computed from: the corner of a suspension, from its model
-    `catalogue`              name, unit, definition and sign of each
-    `groups`                 which belongs beside which others
+    `over`       the characteristics as labelled arrays
+    `datasets`   how they are made, from the measures of each assembly
+    `groups`     which belongs beside which others
 
-What each kind of suspension has of its own stands in its file in `kintrafo.suspension.kinds`.
-Definitions and signs: docs/characteristics.md.
+Formulas, names, units, definitions and signs are in `kintrafo.assembly.measures`. Definitions and
+signs: docs/characteristics.md, docs/axles.md, docs/rigid-axle.md.
 """
 
-from .datasets import steering, travel
+from ...assembly.rig import Extent
+from .datasets import over
 
-__all__ = ["steering", "travel"]
+__all__ = ["Extent", "over"]

@@ -1,251 +1,192 @@
-"""Characteristics over wheel travel and over rack travel, as labelled arrays."""
+"""Characteristics over the motions of a rig, as labelled arrays."""
 
-from collections.abc import Container, Iterable
+from collections.abc import Container
+from typing import Any
 
-import numpy as np
 import xarray as xr
 
-from ...assembly.from_model import corner
-from ...assembly.quantity import RACK, TRAVEL, Quantity
-from ...assembly.usual import usual_rack, usual_travel
-from ...assembly.wheel import steer, steer_gradient, toe
+from ...assembly.assembly import Assembly
+from ...assembly.by_wheel import SIDES, of_wheels, wheel_coordinate
+from ...assembly.measures import axle, corner, rigid_axle
+from ...assembly.measures.measure import columns, values
+from ...assembly.of import given_assembly
+from ...assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
+from ...assembly.rig import Extent
 from ...core.arguments import Arguments
 from ...core.memory import positions_given
 from ...core.named_types import ArrayLike
-from ...suspension.corner import Array, Corner
-from ...suspension.kinds import Suspension
-from ...suspension.model import Model
-from ...suspension.positions import PositionError, arm_angles, design_height
-from . import axle, catalogue
+from ...suspension.corner import Array
 
 DATA_SET = "data_set"
 """The dimension of several sets of curves beside each other."""
 
 ALONG = {"travel": TRAVEL, "rack": RACK}
-"""What varies along the curves."""
+"""What varies along the curves of a corner."""
 
 KNOWN: dict[str, dict[str, Quantity]] = {
-    "travel": {q.name: q for q in catalogue.CORNER + catalogue.TRAVEL},
-    "rack": {q.name: q for q in (*catalogue.CORNER, *catalogue.STEERING, *catalogue.AXLE.values())},
+    "travel": columns(corner.OVER_TRAVEL, ["left"]),
+    "rack": columns(corner.OVER_RACK, ["left"]),
 }
-"""Characteristics by name, over wheel travel and over the rack."""
+"""Characteristics of a corner by name, over wheel travel and over the rack."""
 
-
-_OF_STEERING = {
-    q.name
-    for known in KNOWN.values()
-    for q in known.values()
-    if "steered" in q.needs or q.name not in KNOWN["travel"]
+_MOVING = columns((*axle.OVER_TRAVEL, *rigid_axle.MEASURES), SIDES)
+_STEERED = columns((m for m in axle.OVER_STEERING if m.quantity is not RACK), SIDES)
+OF_AXLES = {
+    TRAVEL.name: _MOVING,
+    ROLL.name: _MOVING,
+    RACK.name: _STEERED,
+    STEERING_WHEEL.name: _STEERED,
 }
+"""Characteristics of axles by the names of their columns, by what they are over."""
 
 
-def refuse_of_steering(suspension: Suspension, names: Iterable[str]) -> None:
-    """Refuse characteristics that have no meaning for a wheel that nothing steers.
-
-    Parameters
-    ----------
-    suspension : Suspension
-    names : iterable of str
-        What somebody asked for; names that nothing has are left to others.
-
-    Raises
-    ------
-    InputError
-        If it has no rack and one of them needs it.
-    """
-    for name in names:
-        if isinstance(name, str) and name in _OF_STEERING:
-            suspension.refuse_without_rack(name)
-
-
-def travel(
-    model: Model, travel: ArrayLike | None = None, *, rack_position: float = 0.0
+def over(
+    subject: Any,
+    motion: str | None = None,
+    along: ArrayLike | None = None,
+    *,
+    extent: Extent | None = None,
+    travel: float = 0.0,
+    rack_position: float = 0.0,
 ) -> xr.Dataset:
-    """Return the characteristics over wheel travel, the rack held.
+    """Return the characteristics of a suspension, an axle or a rigid axle over a motion of a rig.
 
     Parameters
     ----------
-    model : Model
-    travel : array_like, shape (n,), optional
-        Heights of the wheel centre above its design height [m]; by default from -80 mm to 80 mm,
-        or as far as the suspension goes.
-    rack_position : float, optional
-        Displacement of the rack [m].
-
-    Returns
-    -------
-    xarray.Dataset
-        Over ``wheel_travel`` [m]. SI units; each variable carries ``units``, ``long_name``,
-        ``definition``, ``sign`` and the unit for people as ``display_units`` and
-        ``display_factor``. What needs data of the vehicle that are not given is left out.
-
-    Raises
-    ------
-    PositionError
-        If a travel is out of reach; the message states the range.
-    InputError
-        If a value is not finite.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> curves = travel(Model("reference_car"), [-0.05, 0.05])
-    >>> np.rad2deg(curves["camber"].values).round(4).tolist()
-    [1.3246, -0.9139]
-    >>> curves["motion_ratio"].attrs["definition"]
-    'compression of the spring per wheel travel; some programs print the inverse'
-    """
-    with Arguments("characteristics") as given:
-        given.kind("model", model, Model, Model.NEEDED)
-        rack_position = given.number("rack_position", rack_position, "m")
-        if travel is not None:
-            travel = positions_given(given, "travel", travel, "m")
-    travels = usual_travel(model, rack=rack_position) if travel is None else travel
-    data = over_travel(model, travels, rack_position)
-    held = {RACK: rack_position} if model.suspension.steered() else {}
-    return _dataset(data, TRAVEL, travels, held)
-
-
-def steering(model: Model, rack: ArrayLike | None = None, *, travel: float = 0.0) -> xr.Dataset:
-    """Return the characteristics over rack travel, the wheel centre held at its height.
-
-    Both wheels have the same height; the other side of the vehicle is the mirror image.
-
-    Parameters
-    ----------
-    model : Model
-    rack : array_like, shape (n,), optional
-        Displacements of the rack [m]; by default from -60 mm to 60 mm, or as far as the steering
-        goes.
+    subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
+    motion : str, optional
+        Of a suspension 'travel' or, if it is steered, 'rack'. Of both kinds of axles 'bump' (both
+        wheels in parallel), 'roll', 'left' and 'right' (one wheel, the other one at design); of a
+        steered axle also 'steer' and 'rack'. By default the first of these.
+    along : array_like, shape (n,), optional
+        What varies: heights of wheel centres above design or displacements of the rack [m], roll
+        angles of the body, positive with the right side down, or angles of the steering wheel,
+        positive to the left [rad]. By default the usual range, as far as the wheels go: 80 mm of
+        travel and 60 mm of the rack to either side, 4 deg of roll.
+    extent : Extent, optional
+        How far the motion goes, where that is not the usual.
     travel : float, optional
-        Height of the wheel centre above its design height [m].
+        Where the rack moves: height of the wheel centres above design [m].
+    rack_position : float, optional
+        Where the wheels move: displacement of the rack [m].
 
     Returns
     -------
     xarray.Dataset
-        Over ``rack_position`` [m], otherwise as of `kintrafo.characteristics.travel`.
+        Over ``wheel_travel`` [m], ``roll_angle`` [rad], ``steering_wheel_angle`` [rad] or
+        ``rack_position`` [m]; of an axle, what each wheel has also over ``wheel``. The motion
+        'steer' goes over the rack where nothing says how the steering wheel moves it. SI units;
+        each variable carries ``units``, ``long_name``, ``definition``, ``sign`` and the display
+        unit as ``display_units`` and ``display_factor``. What needs data of the vehicle that are
+        not given is left out.
 
     Raises
     ------
     PositionError
         If a position is out of reach; the message states the range.
     InputError
-        If a value is not finite.
+        If an argument cannot be used, a drop link does not reach, or an axle does not move with
+        rigid joints.
 
     Examples
     --------
     >>> import numpy as np
-    >>> curves = steering(Model("reference_car"), [-0.04, 0.04])
-    >>> np.rad2deg(curves["steer_left"].values).round(3).tolist()
+    >>> from kintrafo import load
+    >>> curves = over(load("reference_car"), "travel", [-0.05, 0.05])
+    >>> np.rad2deg(curves["camber"].values).round(4).tolist()
+    [1.3246, -0.9139]
+    >>> steered = over(load("reference_car"), "rack", [-0.04, 0.04])
+    >>> np.rad2deg(steered["steer_left"].values).round(3).tolist()
     [18.174, -17.836]
+    >>> axle = over(load("reference_axle"), "bump", [-0.05, 0.0, 0.05])
+    >>> (axle["roll_center_height"].values * 1e3).round(1).tolist()
+    [224.8, 106.3, -18.2]
+    >>> axle["camber"].dims
+    ('wheel', 'wheel_travel')
     """
     with Arguments("characteristics") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+        assembly = given_assembly(given, subject)
         travel = given.number("travel", travel, "m")
-        if rack is not None:
-            rack = positions_given(given, "rack", rack, "m")
-    racks = usual_rack(model, travel=travel) if rack is None else rack
-    return _dataset(over_rack(model, racks, travel), RACK, racks, {TRAVEL: travel})
+        rack = given.number("rack_position", rack_position, "m")
+        if extent is not None:
+            given.kind("extent", extent, Extent, "a kintrafo.characteristics.Extent is needed")
+        if extent is not None and along is not None:
+            given.refuse("along and extent are both given. Give one of them.")
+    motion = given_motion(assembly, motion)
+    with Arguments("characteristics") as given:
+        assembly.refuse_holding(given, motion, travel, rack)
+        quantity = assembly.motions[motion].along
+        if along is not None:
+            along = positions_given(given, "along", along, quantity.units)
+            if not given.refused:
+                assembly.refuse_positions(given, motion, along)
+    if along is None:
+        along = assembly.usual(motion, extent, travel=travel, rack=rack)
+    return dataset(assembly, motion, along, travel=travel, rack=rack)
 
 
-def over_travel(
-    model: Model, travels: Array, rack_position: float = 0.0, names: Container[str] | None = None
-) -> dict[Quantity, Array]:
-    """Return characteristics over wheel travel without labels, all or some; see `travel`."""
-    angles = arm_angles(model, design_height(model) + travels, rack_position)
-    return of_corner_over_travel(corner(model, angles, rack_position), names)
+def given_motion(assembly: Assembly, motion: Any, name: str = "motion") -> str:
+    """Return a motion of an assembly, by default the usual one.
+
+    Raises
+    ------
+    InputError
+        If it has no such motion.
+    """
+    if motion is None:
+        return assembly.usual_motion
+    if isinstance(motion, str) and motion not in assembly.motions:
+        assembly.refuse_motion(motion)
+    with Arguments("characteristics") as given:
+        given.among(name, motion, assembly.motions)
+    return str(motion)
 
 
-def over_rack(
-    model: Model, racks: Array, travel: float = 0.0, names: Container[str] | None = None
-) -> dict[Quantity, Array]:
-    """Return characteristics over rack travel without labels, all or some; see `steering`."""
-    model.suspension.refuse_without_rack("characteristics over the rack")
-    own = _at_height(model, travel, racks)
-    found = of_corner_over_rack(own, names)
-    if needs_both_sides(names):
-        other = _at_height(model.mirror_image, travel, racks)
-        found |= of_both_sides(own, other, _straight_ahead(model, travel))
-    return found
-
-
-def of_corner_over_travel(
-    found: Corner, names: Container[str] | None = None
-) -> dict[Quantity, Array]:
-    """Return characteristics over wheel travel of a corner, all or some."""
-    return _evaluated(_chosen(catalogue.CORNER + catalogue.TRAVEL, names), found)
-
-
-def of_corner_over_rack(
-    found: Corner, names: Container[str] | None = None
-) -> dict[Quantity, Array]:
-    """Return characteristics over the rack of a corner by itself, all or some."""
-    return _evaluated(_chosen(catalogue.CORNER + catalogue.STEERING, names), found)
-
-
-def needs_both_sides(names: Container[str] | None) -> bool:
-    """Tell whether some characteristics are about both wheels of an axle."""
-    return bool(_chosen(catalogue.AXLE.values(), names))
-
-
-def _chosen(quantities: Iterable[Quantity], names: Container[str] | None) -> tuple[Quantity, ...]:
-    return tuple(q for q in quantities if names is None or q.name in names)
-
-
-def _at_height(model: Model, travel: float, racks: Array) -> Corner:
-    return corner(model, arm_angles(model, design_height(model) + travel, racks), racks)
-
-
-def _evaluated(quantities: Iterable[Quantity], found: Corner) -> dict[Quantity, Array]:
-    return {
-        quantity: quantity.formula(found)
-        for quantity in quantities
-        if quantity.formula is not None and quantity.known_to(found.vehicle)
+def dataset(
+    assembly: Assembly, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
+) -> xr.Dataset:
+    """Return the characteristics at some positions of a motion; see `over`."""
+    how = assembly.motions[motion]
+    held = assembly.held_in(motion, travel, rack)
+    of = assembly.kinematics(assembly.position(motion, along, travel=travel, rack=rack))
+    variables = {}
+    for measure in assembly.measures(motion):
+        if not measure.defined_for(of):
+            continue
+        found = [measure.at(of, wheel) for wheel in measure.columns(assembly.wheels).values()]
+        if measure.scope == "wheel":
+            variables[measure.name] = of_wheels(measure.quantity, how.along.name, found)
+        else:
+            variables[measure.name] = xr.Variable(
+                how.along.name, found[0], measure.quantity.attributes()
+            )
+    coordinates = {
+        how.along.name: xr.Variable(how.along.name, along, how.along.attributes()),
+        "wheel": wheel_coordinate(assembly.wheels),
     }
+    for quantity, value in held.items():
+        coordinates[quantity.name] = xr.Variable((), float(value), quantity.attributes())
+    return xr.Dataset(variables, coordinates, {"title": f"characteristics over {how.title}"})
 
 
-def _straight_ahead(model: Model, travel: float) -> Corner | None:
-    """Return the corner with the rack in its middle, if it can be there."""
-    try:
-        return _at_height(model, travel, np.zeros(1))
-    except PositionError:
-        return None
-
-
-def of_both_sides(own: Corner, other: Corner, straight: Corner | None) -> dict[Quantity, Array]:
-    """Return what both wheels decide, as far as the vehicle is known.
+def flat_values(
+    assembly: Assembly, motion: str, along: Array, names: Container[str] | None = None
+) -> dict[str, Array]:
+    """Return characteristics over a motion by the names of their columns, all or some.
 
     Parameters
     ----------
-    own, other : Corner
-        Over the rack; the other one is the mirror image.
-    straight : Corner or None
-        The own one with the rack in its middle, at the same height. Without it nothing is known of
-        what compares the wheels (NaN).
+    assembly : Assembly
+    motion : str
+    along : ndarray, shape (n,)
+        As of `over`.
+    names : container of str, optional
+        Of columns: ``camber``, of an axle ``camber_left``.
+
+    Returns
+    -------
+    dict of str to ndarray, each of shape (n,)
+        SI units.
     """
-    left, right = (own, other) if own.vehicle.side > 0.0 else (other, own)
-    angles = steer(left), steer(right)
-    values = {"steer_left": angles[0], "steer_right": angles[1]}
-    wheelbase, per_turn = own.vehicle.wheelbase, own.vehicle.travel_per_turn
-    if wheelbase is not None:
-        track = 2.0 * abs(own.design_center[..., 1])
-        # toe-in steers the left wheel to the right, and the right one to the left
-        static = np.nan if straight is None else toe(straight)
-        values |= axle.of_wheels(angles[0] + static, angles[1] - static, wheelbase, track)
-    if per_turn is not None:
-        gradients = steer_gradient(left), steer_gradient(right)
-        values["steering_ratio"] = axle.steering_ratio(*gradients, per_turn)
-    return {catalogue.AXLE[name]: array for name, array in values.items()}
-
-
-def _dataset(
-    data: dict[Quantity, Array], over: Quantity, along: Array, held: dict[Quantity, float]
-) -> xr.Dataset:
-    coordinates = {over.name: xr.Variable(over.name, along, over.attributes())}
-    for quantity, value in held.items():
-        coordinates[quantity.name] = xr.Variable((), float(value), quantity.attributes())
-    variables = {
-        quantity.name: xr.Variable(over.name, values, quantity.attributes())
-        for quantity, values in data.items()
-    }
-    return xr.Dataset(variables, coordinates, {"title": f"characteristics over {over.long_name}"})
+    of = assembly.kinematics(assembly.position(motion, along))
+    return values(assembly.measures(motion), of, assembly.wheels, names)

@@ -14,6 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...assembly.from_model import corner
+from ...assembly.measures.corner import OVER_RACK, OVER_TRAVEL
+from ...assembly.measures.measure import some_of_axle, values
+from ...assembly.single import Single
 from ...core.errors import KintrafoError
 from ...core.threads import shared_out
 from ...equations.errors import ClosureError
@@ -22,7 +25,6 @@ from ...suspension.corner import Corner
 from ...suspension.fleet import Fleet
 from ...suspension.fleet_positions import fleet_angles
 from ...suspension.kinds import Suspension
-from ..characteristics import datasets
 from ..compliance.flexibility import HELD
 from .curves import Curves, changed
 from .places import Place, is_factor
@@ -196,7 +198,7 @@ def _corners(fleet: Fleet, look: Curves) -> Iterator[Corner]:
     at = look.positions
     still = np.zeros(at.size)
     travel, rack = (at, still) if look.over == "travel" else (still, at)
-    both = look.over == "rack" and datasets.needs_both_sides(look.names)
+    both = look.over == "rack" and some_of_axle(OVER_RACK, look.names)
     sides = [(fleet, travel, rack)]
     if both:
         sides += [(fleet.mirror_image, travel, rack), (fleet, still[:1], still[:1])]
@@ -209,13 +211,10 @@ def _corners(fleet: Fleet, look: Curves) -> Iterator[Corner]:
 
 
 def _values(look: Curves, corners: Sequence[Corner]) -> dict[str, Array]:
-    if look.over == "travel":
-        found = datasets.of_corner_over_travel(corners[0], look.names)
-    else:
-        found = datasets.of_corner_over_rack(corners[0], look.names)
-        if len(corners) > 1:
-            found |= datasets.of_both_sides(*corners)
-    return {quantity.name: rows for quantity, rows in found.items()}
+    own, *others = corners
+    of = Single(own, lambda: others[0], lambda: others[1])
+    measures = OVER_TRAVEL if look.over == "travel" else OVER_RACK
+    return values(measures, of, [*of.corners], look.names)
 
 
 def _in_file(suspension: Suspension, places: Mapping[str, Array]) -> dict[str, float]:

@@ -12,12 +12,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ...assembly.assembly import Assembly
 from ...assembly.axle import AxleAssembly
-from ...assembly.by_wheel import flat
-from ...assembly.motions import rolls, travels
+from ...assembly.by_wheel import SIDES, flat
+from ...assembly.of import assembly_of
 from ...assembly.quantity import ROLL, TRAVEL, Quantity
-from ...assembly.rig import Extent
-from ...assembly.usual import usual_rack, usual_travel
 from ...core.arguments import Arguments
 from ...core.quantities import display_of
 from ...suspension.axle import Axle
@@ -25,15 +24,10 @@ from ...suspension.kinds import Suspension
 from ...suspension.model import Model
 from ...suspension.rigid import RigidAxle
 from ...suspension.rigid.model import RigidAxleModel
-from .. import axles, rigid
-from ..axles.catalogue import OVER_TRAVEL, SIDES
-from ..characteristics.datasets import ALONG, KNOWN, over_rack, over_travel, steering, travel
-from ..characteristics.datasets import refuse_of_steering as refuse_of_suspension
+from ..characteristics.datasets import ALONG, KNOWN, OF_AXLES, dataset, flat_values
+from ..compare import common_positions as common_to
 from ..compliance.flexibility import HELD, Held
 from ..compliance.linear import COMPLIANCES, COMPLIANCES_OF_AXLES, linear
-from ..rigid.catalogue import MEASURES
-from ..rigid.datasets import usual, values_over
-from ..sheet import has_bushes
 
 Array = NDArray[np.float64]
 Subject = Suspension | RigidAxle
@@ -77,9 +71,6 @@ class Way:
         return display_of(self.along.attributes()).factor
 
 
-# of axles the words; units are those of both sorts
-_OF_AXLES: dict[str, Quantity] = {m.quantity.name: m.quantity for m in OVER_TRAVEL}
-_OF_AXLES |= {m.quantity.name: m.quantity for m in MEASURES}
 _MOTIONS = {
     "bump": (TRAVEL, "parallel wheel travel"),
     "roll": (ROLL, "roll"),
@@ -89,7 +80,7 @@ _MOTIONS = {
 WAYS: dict[str, Way] = {
     "travel": Way(TRAVEL, KNOWN["travel"], "wheel travel"),
     "rack": Way(ALONG["rack"], KNOWN["rack"], "the rack"),
-    **{name: Way(along, _OF_AXLES, words) for name, (along, words) in _MOTIONS.items()},
+    **{name: Way(along, OF_AXLES[along.name], words) for name, (along, words) in _MOTIONS.items()},
 }
 """What characteristics may be over, by name."""
 
@@ -155,54 +146,39 @@ def judged_model(subject: Subject | Axle, overs: Iterable[str]) -> Looked:
     return model_of(subject)
 
 
+def _assembly(model: Looked) -> Assembly:
+    found = assembly_of(model)
+    assert found is not None
+    return found
+
+
 def usual_positions(model: Looked, over: str) -> Array:
     """Return the usual positions, as far as it goes [m] or [rad]."""
-    if isinstance(model, Model):
-        return (usual_rack if over == "rack" else usual_travel)(model)
-    if isinstance(model, RigidAxleModel):
-        return usual(model.axle, "bump" if over in HELD else over, Extent())
-    if over == "roll":
-        return rolls(model, Extent())
-    return travels(model, Extent(), (over,) if over in SIDES else SIDES)
+    assembly = _assembly(model)
+    return assembly.usual(assembly.usual_motion if over in HELD else over)
 
 
 def dataset_of(model: Looked, over: str, positions: Array) -> xr.Dataset:
     """Return all that is told over something, to be drawn."""
     if over in HELD:
-        return _compliance(model, positions, cast("Held", over))
-    if isinstance(model, Model):
-        return (travel if over == "travel" else steering)(model, positions)
-    study: Any = rigid if isinstance(model, RigidAxleModel) else axles
-    axle = model.axle if isinstance(model, RigidAxleModel) else model
-    if over in SIDES:
-        single: xr.Dataset = study.single(axle, positions, side=over)
-        return single
-    both: xr.Dataset = {"bump": study.bump, "roll": study.roll}[over](axle, positions)
-    return both
-
-
-def _compliance(model: Looked, positions: Array, held: Held) -> xr.Dataset:
-    """Return how wheels give way on the bushes of the files."""
-    found = flat(linear(model, None, positions, held=held))
-    return found.drop_dims(["moved", "by"])
+        found = linear(_assembly(model), None, positions, held=cast("Held", over))
+        return found.drop_dims(["moved", "by"])
+    return dataset(_assembly(model), over, positions)
 
 
 def values_of(
     model: Looked, over: str, positions: Array, names: Collection[str] | None = None
 ) -> dict[str, Array]:
     """Return characteristics or compliance by name, all that there are or some."""
-    if isinstance(model, Model) and over not in HELD:
-        values = over_travel if over == "travel" else over_rack
-        return {q.name: v for q, v in values(model, positions, names=names).items()}
-    if isinstance(model, RigidAxleModel) and over not in HELD:
-        return values_over(model, over, positions, names)
-    return {str(name): data.values for name, data in dataset_of(model, over, positions).items()}
+    if over not in HELD:
+        return flat_values(_assembly(model), over, positions, names)
+    curves = flat(dataset_of(model, over, positions))
+    return {str(name): data.values for name, data in curves.items()}
 
 
 def there(model: Looked, over: str) -> tuple[str, ...]:
     """Return the characteristics, or compliance, for which the file has the data."""
-    on_bushes = model.axle if isinstance(model, RigidAxleModel) else model
-    if over in HELD and not has_bushes(on_bushes):
+    if over in HELD and not _assembly(model).has_bushes:
         return ()
     return tuple(values_of(model, over, np.zeros(1)))
 
@@ -234,13 +210,11 @@ def with_bushes(subject: Subject | Axle, bushings: Mapping[str, Any] | None) -> 
 
 def refuse_of_steering(subject: Subject | Axle, names: Iterable[str]) -> None:
     """Refuse characteristics that have no meaning where nothing steers the wheels."""
-    if isinstance(subject, Suspension):
-        refuse_of_suspension(subject, names)
+    if isinstance(subject, Suspension) and not subject.steered():
+        _assembly(Model(subject)).refuse_of_steering(names)
 
 
 def common_positions(models: Mapping[str, Looked], over: str) -> Array:
     """Return the usual positions that all of some cars can take [m] or [rad], zero included."""
-    grids = [usual_positions(model, over) for model in models.values()]
-    low, high = max(grid[0] for grid in grids), min(grid[-1] for grid in grids)
-    inner = grids[0][(grids[0] > low) & (grids[0] < high)]
-    return np.union1d(inner, [low, high])
+    assemblies = [_assembly(model) for model in models.values()]
+    return common_to(assemblies, assemblies[0].usual_motion if over in HELD else over)

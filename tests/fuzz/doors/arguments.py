@@ -15,7 +15,6 @@ import kintrafo
 import numpy as np
 import xarray as xr
 from kintrafo import (
-    axles,
     characteristics,
     checkup,
     compare,
@@ -61,9 +60,9 @@ _RIDE, _ = scenario.run(kintrafo.RigidAxleModel(_RIGID), scenario.Scenario(durat
 _BUSHES = {"arm_rear": {"radial_N_per_mm": 1e3}}
 _SOFT = _CAR.suspension.with_changes({"bushings": _BUSHES})
 _SOFT_AXLE = kintrafo.Axle.from_dict({"axle": "front", "side": _SOFT})
-_EXTENT = axles.Extent(rebound=0.01, bump=0.01, roll=0.01, rack=0.01, step=0.01)
+_EXTENT = characteristics.Extent(rebound=0.01, bump=0.01, roll=0.01, rack=0.01, step=0.01)
 _ONE_CURVE = _DATASET[["camber"]]
-_MEASURED = characteristics.travel(_CAR, [-0.02, 0.0, 0.02])[["toe", "camber"]]
+_MEASURED = characteristics.over(_CAR, "travel", [-0.02, 0.0, 0.02])[["toe", "camber"]]
 
 NASTY = [
     None, True, False, "", "reference_car", "nan", b"x", 0, -1, 1, 10**400, 0.0, -0.3, 1e-320,
@@ -362,17 +361,22 @@ CALLS = {
     "sweep.usual_rack": (
         sweep.usual_rack, {"model": _CAR, "extent": 0.01, "step": 0.01, "travel": 0.0}
     ),
-    "characteristics.travel": (
-        characteristics.travel, {"model": _CAR, "travel": [0.0, 0.01], "rack_position": 0.0}
+    "characteristics.over": (
+        characteristics.over,
+        {"subject": _CAR, "motion": "travel", "along": [0.0, 0.01], "extent": None,
+         "travel": 0.0, "rack_position": 0.0},
     ),
-    "characteristics.steering": (
-        characteristics.steering, {"model": _CAR, "rack": [0.0], "travel": 0.0}
+    "characteristics.over, an axle": (
+        characteristics.over,
+        {"subject": _AXLE, "motion": "roll", "along": None, "extent": _EXTENT,
+         "travel": 0.0, "rack_position": 0.0},
     ),
     "compare": (
         compare.compare,
-        {"models": {"a": _CAR, "b": _CAR}, "positions": [0.0], "over": "travel", "progress": None},
+        {"subjects": {"a": _CAR, "b": _CAR}, "along": [0.0], "over": "travel", "held": None,
+         "progress": None},
     ),
-    "common_positions": (compare.common_positions, {"models": {"a": _CAR}, "over": "travel"}),
+    "compare, axles": (compare.compare, {"subjects": {"a": _AXLE, "b": _AXLE}, "over": "left"}),
     "checkup": (checkup.checkup, {"subject": _CAR}),
     "roads.step": (roads.step, {"height": 0.01, "at": 0.1, "end": 1.0}),
     "roads.sine": (roads.sine, {"amplitude": 0.01, "frequency": 1.0, "end": 1.0}),
@@ -451,18 +455,20 @@ CALLS = {
         {"data": {"axle": "front", "side": "reference_car"}, "source": "a", "folder": "."},
     ),
     "axle": (
-        lambda **given: axles.bump(kintrafo.Axle.from_dict({"axle": "front", **given}), [0.0]),
+        lambda **given: characteristics.over(
+            kintrafo.Axle.from_dict({"axle": "front", **given}), "bump", [0.0]
+        ),
         {
             "side": "reference_car", "anti_roll_bar": _BAR, "brakes": {"torque_on": "body"},
             "drive": {"share": 0.5}, "steering": {"angle_deg": [-9.0, 9.0], "rack_mm": [1.0, 0.0]},
         },
     ),
     "anti_roll_bar": (
-        lambda **given: axles.roll(
+        lambda **given: characteristics.over(
             kintrafo.Axle.from_dict(
                 {"axle": "rear", "side": "reference_car", "anti_roll_bar": given}
             ),
-            [0.0, 0.01],
+            "roll", [0.0, 0.01],
         ),
         _BAR | {"free_twist_deg": 1.0},
     ),
@@ -526,25 +532,10 @@ CALLS = {
         lambda **given: compliance.linear(_AXLE, {"rack": given}, [0.0]),
         {"axial_N_per_mm": 1e3},
     ),
-    "axles.bump": (axles.bump, {"axle": _AXLE, "travel": [0.0, 0.01], "rack_position": 0.0}),
-    "axles.roll": (axles.roll, {"axle": _AXLE, "angle": [0.0, 0.01], "rack_position": 0.0}),
-    "axles.single": (
-        axles.single,
-        {"axle": _AXLE, "travel": [0.0, 0.01], "side": "left", "rack_position": 0.0},
-    ),
-    "axles.steer": (
-        axles.steer, {"axle": _AXLE, "angle": [0.0, 0.1], "rack": None, "travel": 0.0}
-    ),
-    "axles.over": (
-        axles.over,
-        {"axle": _AXLE, "motion": "roll", "extent": _EXTENT, "rack": 0.0, "travel": 0.0},
-    ),
     "Extent": (
-        lambda **given: axles.over(_AXLE, "bump", axles.Extent(**given)),
+        lambda **given: characteristics.over(_AXLE, "bump", extent=characteristics.Extent(**given)),
         {"rebound": 0.01, "bump": 0.02, "step": 0.01},
     ),
-    "axles.compare": (axles.compare, {"axles": {"a": _AXLE, "b": _AXLE}, "over": "left"}),
-    "axles.by_side": (axles.by_side, {"dataset": _DATASET}),
     "Suspension.load": (kintrafo.Suspension.load, {"path_or_name": "reference_car"}),
     "Suspension.from_dict": (kintrafo.Suspension.from_dict, {"data": {}}),
     "Suspension.with_changes": (_CAR.suspension.with_changes, {"changes": {}}),

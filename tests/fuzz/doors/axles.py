@@ -10,8 +10,9 @@ balance each other on every part.
 from __future__ import annotations
 
 import numpy as np
-from kintrafo import Axle, Suspension, axles, loads
+from kintrafo import Axle, Suspension, characteristics, loads
 from kintrafo.assembly import motions
+from kintrafo.assembly.by_wheel import flat
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
 
@@ -45,7 +46,7 @@ def attempt(random):
     rack = float(random.uniform(-0.01, 0.01))
     angle = float(np.deg2rad(random.uniform(-4.0, 4.0)))
     travels = [float(each[0]) for each in motions.opposite(axle, np.array([angle]), rack)]
-    in_roll = axles.roll(axle, [angle], rack_position=rack)
+    in_roll = flat(characteristics.over(axle, "roll", [angle], rack_position=rack))
     centers = [
         _check_wheel(side, in_roll, travel, rack)
         for side, travel in zip((left, right), travels, strict=True)
@@ -55,7 +56,7 @@ def attempt(random):
     if not abs(turned - angle) <= CLOSE:
         raise WrongError(f"the line is inclined by {turned} rad, and {angle} rad were asked for")
     travel = float(random.uniform(-0.03, 0.03))
-    in_bump = axles.bump(axle, [travel], rack_position=rack)
+    in_bump = flat(characteristics.over(axle, "bump", [travel], rack_position=rack))
     for side in (left, right):
         _check_wheel(side, in_bump, travel, rack)
     _check_loads(axle, random, rack)

@@ -10,7 +10,7 @@ from itertools import combinations
 
 import numpy as np
 from kintrafo import Model, Suspension, equilibrium, state_at_height, travel_range
-from kintrafo.study.characteristics.datasets import travel
+from kintrafo.study.characteristics.datasets import over
 from kintrafo.suspension.points import hardpoints
 from kintrafo.suspension.positions import PositionError
 
@@ -127,7 +127,7 @@ def _characteristics(model, low, high):
     """Ask for curves over the travel: they are those of positions that are measured above."""
     design = float(model.signal("wheel_center_z", model.design_state))
     span = np.clip(np.linspace(-0.05, 0.05, 3), low - design, high - design)
-    curves = travel(model, span)
+    curves = over(model, "travel", span)
     if not np.isfinite(curves["camber"]).all():
         raise WrongError(f"camber {curves['camber'].values} over {span} m of travel")
 

@@ -8,7 +8,15 @@ Loads that come back balance each other, and where they do not there is a reason
 from __future__ import annotations
 
 import numpy as np
-from kintrafo import PositionError, RigidAxle, RigidAxleModel, equilibrium, loads, rigid_axles
+from kintrafo import (
+    PositionError,
+    RigidAxle,
+    RigidAxleModel,
+    characteristics,
+    equilibrium,
+    loads,
+)
+from kintrafo.assembly.by_wheel import flat
 
 from ..attempts import WrongError
 
@@ -35,7 +43,7 @@ def attempt(random):
             except PositionError:
                 continue
             raise WrongError(f"{left} m and {right} m, where {part} of the way is the most")
-    curves = rigid_axles.bump(axle, [0.0])
+    curves = flat(characteristics.over(axle, "bump", [0.0]))
     if not np.isfinite(curves["axle_steer"]).all():
         raise WrongError(f"axle steer {curves['axle_steer'].values} at design")
     equilibrium(model)

@@ -5,9 +5,12 @@ compares both wheels takes them from those with the rack in its middle: without 
 steers no car.
 """
 
+from typing import Protocol
+
 import numpy as np
 
-from ...suspension.corner import Array
+from ...suspension.corner import Array, Corner
+from ..wheel import steer_gradient
 
 # Wheels that are steered less than this roll straight ahead [rad].
 _STRAIGHT = 1e-9
@@ -16,15 +19,54 @@ _STRAIGHT = 1e-9
 _STEERED = 1e-4
 
 
-def of_wheels(
-    left: Array, right: Array, wheelbase: float, track: float | Array
-) -> dict[str, Array]:
-    """Return what compares both wheels, by name: `ackermann_error` and the others."""
-    return {
-        "ackermann_error": ackermann_error(left, right, wheelbase, track),
-        "ackermann": ackermann(left, right, wheelbase, track),
-        "turning_circle": turning_circle(left, right, wheelbase),
-    }
+class Steered(Protocol):
+    """Two wheels on one rack: a `Pair`, or a `Single` with its mirror image."""
+
+    @property
+    def left(self) -> Corner:
+        """The left wheel."""
+
+    @property
+    def right(self) -> Corner:
+        """The right wheel."""
+
+    @property
+    def turned(self) -> tuple[Array, Array]:
+        """Steer angles of the left and the right wheel without static toe [rad]."""
+
+    @property
+    def wheelbase(self) -> float:
+        """The wheelbase [m]."""
+
+    @property
+    def design_track(self) -> float | Array:
+        """The distance of the wheel centres at design [m]."""
+
+    @property
+    def per_turn(self) -> float | Array | None:
+        """Rack travel for one turn of the steering wheel [m]; None where nothing says it."""
+
+
+def error_of(of: Steered) -> Array:
+    """Return the Ackermann error of two wheels [rad]; see `ackermann_error`."""
+    return ackermann_error(*of.turned, of.wheelbase, of.design_track)
+
+
+def part_of(of: Steered) -> Array:
+    """Return the Ackermann percentage of two wheels [1]; see `ackermann`."""
+    return ackermann(*of.turned, of.wheelbase, of.design_track)
+
+
+def circle_of(of: Steered) -> Array:
+    """Return the turning circle of two wheels [m]; see `turning_circle`."""
+    return turning_circle(*of.turned, of.wheelbase)
+
+
+def ratio_of(of: Steered) -> Array:
+    """Return the steering ratio of two wheels [1]; see `steering_ratio`."""
+    assert of.per_turn is not None
+    gradients = steer_gradient(of.left), steer_gradient(of.right)
+    return steering_ratio(*gradients, np.abs(of.per_turn))
 
 
 def ackermann_error(left: Array, right: Array, wheelbase: float, track: float | Array) -> Array:

@@ -1,0 +1,97 @@
+"""The measures of an axle of two corners."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from .. import wheel
+from ..pair import Pair
+from ..quantity import RACK
+from . import pair_rolling, pitching, rolling
+from .corner import COMPARED, GROUND, PITCH, PLACE, STEERING, TRAVEL
+from .measure import Measure, of_axle, of_wheel
+
+# Of a wheel alone, what an axle has better: by both wheels, and for front and rear.
+_REPLACED = ("roll_center_height_kinematic", "anti_dive", "anti_lift_braked", "arm_rotation")
+_ON_CARRIER = "contact with brakes on the carrier, wheel centre with inboard ones"
+
+
+def _by_themselves(measures: tuple[Measure, ...]) -> tuple[Measure, ...]:
+    """Return what each wheel has by itself."""
+    return tuple(measure for measure in measures if measure.name not in _REPLACED)
+
+
+def _has_bar(pair: Pair) -> bool:
+    return pair.axle.bar is not None
+
+
+def _is(end: str, *, driven: bool = False) -> Callable[[Pair], bool]:
+    return lambda pair: pair.end == end and (pair.axle.drive is not None or not driven)
+
+
+PATH = (
+    of_axle("track", rolling.track, GROUND),
+    of_axle("track_change", pair_rolling.track_change, GROUND),
+    of_wheel("inclination", pair_rolling.inclination, GROUND),
+)
+"""Where the wheels are."""
+
+ROLL = (
+    of_axle("roll_center_height", lambda pair: pair_rolling.roll_center(pair)[1], GROUND),
+    of_axle("roll_center_lateral", lambda pair: pair_rolling.roll_center(pair)[0], GROUND),
+    of_wheel("jacking", pair_rolling.jacking, GROUND),
+    of_wheel(
+        "roll_steer",
+        lambda pair, side: pair_rolling.by_roll(
+            pair, side, -pair.corners[side].vehicle.side * wheel.bump_steer(pair.corners[side])
+        ),
+        GROUND,
+    ),
+    of_wheel(
+        "roll_camber",
+        lambda pair, side: pair_rolling.by_roll(
+            pair, side, wheel.camber_gradient(pair.corners[side])
+        ),
+        GROUND,
+    ),
+    of_wheel("wheel_force", lambda pair, side: pair.wheel_force(side)),
+    of_axle("roll_moment", rolling.moment, GROUND),
+    of_axle("roll_moment_gradient", rolling.moment_gradient, GROUND),
+    of_axle("roll_stiffness", rolling.stiffness, GROUND),
+    of_axle("roll_stiffness_springs", rolling.of_springs, GROUND, _has_bar),
+    of_axle("roll_stiffness_bar", rolling.of_bar, GROUND, _has_bar),
+    of_axle("bar_share", rolling.bar_share, GROUND, _has_bar),
+    of_axle(
+        "roll_stiffness_with_tyres", rolling.with_tyres, (*GROUND, "tyre_rate"), rolling.has_tyres
+    ),
+    of_axle("bar_twist", lambda pair: pair.twist, (), _has_bar),
+    of_axle("bar_torque", lambda pair: pair.torque, (), _has_bar),
+    of_wheel("link_force", pair_rolling.link_force, (), _has_bar),
+)
+"""What springs, bar and geometry make of rolling."""
+
+PITCHING = (
+    of_wheel(
+        "anti_dive", pitching.braking, (*PITCH, "front_brake_share"), _is("front"),
+        "b (L / h) v_x / v_z under braking: brake share b, wheelbase L, height h of the gravity "
+        f"centre; {_ON_CARRIER}",
+    ),
+    of_wheel("anti_lift_driven", pitching.driving, PITCH, _is("front", driven=True)),
+    of_wheel(
+        "anti_lift_braked", pitching.braking, (*PITCH, "front_brake_share"), _is("rear"),
+        f"-(1 - b) (L / h) v_x / v_z under braking: front brake share b; {_ON_CARRIER}",
+    ),
+    of_wheel("anti_squat", pitching.driving, PITCH, _is("rear", driven=True)),
+)  # fmt: skip
+"""What the wheels' paths make of braking and driving."""
+
+_COMPARED = tuple(
+    replace(measure, known_to=_is("front")) if measure.needs == ("wheelbase",) else measure
+    for measure in COMPARED
+)
+_RACK = Measure(RACK, lambda pair: pair.rack, "axle", (), lambda pair: pair.per_turn is not None)
+
+OVER_TRAVEL = (*_by_themselves(PLACE + TRAVEL), *PATH, *ROLL, *PITCHING)
+"""What there is over travel and rolling."""
+
+OVER_STEERING = (*_by_themselves(PLACE + STEERING), *PATH, _RACK, *_COMPARED)
+"""What there is over the steering wheel, or over the rack."""
