@@ -38,6 +38,8 @@ _LEAST_RATE, _LONGEST = 100.0, 0.05
 # A way of 0.5 m, and what a stop that is hit takes besides; steps that lead out of the reach are
 # halved until they are shorter than this.
 _MOST, _SHORTEST = 60, 1e-4
+# Between so near positions a single wheel that needs a force either way is at a dead point [rad].
+_POLE = 1e-9
 
 _LOCKED = (
     "it is not carried: the axle would be in balance only at the end of its reach, where its rods "
@@ -206,10 +208,11 @@ class _Search:
             moved = self._moved(rows, steps) & ~at_end
             self.widths[rows] = np.clip(0.1 * np.abs(steps).max(axis=-1), _LEAST, _WIDEST)
             for row, force in zip(rows[~moved], missing[~moved], strict=True):
-                self.reasons[row] = self._at_the_end(row, force)
+                # what changes its sign without a zero is without bound between
+                self.reasons[row] = DEAD_POINT if self.single else self._at_the_end(row, force)
             rows = rows[moved]
-        for row in rows:  # what changes its sign without a zero is without bound between
-            self.reasons[row] = DEAD_POINT if self.single else _UNSTABLE
+        for row in rows:
+            self.reasons[row] = _UNSTABLE
 
     def _needs(self, rows: Rows) -> tuple[Array, Array]:
         """Return the missing forces, (rows, wheels) [N], and their slopes by the coordinates.
@@ -253,10 +256,10 @@ class _Search:
         """Return steps, over an end as half the way to it, and where that is none."""
         here, low, high = self.coordinates[rows], self.low[rows], self.high[rows]
         free = self.loads.free[rows]
-        over, under = free & (here + steps > high), free & (here + steps < low)
+        aims, shortest = here + steps, _POLE if self.single else _SHORTEST
+        over, under = free & (aims > high + _POLE), free & (aims < low - _POLE)
         inside = np.select([over, under], [0.5 * (high - here), 0.5 * (low - here)], steps)
-        at_end = (over | under) & (np.abs(inside) < _SHORTEST)
-        return inside, np.asarray(at_end.any(axis=-1) & (not self.single))
+        return inside, np.asarray(((over | under) & (np.abs(inside) < shortest)).any(axis=-1))
 
     def _moved(self, rows: Rows, steps: Array) -> Booleans:
         """Go so far of each step as the wheels reach, and tell which have gone anywhere."""

@@ -127,7 +127,7 @@ CALLS = {
     ),
     "loads.static": (
         loads.static,
-        {"model": _CAR, "cases": {"a": {"contact_g": [0.0, 0.0, 1.0]}}, "static_load": 3000.0},
+        {"subject": _CAR, "cases": {"a": {"contact_g": [0.0, 0.0, 1.0]}}, "static_load": 3000.0},
     ),
     "load case": (
         lambda **given: loads.static(_CAR, {"a": given}),
