@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -45,6 +44,8 @@ class Places:
 
     def moved(self, by: Array) -> "Places":
         """Return where bodies are after displacements and rotations, (n, bodies, 6)."""
+        from scipy.spatial.transform import Rotation  # noqa: PLC0415 (slow to import)
+
         turns: Array = Rotation.from_rotvec(by[..., 3:].reshape(-1, 3)).as_matrix()
         return Places(self.centers + by[..., :3], turns.reshape(self.turned.shape) @ self.turned)
 

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from scipy.stats import chi2
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
@@ -60,6 +59,8 @@ class Fitted:
 
         The sum of squares of as many independent errors as count is that of chi-squared.
         """
+        from scipy.stats import chi2  # noqa: PLC0415 (slow to import)
+
         count = min(self.points, _INDEPENDENT)
         most = self.within * np.sqrt(chi2.ppf(1.0 - _CHANCE, count) / count)
         return bool(self.after <= most)

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
@@ -241,6 +240,8 @@ def _refuse_counts(given: Arguments, objectives: int, population: int, generatio
 
 def _first(population: int, values: int, seed: int) -> Array:
     """Return the first generation: the suspension as it is, and others all over the ranges."""
+    from scipy.stats import qmc  # noqa: PLC0415 (slow to import)
+
     drawn = qmc.LatinHypercube(values, rng=np.random.default_rng(seed)).random(population)
     first: Array = 2.0 * drawn - 1.0
     first[0] = 0.0
