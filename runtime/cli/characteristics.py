@@ -24,10 +24,12 @@ from .subject import assembly_of_file
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from pathlib import Path
 
     from xarray import Dataset
 
     from ..assembly.assembly import Assembly
+    from ..study.variation.goals import Goal
 
 EXAMPLES = (
     "kintrafo characteristics reference_car",
@@ -108,7 +110,6 @@ def command(
     from ..assembly.rig import Extent
     from ..study import export
     from ..study.characteristics.datasets import over
-    from ..study.variation.ways import ways_of
 
     if goals and (travel or rack):
         raise typer.BadParameter(wanted.ELSEWHERE)
@@ -124,7 +125,7 @@ def command(
         suffixes=[f"_{name}" for name in chosen],
     )
     _refuse_options(assembly, roll=roll, rack_extent=rack_extent, travel=travel, rack=rack)
-    aims = wanted.read(goals, chosen, ways_of(assembly.subject)) if goals else []
+    aims = _aims(goals, chosen, assembly)
     extent = Extent(
         rebound=metres(rebound),
         bump=metres(bump),
@@ -141,7 +142,7 @@ def command(
     # both wheels of an axle are drawn together
     drawn = named(of_both(of) if len(assembly.wheels) > 1 else of, curves)
     judged = wanted.judged({file: assembly.subject}, aims) if aims else []
-    if outputs.drawn:
+    if aims and outputs.drawn:
         wanted.refuse_beyond(aims, curves)
     written = [
         path
@@ -162,6 +163,15 @@ def command(
     if aims:
         console.print(wanted.table(judged, f"{file}: targets and limits of {goals}"))
     name_files(written)
+
+
+def _aims(path: "Path | None", chosen: list[str], assembly: "Assembly") -> "list[Goal]":
+    """Return the targets and limits of a file that are about the motions."""
+    if path is None:
+        return []
+    from ..study.variation.ways import ways_of
+
+    return wanted.read(path, chosen, ways_of(assembly.subject))
 
 
 def _motions(assembly: "Assembly", wanted: list[str] | None) -> list[str]:
