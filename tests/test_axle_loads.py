@@ -10,7 +10,6 @@ from kintrafo import (
     Axle,
     AxleModel,
     InputError,
-    PositionError,
     Suspension,
     System,
     equilibrium,
@@ -94,23 +93,6 @@ def test_mounts_carry_together_what_the_chassis_does(axle: Axle) -> None:
         assert by["strut_top_left"] == "upper_strut_left, spring_left"
 
 
-@pytest.mark.parametrize("axle", [PLAIN, AXLE, BENT, LINKED], ids=lambda axle: axle.heading())
-def test_the_chassis_carries_what_acts_on_the_axle(axle: Axle) -> None:
-    """Forces and moments of road, drive and weight are those on the chassis."""
-    found = loads.static(axle, PUSHED)
-    assert found["reason"].values.tolist() == [""]
-    outside = np.zeros(6)
-    for side in SIDES:
-        for by in ("road", "drive"):
-            outside += wrench(of(found, f"wheel_{side}", by))
-    weights = found.isel(case=0, load=(found["by"] == "gravity").values)
-    chassis = wrench(of(found, "chassis"))
-    # the sums have some tens of terms of 1e4 N and, about the origin, 1e4 N m
-    np.testing.assert_allclose(chassis, outside + wrench(weights), atol=1e-7)
-    assert float(found["residual"].max()) < 1e-8
-    assert float(found["residual_moment"].max()) < 1e-8
-
-
 @pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
 def test_links_do_the_work_of_the_bar(axle: Axle) -> None:
     """Virtual work: force of a link on the path of its foot, against the energy of the bar."""
@@ -177,28 +159,6 @@ def test_a_bar_bends_where_one_wheel_is_held() -> None:
     assert float(found["wheel_load"].sel(wheel="right")[0]) > float(alone["wheel_load"][0]) + 100.0
 
 
-def test_the_mirror_image_of_a_case_is_carried_alike() -> None:
-    def mirrored(vector: list[float], signs: list[float]) -> list[float]:
-        return [sign * value for sign, value in zip(signs, vector, strict=True)]
-
-    polar, axial = [1.0, -1.0, 1.0], [-1.0, 1.0, -1.0]
-    one = PUSHED["pushed"]
-    image = {"rack_mm": -one["rack_mm"]} | {
-        other: {
-            key: mirrored(value, axial if key.endswith("Nm") else polar)
-            for key, value in one[side].items()
-        }
-        for side, other in (SIDES, SIDES[::-1])
-    }
-    here, there = (loads.static(AXLE, {"a": case}) for case in (one, image))
-    assert float(here["rack_force"][0]) == pytest.approx(-float(there["rack_force"][0]), abs=1e-6)
-    assert float(here["bar_torque"][0]) == pytest.approx(-float(there["bar_torque"][0]), abs=1e-6)
-    for name in ("travel", "wheel_load"):
-        np.testing.assert_allclose(
-            here[name].sel(wheel="left"), there[name].sel(wheel="right"), rtol=1e-9
-        )
-
-
 def test_rest_is_that_of_the_whole_axle() -> None:
     """A bar that is bent at rest lifts one wheel's load: without cases in newtons."""
     if find_compiler() is None:
@@ -252,36 +212,6 @@ def test_a_motion_needs_nothing_else() -> None:
     assert float(abs(found["bar_torque"]).max()) > 10.0
     with pytest.raises(InputError, match="not a motion of this model"):
         loads.along(AxleModel(BENT), motion)
-
-
-WRONG: list[tuple[Any, str]] = [
-    ({}, "one or more are needed"),
-    ({"a": 3}, "must be a section"),
-    ({"a": {"left": 3}}, r"\[cases.a\] left must be a section"),
-    ({"a": {"left": {"rack_mm": 3.0}}}, "one rack"),
-    ({"a": {"contact_N": [0, 0, 1], "left": {"contact_N": [0, 0, 1]}}}, "is that of both wheels"),
-    ({"a": {"left": {"contact_K": [0, 0, 1]}}}, r"\[cases.a\] left contact_K is not known"),
-    ({"a": {"travel_mm": 1.0, "left": {"contact_N": [0, 0, 1]}}}, "cannot be given besides"),
-]
-BEYOND: list[tuple[Any, str]] = [
-    ({"a": {"left": {"travel_mm": 900.0}}}, "a: left: wheel height 1200 mm is out of reach"),
-    ({"a": {"rack_mm": 900.0}}, "a: "),
-    ({"a": {"travel_mm": 0.0, "right": {"center_N": [0, 0, 9e3]}}}, "right: the road would have"),
-    ({"a": {"contact_N": [0.0, 0.0, 9e5]}}, "too much for spring and stops|is stable"),
-]
-
-
-@pytest.mark.parametrize(("cases", "words"), WRONG)
-def test_what_cannot_be_used(cases: Any, words: str) -> None:
-    with pytest.raises(InputError, match=words):
-        loads.static(AXLE, cases)
-
-
-@pytest.mark.parametrize(("cases", "words"), BEYOND)
-def test_cases_of_which_none_is_carried(cases: Any, words: str) -> None:
-    with pytest.raises(PositionError, match=words) as refused:
-        loads.static(AXLE, cases)
-    assert "none of the cases can be carried" in str(refused.value)
 
 
 def test_the_command_tells_both_sides(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811

@@ -136,21 +136,6 @@ def left_of(found: xr.Dataset) -> dict[str, np.ndarray]:
     }
 
 
-@pytest.mark.parametrize("car", EVERY, ids=lambda car: car.TITLE)
-def test_all_listed_loads_are_in_equilibrium(car: Suspension) -> None:
-    """On every part that is named, the rack too; the chassis has what acts from outside."""
-    found = loads.static(Model(car), {"held": {"travel_mm": 15.0, "contact_N": [900, -800, 0],
-                                               "center_N": [-300, 20, 10],
-                                               "contact_Nm": [5, 8, 30]}})  # fmt: skip
-    outside = found.isel(load=found["by"].isin(["road", "drive", "gravity"]).values)
-    sums, acting = left_of(found), sum(left_of(outside).values())
-    assert car.steered() == ("rack" in sums)
-    for part, left in sums.items():
-        expected = acting if part == "chassis" else 0.0
-        # tens of terms of 1e4 N
-        np.testing.assert_allclose(left, np.broadcast_to(expected, left.shape), atol=1e-8)
-
-
 def test_a_rack_that_moves_by_itself_is_in_equilibrium_with_its_inertia() -> None:
     model = Model(heavy(CAR), free_rack=True)
     rest = equilibrium(model, spin_rate=50.0)
@@ -358,17 +343,6 @@ def test_a_wheel_held_at_a_travel_takes_the_load_that_presses_it_there() -> None
     np.testing.assert_allclose(held["force"], pressed["force"], atol=1e-6)
 
 
-def test_the_other_side_carries_the_mirror_image() -> None:
-    model = Model(WISHBONES)
-    case = {"contact_N": [-2000.0, 900.0, 4200.0], "contact_Nm": [30.0, 0.0, 40.0]}
-    there = {"contact_N": [-2000.0, -900.0, 4200.0], "contact_Nm": [-30.0, 0.0, -40.0]}
-    one, other = (
-        loads.static(m, {"a": c}) for m, c in ((model, case), (model.mirror_image, there))
-    )
-    np.testing.assert_allclose(other["force"], one["force"] * [1.0, -1.0, 1.0], atol=1e-6)
-    np.testing.assert_allclose(other["moment"], one["moment"] * [-1.0, 1.0, -1.0], atol=1e-6)
-
-
 def test_forces_have_the_axes_of_the_tyre() -> None:
     """A steered wheel is braked along its own plane."""
     model = Model(CAR)
@@ -400,12 +374,6 @@ def test_stops_carry_what_springs_do_not() -> None:
     crushed = loads.static(with_stops, STILL | {"a": {"contact_N": [0.0, 0.0, 1e6]}})
     assert "Give the file" not in str(crushed["reason"].values[1])
     assert np.isnan(some["force"].values[1]).all()
-
-
-def test_a_wheel_is_not_pulled_down() -> None:
-    found = loads.static(Model(WISHBONES), STILL | {"droop": {"travel_mm": -190.0}})
-    assert "would have to pull" in str(found["reason"].values[1])
-    assert np.isnan(found["wheel_load"].values[1])
 
 
 def test_what_is_carried_without_bound_is_not_carried(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -514,36 +482,6 @@ def test_two_bearings_share_what_is_along_their_axis() -> None:
     )
     assert front[0] == pytest.approx(rear[0], rel=1e-12)  # the axis is that of the car
     assert "share the force along it equally" in found.attrs["rules"]
-
-
-WRONG = [
-    ({}, "one or more are needed"),
-    ({"a": 1.0}, "must be a section"),
-    ({1: {"contact_g": [0.0, 0.0, 1.0]}, "1": {"contact_g": [0.0, 0.0, 1.0]}}, "text of letters"),
-    ({"../a": {"contact_g": [0.0, 0.0, 1.0]}}, "letters, digits"),
-    ({"a": {"contact": [0.0, 0.0, 1.0]}}, "Did you mean contact_"),
-    ({"a": {"contact_N": [0.0, 1.0]}}, "three numbers are needed"),
-    ({"a": {"contact_N": [0.0, np.nan, 1.0]}}, "finite"),
-    ({"a": {"contact_N": [0.0, 0.0, -1.0]}}, "road only pushes"),
-    ({"a": {"contact_N": [0.0, 0.0, 1e12]}}, "each below 1e"),
-    ({"a": {"contact_N": [0.0, 0.0, 1.0], "travel_mm": 3.0}}, "cannot be given besides"),
-]
-BEYOND = [
-    ({"a": {"travel_mm": 900.0}}, "a: wheel height 1200 mm is out of reach"),
-    ({"a": {"rack_mm": 900.0}}, "a: "),
-]
-
-
-@pytest.mark.parametrize(("cases", "words"), WRONG)
-def test_what_cannot_be_used(cases: Any, words: str) -> None:
-    with pytest.raises(InputError, match=words):
-        loads.static(Model(CAR), cases)
-
-
-@pytest.mark.parametrize(("cases", "words"), BEYOND)
-def test_cases_of_which_none_is_carried(cases: Any, words: str) -> None:
-    with pytest.raises(PositionError, match=rf"none of the cases can be carried\s+- {words}"):
-        loads.static(Model(CAR), cases)
 
 
 @pytest.mark.parametrize(

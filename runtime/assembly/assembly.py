@@ -17,7 +17,7 @@ from ..suspension.input.vehicle import Tyre
 from ..suspension.model import Model
 from ..suspension.plausibility import Plausibility
 from .anti_roll_bar import Bar, RollBar
-from .coupling import Place
+from .coupling import BodyPose
 from .held import Held
 from .load import Load, known
 from .measures.measure import Measure
@@ -407,7 +407,7 @@ class Assembly(ABC):
 
     def between(
         self, poses: Mapping[str, Assembled], loads: Sequence[Load]
-    ) -> tuple[list[Load], dict[str, Place]]:
+    ) -> tuple[list[Load], dict[str, BodyPose]]:
         """Return the loads on what is between the groups and the chassis: rack, anti-roll bar.
 
         Parameters
@@ -420,13 +420,13 @@ class Assembly(ABC):
         Returns
         -------
         loads : list of Load
-        places : dict of str to Place
+        places : dict of str to BodyPose
             These parts.
         """
         del poses, loads
         return [], {}
 
-    def told(
+    def further(
         self, over: str, poses: Mapping[str, Assembled], found: "xr.Dataset"
     ) -> "dict[str, xr.Variable]":
         """Return what follows from all loads: forces of rack and rods, torque of the bar.

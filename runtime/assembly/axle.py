@@ -26,7 +26,7 @@ from .anti_roll_bar import Bar
 from .assembly import Assembly, Bushings
 from .axle_coupling import on_the_bar, pull_of_bar, rules_of, torque_of_bar, turn_of_half
 from .corner import CornerAssembly, lines_of, poses_of
-from .coupling import STEERING, Place, on_the_rack
+from .coupling import STEERING, BodyPose, on_the_rack
 from .held import Held
 from .load import RACK as THE_RACK
 from .load import Load
@@ -326,7 +326,7 @@ class AxleAssembly(Assembly):
 
     def between(
         self, poses: Mapping[str, Assembled], loads: Sequence[Load]
-    ) -> tuple[list[Load], dict[str, Place]]:
+    ) -> tuple[list[Load], dict[str, BodyPose]]:
         """Return the loads on the anti-roll bar with its drop links, and on the rack."""
         bar, places = on_the_bar(self.axle, poses, loads) if self.axle.halves else ([], {})
         if not self.steered:
@@ -338,11 +338,11 @@ class AxleAssembly(Assembly):
     def _rack_axis(self) -> Array:
         return unit_vector(self.axle.right.rack.axis)
 
-    def told(
+    def further(
         self, over: str, poses: Mapping[str, Assembled], found: "xr.Dataset"
     ) -> "dict[str, xr.Variable]":
         """Return the force of the steering on the rack, and the torque of the bar."""
-        of_bar = super().told(over, poses, found)
+        of_bar = super().further(over, poses, found)
         if not self.steered:
             return of_bar
         (row,) = np.flatnonzero((found["part"] == THE_RACK) & (found["by"] == STEERING))

@@ -11,7 +11,7 @@ from ..suspension.axle import Axle
 from ..suspension.axle.axle import LEFT, RIGHT
 from ..suspension.corner import Array
 from ..suspension.points import carried
-from .coupling import STILL, Place, on_both, sum_of
+from .coupling import STILL, BodyPose, on_both, sum_of
 from .load import Load
 from .poses import Poses
 
@@ -56,7 +56,7 @@ def torque_of_bar(axle: Axle, poses: Mapping[str, Poses]) -> Array:
 
 def on_the_bar(
     axle: Axle, poses: Mapping[str, Any], loads: Sequence[Load]
-) -> tuple[list[Load], dict[str, Place]]:
+) -> tuple[list[Load], dict[str, BodyPose]]:
     """Return the loads on the anti-roll bar and its drop links, and on the chassis.
 
     Parameters
@@ -70,7 +70,7 @@ def on_the_bar(
     Returns
     -------
     loads : list of Load
-    places : dict of str to Place
+    places : dict of str to BodyPose
 
     Notes
     -----
@@ -86,14 +86,14 @@ def on_the_bar(
         link, point = f"{LINK}_{side}", f"link_top_{side}"
         foot = replace(pull, part=link, by=pull.part, force=-pull.force)
         found += [foot, *on_both(link, BAR, Load(link, point, BAR, pull.force, STILL, top))]
-        places[link] = Place.unturned(pull.at)
+        places[link] = BodyPose.unturned(pull.at)
     bushes = [np.broadcast_to(axle.halves[s].bush, top.shape) for s in SIDES]
     middle = np.mean(bushes, axis=0)
     bearings = _on_bearings(bushes, sum_of(found, BAR, middle))
     for side, bush, wrench in zip(SIDES, bushes, bearings, strict=True):
         load = Load(BAR, f"bar_bush_{side}", "chassis", wrench[:, :3], wrench[:, 3:], bush)
         found += on_both(BAR, "chassis", load)
-    return found, places | {BAR: Place.unturned(middle)}
+    return found, places | {BAR: BodyPose.unturned(middle)}
 
 
 def _on_bearings(bushes: list[Array], wrench: Array) -> tuple[Array, Array]:

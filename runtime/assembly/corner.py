@@ -16,7 +16,7 @@ from ..suspension.model import Model
 from ..suspension.positions import PositionError, arm_angles, design_height
 from ..suspension.reach import at_rest, height_and_slope, travel_range
 from .assembly import Assembly, Bushings
-from .coupling import Place, on_the_rack, rules_of
+from .coupling import BodyPose, on_the_rack, rules_of
 from .from_model import corner
 from .held import Held
 from .load import Load
@@ -223,7 +223,7 @@ class CornerAssembly(Assembly):
 
     def between(
         self, poses: Mapping[str, Assembled], loads: Sequence[Load]
-    ) -> tuple[list[Load], dict[str, Place]]:
+    ) -> tuple[list[Load], dict[str, BodyPose]]:
         """Return what holds the rack."""
         axis = poses[""].rack_axis
         return ([], {}) if axis is None else on_the_rack(axis, loads, "rack_guide")

@@ -21,7 +21,7 @@ STILL = np.zeros(3)
 
 
 @dataclass(frozen=True)
-class Place:
+class BodyPose:
     """Where a part in equilibrium is, in n positions.
 
     Attributes
@@ -36,7 +36,7 @@ class Place:
     turned: Array
 
     @classmethod
-    def unturned(cls, center: Array) -> "Place":
+    def unturned(cls, center: Array) -> "BodyPose":
         """Return a part whose own axes are those of the chassis."""
         return cls(center, np.broadcast_to(np.eye(3), (*center.shape, 3)))
 
@@ -49,7 +49,7 @@ def rules_of(suspension: Suspension) -> tuple[str, ...]:
 
 def on_the_rack(
     axis: Array, loads: Sequence[Load], point: str
-) -> tuple[list[Load], dict[str, Place]]:
+) -> tuple[list[Load], dict[str, BodyPose]]:
     """Return what holds a rack: along its axis the steering, in all else its guide.
 
     Parameters
@@ -65,7 +65,7 @@ def on_the_rack(
     -------
     loads : list of Load
         On the rack and on the chassis.
-    places : dict of str to Place
+    places : dict of str to BodyPose
     """
     rods = [o.at for o in loads if o.part == RACK and o.by not in ("gravity", "inertia")]
     middle = np.mean(rods, axis=0)
@@ -75,7 +75,7 @@ def on_the_rack(
     guide = Load(RACK, point, "chassis", along - wrench[:, :3], -wrench[:, 3:], middle)
     reaction = replace(steering, part="chassis", force=along)
     held = [steering, reaction, *on_both(RACK, "chassis", guide)]
-    return held, {RACK: Place.unturned(middle)}
+    return held, {RACK: BodyPose.unturned(middle)}
 
 
 def on_both(one: str, other: str, load: Load) -> list[Load]:

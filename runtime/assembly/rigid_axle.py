@@ -286,7 +286,7 @@ class RigidAxleAssembly(Assembly):
         """Return what acts on its parts, and the couple of the anti-roll bar."""
         return {"": poses[""].acting()}
 
-    def told(
+    def further(
         self, over: str, poses: Mapping[str, Any], found: "xr.Dataset"
     ) -> "dict[str, xr.Variable]":
         """Return the forces along the rods, and the torque of the bar."""
@@ -302,7 +302,7 @@ class RigidAxleAssembly(Assembly):
         return {
             "rod": Variable("rod", rods),
             "rod_force": variable((over, "rod"), np.stack(pulls, axis=-1), words, "N"),
-        } | super().told(over, poses, found)
+        } | super().further(over, poses, found)
 
     def in_motion(
         self, states: Array, inputs: Array

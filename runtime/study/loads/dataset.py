@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import WHEEL, flat, wheel_coordinate
-from ...assembly.coupling import Place
+from ...assembly.coupling import BodyPose
 from ...assembly.load import Load
 from ...assembly.poses import Assembled
 from ...core.arguments import Arguments
@@ -47,7 +47,7 @@ def loads_of(
     """
     own = [of_side(load, suffix) for suffix, every in loads.items() for load in every]
     places = {
-        f"{part}{suffix}": Place(group.centers[part], group.turned[part])
+        f"{part}{suffix}": BodyPose(group.centers[part], group.turned[part])
         for suffix, group in poses.items()
         for part in group.structure.parts
     }
@@ -58,7 +58,7 @@ def loads_of(
         for point, mount in group.structure.mounted.items()
     }
     found = dataset_of(over, [*own, *further], places | shared, mounted)
-    found = found.assign(assembly.told(over, poses, found))
+    found = found.assign(assembly.further(over, poses, found))
     return found.assign_coords({WHEEL: wheel_coordinate(assembly.wheels)}).assign_attrs(
         rules="; ".join(assembly.rules)
     )
@@ -77,7 +77,7 @@ def of_side(load: Load, suffix: str) -> Load:
 def dataset_of(
     over: str,
     loads: Sequence[Load],
-    places: Mapping[str, Place],
+    places: Mapping[str, BodyPose],
     mounted: Mapping[str, str],
 ) -> xr.Dataset:
     """Return loads over the positions.
