@@ -18,6 +18,7 @@ from kintrafo import (
     export,
     rig,
 )
+from kintrafo.assembly.by_wheel import flat
 from kintrafo.plots.curves import _alone
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
@@ -48,25 +49,44 @@ def test_units_and_order_are_those_of_the_file(loop: Path) -> None:
     assert found.attrs["left_out"] == "remark [-]"
 
 
-@pytest.mark.parametrize("over", ["travel", "rack"])
-def test_what_is_exported_is_read_back(tmp_path: Path, over: str) -> None:
-    """Our own curves as CSV, in units of people, are those of the car to the digits written."""
-    positions = [-0.03, 0.01, 0.03]
-    written = characteristics.over(MODEL, over, positions)
+AXLE, RIGID_AXLE = Axle.load("reference_axle"), RigidAxle.load("rigid_axle")
+SUBJECTS = {"car": MODEL, "axle": AXLE, "rigid axle": RIGID_AXLE}
+OF_ALL = {
+    "car": {"toe", "camber", "scrub_radius"},
+    "axle": {"toe_left", "toe_right", "steer_right"},
+    "rigid axle": {"toe_left", "axle_steer", "roll_stiffness"},
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "over"),
+    [
+        *(("car", over) for over in ("travel", "rack")),
+        *(("axle", over) for over in ("bump", "roll", "steer", "rack")),
+        *(("rigid axle", over) for over in ("bump", "roll")),
+    ],
+)
+def test_what_is_exported_is_read_back(tmp_path: Path, name: str, over: str) -> None:
+    """Our own curves as CSV, in display units, are those of the file to the digits written."""
+    subject, positions = SUBJECTS[name], [-0.03, 0.01, 0.03]
+    written = characteristics.over(subject, over, positions)
     export.write(written, tmp_path / "a.csv")
     read = rig.measured_curves(tmp_path / "a.csv")
-    assert {*map(str, read)} >= {"toe", "camber", "scrub_radius"}
-    both = rig.beside(read, {"car": MODEL})
-    assert both["data_set"].values.tolist() == ["measured", "car"]
-    for name in read:
+    assert {*map(str, read)} >= OF_ALL[name]
+    both = rig.beside(read, {name: subject})
+    assert both["data_set"].values.tolist() == ["measured", name]
+    for curve in read:
         # nine digits are written
-        np.testing.assert_allclose(both[name][0], both[name][1], rtol=1e-7, atol=1e-12)
-    assert {*read} == {*written}
+        np.testing.assert_allclose(both[curve][0], both[curve][1], rtol=1e-7, atol=1e-12)
+    assert {*read} == {*flat(written)}
+    if name == "rigid axle":
+        return  # nothing is held
     # held elsewhere, they are those of there
-    held = {"rack_position": 0.02} if over == "travel" else {"travel": 0.02}
-    export.write(characteristics.over(MODEL, over, positions, **held), tmp_path / "b.csv")
-    both = rig.beside(rig.measured_curves(tmp_path / "b.csv"), {"car": MODEL})
-    np.testing.assert_allclose(both["toe"][0], both["toe"][1], rtol=1e-7)
+    held = {"travel": 0.02} if over in {"rack", "steer"} else {"rack_position": 0.01}
+    export.write(characteristics.over(subject, over, positions, **held), tmp_path / "b.csv")
+    both = rig.beside(rig.measured_curves(tmp_path / "b.csv"), {name: subject})
+    toe = "toe" if name == "car" else "toe_left"
+    np.testing.assert_allclose(both[toe][0], both[toe][1], rtol=1e-7)
 
 
 def test_characteristics_are_those_at_the_positions(loop: Path) -> None:
@@ -219,18 +239,38 @@ SOFT, SOFTER = (
 )
 
 
-def test_compliance_of_several_is_compared() -> None:
-    """That of each is what `compliance.linear` gives; what holds the wheel matters."""
-    models = {"a": Model(SOFT), "b": Model(SOFTER)}
+SOFT_ONES = {
+    "car": (Model(SOFT), Model(SOFTER)),
+    "axle": tuple(Axle.from_dict({"axle": "front", "side": side}) for side in (SOFT, SOFTER)),
+    "rigid axle": tuple(
+        RIGID_AXLE.with_changes({"bushings": {"panhard_rod_axle": {"axial_N_per_mm": stiffness}}})
+        for stiffness in (5000.0, 2500.0)
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SOFT_ONES)
+def test_compliance_of_several_is_compared(name: str) -> None:
+    """That of each is what `compliance.linear` gives; what holds the wheels matters."""
+    subjects = dict(zip("ab", SOFT_ONES[name], strict=True))
     travels = np.array([-0.02, 0.0, 0.02])
     for held in ("height", "spring"):
-        found = compare.compare(models, travels, held=held)
-        for name, model in models.items():
-            expected = compliance.linear(model, None, travels, held=held)
-            for quantity in ("toe_by_lateral", "displacement_by_recession"):
+        found = compare.compare(subjects, travels, held=held)
+        for label, subject in subjects.items():
+            expected = compliance.linear(subject, None, travels, held=held)
+            told = [n for n in expected.drop_dims(["moved", "by"]) if "_by_" in str(n)]
+            assert len(told) > 5
+            for quantity in told:
                 np.testing.assert_array_equal(
-                    found[quantity].sel(data_set=name), expected[quantity]
+                    found[quantity].sel(data_set=label), expected[quantity]
                 )
+            kinematic = characteristics.over(subject, None, travels)
+            np.testing.assert_array_equal(found["toe"].sel(data_set=label), kinematic["toe"])
+
+
+def test_what_gives_way_alone_gives_way_by_its_softness() -> None:
+    models = dict(zip("ab", SOFT_ONES["car"], strict=True))
+    travels = np.array([-0.02, 0.0, 0.02])
     locked = compare.differences(compare.compare(models, travels, held="locked"))
     toe = next(d for d in locked if d.name == "toe_by_lateral")
     assert toe.other == pytest.approx(2.0 * toe.first, rel=1e-9)  # nothing else gives way
@@ -253,6 +293,26 @@ def test_compliance_of_several_is_compared() -> None:
 def test_compliance_that_there_is_not(models: Any, changes: Any, words: str) -> None:
     with pytest.raises(InputError, match=words):
         compare.compare(models, **changes)
+
+
+def test_an_axle_of_two_corners_is_compared_with_a_rigid_one() -> None:
+    """What both have is told; a suspension has no motion in common with them."""
+    found = compare.compare({"two corners": AXLE, "rigid": RIGID_AXLE}, over="roll")
+    assert {"camber", "roll_stiffness", "roll_center_height"} <= {*found}
+    assert found["camber"].dims == ("data_set", "wheel", "roll_angle")
+    assert "roll_steer" not in found  # of each wheel, and of the axle
+    for label, axle in (("two corners", AXLE), ("rigid", RIGID_AXLE)):
+        alone = characteristics.over(axle, "roll", found["roll_angle"])
+        np.testing.assert_array_equal(found["camber"].sel(data_set=label), alone["camber"])
+    with pytest.raises(InputError, match="suspensions are not compared with axles"):
+        compare.compare({"a": MODEL, "b": AXLE})
+
+
+def test_curves_over_what_nothing_has_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "rig.csv"
+    path.write_text("roll_angle [deg],toe_left [deg]\n-1,0.1\n1,0.2\n", encoding="utf-8")
+    with pytest.raises(InputError, match="over roll_angle, which a does not have; there is wheel"):
+        rig.beside(rig.measured_curves(path), {"a": MODEL})
 
 
 @pytest.mark.parametrize(

@@ -501,12 +501,14 @@ def test_forces_of_a_curve_vary_by_a_factor(name):
     factors = [0.9, 1.0, 1.1, 1.3]
     found = variation.cars(car, {"spring.force_N": factors}, **options)
     for rates, factor in zip(found["wheel_rate"].values, factors, strict=True):
-        expected = characteristics.travel(Model(scaled_by(car, factor)), at)["wheel_rate"].values
+        expected = characteristics.over(Model(scaled_by(car, factor)), "travel", at)[
+            "wheel_rate"
+        ].values
         np.testing.assert_allclose(rates, expected, rtol=1e-12)
     slope = variation.sensitivity(car, ["spring.force_N"], **options)
     assert str(slope["place_name"].values[0]) == "spring force factor"
     beside = [
-        characteristics.travel(Model(scaled_by(car, 1.0 + by)), at)["wheel_rate"].values
+        characteristics.over(Model(scaled_by(car, 1.0 + by)), "travel", at)["wheel_rate"].values
         for by in (-1e-3, 1e-3)
     ]
     difference = (beside[1] - beside[0]) / 2e-3
@@ -522,7 +524,7 @@ def test_a_factor_of_a_rigid_axle_and_of_goals():
     found = variation.sensitivity(bent, ["spring.force_N"], positions=[0.0])
     assert any(np.nan_to_num(found[name].values).any() for name in found)
     car = curved("double_wishbone_car")
-    wanted = 1.1 * characteristics.travel(Model(car), [0.0])["wheel_rate"].values[0] / 1e3
+    wanted = 1.1 * characteristics.over(Model(car), "travel", [0.0])["wheel_rate"].values[0] / 1e3
     goals = {"wheel_rate": {"at_mm": [0.0], "value": wanted, "within": 0.1}}
     best = variation.optimise(car, {"spring.force_N": "30 %"}, goals)
     factor = 1.0 + best.moved["spring.force_N"]

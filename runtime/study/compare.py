@@ -132,7 +132,7 @@ def _common_motion(assemblies: Mapping[str, Assembly], over: str | None) -> str:
     """
     first = next(iter(assemblies.values()))
     for name, assembly in assemblies.items():
-        if first.motions.keys().isdisjoint(assembly.motions):
+        if assembly.usual_motion != first.usual_motion:
             problem = (
                 f"{name} has the motions {', '.join(assembly.motions)}, and the first one "
                 f"{', '.join(first.motions)}: suspensions are not compared with axles."

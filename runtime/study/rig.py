@@ -30,7 +30,12 @@ _KNOWN: dict[str, dict[str, Quantity]] = {name: dict(known) for name, known in O
 for _over, _known in KNOWN.items():
     _KNOWN[ALONG[_over].name] |= _known
 _KNOWN[TRAVEL.name] |= _SOFT
-_EVERY = {name: quantity for known in _KNOWN.values() for name, quantity in known.items()}
+_EVERY = {
+    name: quantity
+    for known in _KNOWN.values()
+    for name, quantity in known.items()
+    if name not in _ALONG
+}
 # What is held moves by less than this [m], and by less than this part of what does not.
 _NOISE, _PART_OF_NOISE = 1e-4, 1e-2
 
@@ -73,8 +78,13 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     columns = sheet.columns([*_ALONG, *_EVERY])
     units = {column.name: _quantity(column.name).units for column in columns}
     _check(sheet, columns, units)
-    places = [column.name for column in columns if column.name in _ALONG]
     curves = {name: _EVERY[name] for name in units if name in _EVERY}
+    # where the steering wheel turns, the rack is what it moves
+    moved = {RACK.name: RACK} if {STEERING_WHEEL.name, RACK.name} <= units.keys() else {}
+    curves |= moved
+    places = [
+        column.name for column in columns if column.name in _ALONG and column.name not in moved
+    ]
     numbers = sheet.numbers(
         [column.at for column in columns],
         may_be_empty=[column.at for column in columns if column.name in curves],

@@ -35,7 +35,7 @@ OF_AXLES = {
     TRAVEL.name: _MOVING,
     ROLL.name: _MOVING,
     RACK.name: _STEERED,
-    STEERING_WHEEL.name: _STEERED,
+    STEERING_WHEEL.name: _STEERED | {RACK.name: RACK},
 }
 """Characteristics of axles by the names of their columns, by what they are over."""
 

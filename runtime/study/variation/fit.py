@@ -161,11 +161,10 @@ def fit(
 
     Examples
     --------
-    >>> from kintrafo import Model, characteristics
-    >>> from kintrafo import Suspension
+    >>> from kintrafo import Suspension, characteristics
     >>> car = Suspension.load("reference_car")
     >>> built = car.with_changes({"hardpoints.tie_rod_inner": [-140.0, -310.0, 282.0]})
-    >>> rig = characteristics.travel(Model(built), np.linspace(-0.06, 0.06, 7))[["toe"]]
+    >>> rig = characteristics.over(built, "travel", np.linspace(-0.06, 0.06, 7))[["toe"]]
     >>> found = fit(car, rig, {"hardpoints.tie_rod_inner.z": 5.0, "hardpoints.ball_joint.x": 5.0})
     >>> [round(by, 2) for by in found.moved.values()]
     [-0.1, 1.98]
