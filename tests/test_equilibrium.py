@@ -89,3 +89,13 @@ def test_a_rack_that_is_not_there_is_refused() -> None:
         equilibrium(model, rack_position=0.01)
     with pytest.raises(InputError, match=r"rack_position: it has no rack"):
         run(model, Scenario(inputs={"rack_position": 0.01}))
+
+
+@each
+def test_a_motion_names_the_wheel_of_each_signal_in_words(name: str) -> None:
+    _, motion = run(MODELS[name], Scenario(duration=0.01))
+    for wheel, (prefix, signals) in CENTERS[name].items():
+        words = motion[f"{signals}wheel_center_z"].attrs["long_name"]
+        assert words == f"wheel centre, z, {wheel}" if prefix else "wheel centre, z"
+    if "bar_spring_moment" in motion:
+        assert motion["bar_spring_moment"].attrs["long_name"] == "moment of the anti-roll bar"

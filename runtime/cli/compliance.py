@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 import typer
 
 from . import goals as wanted
-from .axles import refuse_options
 from .console import console, note, print_json, print_table, say
-from .options import Bump, File, Force, Json, Of, Rebound, metres
+from .options import Bump, File, Force, Json, Of, Rebound, metres, refuse_options
 from .outputs import Out, Outputs, Plot, name_files, named, of_both, only, title_of
 from .subject import described_by
 from .variation_options import At, with_position

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from .console import print_json, problems, say
-from .options import Force, Json, Which, complete_file, load, refuse_which, system_of
+from .options import Force, Json, Which, complete_file, refuse_which, system_of
+from .subject import model_of
 
 if TYPE_CHECKING:
     from ..systems.system import System
@@ -90,22 +91,12 @@ def _described_by(file: str, model: str | None) -> "System":
 
     from ..suspension.starter import packaged, packaged_axles
     from ..systems.system import System
-    from . import axles, rigid
 
     if file.endswith(".py"):
         return system_of(file, model)
-    if rigid.is_rigid_axle(file):
-        from ..suspension.rigid.model import RigidAxleModel
-
-        return RigidAxleModel(file)
-    if axles.is_axle(file):
-        from ..suspension.axle import Axle
-        from ..suspension.axle.equations import AxleModel
-
-        return AxleModel(Axle.load(file))
     if file in _shipped() and file not in (*packaged(), *packaged_axles()):
         return System(import_module(f"kintrafo.generated.{file}"))
-    return load(file)
+    return model_of(file)
 
 
 def _shipped() -> list[str]:

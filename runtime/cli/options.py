@@ -1,8 +1,8 @@
 """Arguments that several commands share."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -119,6 +119,13 @@ def refuse_which(file: str | None, model: str | None) -> None:
     """Refuse to choose a model where there is but one."""
     if model is not None and not (file or "").endswith(".py"):
         raise typer.BadParameter("--model is for Python files, which may have several")
+
+
+def refuse_options(sort: str, given: Mapping[str, Any]) -> None:
+    """Refuse options that the files of one sort do not have."""
+    for option, value in given.items():
+        if value is not None:
+            raise typer.BadParameter(f"{option} is only for {sort}")
 
 
 def among(wanted: list[str], known: Iterable[str], option: str = "--of") -> list[str]:

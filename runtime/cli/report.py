@@ -1,14 +1,14 @@
 """``kintrafo report``: one file to send to a colleague."""
 
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from . import axles, rigid
 from . import goals as wanted
 from .console import problems, say
-from .options import File, Force, Which, load, refuse_which, system_of
+from .options import File, Force, Which, refuse_options, refuse_which, system_of
 from .subject import described_by
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from ..suspension.axle import Axle
     from ..suspension.model import Model
     from ..suspension.rigid import RigidAxle
+    from ..systems.system import System
 
 # What holds the wheels where the chapter of compliance has curves.
 _HELD: "Held" = "height"
@@ -82,66 +83,94 @@ def command(
     ]
     refuse([target], force=force, inputs=inputs, endings=ENDINGS)
     if file.endswith(".py"):
-        axles.refuse_options(
+        refuse_options(
             "the file of a suspension",
             {"--loads": loads or None, "--cases": cases, "--bushes": bushes, "--goals": goals},
         )
-        from ..report import write as write_report
-
-        with problems.status("report") as status:
-            system = system_of(file, model_name)
-            written = write_report(
-                system, target, title=title, progress=status.update, force=force, inputs=inputs
-            )
-        say(f"  {written}")
-        return
-    if rigid.is_rigid_axle(file):
-        with problems.status("report"):
-            of = described_by(file)
-            aims = _aims(of, goals)
-            further = _of_loads(file, cases, wanted=loads)
-            further += _of_wheels(of, bushes, aims)
-            written = rigid.report(file, target, title, further, aims, force=force, inputs=inputs)
-        say(f"  {written}")
-        return
-    model, title, axle = _subject(file, title)
-    without = _of_one_side(axle)
+        page = _Page(system_of(file, model_name), title)
+    else:
+        of = described_by(file)
+        aims = _aims(of, goals)
+        with problems.status("tables and curves"):
+            chapters = [*_of_axle(of, aims), *_of_loads(of, cases, wanted=loads)]
+            chapters += _of_wheels(of, bushes, aims)
+        page = _Page.of(of, title, chapters, aims)
     with problems.status("report") as status:
-        from ..report import write
-
-        aims = _aims(axle or model, goals)
-        chapters = [*_of_axle(axle, aims), *_of_loads(file, cases, wanted=loads)]
-        chapters += _of_wheels(axle or model, bushes, aims)
-        written = write(
-            model,
-            target,
-            title=title,
-            chapters=chapters,
-            without=without,
-            goals=_of_page(axle, aims),
-            progress=status.update,
-            force=force,
-            inputs=inputs,
-        )
+        written = page.write(target, progress=status.update, force=force, inputs=inputs)
     say(f"  {written}")
 
 
-def _subject(file: str, title: str | None) -> "tuple[Model, str | None, Axle | None]":
-    """Return what is moved by hand, the heading, and the axle of which it is one side."""
-    if not axles.is_axle(file):
-        return load(file), title, None
-    from ..suspension.axle import Axle
+@dataclass
+class _Page:
+    """A report before it is written.
 
-    axle = Axle.load(file)
-    heading = axle.heading()
-    heading = f"{heading[:1].upper()}{heading[1:]}, {axle.bar_side} side"
-    return axle.models[axle.bar_side], title or heading, axle
+    Attributes
+    ----------
+    moved : Model, System or None
+        What is moved by hand; None of a rigid axle.
+    title : str or None
+    chapters : sequence of Chapter
+    options : dict
+        Of `kintrafo.report.write`.
+    data : RigidAxle or None
+        What the file says, of what is not moved.
+    """
+
+    moved: "System | None"
+    title: str | None
+    chapters: "Sequence[Chapter]" = ()
+    options: dict[str, Any] = field(default_factory=dict)
+    data: "RigidAxle | None" = None
+
+    @classmethod
+    def of(
+        cls,
+        of: "Model | Axle | RigidAxle",
+        title: str | None,
+        chapters: "Sequence[Chapter]",
+        goals: "Sequence[Goal]",
+    ) -> "_Page":
+        """Return that of a corner, of an axle of which one side is moved, or of a rigid axle."""
+        from ..assembly.of import assembly_of
+        from ..report.marks import of_shown_side
+
+        assembly: Any = assembly_of(of)
+        if len(assembly.wheels) == 1:
+            return cls(assembly.model, title, chapters, {"goals": goals})
+        heading = f"{assembly.heading[:1].upper()}{assembly.heading[1:]}"
+        if not assembly.corners:
+            return cls(None, title or heading, chapters, data=assembly.subject)
+        # of two that differ the right one
+        side, model = [*assembly.corners.items()][-1]
+        options = {
+            "without": _of_one_side(assembly.subject),
+            "goals": of_shown_side(assembly.subject, goals, side),
+        }
+        return cls(model, title or f"{heading}, {side} side", chapters, options)
+
+    def write(self, target: Path, *, progress: Any, **written: Any) -> Path:
+        """Write it."""
+        from ..report import write, write_chapters
+
+        if self.moved is not None:
+            return write(
+                self.moved,
+                target,
+                title=self.title,
+                chapters=self.chapters,
+                progress=progress,
+                **self.options,
+                **written,
+            )
+        assert self.title is not None
+        assert self.data is not None
+        return write_chapters(
+            target, title=self.title, chapters=self.chapters, data=self.data, **written
+        )
 
 
-def _of_one_side(axle: "Axle | None") -> frozenset[str]:
+def _of_one_side(axle: "Axle") -> frozenset[str]:
     """Return what the page of one side of an axle leaves out."""
-    if axle is None:
-        return frozenset()
     from ..assembly.measures.corner import BOTH
 
     # what both wheels decide: the page knows but one side, and takes the other for its image
@@ -150,20 +179,17 @@ def _of_one_side(axle: "Axle | None") -> frozenset[str]:
     return without if axle.end == "front" else both | {"anti_dive", "anti_lift_braked"}
 
 
-def _of_page(axle: "Axle | None", goals: "Sequence[Goal]") -> "Sequence[Goal]":
-    """Return the goals of an axle as those of the side that its page shows."""
-    from ..report.marks import of_shown_side
-
-    return goals if axle is None else of_shown_side(axle, goals, axle.bar_side)
-
-
-def _of_axle(axle: "Axle | None", goals: "Sequence[Goal]") -> "list[Chapter]":
+def _of_axle(of: "Model | Axle | RigidAxle", goals: "Sequence[Goal]") -> "list[Chapter]":
+    from ..assembly.of import assembly_of
     from ..report import axle_chapter
 
-    return [] if axle is None else [axle_chapter(axle, goals)]
+    assembly: Any = assembly_of(of)
+    return [axle_chapter(of, goals)] if len(assembly.wheels) > 1 else []
 
 
-def _of_loads(file: str, cases: Path | None, *, wanted: bool) -> "list[Chapter]":
+def _of_loads(
+    of: "Model | Axle | RigidAxle", cases: Path | None, *, wanted: bool
+) -> "list[Chapter]":
     from ..report import loads_chapter
     from ..study import loads as study
 
@@ -171,8 +197,7 @@ def _of_loads(file: str, cases: Path | None, *, wanted: bool) -> "list[Chapter]"
         return []
     described = {} if cases is None else study.read(cases)
     load_at_rest = described.get("static_load_N")
-    subject = described_by(file)
-    return [loads_chapter(study.static(subject, described.get("cases"), static_load=load_at_rest))]
+    return [loads_chapter(study.static(of, described.get("cases"), static_load=load_at_rest))]
 
 
 def _aims(of: "Model | Axle | RigidAxle", path: Path | None) -> "list[Goal]":

@@ -239,9 +239,9 @@ def _played(
 
 def _written(run: _Run, motion: "Dataset", outputs: Outputs, title: str) -> list[Path]:
     """Write the motion; its page has the curves that are not constant."""
-    drawn = run.drawn(motion)
-    together = [name.removeprefix(f"{next(iter(run.names))}_") for name in run.curves(motion)]
-    known = [name for name in dict.fromkeys([*run.curves(motion), *together]) if name in drawn]
+    drawn, first = run.drawn(motion), f"{next(iter(run.names))}_"
+    names = dict.fromkeys(n for c in run.curves(motion) for n in (c, c.removeprefix(first)))
+    known = [name for name in names if name in drawn]
     varying = [n for n in known if float(drawn[n].max() - drawn[n].min()) > 0.0]
     return outputs.write(motion, title=title, names=varying, drawn=drawn)
 

@@ -2,7 +2,6 @@
 
 from typing import TYPE_CHECKING
 
-from . import rigid
 from .console import problems
 from .options import load as load_model
 
@@ -59,6 +58,6 @@ def assembly_of_file(file: str) -> "Assembly":
 def studied(file: str) -> "Suspension | RigidAxle":
     """Return what has values that move: a suspension, or a rigid axle."""
     from ..suspension.kinds import Suspension
-    from ..suspension.rigid import RigidAxle
+    from ..suspension.rigid.axle import RigidAxle, is_rigid_axle
 
-    return RigidAxle.load(file) if rigid.is_rigid_axle(file) else Suspension.load(file)
+    return RigidAxle.load(file) if is_rigid_axle(file) else Suspension.load(file)

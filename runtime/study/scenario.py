@@ -152,10 +152,13 @@ def motion_of(model: Model | AxleModel | RigidAxleModel, result: Simulation) -> 
     with Arguments("motion_of") as given:
         assembly = given_model(given, model)
     motion = dataset_of(model, result)
-    for data in motion.values():
-        for wheel in assembly.wheels:
-            if assembly.names_of(wheel).prefix and str(data.name).startswith(f"{wheel}_"):
-                data.attrs["long_name"] = f"{data.attrs['long_name']}, {wheel}"
+    if "bar_spring_moment" in motion:
+        motion["bar_spring_moment"].attrs["long_name"] = "moment of the anti-roll bar"
+    for name, data in motion.items():
+        wheel = str(name).partition("_")[0]
+        if wheel in assembly.wheels and assembly.names_of(wheel).prefix:
+            words = data.attrs["long_name"].replace(f"{wheel}_", "")
+            data.attrs["long_name"] = f"{words}, {wheel}"
     return motion
 
 
