@@ -32,7 +32,7 @@ from kintrafo.report import Chapter, axle_chapter
 from kintrafo.study.checkup import checkup
 from kintrafo.study.compare import differences
 from kintrafo.study.scenario import Scenario, by_wheel, run
-from kintrafo.study.variation.ways import values_of
+from kintrafo.study.variation.evaluation import values_of
 from kintrafo.suspension.axle.bar import AntiRollBar
 from kintrafo.suspension.axle.steering import SteeringCurve
 from kintrafo.suspension.positions import arm_angles, design_height

@@ -20,7 +20,7 @@ from kintrafo import (
 )
 from kintrafo.assembly.by_wheel import flat
 from kintrafo.report import elastokinematics_chapter
-from kintrafo.study.variation.ways import WAYS
+from kintrafo.study.variation.sweep_axes import SWEEP_AXES
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CAR, AXLE, RIGID = Model("reference_car"), Axle.load("reference_axle"), RigidAxle.load("rigid_axle")
@@ -82,7 +82,7 @@ def test_what_can_be_wanted_of_curves_is_what_they_are(name: str) -> None:
     make, over, subject = FOUND[name]
     found = flat(make()).sel(data_set="kinematic")
     of_model = flat(characteristics.over(subject, over, AT))
-    known = WAYS[over].known
+    known = SWEEP_AXES[over].known
     same = [n for n in map(str, found) if n in known and words(found[n]) == known[n].long_name]
     assert len(same) >= 4
     for curve in same:

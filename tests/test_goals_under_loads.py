@@ -17,11 +17,11 @@ from kintrafo import (
     variation,
 )
 from kintrafo.assembly.by_wheel import flat
+from kintrafo.assembly.of import assembly_of
 from kintrafo.cli import app
 from kintrafo.plots import curves
 from kintrafo.report import compliance_chapter, goals_chapter
 from kintrafo.study.variation.goals import Limit
-from kintrafo.study.variation.ways import with_bushes
 from kintrafo.suspension.toml_writer import write_toml
 from scipy.optimize import brentq
 from test_rigid_axle_compliance import FIVE
@@ -245,7 +245,7 @@ def test_goals_of_both_wheels(axle: Any, bushes: dict[str, Any]) -> None:
     limits = {name: {"at_mm": [0.0, 20.0], "most": 0.01}}
     wanted = variation.goals({"limits": limits}, ["bump", "roll"])
     # the bushes that are given, and their images on the other side
-    soft = with_bushes(axle, bushes)
+    soft = assembly_of(axle).with_bushings(bushes)
     (verdict,) = variation.judge(soft, wanted)
     assert np.rad2deg(verdict.beyond) * 1e3 == pytest.approx(toe.max() - 0.01, rel=1e-9)
     (axes,) = curves.figure(
@@ -263,9 +263,9 @@ def test_goals_of_both_wheels(axle: Any, bushes: dict[str, Any]) -> None:
     ("of", "name", "label"),
     [
         (Model(CAR), "toe_by_lateral", "limit"),
-        (with_bushes(Axle.load("reference_axle"), BUSHES), "toe_by_lateral_opposed_left",
-         "limit, left"),
-        (with_bushes(RigidAxle.load("rigid_axle"), RODS),
+        (assembly_of(Axle.load("reference_axle")).with_bushings(BUSHES),
+         "toe_by_lateral_opposed_left", "limit, left"),
+        (assembly_of(RigidAxle.load("rigid_axle")).with_bushings(RODS),
          "toe_by_lateral_parallel_right", "limit, right"),
     ],
     ids=["suspension", "axle", "rigid axle"],

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 import xarray as xr
 from kintrafo import InputError, Model, Suspension, characteristics, variation
+from kintrafo.assembly.of import assembly_of
 from kintrafo.core.errors import KintrafoError
 from kintrafo.study.variation import batch
-from kintrafo.study.variation.curves import Curves, changed, model_of, there
+from kintrafo.study.variation.curves import Curves, changed
+from kintrafo.study.variation.evaluation import available
 from kintrafo.study.variation.places import places_of
 from kintrafo.suspension.positions import design_height, travel_range
 
@@ -69,10 +71,10 @@ def test_each_car_has_the_curves_that_it_has_alone(name: str) -> None:
     car, count = Suspension.load(packaged), 12
     car = car.with_changes(EXTRAS[packaged]) if extras else car
     values = drawn(car, count)
-    model = model_of(car)
-    looks = [Curves("travel", np.linspace(-0.04, 0.04, 5), there(model, "travel"))]
+    model = assembly_of(car)
+    looks = [Curves("travel", np.linspace(-0.04, 0.04, 5), available(model, "travel"))]
     if car.steered():
-        looks.append(Curves("rack", np.array([-0.03, 0.01, 0.03]), there(model, "rack")))
+        looks.append(Curves("rack", np.array([-0.03, 0.01, 0.03]), available(model, "rack")))
     found = [np.full((count, len(c.names), c.positions.size), np.nan) for c in looks]
     together = batch._together(car, values, looks, found)
     # bodies whose inertia is off by chance may be none, and then go by themselves
@@ -80,7 +82,7 @@ def test_each_car_has_the_curves_that_it_has_alone(name: str) -> None:
     for one in np.flatnonzero(together):
         itself = changed(car, {place: float(column[one]) for place, column in values.items()})
         for look, rows in zip(looks, found, strict=True):
-            wanted = look.of(model_of(itself))
+            wanted = look.of(assembly_of(itself))
             greatest = np.nanmax(np.where(np.isfinite(wanted), np.abs(wanted), 0.0), axis=1)
             # the arm's angle is found to its last digits, by other steps; a rate of the axis of a
             # screw is a difference over a step of 1e-3
@@ -163,9 +165,9 @@ def test_cars_go_together_up_to_the_ends_of_their_dampers(
 
     def counted(*given: object, **options: object) -> object:
         by_themselves.append(given)
-        return model_of(*given, **options)  # type: ignore[call-overload]
+        return assembly_of(*given, **options)
 
-    monkeypatch.setattr(batch, "model_of", counted)
+    monkeypatch.setattr(batch, "assembly_of", counted)
     # an angle is found to its last digits, by other steps
     gone = held_against_each(car, cars, at, "toe", rounding=1e-13)
     assert 0 < sum(gone) < len(gone)

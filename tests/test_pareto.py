@@ -341,7 +341,7 @@ def call(**given: Any) -> None:
 
 
 WRONG = [
-    ({"suspension": "reference_car"}, "a kintrafo.Suspension or a kintrafo.RigidAxle"),
+    ({"suspension": "reference_car"}, "a kintrafo.Axle or a kintrafo.RigidAxle is needed"),
     ({"progress": 1}, "a function, or None, is needed"),
     ({"population": 3}, "population = 3: a whole number, 4 to 10000, is needed"),
     ({"population": 7.5}, "population = 7.5: a whole number"),

@@ -181,7 +181,6 @@ def test_goals_are_judged_of_axles_too() -> None:
 
 
 WRONG: list[tuple[Any, str]] = [
-    (lambda: variation.sensitivity(Axle.load("reference_axle")), "stand in the files of its sides"),
     (lambda: variation.sensitivity(AXLE, over="travel"), "over 'travel' is not known"),
     (lambda: variation.sensitivity(AXLE, ["rods.panhard"]), "rods.panhard is no number"),
     (lambda: variation.sensitivity(AXLE, names=["scrub_radius"]), "scrub_radius"),

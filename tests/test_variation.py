@@ -23,8 +23,9 @@ from kintrafo import (
     variation,
 )
 from kintrafo.assembly.from_model import gaps
+from kintrafo.assembly.of import assembly_of
 from kintrafo.core.quantities import display_of
-from kintrafo.study.variation.curves import Curves, changed, model_of
+from kintrafo.study.variation.curves import Curves, changed
 from kintrafo.study.variation.places import places_of
 from kintrafo.suspension.starter import packaged
 from kintrafo.suspension.toml_writer import write_toml
@@ -39,7 +40,7 @@ ROD = "hardpoints.tie_rod_inner.z"
 
 
 def curve(suspension: Suspension, name: str, at: Any) -> np.ndarray:
-    return Curves("travel", np.atleast_1d(at), (name,)).of(model_of(suspension))[0]
+    return Curves("travel", np.atleast_1d(at), (name,)).of(assembly_of(suspension))[0]
 
 
 # -- sensitivity --------------------------------------------------------------------------------
@@ -367,7 +368,7 @@ def test_a_characteristic_may_have_several_targets() -> None:
     }
     found = variation.optimise(CAR, {"wheel.camber_deg": 2.0}, aims)
     assert [(t.name, t.over) for t in found.targets] == [("camber", "travel"), ("camber", "rack")]
-    missed = [t.curves.of(model_of(found.suspension))[0] - t.value for t in found.targets]
+    missed = [t.curves.of(assembly_of(found.suspension))[0] - t.value for t in found.targets]
     # the camber of the file is added to all of them: their mean becomes zero
     assert abs(np.concatenate(missed).mean()) < math.radians(0.01)
 
@@ -452,7 +453,7 @@ WRONG = [
     (lambda: variation.sensitivity(CAR, ROD), "a list of places"),
     (lambda: variation.sensitivity(CAR, names=["camberr"]), "Did you mean camber"),
     (lambda: variation.sensitivity(CAR, over="wheel"), "Known are: travel, rack"),
-    (lambda: variation.sensitivity("reference_car"), "a kintrafo.Suspension or a kintrafo.Rigid"),
+    (lambda: variation.sensitivity("reference_car"), "Axle or a kintrafo.RigidAxle is needed"),
     (lambda: variation.sensitivity(CAR, positions=[0.0, np.nan]), "finite number"),
     (lambda: variation.tolerance(CAR, {}), "one or more are needed"),
     (lambda: variation.tolerance(CAR, {ROD: -1.0}), "above 0 mm"),

@@ -88,7 +88,7 @@ class Assembly(ABC):
         """What was read from a file: a Suspension, an Axle or a RigidAxle."""
 
     @property
-    def sections(self) -> dict[str, dict[str, Any]]:
+    def design_sections(self) -> dict[str, dict[str, Any]]:
         """The sections of its files, whose numbers studies vary, by what begins their places."""
         return {"": self.subject.to_dict()}
 
@@ -464,6 +464,10 @@ class Assembly(ABC):
         bushings : mapping or None
             By hardpoint; of an axle those of one side, and the other has their image.
         """
+
+    def with_bushings(self, bushings: Mapping[str, Any]) -> Any:
+        """Return its subject on other bushes than those of its file, see `bushes`."""
+        return self.subject.with_changes({"bushings": dict(bushings)})
 
     @property
     @abstractmethod

@@ -83,7 +83,7 @@ class AxleAssembly(Assembly):
         return self.axle
 
     @property
-    def sections(self) -> dict[str, dict[str, Any]]:
+    def design_sections(self) -> dict[str, dict[str, Any]]:
         """The sections of its own file, and of both sides: of one and its image, and of each."""
         whole = self.axle.to_dict()
         found = {f"{side}.": each.to_dict() for side, each in self.axle.sides.items()}
@@ -387,6 +387,13 @@ class AxleAssembly(Assembly):
         with_one = Arguments("compliance")
         self.axle.sides[one].bushes(with_one, described)
         return {one: described, other: {} if with_one.refused else mirrored_bushings(described)}
+
+    def with_bushings(self, bushings: Mapping[str, Any]) -> Axle:
+        """Return the axle on other bushes than those of its files."""
+        with Arguments("compliance") as given:
+            described = self.described_bushings(given, bushings)
+        changes = {f"{side}.bushings": described[side] for side in SIDES}
+        return self.axle.with_changes(changes)
 
     def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
         """Return bushes of both sides, and how far their rack gives way."""

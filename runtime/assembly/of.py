@@ -16,8 +16,19 @@ from .corner import CornerAssembly
 from .rigid_axle import RigidAxleAssembly
 
 
-def assembly_of(subject: Any) -> Assembly | None:
-    """Return what a suspension, an axle or their equations are as an assembly; None of others."""
+def assembly_of(subject: Any) -> Assembly:
+    """Return a suspension, an axle or their equations as an assembly.
+
+    Raises
+    ------
+    InputError
+        If it is something else.
+    """
+    with Arguments("assembly") as given:
+        return given_assembly(given, subject)
+
+
+def _found(subject: Any) -> Assembly | None:
     for kind, make in _ASSEMBLIES.items():
         if isinstance(subject, kind):
             return make(subject)
@@ -115,7 +126,7 @@ def given_assembly(given: Arguments, subject: Any, name: str = "subject") -> Ass
     name : str, optional
         Of the argument.
     """
-    found = assembly_of(subject)
+    found = _found(subject)
     if found is None:
         given.kind(name, subject, Assembly, Assembly.NEEDED)
     return found  # type: ignore[return-value]  # what is refused is never seen, see `Arguments`

@@ -169,9 +169,9 @@ def _aims(path: "Path | None", chosen: list[str], assembly: "Assembly") -> "list
     """Return the targets and limits of a file that are about the motions."""
     if path is None:
         return []
-    from ..study.variation.ways import ways_of
+    from ..study.variation.sweep_axes import sweep_axes_of
 
-    return wanted.read(path, chosen, ways_of(assembly.subject))
+    return wanted.read(path, chosen, sweep_axes_of(assembly.subject))
 
 
 def _motions(assembly: "Assembly", wanted: list[str] | None) -> list[str]:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from ..assembly.assembly import Assembly
     from ..study.compare import Difference
-    from ..study.variation.ways import Subject
+    from ..study.variation.evaluation import Subject
     from ..suspension.axle import Axle
 
 EXAMPLES = (
@@ -69,13 +69,13 @@ def command(
     """
     from ..assembly.by_wheel import flat
     from ..study import compare
-    from ..study.variation.ways import compliances_over, ways_of
+    from ..study.variation.sweep_axes import compliances_over, sweep_axes_of
 
     outputs = Outputs.of(
         out, plot, figures, formats, force=force, inputs=[*files, *([goals] if goals else [])]
     )
     dataset, way, subjects = _compared(files, over, held)
-    known = ways_of(next(iter(subjects.values())))
+    known = sweep_axes_of(next(iter(subjects.values())))
     table = flat(dataset)
     looked_at = [way, held or "height"] if {*table} & {*compliances_over(way)} else [way]
     aims = wanted.read(goals, looked_at, known)

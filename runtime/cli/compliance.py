@@ -159,6 +159,12 @@ class _Rig(NamedTuple):
         extent = Extent(rebound=rebound, bump=bump)
         return cls(file, assembly, described(file, bushes), at / 1e3, rack / 1e3, extent)
 
+    def on_bushes(self) -> Any:
+        """Return what the file describes, on these bushes."""
+        if self.bushings is None:
+            return self.assembly.subject
+        return self.assembly.with_bushings(self.bushings)
+
     def travels(self) -> "NDArray[np.float64]":
         """Return the wheel travels of curves, with that of the table [m]."""
         usual = self.assembly.usual(self.assembly.usual_motion, self.extent, rack=self.rack)
@@ -182,7 +188,7 @@ def _linear(
     from ..assembly.by_wheel import flat
     from ..study import compliance, export
     from ..study.compliance.tables import compliances, compliances_of_beam
-    from ..study.variation.ways import ways_of, with_bushes
+    from ..study.variation.sweep_axes import sweep_axes_of
 
     subject = rig.assembly.subject
     found = compliance.linear(
@@ -191,8 +197,8 @@ def _linear(
     curves = found.drop_dims(["moved", "by"])
     columns = flat(curves)
     names = named(of_both(of), {held: curves})[held]
-    aims = wanted.read(goals, [held], ways_of(subject))
-    judged = wanted.judged({rig.file: with_bushes(subject, rig.bushings)}, aims) if aims else []
+    aims = wanted.read(goals, [held], sweep_axes_of(subject))
+    judged = wanted.judged({rig.file: rig.on_bushes()}, aims) if aims else []
     if outputs.drawn:
         wanted.refuse_beyond(aims, {held: columns})
     title = f"{title_of(rig.file)}: compliance, {found.attrs['held']}"

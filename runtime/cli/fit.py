@@ -13,7 +13,7 @@ from .console import console, print_json, progress_bar, say
 from .exits import Exit
 from .options import File, Force, Json, Of, among
 from .outputs import Outputs, Plot, name_files
-from .subject import studied
+from .subject import subject_of_file
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -75,7 +75,7 @@ def command(
     outputs = Outputs.of(None, plot, force=force, inputs=inputs)
     if out is not None:
         refuse([out], force=force, inputs=inputs, endings=[".toml"])
-    suspension = studied(file)
+    suspension = subject_of_file(file)
     curves = rig.measured_curves(measured)
     asked = variation.read(tolerances)
     names = among(of, map(str, curves)) if of else None
@@ -91,10 +91,10 @@ def command(
         )
     written: list[Path] = []
     if outputs.pages:
+        from ..assembly.of import assembly_of
         from ..plots import curves as plots
-        from ..study.variation.ways import model_of
 
-        models = {"file": model_of(found.start), "fitted": model_of(found.suspension)}
+        models = {"file": assembly_of(found.start), "fitted": assembly_of(found.suspension)}
         shown = rig.beside(curves, models, held=held)[[curve.name for curve in found.curves]]
         written += [
             plots.write_overview(

@@ -14,8 +14,8 @@ from .console import note
 if TYPE_CHECKING:
     from xarray import Dataset
 
+    from ..study.variation.evaluation import Subject
     from ..study.variation.goals import Goal
-    from ..study.variation.ways import Subject
     from ..suspension.axle import Axle
     from ..suspension.model import Model
     from ..suspension.rigid import RigidAxle
@@ -56,7 +56,7 @@ def read(
     from ..core.errors import InputError
     from ..study import variation
     from ..study.compliance.flexibility import HELD
-    from ..study.variation.ways import way
+    from ..study.variation.sweep_axes import sweep_axis
 
     looked_at = [over for over in ways if over in known or over in HELD]
     if not looked_at:
@@ -70,8 +70,8 @@ def read(
         example = soft if looked_at[0] in HELD else kinematic
         problem = (
             f"it has no [targets.NAME] and no [limits.NAME] {_or(list(map(_over, looked_at)))}: "
-            f"one is needed, such as [limits.{example}] with at_{way(looked_at[0]).unit}, least "
-            "and most."
+            f"one is needed, such as [limits.{example}] with "
+            f"at_{sweep_axis(looked_at[0]).unit}, least and most."
         )
         raise InputError([problem], str(path))
     others = dict.fromkeys(_said(goal) for goal in every if goal.over not in ways)
@@ -119,11 +119,11 @@ def refuse_beyond(goals: "Sequence[Goal]", curves: "Mapping[str, Dataset]") -> N
         By what they are over.
     """
     from ..core.arguments import Arguments
-    from ..study.variation.ways import way
+    from ..study.variation.sweep_axes import sweep_axis
 
     with Arguments("goals") as given:
         for goal in goals:
-            over = way(goal.over)
+            over = sweep_axis(goal.over)
             along = curves[goal.over][over.along.name].values
             ends = float(along.min()), float(along.max())
             beyond = goal.at[(goal.at < ends[0] - _ROUNDING) | (goal.at > ends[1] + _ROUNDING)]
@@ -155,7 +155,7 @@ def table(found: Sequence[Mapping[str, Any]], title: str) -> Table:
     """Return the table of what `judged` returns."""
     from ..core.quantities import display_of
     from ..study.variation.goals import words_of
-    from ..study.variation.ways import way
+    from ..study.variation.sweep_axes import sweep_axis
 
     files = list(dict.fromkeys(row["file"] for row in found))
     result = Table(title=escape(title))
@@ -164,7 +164,7 @@ def table(found: Sequence[Mapping[str, Any]], title: str) -> Table:
     rows = [[row for row in found if row["file"] == file] for file in files]
     for same in zip(*rows, strict=True):
         first = same[0]
-        over = way(first["over"])
+        over = sweep_axis(first["over"])
         shown = display_of(over.known[first["name"]].attributes())
         cells = [
             "met"

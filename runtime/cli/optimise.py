@@ -13,7 +13,7 @@ from .exits import Exit
 from .moved_values import moved_table
 from .options import File, Force, Json
 from .outputs import Outputs, name_files, title_of
-from .subject import studied
+from .subject import subject_of_file
 from .variation_options import Bars
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def command(
     outputs = Outputs.of(None, plot, force=force, inputs=inputs)
     if out is not None:
         refuse([out], force=force, inputs=inputs, endings=[".toml"])
-    suspension = studied(file)
+    suspension = subject_of_file(file)
     asked = variation.read(goals)
     with progress_bar("optimisation") as progress:
         found = variation.optimise(
@@ -100,8 +100,8 @@ def _print(found: "Optimum", file: str) -> None:
 
 
 def _goals(found: "Optimum") -> Table:
+    from ..assembly.of import assembly_of
     from ..core.quantities import bracketed, display_of
-    from ..study.variation.ways import model_of
 
     table = Table(title="largest deviations from the targets")
     table.add_column("characteristic")
@@ -111,7 +111,7 @@ def _goals(found: "Optimum") -> Table:
         attributes = target.quantity.attributes()
         factor = display_of(attributes).factor
         missed = [
-            abs(target.curves.of(model_of(suspension))[0] - target.value).max()
+            abs(target.curves.of(assembly_of(suspension))[0] - target.value).max()
             for suspension in (found.start, found.suspension)
         ]
         name = bracketed(f"{target.quantity.long_name}{target.over_words}", attributes)

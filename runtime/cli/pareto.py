@@ -14,7 +14,7 @@ from .exits import Exit
 from .moved_values import moved_table
 from .options import File, Force, Json
 from .outputs import Out, Outputs, name_files, title_of
-from .subject import studied
+from .subject import subject_of_file
 from .variation_options import Bars
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def command(
     if car is not None:
         refuse([car], force=force, inputs=inputs, endings=[".toml"])
     _refuse_member(member, population)
-    suspension = studied(file)
+    suspension = subject_of_file(file)
     asked = variation.read(study)
     with progress_bar("suspensions") as progress:
         found = variation.pareto(

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -203,11 +203,11 @@ def _of_loads(
 def _aims(of: "Model | Axle | RigidAxle", path: Path | None) -> "list[Goal]":
     """Return the targets and limits of a file."""
     from ..study.compliance.flexibility import HELD
-    from ..study.variation.ways import ways_of
+    from ..study.variation.sweep_axes import sweep_axes_of
     from ..suspension.kinds import Suspension
 
     subject = wanted.subject_of(of)
-    known = ways_of(subject)
+    known = sweep_axes_of(subject)
     unsteered = isinstance(subject, Suspension) and not subject.steered()
     return wanted.read(path, [*(known[:1] if unsteered else known), *HELD], known)
 
@@ -222,17 +222,15 @@ def _of_wheels(
 def _of_goals(
     of: "Model | Axle | RigidAxle", bushes: Path | None, goals: "Sequence[Goal]"
 ) -> "list[Chapter]":
+    from ..assembly.of import assembly_of
     from ..report import goals_chapter
     from ..study.compliance import read_bushes
-    from ..study.variation.ways import model_of, with_bushes
-    from ..suspension.kinds import Suspension
 
     if not goals:
         return []
     if bushes is None:
         return [goals_chapter(of, goals)]
-    soft = with_bushes(wanted.subject_of(of), read_bushes(bushes))
-    return [goals_chapter(model_of(soft) if isinstance(soft, Suspension) else soft, goals)]
+    return [goals_chapter(assembly_of(of).with_bushings(read_bushes(bushes)), goals)]
 
 
 def _of_bushes(
@@ -242,14 +240,12 @@ def _of_bushes(
     from ..report import compliance_chapter, elastokinematics_chapter
     from ..report.chapters.curves import positions_of
     from ..study import compliance
-    from ..study.variation.ways import judged_model
-    from ..suspension.model import Model
 
-    assembly: Any = assembly_of(of)
+    assembly = assembly_of(of)
     if bushes is None and not assembly.has_bushes:
         return []
     described = None if bushes is None else compliance.read_bushes(bushes)
-    at = positions_of(of if isinstance(of, Model) else judged_model(of, [_HELD]), _HELD, goals)
+    at = positions_of(assembly, _HELD, goals)
     motions = ["travel"] if len(assembly.wheels) == 1 else ["bump", "roll"]
     soft = [
         compliance.elastokinematics(assembly, described, motion, _as_far_as(of, motion, goals))
@@ -265,14 +261,14 @@ def _as_far_as(
     of: "Model | Axle | RigidAxle", over: str, goals: "Sequence[Goal]"
 ) -> "NDArray[np.float64] | None":
     """Return positions that reach what goals are about; None where the usual ones do."""
+    from ..assembly.of import assembly_of
     from ..report.chapters.curves import positions_of
-    from ..study.variation.ways import judged_model, usual_positions
-    from ..suspension.model import Model
+    from ..study.variation.evaluation import usual_positions
 
     if all(goal.over != over for goal in goals):
         return None
-    looked = of if isinstance(of, Model) else judged_model(of, [over])
-    usual, wanted = usual_positions(looked, over), positions_of(looked, over, goals)
+    assembly = assembly_of(of)
+    usual, wanted = usual_positions(assembly, over), positions_of(assembly, over, goals)
     return wanted if wanted[0] < usual[0] or wanted[-1] > usual[-1] else None
 
 

@@ -11,7 +11,7 @@ from ..core.tabulated import significant
 from .console import console, note, print_json, progress_bar
 from .options import File, Force, Json, Of
 from .outputs import Out, Outputs, name_files, title_of
-from .subject import studied
+from .subject import subject_of_file
 from .variation_options import (
     At,
     Bars,
@@ -68,7 +68,7 @@ def command(
     from ..study import export, variation
 
     outputs = Outputs.of(out, plot, force=force, inputs=[file])
-    suspension = studied(file)
+    suspension = subject_of_file(file)
     way = way_of(suspension, over, held)
     names = chosen(suspension, of, way)
     with progress_bar("sensitivity") as progress:

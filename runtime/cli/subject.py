@@ -50,14 +50,11 @@ def assembly_of_file(file: str) -> "Assembly":
     """Return what the file describes, as an assembly."""
     from ..assembly.of import assembly_of
 
-    found = assembly_of(described_by(file))
-    assert found is not None
-    return found
+    return assembly_of(described_by(file))
 
 
-def studied(file: str) -> "Suspension | RigidAxle":
-    """Return what has values that move: a suspension, or a rigid axle."""
-    from ..suspension.kinds import Suspension
-    from ..suspension.rigid.axle import RigidAxle, is_rigid_axle
+def subject_of_file(file: str) -> "Suspension | Axle | RigidAxle":
+    """Return what the file describes, whose numbers are design variables."""
+    from ..suspension.loading import load
 
-    return RigidAxle.load(file) if is_rigid_axle(file) else Suspension.load(file)
+    return load(file)

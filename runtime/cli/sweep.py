@@ -28,7 +28,7 @@ from .simulation_options import (
     Speed,
     Spin,
 )
-from .subject import studied
+from .subject import subject_of_file
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -89,12 +89,12 @@ def command(
     Each starts at its own rest, unless --height says where. The exit code is 1 where one does not
     reach the end.
     """
+    from ..assembly.of import model_of
     from ..study import export, variation
-    from ..study.variation.ways import model_of
 
     inputs = [Path(file), *([] if measured is None else [measured])]
     outputs = Outputs.of(out, plot, force=force, inputs=inputs)
-    suspension = studied(file)
+    suspension = subject_of_file(file)
     scenario = scenario_of(
         height=height,
         spin=spin,

@@ -11,7 +11,7 @@ from ..core.tabulated import significant
 from .console import console, print_json, progress_bar, say
 from .options import File, Force, Json, Of
 from .outputs import Out, Outputs, name_files, title_of
-from .subject import studied
+from .subject import subject_of_file
 from .variation_options import (
     At,
     Bars,
@@ -64,11 +64,11 @@ def command(
     The table is about one position; data files have all, netCDF the shares and each car besides.
     """
     from ..study import export, variation
-    from ..study.variation.ways import ways_of
+    from ..study.variation.sweep_axes import sweep_axes_of
 
     inputs: list[str | Path] = [file, tolerances]
     outputs = Outputs.of(out, plot, force=force, inputs=inputs)
-    suspension = studied(file)
+    suspension = subject_of_file(file)
     way = way_of(suspension, over, held)
     asked = variation.read(tolerances)
     names = chosen(suspension, of, way)
@@ -91,7 +91,7 @@ def command(
         from ..plots import variation as plots
 
         title = f"{title_of(file)}: {cars} cars by {tolerances.stem}"
-        limits = variation.limits(asked.get("limits", {}), ways_of(suspension))
+        limits = variation.limits(asked.get("limits", {}), sweep_axes_of(suspension))
         written.append(
             plots.write_bands(
                 dataset, path, names, limits=limits, title=title, force=force, inputs=inputs

@@ -10,7 +10,7 @@ from .options import among
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..study.variation.ways import Subject
+    from ..study.variation.evaluation import Subject
 
 Over = Annotated[
     Literal["travel", "rack", "bump", "roll", "left", "right"] | None,
@@ -56,6 +56,8 @@ _USUAL = {
     "rack": ("camber", "caster", "scrub_radius", "trail", "steer_gradient", "steering_ratio"),
 }
 _USUAL_OF_AXLES = (
+    "bump_steer_left",
+    "camber_gradient_left",
     "axle_steer",
     "roll_steer",
     "heave_steer",
@@ -70,9 +72,9 @@ _USUAL_OF_AXLES = (
 
 def way_of(of: "Subject", over: str | None, held: str | None = None) -> str:
     """Return what curves are over: what was asked for, or the usual; or what holds the wheels."""
-    from ..study.variation.ways import ways_of
+    from ..study.variation.sweep_axes import sweep_axes_of
 
-    known = ways_of(of)
+    known = sweep_axes_of(of)
     if held is not None:
         among([over or known[0]], known[:1], "--over beside --held")
         return held
@@ -81,17 +83,20 @@ def way_of(of: "Subject", over: str | None, held: str | None = None) -> str:
 
 def asked_of(over: str) -> dict[str, Any]:
     """Return what tells a study what curves are over, or what holds the wheels."""
-    from ..study.variation.ways import UNDER_LOADS
+    from ..study.variation.sweep_axes import UNDER_LOADS
 
     return {"held" if over in UNDER_LOADS else "over": over}
 
 
 def chosen(of: "Subject", wanted: list[str] | None, over: str) -> list[str]:
     """Return the characteristics that are shown, those that were asked for or the usual ones."""
-    from ..study.variation.ways import UNDER_LOADS, model_of, refuse_of_steering, there
+    from ..assembly.of import assembly_of
+    from ..study.variation.evaluation import available
+    from ..study.variation.sweep_axes import UNDER_LOADS
 
-    refuse_of_steering(of, wanted or ())
-    known = there(model_of(of), over)
+    assembly = assembly_of(of)
+    assembly.refuse_of_steering(wanted or ())
+    known = available(assembly, over)
     if wanted is None:
         usual = known if over in UNDER_LOADS else _USUAL.get(over, _USUAL_OF_AXLES)
         return [name for name in usual if name in known]
@@ -100,9 +105,10 @@ def chosen(of: "Subject", wanted: list[str] | None, over: str) -> list[str]:
 
 def positions_with(of: "Subject", over: str, at: float) -> "NDArray[Any]":
     """Return the usual positions and the one that the table is about [m] or [rad]."""
-    from ..study.variation.ways import model_of, usual_positions
+    from ..assembly.of import assembly_of
+    from ..study.variation.evaluation import usual_positions
 
-    return with_position(usual_positions(model_of(of), over), at, over)
+    return with_position(usual_positions(assembly_of(of), over), at, over)
 
 
 def with_position(usual: "NDArray[Any]", at: float, over: str = "travel") -> "NDArray[Any]":
@@ -110,23 +116,23 @@ def with_position(usual: "NDArray[Any]", at: float, over: str = "travel") -> "ND
     import numpy as np
 
     from ..core.errors import InputError
-    from ..study.variation.ways import way
+    from ..study.variation.sweep_axes import sweep_axis
 
     if not np.isfinite(at):
-        problem = f"--at {at}: a finite number of {way(over).unit} is needed."
+        problem = f"--at {at}: a finite number of {sweep_axis(over).unit} is needed."
         raise InputError([problem], "positions")
     return np.union1d(usual, [position(over, at)])
 
 
 def position(over: str, at: float) -> float:
     """Return a position that was given in mm or deg [m] or [rad]."""
-    from ..study.variation.ways import way
+    from ..study.variation.sweep_axes import sweep_axis
 
-    return at / way(over).factor
+    return at / sweep_axis(over).factor
 
 
 def along(over: str, at: float) -> str:
     """Say where something is: 'at 20 mm of wheel travel'."""
-    from ..study.variation.ways import way
+    from ..study.variation.sweep_axes import sweep_axis
 
-    return f"at {at:g} {way(over).unit} of {way(over).words}"
+    return f"at {at:g} {sweep_axis(over).unit} of {sweep_axis(over).words}"

@@ -11,7 +11,7 @@ from ..assembly.by_wheel import SIDES, WHEEL
 from ..core.errors import InputError
 from ..core.quantities import display_of
 from ..study.variation.goals import Goal, Limit, Target
-from ..study.variation.ways import way
+from ..study.variation.sweep_axes import sweep_axis
 
 _RED = "#aa0000"
 
@@ -44,7 +44,7 @@ def about(goals: Iterable[Goal], data: xr.DataArray, along: str) -> dict[str, li
         If some are about parallel travel and others about that of one wheel: the axis, which is the
         same, does not say which of them the curves are over.
     """
-    own = [goal for goal in goals if way(goal.over).along.name == along]
+    own = [goal for goal in goals if sweep_axis(goal.over).along.name == along]
     name = str(data.name)
     found = {"": [goal for goal in own if goal.name == name]}
     if WHEEL in data.dims:
@@ -105,7 +105,7 @@ def mark(
     marked: list[NDArray[np.float64]] = [np.empty(0)]
     whose = f", {side}" if side else ""
     for goal in goals:
-        factor, step = display_of(goal.quantity.attributes()).factor, way(goal.over).factor
+        factor, step = display_of(goal.quantity.attributes()).factor, sweep_axis(goal.over).factor
         if isinstance(goal, Target):
             axes.errorbar(
                 step * goal.at, factor * goal.value, factor * goal.within,

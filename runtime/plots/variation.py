@@ -10,14 +10,16 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
+from ..assembly.of import assembly_of
 from ..core.files import Paths
 from ..core.quantities import bracketed, display_of, displayed, long_name
 from ..study.variation.curves import Curves
+from ..study.variation.evaluation import common_positions
 from ..study.variation.goals import Limit
 from ..study.variation.optimise import Optimum
 from ..study.variation.sensitivity import PLACE, Effect, effects
+from ..study.variation.sweep_axes import sweep_axis
 from ..study.variation.tolerance import QUANTILE
-from ..study.variation.ways import common_positions, model_of, way
 from .figures import BLUE, ORANGE
 from .goals import mark, of_curve
 from .panels import write_panels
@@ -137,15 +139,17 @@ def write_optimum(
     -------
     pathlib.Path
     """
-    models = {"before": model_of(found.start), "after": model_of(found.suspension)}
+    models = {"before": assembly_of(found.start), "after": assembly_of(found.suspension)}
     goals = [*found.targets, *found.limits]
     panels = {f"{goal.name} over {goal.over}": goal for goal in goals}
-    positions = {over: common_positions(models, over) for over in {goal.over for goal in goals}}
+    positions = {
+        over: common_positions([*models.values()], over) for over in {goal.over for goal in goals}
+    }
 
     def draw(axes: Axes, key: str) -> None:
         panel = panels[key]
         along = positions[panel.over]
-        quantity, over = panel.quantity, way(panel.over).along
+        quantity, over = panel.quantity, sweep_axis(panel.over).along
         factor, step = (
             display_of(quantity.attributes()).factor,
             display_of(over.attributes()).factor,

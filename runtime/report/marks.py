@@ -11,7 +11,7 @@ from ..assembly.by_wheel import SIDES, WHEEL
 from ..plots.goals import but_name
 from ..study.characteristics.datasets import KNOWN, over
 from ..study.variation.goals import Goal, Limit, Target, words_of
-from ..study.variation.ways import way
+from ..study.variation.sweep_axes import sweep_axis
 from ..suspension.axle import Axle
 from .curves import Curve
 from .grid import Axis, Grid
@@ -46,7 +46,7 @@ class Mark:
 
     def described(self, curve: Curve) -> dict[str, Any]:
         """Return it for the page's script, in the units that are drawn."""
-        along = way(curve.over).factor
+        along = sweep_axis(curve.over).factor
         return {
             "kind": self.kind,
             "at": [_written(along * at) for at in self.at],
@@ -115,8 +115,8 @@ def marks(drawn: Sequence[Curve], grid: Grid, goals: Sequence[Goal], side: str) 
         if inside.any():
             found.of.setdefault(key, []).extend(_marks(goal, inside))
         if not inside.all():
-            at = ", ".join(f"{way(goal.over).factor * at:g}" for at in goal.at[~inside])
-            words = f"{_kind(goal)} at {at} {way(goal.over).unit}".replace("-", "\u2212")
+            at = ", ".join(f"{sweep_axis(goal.over).factor * at:g}" for at in goal.at[~inside])
+            words = f"{_kind(goal)} at {at} {sweep_axis(goal.over).unit}".replace("-", "\u2212")
             found.beyond.setdefault(key, []).append(words)
     return found
 

@@ -18,7 +18,7 @@ from ...study.characteristics.datasets import KNOWN, dataset
 from ...study.checkup import checkup
 from ...study.variation.goals import Goal, check_goals
 from .chapter import Chapter, Picture
-from .curves import pictures, positions_over, with_wanted
+from .curves import pictures, positions_of, with_wanted
 
 # The curves of each motion; those that an axle does not have are left out.
 _DRAWN = {
@@ -89,7 +89,7 @@ def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
         check_goals(given, "goals", goals)
     wanted = {goal.over for goal in goals}
     drawn = [*(m for m in _DRAWN if m in assembly.motions), *["right"] * ("right" in wanted)]
-    curves = {m: dataset(assembly, m, positions_over(assembly, m, goals)) for m in drawn}
+    curves = {m: dataset(assembly, m, positions_of(assembly, m, goals)) for m in drawn}
     words, looks, drawings = _of_a_beam(assembly) if assembly.on_a_beam else ((), (), ())
     return Chapter(
         title="The axle",

@@ -13,8 +13,8 @@ from ...assembly.by_wheel import SIDES
 from ...core.errors import InputError
 from ...plots.curves import figure
 from ...plots.figures import STYLE
+from ...study.variation.evaluation import usual_positions
 from ...study.variation.goals import Goal
-from ...study.variation.ways import Looked, usual_positions
 from .chapter import Picture
 
 # So few beside each other are read on the width of a phone, too; and so many fill a sheet.
@@ -94,20 +94,12 @@ def _curve(dataset: xr.Dataset, name: str) -> str:
     raise InputError([problem], "goals")
 
 
-def positions_of(looked: Looked, over: str, goals: Iterable[Goal]) -> NDArray[np.float64]:
+def positions_of(assembly: Assembly, over: str, goals: Iterable[Goal]) -> NDArray[np.float64]:
     """Return the usual positions over something, as far as goals about it, and theirs [m] or [rad].
 
     Beyond the usual ones they are as near to each other: curves are no straight lines there.
     """
-    return _reaching(usual_positions(looked, over), over, goals)
-
-
-def positions_over(assembly: Assembly, motion: str, goals: Iterable[Goal]) -> NDArray[np.float64]:
-    """Return the same of a motion of an assembly."""
-    return _reaching(assembly.usual(motion), motion, goals)
-
-
-def _reaching(usual: NDArray[np.float64], over: str, goals: Iterable[Goal]) -> NDArray[np.float64]:
+    usual = usual_positions(assembly, over)
     """Return usual positions, with those of goals and what is between."""
     wanted = [goal.at for goal in goals if goal.over == over]
     if not wanted:

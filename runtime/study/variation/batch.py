@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ...assembly.from_model import corner
 from ...assembly.measures.corner import OVER_RACK, OVER_TRAVEL
 from ...assembly.measures.measure import some_of_axle, values
+from ...assembly.of import assembly_of
 from ...assembly.single import Single
 from ...core.errors import KintrafoError
 from ...core.threads import shared_out
@@ -27,8 +28,8 @@ from ...suspension.fleet_positions import fleet_angles
 from ...suspension.kinds import Suspension
 from ..compliance.flexibility import HELD
 from .curves import Curves, changed
+from .evaluation import Subject
 from .places import Place, is_factor
-from .ways import Subject, model_of
 
 Array = NDArray[np.float64]
 
@@ -126,7 +127,7 @@ def _some(
             break
         changes = {place: float(column[car]) for place, column in values.items()}
         try:
-            model = model_of(changed(suspension, changes))
+            model = assembly_of(changed(suspension, changes))
             own = [look.of(model) for look in looks]
         except KintrafoError as error:
             reasons[car] = str(error)

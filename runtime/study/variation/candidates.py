@@ -5,12 +5,13 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ...assembly.of import assembly_of
 from ...core.errors import KintrafoError
 from .batch import curves_of_many, moved_by
 from .curves import Together, changed
+from .evaluation import Subject
 from .goals import Goal
 from .places import Place
-from .ways import Subject, model_of
 
 Array = NDArray[np.float64]
 
@@ -50,7 +51,7 @@ class Candidates:
         key = x.tobytes()
         if key not in self._values:
             try:
-                found = [values[0] for values in self._look.of(model_of(self.at(x)))]
+                found = [values[0] for values in self._look.of(assembly_of(self.at(x)))]
             except KintrafoError:
                 found = [np.array(np.nan)]
             finite = all(np.isfinite(values).all() for values in found)

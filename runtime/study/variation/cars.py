@@ -14,8 +14,8 @@ from ...core.suggestions import suggestion
 from ..compliance.flexibility import Held
 from .batch import curves_of_many
 from .curves import Curves, curves_of, refuse_bushes
+from .evaluation import Subject, check_subject
 from .places import Place, places_of
-from .ways import Subject, check_subject
 
 Array = NDArray[np.float64]
 

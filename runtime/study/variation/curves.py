@@ -7,23 +7,14 @@ from typing import Any, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ...assembly.assembly import Assembly
+from ...assembly.of import assembly_of
 from ...assembly.quantity import Quantity
 from ...core.arguments import Arguments
-from ...suspension.kinds import Suspension
-from ...suspension.rigid import RigidAxle
 from ..compliance.flexibility import HELD
+from .evaluation import Subject, available, usual_positions, values_of
 from .places import Place, scaled
-from .ways import (
-    Looked,
-    Subject,
-    model_of,
-    refuse_of_steering,
-    there,
-    usual_positions,
-    values_of,
-    way,
-    ways_of,
-)
+from .sweep_axes import sweep_axes_of, sweep_axis
 
 Array = NDArray[np.float64]
 
@@ -49,13 +40,13 @@ class Curves:
     @property
     def along(self) -> Quantity:
         """What varies along them."""
-        return way(self.over).along
+        return sweep_axis(self.over).along
 
     def quantity(self, name: str) -> Quantity:
         """Return what a name stands for."""
-        return way(self.over).known[name]
+        return sweep_axis(self.over).known[name]
 
-    def of(self, model: Looked) -> Array:
+    def of(self, assembly: Assembly) -> Array:
         """Return the values, of shape (names, positions), SI units.
 
         Raises
@@ -63,7 +54,7 @@ class Curves:
         PositionError
             If a position is out of reach.
         """
-        found = values_of(model, self.over, self.positions, self.names)
+        found = values_of(assembly, self.over, self.positions, self.names)
         return np.array([found[name] for name in self.names])
 
 
@@ -79,9 +70,9 @@ class Together:
             names = dict.fromkeys(name for c in same for name in c.names)
             self._looks[over] = Curves(over, positions, tuple(names))
 
-    def of(self, model: Looked) -> list[Array]:
+    def of(self, assembly: Assembly) -> list[Array]:
         """Return the values of each of the curves, of shape (names, positions), SI units."""
-        found = {over: look.of(model) for over, look in self._looks.items()}
+        found = {over: look.of(assembly) for over, look in self._looks.items()}
         return [self._part(curves, found[curves.over]) for curves in self._curves]
 
     def _part(self, curves: Curves, values: Array) -> Array:
@@ -91,7 +82,7 @@ class Together:
         return values[rows][:, columns]
 
 
-S = TypeVar("S", bound=Suspension | RigidAxle)
+S = TypeVar("S", bound=Subject)
 
 
 def changed(suspension: S, changes: Mapping[str, float]) -> S:
@@ -113,21 +104,21 @@ def curves_of(
 
     With what holds the wheels under loads these are compliances.
     """
-    ways = ways_of(suspension)
+    ways = sweep_axes_of(suspension)
     over = ways[0] if over is None else given.among("over", over, ways)
     if held is not None:
         over = _held(given, suspension, over, held)
     if positions is not None:
-        unit = "m" if given.refused else way(over).along.units
+        unit = "m" if given.refused else sweep_axis(over).along.units
         positions = given.array("positions", positions, unit, dimensions=[1])
     if given.refused:
         return Curves("travel", np.zeros(1), ())
+    assembly = assembly_of(suspension)
     if isinstance(names, list | tuple):
-        refuse_of_steering(suspension, names)
-    model = model_of(suspension)
+        assembly.refuse_of_steering(names)
     if positions is None:
-        positions = usual_positions(model, over)
-    known = there(model, over)
+        positions = usual_positions(assembly, over)
+    known = available(assembly, over)
     chosen = known if names is None else given.names("names", names, known)
     if not (chosen or given.refused):
         given.refuse(
@@ -138,10 +129,12 @@ def curves_of(
 
 def _held(given: Arguments, suspension: Subject, over: Any, held: Any) -> Any:
     """Check what holds the wheels under loads, and return it."""
-    usual = ways_of(suspension)[0]
+    usual = sweep_axes_of(suspension)[0]
     if over != usual:
-        given.refuse(f"held: compliance is over {way(usual).words}. Leave over = {over!r} out.")
-    if not suspension.bushings:
+        given.refuse(
+            f"held: compliance is over {sweep_axis(usual).words}. Leave over = {over!r} out."
+        )
+    if not assembly_of(suspension).has_bushes:
         given.refuse("held: compliance needs a file with [bushings]. Add them.")
     return given.among("held", held, HELD)
 

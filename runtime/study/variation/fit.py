@@ -12,11 +12,12 @@ from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.quantities import display_of
 from ..compliance.flexibility import HELD, Held
+from .evaluation import Subject, check_subject
 from .goals import GREATEST, LEAST, Target, check_data
 from .places import Place, amounts
 from .search import Search, in_words, least
+from .sweep_axes import SWEEP_AXES, UNDER_LOADS, sweep_axes_of
 from .tolerance import SIGMAS
-from .ways import UNDER_LOADS, WAYS, Subject, check_subject, ways_of
 
 Array = NDArray[np.float64]
 
@@ -202,7 +203,7 @@ def _targets(
     """Return the measured curves as targets, without the cells that are empty."""
     accuracies, held_by = how
     # parallel travel is the first of the ways over wheel travel
-    ways = {WAYS[way].along.name: way for way in reversed(ways_of(suspension))}
+    ways = {SWEEP_AXES[way].along.name: way for way in reversed(sweep_axes_of(suspension))}
     over = [name for name in ways if name in measured.dims]
     if len(over) != 1:
         given.refuse(
@@ -225,7 +226,7 @@ def _targets(
         if measured[name].dims == (along,) and np.issubdtype(measured[name].dtype, np.floating)
     ]
     under_loads = UNDER_LOADS[held_by].known if way == "travel" else {}
-    known = [name for name in there if name in WAYS[way].known or name in under_loads]
+    known = [name for name in there if name in SWEEP_AXES[way].known or name in under_loads]
     chosen = known if names is None else given.names("names", names, known)
     if not chosen and not given.refused:
         given.refuse("measured: one curve or more is needed.")
@@ -246,7 +247,7 @@ def _target(given: Arguments, curve: xr.DataArray, over: str, accuracy: Any) -> 
     if not values.size:
         given.refuse(f"measured: {name} has no value.")
         return None
-    quantity = (WAYS | UNDER_LOADS)[over].known[name]
+    quantity = (SWEEP_AXES | UNDER_LOADS)[over].known[name]
     shown = display_of(quantity.attributes())
     if accuracy is not None:
         number = given.number(

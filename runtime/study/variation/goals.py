@@ -8,28 +8,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...assembly.of import assembly_of, given_assembly
 from ...assembly.quantity import Quantity
 from ...core.arguments import Arguments
 from ...core.quantities import bracketed, display_of
-from ...suspension.axle import Axle
 from ...suspension.input.toml_file import read_sections
-from ...suspension.kinds import Suspension
-from ...suspension.rigid import RigidAxle
 from ..compliance.flexibility import HELD
 from .curves import Curves, Together
-from .ways import (
-    OF_SUSPENSIONS,
-    WAYS,
-    Looked,
-    Subject,
-    compliances_over,
-    judged_model,
-    model_of,
-    refuse_of_steering,
-    there,
-    way,
-    ways_of,
-)
+from .evaluation import available
+from .sweep_axes import OF_CORNERS, SWEEP_AXES, compliances_over, sweep_axes_of, sweep_axis
 
 Array = NDArray[np.float64]
 
@@ -43,7 +30,6 @@ _SECTIONS = (
     "limits",
     "accuracy",
 )
-_NEEDED = "a kintrafo.Suspension, kintrafo.Axle or kintrafo.RigidAxle is needed"
 # No characteristic is as great as this in any unit, and no deviation as small matters.
 GREATEST, LEAST = 1e9, 1e-9
 
@@ -69,13 +55,13 @@ class Goal:
     @property
     def quantity(self) -> Quantity:
         """What the name stands for."""
-        return way(self.over).known[self.name]
+        return sweep_axis(self.over).known[self.name]
 
     @property
     def over_words(self) -> str:
         """What stands behind the name where it is not over the usual: `` over the rack``."""
         usual = self.over in ("travel", "bump") or self.over in HELD
-        return "" if usual else f" over {way(self.over).words}"
+        return "" if usual else f" over {sweep_axis(self.over).words}"
 
     @property
     def curves(self) -> Curves:
@@ -156,7 +142,7 @@ def read(path: str | Path) -> dict[str, Any]:
     return read_sections(path, _SECTIONS)
 
 
-def limits(described: Mapping[str, Any], ways: Sequence[str] = OF_SUSPENSIONS) -> list[Limit]:
+def limits(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> list[Limit]:
     """Read limits by themselves, for a picture: as those of `tolerance` and `optimise`.
 
     Parameters
@@ -171,7 +157,7 @@ def limits(described: Mapping[str, Any], ways: Sequence[str] = OF_SUSPENSIONS) -
         return limits_of(given, tables, _ways(given, ways))
 
 
-def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_SUSPENSIONS) -> list[Goal]:
+def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> list[Goal]:
     """Return the targets and limits of a file that was read, to be drawn and judged.
 
     Parameters
@@ -197,10 +183,10 @@ def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_SUSPENSIONS) ->
 
 def _ways(given: Arguments, ways: Any) -> Sequence[str]:
     """Return what goals may be over; the usual where what is given is no such names."""
-    names = given.names("ways", ways, WAYS)
+    names = given.names("ways", ways, SWEEP_AXES)
     if not names and not given.refused:
-        given.refuse(f"ways is empty: one is needed, of {', '.join(WAYS)}.")
-    return names or OF_SUSPENSIONS
+        given.refuse(f"ways is empty: one is needed, of {', '.join(SWEEP_AXES)}.")
+    return names or OF_CORNERS
 
 
 def _section(given: Arguments, sections: Mapping[str, Any], name: str) -> Mapping[str, Any]:
@@ -217,11 +203,11 @@ def words_of(kind: str, name: str, over: str) -> str:
     name, over : str
         As of `Goal`.
     """
-    quantity = way(over).known[name]
+    quantity = sweep_axis(over).known[name]
     words = f"{kind}: {bracketed(quantity.long_name, quantity.attributes())}"
     if over in HELD:
         return f"{words} (held: {over})"
-    return words if over in ("travel", "bump") else f"{words} over {way(over).words}"
+    return words if over in ("travel", "bump") else f"{words} over {sweep_axis(over).words}"
 
 
 @dataclass(frozen=True)
@@ -250,12 +236,12 @@ class Verdict:
     at: float
 
 
-def judge(suspension: Subject | Axle, wanted: Sequence[Goal]) -> list[Verdict]:
+def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
     """Tell which targets and limits a suspension or an axle meets.
 
     Parameters
     ----------
-    suspension : Suspension, Axle or RigidAxle
+    suspension : Suspension, Model, Axle or RigidAxle
     wanted : sequence of Target and Limit
         From `goals`.
 
@@ -273,19 +259,20 @@ def judge(suspension: Subject | Axle, wanted: Sequence[Goal]) -> list[Verdict]:
 
     Examples
     --------
-    >>> car = Suspension.load("reference_car")
+    >>> from kintrafo import load
+    >>> car = load("reference_car")
     >>> toe = goals({"limits": {"toe": {"at_mm": [-50.0, 50.0], "least": -0.2, "most": 0.2}}})
     >>> [(verdict.name, verdict.met, verdict.at) for verdict in judge(car, toe)]
     [('toe', False, -0.05)]
     """
     with Arguments("judge") as given:
-        given.kind("suspension", suspension, (Suspension, Axle, RigidAxle), _NEEDED)
+        given_assembly(given, suspension, "suspension")
         check_goals(given, "wanted", wanted)
         if not given.refused:
-            model = judged_model(suspension, [goal.over for goal in wanted])
-            check_data(given, suspension, wanted, model)
+            assembly = assembly_of(suspension)
+            check_data(given, assembly, wanted)
     looks = Together([goal.curves for goal in wanted])
-    found = looks.of(model) if wanted else []
+    found = looks.of(assembly) if wanted else []
     return [_verdict(goal, values[0]) for goal, values in zip(wanted, found, strict=True)]
 
 
@@ -311,9 +298,8 @@ def check_goals(given: Arguments, name: str, wanted: Any) -> None:
 
 def check_data(
     given: Arguments,
-    suspension: Subject | Axle,
+    suspension: Any,
     goals: Iterable[Goal],
-    looked_at: Looked | None = None,
 ) -> None:
     """Refuse goals about what the suspension has not: no data in the file, or no number there.
 
@@ -322,31 +308,29 @@ def check_data(
     given : Arguments
     suspension : Suspension, Axle or RigidAxle
     goals : iterable of Goal
-    looked_at : Model, RigidAxleModel or Axle, optional
-        By default what `model_of` returns.
 
     Raises
     ------
     PositionError
         If the suspension does not reach a position.
     """
-    model = model_of(suspension) if looked_at is None else looked_at
-    ways = ways_of(suspension)
+    assembly = assembly_of(suspension)
+    ways = sweep_axes_of(suspension)
     for goal in goals:
         name = f"{goal.name} over {ways[0] if goal.over in HELD else goal.over}"
         if goal.over not in (*ways, *HELD):
             given.refuse(f"{name}: what is looked at has curves over {', '.join(ways)}.")
             continue
-        refuse_of_steering(suspension, [goal.name])
-        if goal.name not in there(model, goal.over):
+        assembly.refuse_of_steering([goal.name])
+        if goal.name not in available(assembly, goal.over):
             given.refuse(
                 f"{name}: the file has not the data that this needs, see [vehicle], [rack], "
                 "[tyre] and [bushings]."
             )
             continue
-        missing = goal.at[~np.isfinite(goal.curves.of(model)[0])]
+        missing = goal.at[~np.isfinite(goal.curves.of(assembly)[0])]
         if missing.size:
-            over = way(goal.over)
+            over = sweep_axis(goal.over)
             places = ", ".join(f"{over.factor * at:g} {over.unit}" for at in missing)
             given.refuse(
                 f"{name}: it has no finite value at {places}, as a turning circle straight ahead. "
@@ -423,8 +407,8 @@ class _Table:
         values = self.given.array(name, self._given(key), self.unit, dimensions=[0, 1])
         if values.size not in (1, self.at.size):
             self.given.refuse(
-                f"{name}: {values.size} numbers and {self.at.size} in at_{way(self.over).unit}: "
-                "one for each position is needed, or one for all."
+                f"{name}: {values.size} numbers and {self.at.size} in "
+                f"at_{sweep_axis(self.over).unit}: one for each position is needed, or one for all."
             )
             return np.zeros_like(self.at)
         if (np.abs(values) > GREATEST).any():
@@ -444,14 +428,14 @@ def _tables(
     for name, table in _listed(described):
         title = f"[{section}.{name}]"
         if not isinstance(table, Mapping):
-            at_key = f"at_{WAYS[ways[0]].unit}"
+            at_key = f"at_{SWEEP_AXES[ways[0]].unit}"
             given.refuse(
                 f"{title} must be a section, with {' and '.join([at_key, *sorted(keys)])}."
             )
             continue
         over = given.among(f"{title} over", table.get("over", ways[0]), ways)
         under_loads = compliances_over(over)
-        at_key, known = f"at_{WAYS[over].unit}", {**WAYS[over].known, **under_loads}
+        at_key, known = f"at_{SWEEP_AXES[over].unit}", {**SWEEP_AXES[over].known, **under_loads}
         known_keys = [at_key, "over", *sorted(keys)]
         if name in under_loads:
             known_keys.append("held")
@@ -461,7 +445,7 @@ def _tables(
         if given.among("characteristic", name, known) != name:
             continue
         shown = display_of(known[name].attributes())
-        unit, factor = way(over).unit, way(over).factor
+        unit, factor = sweep_axis(over).unit, sweep_axis(over).factor
         at = given.array(f"{title} {at_key}", table.get(at_key, 0.0), unit, dimensions=[0, 1])
         positions = np.atleast_1d(at) / factor
         yield name, _Table(given, title, table, over, positions, shown.units, shown.factor)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ...core.arguments import Arguments
 from ...core.quantities import distinct
 from .goals import Goal, Target, extremes_of, targets_of
-from .ways import way
+from .sweep_axes import sweep_axis
 
 Array = NDArray[np.float64]
 Kind = Literal["deviation", "greatest", "least"]
@@ -56,7 +56,7 @@ class Objective:
 
     def attributes(self) -> dict[str, Any]:
         """Return the attributes of the variable in a dataset."""
-        quantity = way(self.goal.over).known[self.goal.name]
+        quantity = sweep_axis(self.goal.over).known[self.goal.name]
         several = self.goal.at.size > 1
         words = (_WORDS if several else _WORDS_OF_ONE)[self.kind].format(quantity.long_name)
         own = {

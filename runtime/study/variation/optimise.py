@@ -10,10 +10,11 @@ from scipy.optimize import minimize
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
+from .evaluation import Subject, check_subject
 from .goals import Limit, Target, check_data, limits_of, targets_of
 from .places import Place, amounts
 from .search import MOST_STEPS, NOTHING_TO_GAIN, TOO_MANY_STEPS, Search, in_words, least
-from .ways import Subject, check_subject, ways_of
+from .sweep_axes import sweep_axes_of
 
 Array = NDArray[np.float64]
 
@@ -127,7 +128,7 @@ def optimise(
     with Arguments("optimise") as given:
         check_subject(given, suspension)
         given.function("progress", progress)
-        ways = ways_of(suspension)
+        ways = sweep_axes_of(suspension)
         aims = targets_of(given, given.mapping("targets", targets, "names and targets"), ways)
         described = given.mapping("limits", {} if limits is None else limits, "names and limits")
         bounds = limits_of(given, described, ways)

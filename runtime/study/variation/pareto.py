@@ -12,13 +12,14 @@ from ...core.arguments import Arguments
 from ...core.errors import InputError
 from .candidates import Candidates
 from .curves import changed, refuse_bushes
+from .evaluation import Subject, check_subject
 from .front import compromise, spread, unbeaten
 from .goals import Limit, check_data, limits_of
 from .nsga import check_installed, evolve
 from .objectives import Objective, objectives_of
 from .places import Place, amounts
 from .search import in_words
-from .ways import Subject, check_subject, ways_of
+from .sweep_axes import sweep_axes_of
 
 Array = NDArray[np.float64]
 
@@ -192,7 +193,7 @@ def pareto(
         population = given.whole("population", population, least=_LEAST_MEMBERS, most=_MOST_MEMBERS)
         generations = given.whole("generations", generations)
         seed = given.whole("seed", seed, least=0, most=2**32 - 1)
-        ways = ways_of(suspension)
+        ways = sweep_axes_of(suspension)
         objectives = objectives_of(
             given,
             _described(given, "targets", targets),

@@ -16,7 +16,7 @@ from ...core.arguments import Arguments, shown
 from ...core.quantities import Display, attributes
 from ...core.suggestions import suggestion
 from ...suspension.input.units import unit_of, without_unit
-from .ways import Subject
+from .evaluation import Subject
 
 _SPACES = str.maketrans("._", "  ")
 _DEG = math.pi / 180.0
@@ -105,9 +105,7 @@ def places_of(suspension: Subject) -> dict[str, Place]:
 
 
 def _sections(subject: Subject) -> dict[str, dict[str, Any]]:
-    assembly = assembly_of(subject)
-    assert assembly is not None  # callers have seen to it
-    return assembly.sections
+    return assembly_of(subject).design_sections
 
 
 def _units_of_points(sections: dict[str, Any]) -> dict[str, float]:

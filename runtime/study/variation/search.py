@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from .candidates import Candidates
+from .evaluation import Subject
 from .goals import Limit, Target
 from .places import Place
 from .sensitivity import step_of
-from .ways import Subject
 
 Array = NDArray[np.float64]
 

@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ...assembly.of import assembly_of
 from ...core.arguments import Arguments
 from ...core.errors import InputError, KintrafoError
 from ...core.named_types import ArrayLike
@@ -14,8 +15,9 @@ from ...core.quantities import Display, display_of
 from ..compliance.flexibility import HELD, Held
 from .batch import curves_of_many, moved_by
 from .curves import Curves, changed, curves_of, refuse_bushes
+from .evaluation import Subject, check_subject
 from .places import Place, matching
-from .ways import UNDER_LOADS, WAYS, Subject, check_subject, model_of
+from .sweep_axes import SWEEP_AXES, UNDER_LOADS
 
 Array = NDArray[np.float64]
 
@@ -267,7 +269,7 @@ def step_of(place: Place) -> float:
 
 def _moved(suspension: Subject, place: Place, by: float, curves: Curves) -> Array:
     try:
-        return curves.of(model_of(changed(suspension, place.moved(by))))
+        return curves.of(assembly_of(changed(suspension, place.moved(by))))
     except KintrafoError as error:
         problem = (
             f"{place.name}: with {by / place.to_si:+g} {place.unit} there is no neighbour to "
@@ -373,7 +375,7 @@ def _effects(dataset: xr.Dataset, name: str, at: float) -> Iterator[Effect]:
     data = dataset[name]
     along = next(str(d) for d in data.dims if d != PLACE)
     column = data.sel({along: at}, method="nearest").values
-    ways = (WAYS | UNDER_LOADS).values()
+    ways = (SWEEP_AXES | UNDER_LOADS).values()
     quantity = next(way.known[name] for way in ways if name in way.known)
     shown = display_of(quantity.attributes())
     units = dataset["place_display_unit"].values.tolist()

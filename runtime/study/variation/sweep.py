@@ -7,9 +7,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ...assembly.of import model_of
 from ...core.arguments import Arguments
 from ...core.errors import InputError, KintrafoError
 from ...core.named_types import ArrayLike
+from ...suspension.axle.equations import AxleModel
 from ...suspension.model import Model
 from ...suspension.rigid.model import RigidAxleModel
 from ...suspension.wheel_loads import UNITS
@@ -17,8 +19,8 @@ from ..ensembles import ensemble
 from ..ensembles.variants import without_mass
 from ..scenario import Scenario, started
 from .curves import changed, refuse_bushes
+from .evaluation import Subject, check_subject
 from .places import Place, matching
-from .ways import Subject, check_subject, model_of
 
 Array = NDArray[np.float64]
 
@@ -165,11 +167,11 @@ class _Cars:
         except KintrafoError as error:
             self._reasons[car] = str(error)
 
-    def _start(self, model: Model | RigidAxleModel) -> Array:
+    def _start(self, model: Model | AxleModel | RigidAxleModel) -> Array:
         start, self.inputs = started(model, self._scenario)
         return np.array(start)
 
-    def _check_equations(self, model: Model | RigidAxleModel) -> None:
+    def _check_equations(self, model: Model | AxleModel | RigidAxleModel) -> None:
         if model.equations is not self.model.equations:
             message = (
                 f"values: some ask for the equations {model.equations.NAME}, which have more in "

@@ -7,16 +7,18 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ...assembly.of import assembly_of
 from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
 from ...core.quantities import variable
 from ..compliance.flexibility import Held
 from .batch import curves_of_many, moved_by
 from .curves import Curves, curves_of, refuse_bushes
+from .evaluation import Subject, check_subject
 from .goals import Limit, check_data, limits_of
 from .places import Place, amounts
 from .sensitivity import PLACE, ROUNDING, slopes
-from .ways import Subject, check_subject, model_of, ways_of
+from .sweep_axes import sweep_axes_of
 
 Array = NDArray[np.float64]
 Distribution = Literal["normal", "uniform"]
@@ -118,7 +120,7 @@ def tolerance(
         seed = given.whole("seed", seed, least=0)
         given.among("distribution", distribution, ("normal", "uniform"))
         described = given.mapping("limits", {} if limits is None else limits, "names and limits")
-        bounds = limits_of(given, described, ways_of(suspension))
+        bounds = limits_of(given, described, sweep_axes_of(suspension))
         if not given.refused:
             curves = curves_of(given, suspension, over, positions, names, held)
             check_data(given, suspension, bounds)
@@ -198,7 +200,7 @@ class _Cars:
     ) -> None:
         self.suspension, self.places, self.off = suspension, places, off
         self.curves, self.limits = curves, limits
-        self.nominal = curves.of(model_of(suspension))
+        self.nominal = curves.of(assembly_of(suspension))
         self.values = np.full((len(off), *self.nominal.shape), np.nan)
         self.reasons = np.full(len(off), "", dtype=object)
         self.within = np.zeros(len(off), dtype=bool)

@@ -211,7 +211,7 @@ class Axle:
         >>> axle = Axle.load("reference_axle")
         >>> lower = axle.with_changes({"left.hardpoints.ball_joint.z": 190.0})
         >>> lower.left.hardpoints.ball_joint[2], lower.right.hardpoints.ball_joint[2]
-        (190.0, 200.0)
+        (190.0, 180.0)
         """
         with Arguments("axle") as checked:
             for key in checked.mapping("changes", changes, "places and values"):
