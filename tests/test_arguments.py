@@ -40,6 +40,8 @@ SPAN = (0.0, 0.01)
             lambda: run(CAR, Scenario(inputs=None)),
             "inputs = None: a dict of input names",
         ),
+        (lambda: run(CAR, Scenario(duration={})), "duration = {}"),
+        (lambda: run(CAR, Scenario(output_step=1e-9)), "more than 5000000 rows"),
         (
             lambda: kintrafo.simulate(
                 CAR, SPAN, REST, inputs={"road_height": ([0.0, 10**400], [0.0, 0.0])}

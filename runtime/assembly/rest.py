@@ -155,7 +155,8 @@ def _with_dips(
 
     amounts = np.abs(values)
     lower = (amounts[1:-1] <= amounts[:-2]) & (amounts[1:-1] <= amounts[2:])
-    same = (values[:-2] * values[1:-1] > 0.0) & (values[1:-1] * values[2:] > 0.0)
+    signs = np.sign(values)
+    same = (signs[1:-1] != 0.0) & (signs[:-2] == signs[1:-1]) & (signs[1:-1] == signs[2:])
     added = []
     for place in np.flatnonzero(lower & same):
         sign = np.sign(values[place])

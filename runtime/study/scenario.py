@@ -64,16 +64,21 @@ class Scenario:
     spin_rate: float = 0.0
     inputs: dict[str, Signal] = field(default_factory=dict)
 
+    def checked(self, given: Arguments) -> tuple[float, float]:
+        """Return duration and output step [s], or refuse them."""
+        duration = given.number("duration", self.duration, "s", above=0.0)
+        step = given.number("output step", self.output_step, "s", above=0.0)
+        if not given.refused and duration / step > _MOST_OUTPUTS:
+            given.refuse(
+                f"an output every {step:g} s for {duration:g} s makes more than "
+                f"{_MOST_OUTPUTS} rows. Choose a larger output step."
+            )
+        return duration, step
+
     def times(self) -> Array:
         """Return the times of the output, the first and the last included [s]."""
         with Arguments("simulation") as given:
-            duration = given.number("duration", self.duration, "s", above=0.0)
-            step = given.number("output step", self.output_step, "s", above=0.0)
-            if not given.refused and duration / step > _MOST_OUTPUTS:
-                given.refuse(
-                    f"an output every {step:g} s for {duration:g} s makes more than "
-                    f"{_MOST_OUTPUTS} rows. Choose a larger output step."
-                )
+            duration, step = self.checked(given)
         count = int(np.floor(duration / step + 1e-9))
         times = np.linspace(0.0, count * step, count + 1)
         if duration - times[-1] > 1e-9 * step:
@@ -220,7 +225,8 @@ def started(
 
 
 def _refuse_unusable(given: Arguments, assembly: Assembly, scenario: Scenario) -> None:
-    """Refuse a start and inputs that the assembly does not have."""
+    """Refuse times that cannot be, and a start and inputs that the assembly does not have."""
+    scenario.checked(given)
     inputs = given.mapping("inputs", scenario.inputs, "input names, what they do")
     if scenario.height is not None and len(assembly.wheels) > 1:
         given.refuse("height: an axle starts from rest. Leave it out.")

@@ -316,6 +316,14 @@ CALLS = {
             "strut_force": 0.0, "spin_rate": 0.0,
         },
     ),
+    "equilibrium of an axle": (
+        kintrafo.equilibrium,
+        {
+            "model": kintrafo.RigidAxleModel(_RIGID), "rack_position": 0.0,
+            "road_height": {"left": 0.01}, "wheel_load": None, "strut_force": {"right": 100.0},
+            "spin_rate": 0.0, "inputs": {"left_spring_actuator": 100.0},
+        },
+    ),
     "state_at_height": (
         kintrafo.state_at_height,
         {"model": _CAR, "height": 0.3, "rack_position": 0.0, "spin_rate": 0.0},
@@ -393,7 +401,7 @@ CALLS = {
         lambda **given: scenario.run(_CAR, scenario.Scenario(**given)),
         {"duration": 0.01, "output_step": 1e-3, "height": None, "spin_rate": 0.0, "inputs": {}},
     ),
-    "run": (scenario.run, {"model": _CAR, "scenario": scenario.Scenario(0.01)}),
+    "run": (scenario.run, {"model": _CAR, "scenario": scenario.Scenario(0.01), "wheels": "both"}),
     "Samples": (
         lambda **given: kintrafo.simulate(
             _CAR, _SPAN, _REST, inputs={"road_height": kintrafo.Samples(**given)}
