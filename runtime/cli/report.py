@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -134,7 +134,7 @@ class _Page:
         from ..assembly.of import assembly_of
         from ..report.marks import of_shown_side
 
-        assembly: Any = assembly_of(of)
+        assembly = assembly_of(of)
         if len(assembly.wheels) == 1:
             return cls(assembly.model, title, chapters, {"goals": goals})
         heading = f"{assembly.heading[:1].upper()}{assembly.heading[1:]}"
@@ -183,7 +183,7 @@ def _of_axle(of: "Model | Axle | RigidAxle", goals: "Sequence[Goal]") -> "list[C
     from ..assembly.of import assembly_of
     from ..report import axle_chapter
 
-    assembly: Any = assembly_of(of)
+    assembly = assembly_of(of)
     return [axle_chapter(of, goals)] if len(assembly.wheels) > 1 else []
 
 

@@ -184,7 +184,6 @@ class _Run:
 
         self.model, self.file, self.scenario = model, file, scenario
         assembly = assembly_of(model)
-        assert assembly is not None
         self.names = {wheel: assembly.names_of(wheel) for wheel in assembly.wheels}
         if len(self.names) > 1 and scenario.height is not None:
             raise typer.BadParameter("--height is only for the file of one suspension")

@@ -133,7 +133,6 @@ def run(
     """
     start, inputs = started(model, scenario, wheels=wheels)
     assembly = assembly_of(model)
-    assert assembly is not None
     events = [name for wheel in assembly.wheels for name in assembly.names_of(wheel).events]
     span, times = (0.0, scenario.duration), scenario.times()
     result = simulate(model, span, start, inputs=inputs, t_eval=times, events=events, **options)
