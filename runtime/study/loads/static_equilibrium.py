@@ -3,10 +3,13 @@
 Each wheel needs a vertical force of the road at every position, by virtual work. All wheels go to
 where they need none by Newton's method, in steps that are bounded and down to where it is stable: a
 single wheel between two positions of a grid over its travel, those nearest to design between which
-it is stable; several wheels from design.
+it is stable; several wheels from the cells of such a grid that are nearest to design, and from
+design where there are none.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +41,8 @@ _LEAST_RATE, _LONGEST = 100.0, 0.05
 # A way of 0.5 m, and what a stop that is hit takes besides; steps that lead out of the reach are
 # halved until they are shorter than this.
 _MOST, _SHORTEST = 60, 1e-4
+# Cells from which the search of several wheels begins, the nearest to design first.
+_TRIES = 20
 # Between so near positions a single wheel that needs a force either way is at a dead point [rad].
 _POLE = 1e-9
 
@@ -144,7 +149,7 @@ class _Search:
         rows = self.open()
         for row in rows[~self.assembly.reached(self.coordinates[rows], self.loads.racks[rows])]:
             self.reasons[row] = _UNSTABLE
-        self._walk()
+        self._walk(self._near_cells(self.open()))
         rows = self.open()
         rows = rows[self.loads.free[rows].any(axis=-1)]
         for row in rows[self.assembly.locked(self.coordinates[rows])]:
@@ -192,8 +197,66 @@ class _Search:
 
     # -- their way --------------------------------------------------------------------------------
 
-    def _walk(self) -> None:
-        rows = self.open()
+    def _near_cells(self, rows: Rows) -> Rows:
+        """Bring cases to where they stand within a cell of a grid; return those that do not.
+
+        Of several wheels each of which has a reach of its own. The cells are those in which the
+        missing force of every free wheel changes its sign, the nearest to design first.
+        """
+        if self.single or not np.isfinite(self.low[rows]).any():
+            return rows
+        start, low, high = (each.copy() for each in (self.coordinates, self.low, self.high))
+        cells = self._cells(rows)
+        for tried in range(_TRIES):
+            now = np.array([row for row in rows if tried < len(cells[row])], dtype=int)
+            for row in now:
+                middle, size = cells[row][tried]
+                self.coordinates[row], self.widths[row] = middle, _WIDEST
+                self.low[row], self.high[row] = middle - size, middle + size
+            self._walk(now)
+            lost = np.array([row for row in now if self.reasons[row]], dtype=int)
+            for row in lost:
+                self.reasons[row] = ""
+            rows = np.setdiff1d(rows, np.setdiff1d(now, lost))
+        for mine, begun in ((self.coordinates, start), (self.low, low), (self.high, high)):
+            mine[rows] = begun[rows]
+        self.widths[rows] = _WIDEST
+        return rows
+
+    def _cells(self, rows: Rows) -> dict[int, list[tuple[Array, Array]]]:
+        """Return middle and size of the cells of each case, the nearest to design first."""
+        together: dict[tuple[Any, ...], list[int]] = {}
+        for row in rows:
+            free = self.loads.free[row]
+            # a grid is that of all cases with one rack whose wheels are free
+            alone = () if free.all() else (int(row),)
+            together.setdefault((float(self.loads.racks[row]), *alone), []).append(int(row))
+        return {
+            row: cells
+            for own in together.values()
+            for row, cells in zip(own, self._on_a_grid(own), strict=True)
+        }
+
+    def _on_a_grid(self, rows: list[int]) -> Iterator[list[tuple[Array, Array]]]:
+        """Yield the cells of cases whose wheels are on one grid."""
+        first, free = rows[0], self.loads.free[rows[0]]
+        ends = zip(self.low[first], self.high[first], self.coordinates[first], free, strict=True)
+        grids = [np.linspace(a, b, _GRID - 2) if f else np.array([at]) for a, b, at, f in ends]
+        mesh = np.stack(np.meshgrid(*grids, indexing="ij"), axis=-1)
+        places = mesh.reshape(-1, free.size)
+        racks = np.full(len(places), self.loads.racks[first])
+        poses = self.assembly.at_wheel_coordinates(places, racks)
+        work = VirtualWork.of(self.assembly, poses)
+        sizes = np.array([grid[1] - grid[0] if grid.size > 1 else 0.0 for grid in grids])
+        for row in rows:
+            missing = work.missing(self.loads.at(poses, np.full(len(places), row)))
+            values = missing.reshape(mesh.shape)[..., free]
+            inside = _changes_sign(values, np.flatnonzero(free)).all(axis=-1)
+            middles = mesh[tuple(np.argwhere(inside).T)] + 0.5 * sizes
+            away = ((middles - self.assembly.design_wheel_coordinates)[:, free] ** 2).sum(axis=-1)
+            yield [(middles[i], sizes) for i in np.argsort(away, kind="stable")[:_TRIES]]
+
+    def _walk(self, rows: Rows) -> None:
         for _ in range(_MOST):
             if rows.size == 0:
                 return
@@ -324,6 +387,18 @@ class _Search:
         if not pressed and lifted and not self.assembly.has_stop(name, "rebound_stop"):
             return "Give the file its [rebound_stop], or the case its travel_mm."
         return "Give the case its travel_mm, or correct the forces."
+
+
+def _changes_sign(values: Array, axes: NDArray[np.int64]) -> Booleans:
+    """Tell of each cell of a grid which values, (..., k), have a zero between its corners."""
+    least = most = values
+    for axis in axes:
+        count = values.shape[axis] - 1
+        ends = [np.arange(count), np.arange(1, count + 1)]
+        least = np.minimum(*(np.take(least, end, axis) for end in ends))
+        most = np.maximum(*(np.take(most, end, axis) for end in ends))
+    found: Booleans = (least <= 0.0) & (most >= 0.0)
+    return found
 
 
 def _steps(missing: Array, slopes: Array) -> Array:
