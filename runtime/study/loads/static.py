@@ -89,8 +89,8 @@ def static(
     -----
     Equilibrium of every part, linear in the forces of the joints. Wheels go to the stable position
     nearest to design in which springs, stops and bar carry the case, of those that a grid over
-    their travels shows; the wheels of a rigid axle go there from design. Two bearings of an arm on one axis
-    share the force along it equally: statics does not decide that.
+    their travels shows; the wheels of a rigid axle go there from design. Two bearings of an arm on
+    one axis share the force along it equally: statics does not decide that.
 
     Examples
     --------
