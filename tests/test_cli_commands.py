@@ -182,7 +182,6 @@ def test_what_a_rigid_axle_has_is_what_takes_its_file(kintrafo):
     (told,) = re.findall(r"Its commands are (.*?); others", NOT_A_RIGID_AXLE)
     assert set(re.split(r", | and ", told)) == named
     more = {
-        "kinematics": [],
         "topology": [],
         "derivation": ["--out", "x.tex"],
         "animate": ["x.gif"],

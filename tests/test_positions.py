@@ -9,10 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import (
+    Axle,
     ClosureError,
     InputError,
     Model,
     PositionError,
+    RigidAxle,
     characteristics,
     equilibrium,
     linearise,
@@ -457,3 +459,33 @@ def test_the_mirror_image_is_made_once() -> None:
     assert image.suspension == MODEL.suspension.mirrored()
     free = Model("reference_car", free_rack=True).mirror_image
     assert free.free_rack
+
+
+def test_positions_of_an_axle_are_those_of_its_sides() -> None:
+    axle = Axle.load("reference_axle")
+    found = sweep.positions(axle, [-0.03, 0.0, 0.02], [-0.01, 0.01])
+    assert found["camber"].dims == ("wheel", "wheel_travel", "rack_position")
+    for side, model in axle.models.items():
+        alone = sweep.positions(model, [-0.03, 0.0, 0.02], [-0.01, 0.01])
+        assert {*found} == {*alone}
+        for name in alone:
+            np.testing.assert_array_equal(found[name].sel(wheel=side), alone[name])
+
+
+def test_positions_of_a_rigid_axle_keep_its_rods_lengths() -> None:
+    axle, travels = RigidAxle.load("rigid_axle"), np.array([-0.03, 0.0, 0.05])
+    found = sweep.positions(axle, travels)
+    for name, (chassis, beam) in axle.ends().items():
+        side, _, stem = name.partition("_")
+        of_side = side in ("left", "right")
+        own = found.sel(wheel=side) if of_side else found
+        end = [own[f"{stem if of_side else name}_axle_{axis}"].values for axis in "xyz"]
+        lengths = np.linalg.norm(np.transpose(end) - chassis, axis=-1)
+        # a metre to its rounding, some operations long
+        np.testing.assert_allclose(lengths, np.linalg.norm(beam - chassis), rtol=1e-13)
+    rise = found["wheel_center_z"] - found["wheel_center_z"].sel(wheel_travel=0.0)
+    np.testing.assert_allclose(rise, np.stack([travels, travels]), atol=1e-13)
+    camber = characteristics.over(axle, "bump", travels)["camber"]
+    np.testing.assert_array_equal(found["camber"], camber)
+    with pytest.raises(InputError, match="rack: this axle has none"):
+        sweep.positions(axle, travels, 0.01)

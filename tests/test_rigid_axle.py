@@ -628,7 +628,7 @@ def test_other_doors_refuse_it_by_name() -> None:
 @pytest.mark.parametrize(
     "line",
     [
-        "kinematics rigid_axle",
+        "kinematics rigid_axle --over rack",
         "sweep rigid_axle wheel.toe_deg=0,1 --rack 5",
         "export-points rigid_axle a.csv",
         "topology rigid_axle",

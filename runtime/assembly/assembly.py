@@ -181,7 +181,7 @@ class Assembly(ABC):
             If a position is out of reach.
         """
 
-    def at_travel(self, travels: Array, rack: float = 0.0) -> RigPosition:
+    def at_travel(self, travels: Array, rack: Array | float = 0.0) -> RigPosition:
         """Return where all wheels are at some heights above design [m], in parallel."""
         return RigPosition(dict.fromkeys(self.wheels, travels), np.asarray(rack, float))
 
@@ -220,6 +220,14 @@ class Assembly(ABC):
     def steered_by(self) -> str | None:
         """The motion in which the steering moves, if it has one."""
         return None
+
+    @abstractmethod
+    def coordinates_of(self, suffix: str) -> dict[str, str]:
+        """Return what the coordinates of a group are called, by its states in `poses`."""
+
+    @abstractmethod
+    def joints(self, suffix: str) -> tuple[str, ...]:
+        """Return the moving hardpoints of a group of parts, by their names in `poses`."""
 
     # -- what it is measured by -------------------------------------------------------------------
 

@@ -239,6 +239,14 @@ class AxleAssembly(Assembly):
         if motion in ("rack", "steer"):
             self.axle.right.refuse_without_rack(f"the motion {motion!r}")
 
+    def coordinates_of(self, suffix: str) -> dict[str, str]:
+        """Return what the arm's angle of a side is called."""
+        return {self.axle.models[suffix.removeprefix("_")].names.arm: "arm_angle"}
+
+    def joints(self, suffix: str) -> tuple[str, ...]:
+        """Return the moving hardpoints of a side."""
+        return self.axle.sides[suffix.removeprefix("_")].hardpoints.JOINTS
+
     def measures(self, motion: str) -> tuple[Measure, ...]:
         """Return its characteristics over a motion."""
         return OVER_STEERING if motion in _STEERING else OVER_TRAVEL

@@ -132,3 +132,28 @@ def together(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
             attributes = data.attrs | {"long_name": words}
             found[stem] = xr.Variable((WHEEL, *data.dims), values, attributes)
     return xr.Dataset(found, {**dataset.coords, WHEEL: wheel_coordinate(wheels)}, dataset.attrs)
+
+
+def by_ending(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
+    """Return a flat dataset with what each wheel has over the wheels, as before `flat`.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        With names that end in that of a wheel, ``camber_left``.
+    wheels : sequence of str
+
+    Returns
+    -------
+    xarray.Dataset
+        With ``camber`` over ``wheel`` where there is one of each wheel.
+    """
+    begun = {
+        str(name): f"{wheel}_{str(name).removesuffix(f'_{wheel}')}"
+        for name in dataset
+        for wheel in wheels
+        if str(name).endswith(f"_{wheel}")
+    }
+    found = together(dataset.rename_vars(begun), wheels)
+    back = {new: old for old, new in begun.items() if new in found}
+    return found.rename_vars(back)

@@ -151,6 +151,16 @@ class CornerAssembly(Assembly):
             if name in OF_STEERING:
                 self.subject.refuse_without_rack(name)
 
+    def coordinates_of(self, suffix: str) -> dict[str, str]:
+        """Return what the arm's angle is called."""
+        del suffix
+        return {self.model.names.arm: "arm_angle"}
+
+    def joints(self, suffix: str) -> tuple[str, ...]:
+        """Return the moving hardpoints."""
+        del suffix
+        return self.subject.hardpoints.JOINTS
+
     def measures(self, motion: str) -> tuple[Measure, ...]:
         """Return its characteristics over a motion."""
         return OVER_RACK if motion == "rack" else OVER_TRAVEL

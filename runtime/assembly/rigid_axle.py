@@ -202,6 +202,18 @@ class RigidAxleAssembly(Assembly):
             raise PositionError(_NO_REST)
         return found
 
+    def coordinates_of(self, suffix: str) -> dict[str, str]:
+        """Return what heave and roll are called."""
+        del suffix
+        return {HEAVE: HEAVE, ROLL: ROLL}
+
+    def joints(self, suffix: str) -> tuple[str, ...]:
+        """Return the ends of rods and the seats on the axle."""
+        del suffix
+        ends = [f"{name}_axle" for name in self.axle.rods]
+        own = [name for name in self.axle.points(SIDES[0]) if not name.endswith("_top")]
+        return (*ends, *(f"{name}_{side}" for name in own for side in SIDES))
+
     def measures(self, motion: str) -> tuple[Measure, ...]:
         """Return its characteristics, the same over all motions."""
         del motion

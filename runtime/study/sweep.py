@@ -4,19 +4,21 @@ Wheel travel is the height of the wheel centre above its design position [m], po
 rack is displaced along its axis [m]. Both are zero at design.
 """
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..assembly.assembly import Assembly
+from ..assembly.by_wheel import by_ending
+from ..assembly.of import given_assembly
+from ..assembly.poses import Assembled
 from ..assembly.usual import grid, usual_rack, usual_travel
 from ..core.arguments import Arguments
 from ..core.memory import positions_given
 from ..core.named_types import ArrayLike
 from ..core.quantities import variable
-from ..suspension.model import Model
-from ..suspension.points import hardpoints
-from ..suspension.positions import arm_angles, design_height
-from ..suspension.reach import at_rest
 
 __all__ = ["grid", "positions", "usual_rack", "usual_travel"]
 
@@ -29,7 +31,7 @@ _OF_POSITION = ("m", "rad")
 
 
 def positions(
-    model: Model,
+    subject: Any,
     travel: ArrayLike | None = None,
     rack: ArrayLike | None = None,
 ) -> xr.Dataset:
@@ -37,9 +39,9 @@ def positions(
 
     Parameters
     ----------
-    model : Model
+    subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
     travel : array_like, optional
-        Wheel travel [m]: one value or many, by default what `usual_travel` returns.
+        Wheel travel, of an axle in parallel [m]: one value or many, by default the usual ones.
     rack : array_like, optional
         Displacement of the rack [m]: one value or many, by default zero.
 
@@ -47,72 +49,93 @@ def positions(
     -------
     xarray.Dataset
         Over ``wheel_travel`` and ``rack_position``, of which one that is a single number is a
-        scalar coordinate. Variables: the signals of the model that the position decides (wheel
-        centre, camber, toe, steer angle, strut length, ...), the moving hardpoints
-        (``ball_joint_x``, ...) and the arm angle; SI units, chassis axes.
+        scalar coordinate; of an axle, what each side has also over ``wheel``. Variables: the
+        signals of the equations that the position decides (wheel centre, camber, toe, steer angle,
+        strut length, ...), the moving hardpoints (``ball_joint_x``, ...) and the independent
+        coordinates; SI units, chassis axes.
 
     Raises
     ------
     PositionError
         If a position is out of reach; the message states the range.
+    InputError
+        If an argument cannot be used.
 
     Examples
     --------
-    >>> curves = positions(Model("reference_car"), [-0.05, 0.0, 0.05])
+    >>> from kintrafo import load
+    >>> curves = positions(load("reference_car"), [-0.05, 0.0, 0.05])
     >>> curves["camber"].values[[0, 2]].round(4).tolist()
     [0.0231, -0.016]
     """
     with Arguments("sweep") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+        assembly = given_assembly(given, subject)
         travels = positions_given(
             given, "travel", 0.0 if travel is None else travel, "m", dimensions=[0, 1]
         )
         racks = positions_given(
             given, "rack", 0.0 if rack is None else rack, "m", dimensions=[0, 1], times=travels.size
         )
-    travels = usual_travel(model) if travel is None else travels
-    if racks.ndim:
-        model.suspension.refuse_without_rack("positions over the rack")
+    if racks.ndim or np.any(racks):
+        assembly.refuse_motion("rack")
+        with Arguments("sweep") as given:
+            if not assembly.steered:
+                given.refuse("rack: this axle has none. Leave it out.")
+    travels = assembly.usual(assembly.usual_motion) if travel is None else travels
     # travels go down, racks across; a single one of either has no dimension
-    heights = design_height(model) + (travels[:, None] if travels.ndim and racks.ndim else travels)
-    angles = arm_angles(model, heights, racks)
-    return _dataset(model, travels, racks, _evaluated(model, angles, racks))
-
-
-def _evaluated(model: Model, angles: Array, racks: Array) -> dict[str, Array]:
-    """Return everything that the position decides, by name."""
-    states, inputs = at_rest(model, angles, racks)
-    signals = model.signals(states, inputs)
-    described = model.equations.SIGNALS
-    columns = {n: v for n, v in signals.items() if described[n]["unit"] in _OF_POSITION}
-    points = hardpoints(model, states, inputs)
-    for point in model.suspension.hardpoints.JOINTS:
-        columns |= {f"{point}_{axis}": points[point][..., i] for i, axis in enumerate("xyz")}
-    return columns | {"arm_angle": angles}
-
-
-def _dataset(model: Model, travels: Array, racks: Array, columns: dict[str, Array]) -> xr.Dataset:
-    """Put columns over travels and racks into a dataset."""
-    along = (TRAVEL,) * travels.ndim
-    across = (RACK,) * racks.ndim
+    heights, across = np.broadcast_arrays(
+        travels[:, None] if travels.ndim and racks.ndim else travels, racks
+    )
+    held = assembly.at_travel(heights.ravel(), across.ravel())
+    along = (TRAVEL,) * travels.ndim + (RACK,) * racks.ndim
+    found: dict[str, xr.Variable] = {}
+    for suffix, poses in assembly.poses(held).items():
+        for name, (values, meaning, unit) in _of_group(assembly, suffix, poses).items():
+            found[name] = variable(along, values.reshape(heights.shape), meaning, unit)
     meaning = "wheel travel, positive in bump"
-    coordinates = {TRAVEL: variable(along, travels, meaning, "m")}
-    if model.suspension.steered():
+    coordinates = {TRAVEL: variable((TRAVEL,) * travels.ndim, travels, meaning, "m")}
+    if assembly.steered:
         meaning = "rack displacement, positive along its axis"
-        coordinates[RACK] = variable(across, racks, meaning, "m")
-    data = {
-        name: variable(along + across, values, *_described(name, model))
-        for name, values in columns.items()
-    }
-    return xr.Dataset(data, coordinates, {"title": "positions of the suspension"})
+        coordinates[RACK] = variable((RACK,) * racks.ndim, racks, meaning, "m")
+    flat = xr.Dataset(found, coordinates, {"title": "positions of the suspension"})
+    return flat if len(assembly.wheels) == 1 else by_ending(flat, assembly.wheels)
 
 
-def _described(name: str, model: Model) -> tuple[str, str]:
-    """Return meaning and SI unit of a column."""
-    if name in model.signal_names:
-        signal = model.equations.SIGNALS[name]
-        return signal["meaning"], signal["unit"]
-    if name == "arm_angle":
-        return str(model.equations.STATE[model.names.arm]["meaning"]), "rad"
-    point, _, axis = name.rpartition("_")
-    return f"{point.replace('_', ' ')}, {axis} in chassis axes", "m"
+Columns = dict[str, tuple[Array, str, str]]
+"""Values, meaning and unit by name."""
+
+
+def _of_group(assembly: Assembly, suffix: str, poses: Assembled) -> Columns:
+    """Return everything that the position of a group of parts decides, as columns."""
+    model = poses.model
+    found: Columns = {}
+    for name, values in poses.signals().items():
+        described = model.equations.SIGNALS[name]
+        if described["unit"] in _OF_POSITION:
+            column = f"{name}{suffix}" if suffix else _ended(assembly, name)
+            found[column] = values, described["meaning"], described["unit"]
+    for point in assembly.joints(suffix):
+        words = point.replace("_", " ")
+        for i, axis in enumerate("xyz"):
+            name = f"{point}_{axis}{suffix}"
+            for wheel in assembly.wheels if not suffix else ():
+                if point.endswith(f"_{wheel}"):
+                    name = f"{point.removesuffix(f'_{wheel}')}_{axis}_{wheel}"
+            found[name] = poses.points[point][..., i], f"{words}, {axis} in chassis axes", "m"
+    for state, name in assembly.coordinates_of(suffix).items():
+        described = model.equations.STATE[state]
+        values = poses.states[..., model.state_names.index(state)]
+        found[f"{name}{suffix}"] = values, str(described["meaning"]), described["unit"]
+    return found
+
+
+def _ended(assembly: Assembly, name: str) -> str:
+    """Return the name of a signal with that of its wheel at the end, where equations begin it."""
+    if len(assembly.wheels) == 1:
+        return name
+    for wheel in assembly.wheels:
+        names = assembly.names_of(wheel)
+        for prefix in (names.signals, names.prefix):
+            if name.startswith(prefix):
+                return f"{name.removeprefix(prefix)}_{wheel}"
+    return name

@@ -360,7 +360,7 @@ CALLS = {
     "frequency_response": (
         _LINEAR.frequency_response, {"frequency": [1.0, 2.0], "source": "road_height"}
     ),
-    "sweep.positions": (sweep.positions, {"model": _CAR, "travel": [0.0], "rack": 0.0}),
+    "sweep.positions": (sweep.positions, {"subject": _CAR, "travel": [0.0], "rack": 0.0}),
     "sweep.grid": (sweep.grid, {"lowest": -0.01, "highest": 0.01, "step": 0.01}),
     "sweep.usual_travel": (
         sweep.usual_travel,
