@@ -24,6 +24,7 @@ from kintrafo import (
     roads,
 )
 from kintrafo.assembly import motions, wheel
+from kintrafo.assembly.axle import AxleAssembly
 from kintrafo.assembly.by_wheel import flat
 from kintrafo.assembly.from_model import corner as corner_of
 from kintrafo.assembly.measures import pair_rolling as formulas
@@ -310,7 +311,7 @@ def test_roll_is_the_inclination_of_the_line_through_the_wheel_centres(
         ]
         np.testing.assert_array_equal(told, camber)
         if not rack:
-            also = values_of(axle, "roll", angles)[f"camber_{side}"]
+            also = values_of(AxleAssembly(axle), "roll", angles)[f"camber_{side}"]
             np.testing.assert_array_equal(also, camber)
 
 
