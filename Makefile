@@ -57,12 +57,12 @@ format: .venv/.ready ## Rewrite the sources in the project's style
 	@.venv/bin/ruff check --fix-only --quiet .
 	@.venv/bin/ruff format --quiet .
 
-# mypy and the linter follow folders, not the mapping of the three of them onto one package: this is
+# mypy and the linter follow folders, not the mapping of the four of them onto one package: this is
 # a tree of links that has that shape, made anew so that nothing in it points to what has moved
 tree:
 	@rm -rf build/types && mkdir -p build/types/kintrafo
 	@for item in runtime/*; do ln -sfn "../../../$$item" build/types/kintrafo/; done
-	@ln -sfn ../../../generator ../../../generated build/types/kintrafo/
+	@ln -sfn ../../../generator ../../../generated ../../../vehicle build/types/kintrafo/
 
 types: .venv/.ready tree ## Check types
 	@MYPYPATH=build/types .venv/bin/mypy -p kintrafo
@@ -117,13 +117,13 @@ drawings: build ## The drawings of docs/ that are computed
 	@for script in docs/images/*.py; do $(PYTHON) $$script || exit; done
 
 report-assets: ## Bundle the HTML report's script and style again (needs Node.js)
-	@cd runtime/report/web && npm ci --silent && npm run --silent build
+	@cd vehicle/report/web && npm ci --silent && npm run --silent build
 
 front-axle-page: build ## The page of the front axle: operations, wheel rates, a bump
 	@$(PYTHON) -m benchmarks.front_axle --page docs/front-axle.md
 
 format-page: build ## The input file's JSON Schema, and its page in docs/
-	@$(PYTHON) -m kintrafo.suspension.schema runtime/suspension/data/suspension.schema.json docs/file-format.md
+	@$(PYTHON) -m kintrafo.vehicle.files.schema vehicle/data/suspension.schema.json docs/file-format.md
 
 benchmark-bits: build ## Which results are the same bits on another processor
 	@$(PYTHON) -m benchmarks.same_bits --page docs/conventions.md

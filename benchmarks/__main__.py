@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 import typer
 from kintrafo.simulation.solvers import native_available
-from kintrafo.study.paper import OUTPUT_INTERVAL
+from kintrafo.vehicle.analysis.paper import OUTPUT_INTERVAL
 from rich.console import Console
 from rich.markdown import Markdown
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn

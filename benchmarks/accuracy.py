@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 from kintrafo import Model, simulate, state_at_height
-from kintrafo.suspension.starter import packaged
+from kintrafo.vehicle.data.starter import packaged
 
 from .report import fill_page, markdown_table
 

@@ -17,7 +17,7 @@ import numpy as np
 import typer
 from kintrafo import System, simulate
 from kintrafo.generated import andrews
-from kintrafo.plots.figures import BLUE, GREEN, ORANGE, STYLE
+from kintrafo.pictures.figures import BLUE, GREEN, ORANGE, STYLE
 from kintrafo.simulation.simulate import Method
 from matplotlib import rc_context
 from matplotlib.figure import Figure

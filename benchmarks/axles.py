@@ -6,7 +6,7 @@ import tempfile
 from pathlib import Path
 
 from kintrafo import Axle, Suspension, characteristics
-from kintrafo.plots import curves
+from kintrafo.vehicle.plots import curves
 
 from .report import fill_page, milliseconds, seconds_of
 

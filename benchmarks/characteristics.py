@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 from kintrafo import Model, characteristics
-from kintrafo.suspension.positions import arm_angles
+from kintrafo.vehicle.models.positions import arm_angles
 from rich.console import Console
 from rich.table import Table
 

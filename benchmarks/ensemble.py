@@ -23,7 +23,7 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 from kintrafo import Model, System, ensemble, simulate, state_at_height
-from kintrafo.plots.figures import BLUE, GREEN, ORANGE, STYLE
+from kintrafo.pictures.figures import BLUE, GREEN, ORANGE, STYLE
 from kintrafo.simulation.lanes import library
 from kintrafo.simulation.lanes.run import usual_threads
 from kintrafo.systems.compile.compiler import find_compiler

@@ -13,10 +13,10 @@ from pathlib import Path
 
 import numpy as np
 from kintrafo import Model, Simulation, Suspension, simulate, state_at_height
-from kintrafo.plots.figures import STYLE
+from kintrafo.pictures.figures import STYLE
 from kintrafo.simulation.simulate import Method
 from kintrafo.simulation.solvers import native_available
-from kintrafo.study.paper import DURATION, SPIN_RATE, START_HEIGHT, rest
+from kintrafo.vehicle.analysis.paper import DURATION, SPIN_RATE, START_HEIGHT, rest
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

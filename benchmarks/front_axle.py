@@ -17,7 +17,7 @@ from kintrafo.generator import Formulation
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import front_axle, macpherson
-from kintrafo.plots.figures import BLUE, ORANGE, STYLE
+from kintrafo.pictures.figures import BLUE, ORANGE, STYLE
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 from rich.console import Console

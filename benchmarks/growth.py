@@ -28,7 +28,7 @@ from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.mechanisms.stewart_platform import STEWART_PLATFORM
-from kintrafo.plots.figures import BLUE, STYLE
+from kintrafo.pictures.figures import BLUE, STYLE
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.compiler import Compiler, find_compiler
 from kintrafo.systems.compile.loader import load

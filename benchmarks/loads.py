@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 from kintrafo import Model, compliance, equilibrium, loads, roads, simulate
-from kintrafo.plots import curves
-from kintrafo.plots import loads as pictures
+from kintrafo.vehicle.plots import curves
+from kintrafo.vehicle.plots import loads as pictures
 
 from .report import fill_page, milliseconds
 

@@ -14,7 +14,7 @@ import numpy as np
 from kintrafo import simulate, state_at_height
 from kintrafo.simulation.dead_points import meanings
 from kintrafo.simulation.solvers import NATIVE_METHODS, sundials
-from kintrafo.study.paper import (
+from kintrafo.vehicle.analysis.paper import (
     DURATION,
     OUTPUT_INTERVAL,
     PAPER_GEAR_S,
@@ -23,7 +23,7 @@ from kintrafo.study.paper import (
     START_HEIGHT,
     rest,
 )
-from kintrafo.suspension.model import Model
+from kintrafo.vehicle.models.model import Model
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 

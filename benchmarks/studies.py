@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 from kintrafo import Model, Suspension, characteristics, rig, variation
-from kintrafo.plots import curves
-from kintrafo.plots import pareto as fronts
-from kintrafo.plots import variation as pictures
+from kintrafo.vehicle.plots import curves
+from kintrafo.vehicle.plots import pareto as fronts
+from kintrafo.vehicle.plots import variation as pictures
 
 from .report import fill_page
 

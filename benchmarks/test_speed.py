@@ -14,7 +14,7 @@ import pytest
 from kintrafo import Model, characteristics, simulate, state_at_height
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import MODELS, chains, held_by_rods
-from kintrafo.study.paper import DURATION, SPIN_RATE, START_HEIGHT
+from kintrafo.vehicle.analysis.paper import DURATION, SPIN_RATE, START_HEIGHT
 
 NAMES = [model.name for model in MODELS]
 BATCH = 1000  # states in one call, so that Python's share of a call is small

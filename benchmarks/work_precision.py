@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from kintrafo.plots.figures import BLUE, GREEN, ORANGE, STYLE
+from kintrafo.pictures.figures import BLUE, GREEN, ORANGE, STYLE
 from kintrafo.simulation.solvers import native_methods
-from kintrafo.study.paper import DURATION
+from kintrafo.vehicle.analysis.paper import DURATION
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

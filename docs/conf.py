@@ -42,7 +42,8 @@ highlight_language = "none"
 nitpicky = True
 nitpick_ignore_regex = [
     ("py:obj", r"(?!kintrafo\.).*"),  # what is between single backquotes, see above
-    ("py:obj", r"kintrafo\.(core|study)\..*"),  # the floors inside, which have no pages
+    # the floors inside, which have no pages
+    ("py:obj", r"kintrafo\.(core|datasets|pictures|vehicle)\..*"),
 ]
 
 html_theme = "pydata_sphinx_theme"

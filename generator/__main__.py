@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TaskID, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from ..cli.exits import guarded, standing_streams
+from ..terminal.exits import guarded, standing_streams
 from .backends.files import project_files, shared_files
 from .backends.report.derivation import (
     bodies_of,

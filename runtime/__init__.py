@@ -15,10 +15,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .assembly.equilibrium import equilibrium
     from .core.errors import InputError, KintrafoError
+    from .ensembles import ensemble
     from .equations.errors import ClosureError, ModelError, ParameterError
-    from .report.animation import animate
+    from .pages.animation import animate
     from .simulation.backwards import MotionGradient, motion_gradient
     from .simulation.events import SignalEvent
     from .simulation.forwards import MotionSensitivity, motion_sensitivity
@@ -26,22 +26,6 @@ if TYPE_CHECKING:
     from .simulation.result import Simulation, SimulationError
     from .simulation.simulate import simulate
     from .simulation.stepper import Stepper
-    from .study.ensembles import ensemble
-    from .suspension.axle import Axle
-    from .suspension.axle.equations import AxleModel
-    from .suspension.kinds import Suspension
-    from .suspension.loading import load
-    from .suspension.model import Model
-    from .suspension.positions import (
-        PositionError,
-        Range,
-        arm_angles,
-        road_under_load,
-        state_at_height,
-        travel_range,
-    )
-    from .suspension.rigid import RigidAxle
-    from .suspension.rigid.model import RigidAxleModel
     from .systems.compile import CompilerError, MechanismError, proposals, write_derivation
     from .systems.compile import compile_mechanism as compile  # noqa: A004 (what the user calls it)
     from .systems.derivatives import derivative, design_derivative, gradient
@@ -51,6 +35,22 @@ if TYPE_CHECKING:
     from .systems.state import State
     from .systems.system import System
     from .targets.export import export_model
+    from .vehicle.assembly.equilibrium import equilibrium
+    from .vehicle.files.loading import load
+    from .vehicle.kinds import Suspension
+    from .vehicle.models.axle import Axle
+    from .vehicle.models.axle.equations import AxleModel
+    from .vehicle.models.model import Model
+    from .vehicle.models.positions import (
+        PositionError,
+        Range,
+        arm_angles,
+        road_under_load,
+        state_at_height,
+        travel_range,
+    )
+    from .vehicle.models.rigid import RigidAxle
+    from .vehicle.models.rigid.model import RigidAxleModel
 
 __version__: str
 
@@ -106,21 +106,21 @@ __all__ = [
 # Names are loaded when they are first used: the generator is part of this package, and must run
 # where no model has been generated or compiled yet.
 _MODULES = {
-    ".assembly.equilibrium": ("equilibrium",),
+    ".vehicle.assembly.equilibrium": ("equilibrium",),
     ".core.errors": ("InputError", "KintrafoError"),
     ".simulation.events": ("SignalEvent",),
     ".equations.errors": ("ClosureError", "ModelError", "ParameterError"),
-    ".suspension.axle": ("Axle",),
-    ".suspension.axle.equations": ("AxleModel",),
-    ".suspension.kinds": ("Suspension",),
+    ".vehicle.models.axle": ("Axle",),
+    ".vehicle.models.axle.equations": ("AxleModel",),
+    ".vehicle.kinds": ("Suspension",),
     ".simulation.interpolation": ("Samples",),
     ".simulation.backwards": ("MotionGradient", "motion_gradient"),
     ".simulation.forwards": ("MotionSensitivity", "motion_sensitivity"),
     ".systems.derivatives": ("derivative", "design_derivative", "gradient"),
     ".systems.linearisation": ("Linearisation", "linearise"),
     ".systems.rest": ("rest",),
-    ".suspension.loading": ("load",),
-    ".suspension.model": ("Model",),
+    ".vehicle.files.loading": ("load",),
+    ".vehicle.models.model": ("Model",),
     ".systems.modes": ("Mode",),
     ".systems.compile": (
         "CompilerError",
@@ -129,7 +129,7 @@ _MODULES = {
         "proposals",
         "write_derivation",
     ),
-    ".suspension.positions": (
+    ".vehicle.models.positions": (
         "PositionError",
         "Range",
         "arm_angles",
@@ -137,13 +137,13 @@ _MODULES = {
         "state_at_height",
         "travel_range",
     ),
-    ".suspension.rigid": ("RigidAxle",),
-    ".suspension.rigid.model": ("RigidAxleModel",),
+    ".vehicle.models.rigid": ("RigidAxle",),
+    ".vehicle.models.rigid.model": ("RigidAxleModel",),
     ".simulation.result": ("Simulation", "SimulationError"),
-    ".report.animation": ("animate",),
+    ".pages.animation": ("animate",),
     ".simulation.simulate": ("simulate",),
     ".simulation.stepper": ("Stepper",),
-    ".study.ensembles": ("ensemble",),
+    ".ensembles": ("ensemble",),
     ".systems.state": ("State",),
     ".systems.system": ("System",),
     ".targets.export": ("export_model",),
@@ -155,28 +155,28 @@ _OTHER_NAMES = {"compile": "compile_mechanism"}
 
 # Modules that are themselves part of the interface, and where they are.
 _INTERFACES = {
-    "adams_car": ".suspension.adams_car",
-    "characteristics": ".study.characteristics",
-    "checkup": ".study.checkup",
-    "chrono": ".suspension.chrono",
-    "compare": ".study.compare",
-    "compliance": ".study.compliance",
-    "excitation": ".study.excitation",
-    "export": ".study.export",
-    "loads": ".study.loads",
-    "measurement": ".study.measurement",
-    "plots": ".plots",
-    "point_table": ".suspension.point_table",
-    "report": ".report",
-    "rig": ".study.rig",
-    "roads": ".simulation.roads",
-    "scenario": ".study.scenario",
-    "schema": ".suspension.schema",
-    "sheet": ".study.sheet",
-    "starter": ".suspension.starter",
-    "sweep": ".study.sweep",
+    "adams_car": ".vehicle.files.adams_car",
+    "characteristics": ".vehicle.analysis.characteristics",
+    "checkup": ".vehicle.analysis.checkup",
+    "chrono": ".vehicle.files.chrono",
+    "compare": ".vehicle.analysis.compare",
+    "compliance": ".vehicle.analysis.compliance",
+    "excitation": ".vehicle.analysis.excitation",
+    "export": ".datasets.export",
+    "loads": ".vehicle.analysis.loads",
+    "measurement": ".vehicle.analysis.measurement",
+    "plots": ".vehicle.plots",
+    "point_table": ".vehicle.files.point_table",
+    "report": ".vehicle.report",
+    "rig": ".vehicle.analysis.rig",
+    "roads": ".vehicle.analysis.roads",
+    "scenario": ".vehicle.analysis.scenario",
+    "schema": ".vehicle.files.schema",
+    "sheet": ".vehicle.analysis.sheet",
+    "starter": ".vehicle.data.starter",
+    "sweep": ".vehicle.analysis.sweep",
     "topology": ".systems.topology",
-    "variation": ".study.variation",
+    "variation": ".vehicle.studies",
 }
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 
 from kintrafo import Suspension
-from kintrafo.suspension.kinds import KINDS
+from kintrafo.vehicle.kinds import KINDS
 
 # What the templates call the points, by kind and our names.
 STRUT = {

@@ -4,8 +4,8 @@ import os
 import signal
 from pathlib import Path
 
-from kintrafo.study.ensembles.pieces import queue
-from kintrafo.study.ensembles.pieces.piece import Common, Found, Piece
+from kintrafo.ensembles.pieces import queue
+from kintrafo.ensembles.pieces.piece import Common, Found, Piece
 
 DO = queue._do
 

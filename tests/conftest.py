@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     import xarray as xr
     from kintrafo.generator.equations.outputs import Derivation
-    from kintrafo.plots.animation import Array, Skeleton
+    from kintrafo.pictures.animation import Array, Skeleton
 
     Pages = dict[str, tuple[Hashable, ...]]
     """Groups of curves by name, with their variables."""
@@ -147,16 +147,16 @@ def derived() -> Callable[[str], Derivation]:
 @pytest.fixture
 def coarse_report(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let reports have few positions, where the numbers between them do not matter."""
-    from kintrafo.report.grid import Axis, Grid
+    from kintrafo.vehicle.report.grid import Axis, Grid
 
     grid = Grid(Axis(-0.05, 0.025, 5), Axis(-0.04, 0.02, 5))
-    monkeypatch.setattr("kintrafo.report.page.reachable_grid", lambda _: grid)
+    monkeypatch.setattr("kintrafo.vehicle.report.page.reachable_grid", lambda _: grid)
 
 
 @pytest.fixture
 def few_frames(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let GIFs show every tenth frame, where it does not matter how smoothly they move."""
-    from kintrafo.report import animation
+    from kintrafo.pages import animation
 
     whole = animation.write_gif
 
@@ -172,7 +172,7 @@ def few_frames(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def few_generations(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a search for a front be short, where it does not matter how good it is."""
-    from kintrafo.study import variation
+    from kintrafo.vehicle import studies as variation
 
     whole = variation.pareto
 
@@ -204,10 +204,10 @@ def each_page_of_curves_once(monkeypatch: pytest.MonkeyPatch) -> None:
 def _draw_pages(monkeypatch: pytest.MonkeyPatch, wanted: Callable[[Pages], Pages]) -> None:
     """Draw those of the pages that are wanted, and the first where none is."""
 
-    from kintrafo.plots.curves import grouped
+    from kintrafo.vehicle.plots.curves import grouped
 
     def some(dataset: xr.Dataset, *goals: Any) -> Pages:
         pages = grouped(dataset, *goals)
         return wanted(pages) or dict([next(iter(pages.items()))])
 
-    monkeypatch.setattr("kintrafo.plots.curves.grouped", some)
+    monkeypatch.setattr("kintrafo.vehicle.plots.curves.grouped", some)

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 from kintrafo import Model, Suspension, arm_angles
-from kintrafo.suspension.positions import design_height
-from kintrafo.suspension.reach import at_rest
+from kintrafo.vehicle.models.positions import design_height
+from kintrafo.vehicle.models.reach import at_rest
 from oracle.constraints import Assembler, Pose
 
 # Without preload, as the linear theory has it, and with a stop that just touches.

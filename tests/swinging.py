@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from kintrafo import Model, PositionError, Suspension, travel_range
 from kintrafo.core.errors import InputError
-from kintrafo.suspension.fleet import Fleet
-from kintrafo.suspension.fleet_positions import fleet_angles
-from kintrafo.suspension.positions import arm_angles
-from kintrafo.suspension.reach import at_rest
+from kintrafo.vehicle.models.fleet import Fleet
+from kintrafo.vehicle.models.fleet_positions import fleet_angles
+from kintrafo.vehicle.models.positions import arm_angles
+from kintrafo.vehicle.models.reach import at_rest
 from oracle.continuation import Followed, Poses, Rods
 
 if TYPE_CHECKING:
-    from kintrafo.suspension.positions import Range
+    from kintrafo.vehicle.models.positions import Range
     from numpy.typing import NDArray
     from oracle.continuation import Array, Indices
 

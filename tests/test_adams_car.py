@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from adams_files import kind_of, rows_of, subsystem
 from kintrafo import InputError, Model, Suspension, characteristics
-from kintrafo.suspension.adams_car import Imported, imported, read, read_names
-from kintrafo.suspension.kinds import KINDS
-from kintrafo.suspension.point_table import write_merged
+from kintrafo.vehicle.files.adams_car import Imported, imported, read, read_names
+from kintrafo.vehicle.files.point_table import write_merged
+from kintrafo.vehicle.kinds import KINDS
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CARS = {kind: Suspension.load(KINDS[kind].STARTER) for kind in KINDS}
 OFFSET = Suspension.load("offset_strut_car")
-DATA = Path(__file__).parents[1] / "runtime/suspension/data"
+DATA = Path(__file__).parents[1] / "vehicle/data"
 WISHBONES = CARS["double_wishbone"].with_changes({"wheel.camber_deg": -1.2, "wheel.toe_deg": 0.15})
 MORE = """\
 [BUSHING_ASSEMBLY]

@@ -20,10 +20,10 @@ from kintrafo import (
     travel_range,
 )
 from kintrafo.core.errors import InputError
-from kintrafo.study import variation
-from kintrafo.study.scenario import Scenario
-from kintrafo.suspension.reach import at_rest
-from kintrafo.suspension.starter import write_starter
+from kintrafo.vehicle import studies as variation
+from kintrafo.vehicle.analysis.scenario import Scenario
+from kintrafo.vehicle.data.starter import write_starter
+from kintrafo.vehicle.models.reach import at_rest
 
 KINDS = (
     "reference_car",

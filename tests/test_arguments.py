@@ -12,7 +12,7 @@ import pytest
 from kintrafo import KintrafoError
 from kintrafo.core.arguments import Arguments, shown
 from kintrafo.generated import four_bar
-from kintrafo.study.scenario import Scenario, run
+from kintrafo.vehicle.analysis.scenario import Scenario, run
 
 CAR = kintrafo.Model("reference_car")
 SYSTEM = kintrafo.System(four_bar)

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 from kintrafo import Axle, InputError, Suspension
-from kintrafo.suspension.toml_writer import toml_text
+from kintrafo.vehicle.input.toml_writer import toml_text
 
 BAR = Axle.load("reference_axle").to_dict()["anti_roll_bar"]
 LEFT_BAR = BAR | {name: [BAR[name][0], -BAR[name][1], BAR[name][2]] for name in

@@ -15,16 +15,16 @@ from kintrafo import (
     characteristics,
     compliance,
 )
-from kintrafo.assembly.axle import AxleAssembly
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.assembly.pair import Pair
 from kintrafo.core.arguments import Arguments
-from kintrafo.report import elastokinematics_chapter
-from kintrafo.study.compliance.bars import Bars, Foot
-from kintrafo.study.compliance.on_bushes import on_joints, softs_of
-from kintrafo.study.compliance.rigid_displacements import Places
-from kintrafo.suspension.axle.bar import HalfBar
-from kintrafo.suspension.bushes import mirrored_bushings
+from kintrafo.vehicle.analysis.compliance.bars import Bars, Foot
+from kintrafo.vehicle.analysis.compliance.on_bushes import on_joints, softs_of
+from kintrafo.vehicle.analysis.compliance.rigid_displacements import Places
+from kintrafo.vehicle.assembly.axle import AxleAssembly
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.assembly.pair import Pair
+from kintrafo.vehicle.corner.bushes import mirrored_bushings
+from kintrafo.vehicle.models.axle.bar import HalfBar
+from kintrafo.vehicle.report import elastokinematics_chapter
 from oracle.constraints import Pose
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
@@ -416,7 +416,7 @@ def test_many_positions_are_looked_at_in_parts(monkeypatch: pytest.MonkeyPatch) 
     axle, angles = axle_of(STRUT), np.deg2rad([-1.0, 0.5, 1.0])
     whole = flat(compliance.elastokinematics(axle, RACK, "roll", angles))
     # the function has the name of its module
-    module = import_module("kintrafo.study.compliance.elastokinematics")
+    module = import_module("kintrafo.vehicle.analysis.compliance.elastokinematics")
     monkeypatch.setattr(module, "_TOGETHER", 2)
     parts = flat(compliance.elastokinematics(axle, RACK, "roll", angles))
     assert parts.sizes == whole.sizes
@@ -473,7 +473,7 @@ def test_motions_that_cannot_be_are_refused() -> None:
 
 
 def test_loads_that_nothing_holds_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    module = import_module("kintrafo.study.compliance.nonlinear")
+    module = import_module("kintrafo.vehicle.analysis.compliance.nonlinear")
     monkeypatch.setattr(module, "_LEAST_STEP", 0.3)  # a short search for the greatest one
     weak = {"arm_rear": {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}}
     with pytest.raises(

@@ -17,11 +17,11 @@ from kintrafo import (
     roads,
     simulate,
 )
-from kintrafo.assembly.pair import Pair
-from kintrafo.suspension.points import carried
-from kintrafo.suspension.positions import arm_angles, design_height
-from kintrafo.suspension.reach import at_rest
 from kintrafo.systems.compile.compiler import find_compiler
+from kintrafo.vehicle.assembly.pair import Pair
+from kintrafo.vehicle.models.points import carried
+from kintrafo.vehicle.models.positions import arm_angles, design_height
+from kintrafo.vehicle.models.reach import at_rest
 from test_axles import AXLE, BENT, placed
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 from kintrafo import Axle, InputError, RigidAxle, Suspension, characteristics, variation
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.study.scenario import Scenario
+from kintrafo.vehicle.analysis.scenario import Scenario
+from kintrafo.vehicle.assembly.by_wheel import flat
 
 AXLE = Axle.load("reference_axle")
 CAR = Suspension.load("reference_car")

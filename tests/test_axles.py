@@ -23,22 +23,22 @@ from kintrafo import (
     equilibrium,
     roads,
 )
-from kintrafo.assembly import motions, wheel
-from kintrafo.assembly.axle import AxleAssembly
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.assembly.from_model import corner as corner_of
-from kintrafo.assembly.measures import pair_rolling as formulas
-from kintrafo.assembly.pair import Pair
-from kintrafo.report import Chapter, axle_chapter
-from kintrafo.study.checkup import checkup
-from kintrafo.study.compare import differences
-from kintrafo.study.scenario import Scenario, by_wheel, run
-from kintrafo.study.variation.evaluation import values_of
-from kintrafo.suspension.axle.bar import AntiRollBar
-from kintrafo.suspension.axle.steering import SteeringCurve
-from kintrafo.suspension.positions import arm_angles, design_height
-from kintrafo.suspension.reach import at_rest, travel_range
 from kintrafo.systems.compile.compiler import find_compiler
+from kintrafo.vehicle.analysis.checkup import checkup
+from kintrafo.vehicle.analysis.compare import differences
+from kintrafo.vehicle.analysis.scenario import Scenario, by_wheel, run
+from kintrafo.vehicle.assembly import motions, wheel
+from kintrafo.vehicle.assembly.axle import AxleAssembly
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.assembly.from_model import corner as corner_of
+from kintrafo.vehicle.assembly.measures import pair_rolling as formulas
+from kintrafo.vehicle.assembly.pair import Pair
+from kintrafo.vehicle.models.axle.bar import AntiRollBar
+from kintrafo.vehicle.models.axle.steering import SteeringCurve
+from kintrafo.vehicle.models.positions import arm_angles, design_height
+from kintrafo.vehicle.models.reach import at_rest, travel_range
+from kintrafo.vehicle.report import Chapter, axle_chapter
+from kintrafo.vehicle.studies.evaluation import values_of
 from scipy.optimize import brentq
 from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
 
@@ -583,7 +583,7 @@ def test_sides_are_found_beside_the_file(tmp_path: Path) -> None:
     (tmp_path / "axle.toml").write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=r"mine\.toml"):
         Axle.load(tmp_path / "axle.toml")
-    from kintrafo.suspension.starter import write_starter
+    from kintrafo.vehicle.data.starter import write_starter
 
     write_starter(tmp_path / "sub" / "mine.toml")
     axle = Axle.load(tmp_path / "axle.toml")

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import xarray as xr
 from kintrafo import InputError
-from kintrafo.assembly.by_wheel import flat, of_wheels, wheel_coordinate
-from kintrafo.assembly.quantity import TRAVEL
+from kintrafo.vehicle.assembly.by_wheel import flat, of_wheels, wheel_coordinate
+from kintrafo.vehicle.assembly.quantity import TRAVEL
 
 VALUES = np.arange(3.0)
 

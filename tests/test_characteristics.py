@@ -26,11 +26,11 @@ from kintrafo import (
     travel_range,
     variation,
 )
-from kintrafo.assembly import wheel
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.assembly.from_model import corner, vehicle
-from kintrafo.assembly.measures import ackermann as axle
-from kintrafo.suspension.corner import RoadWheel
+from kintrafo.vehicle.assembly import wheel
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.assembly.from_model import corner, vehicle
+from kintrafo.vehicle.assembly.measures import ackermann as axle
+from kintrafo.vehicle.corner.corner import RoadWheel
 from oracle.constraints import KNUCKLE
 from oracle.newton import Mechanism, observe, solve_pose_at_height
 

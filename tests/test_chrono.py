@@ -18,10 +18,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, Suspension, chrono, sweep
-from kintrafo.cli import app
-from kintrafo.study.characteristics import over
-from kintrafo.suspension.starter import packaged
-from kintrafo.suspension.toml_writer import toml_text, write_toml
+from kintrafo.vehicle.analysis.characteristics import over
+from kintrafo.vehicle.cli import app
+from kintrafo.vehicle.data.starter import packaged
+from kintrafo.vehicle.input.toml_writer import toml_text, write_toml
 from oracle.links import Carrier
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation

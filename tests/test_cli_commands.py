@@ -11,14 +11,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from kintrafo import Model, Suspension, characteristics, cli
+from kintrafo import Model, Suspension, characteristics
 from kintrafo.core.tabulated import number, significant
-from kintrafo.suspension.starter import NOT_A_RIGID_AXLE
+from kintrafo.vehicle import cli
+from kintrafo.vehicle.data.starter import NOT_A_RIGID_AXLE
 from matplotlib.image import imread
 
 ROOT = Path(__file__).parent.parent
 CAR = "reference_car"
-CAR_FILE = ROOT / "runtime/suspension/data/reference_car.toml"
+CAR_FILE = ROOT / "vehicle/data/reference_car.toml"
 
 
 @pytest.fixture
@@ -41,7 +42,7 @@ def kintrafo(monkeypatch, capsys, tmp_path):
 
 def test_help_is_quick():
     program = (
-        "import sys; from typer.testing import CliRunner; from kintrafo.cli import app;"
+        "import sys; from typer.testing import CliRunner; from kintrafo.vehicle.cli import app;"
         "result = CliRunner().invoke(app, ['--help']); assert result.exit_code == 0;"
         "print(*sorted({n.partition('.')[0] for n in sys.modules}))"
     )
@@ -229,7 +230,7 @@ def test_check_sums_up(kintrafo):
 
 
 def test_check_lists_problems(kintrafo, tmp_path):
-    text = (ROOT / "runtime/suspension/data/reference_car.toml").read_text(encoding="utf-8")
+    text = (ROOT / "vehicle/data/reference_car.toml").read_text(encoding="utf-8")
     bad = text.replace("spring_rate_N_per_m", "sprng_rate_N_per_m").replace("= 22.0", "= -22.0")
     (tmp_path / "bad.toml").write_text(bad, encoding="utf-8")
     code, out, _ = kintrafo("check", "bad.toml")
@@ -243,7 +244,7 @@ def test_check_lists_problems(kintrafo, tmp_path):
 
 
 def test_check_finds_no_equilibrium(kintrafo, tmp_path):
-    text = (ROOT / "runtime/suspension/data/reference_car.toml").read_text(encoding="utf-8")
+    text = (ROOT / "vehicle/data/reference_car.toml").read_text(encoding="utf-8")
     # a spring that pushes the wheel down wherever it is, and a tyre that does not hold against it
     pushed = re.sub(r"(spring_free_slide_mm) = \S+", r"\1 = -5000.0", text)
     pushed = re.sub(r"^(rate_N_per_m) = \S+", r"\1 = 0.0", pushed, flags=re.MULTILINE)
@@ -310,7 +311,7 @@ def test_simulation_settles_where_statics_says(kintrafo, tmp_path):
 
 
 def test_steering_with_mass_leaves_the_rack_free(kintrafo, tmp_path):
-    text = (ROOT / "runtime/suspension/data/reference_car.toml").read_text(encoding="utf-8")
+    text = (ROOT / "vehicle/data/reference_car.toml").read_text(encoding="utf-8")
     heavy = re.sub(r"(\[bodies.tie_rod\][^=]*=) 0.0", r"\1 1.0", text)
     assert heavy != text
     (tmp_path / "heavy.toml").write_text(heavy, encoding="utf-8")

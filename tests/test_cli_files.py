@@ -6,13 +6,13 @@ import sys
 from pathlib import Path
 
 import pytest
-from kintrafo import cli
-from kintrafo.cli.exits import standing_streams
+from kintrafo.terminal.exits import standing_streams
+from kintrafo.vehicle import cli
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 ROOT = Path(__file__).parent.parent
 CAR = "reference_car"
-TEXT = (ROOT / "runtime/suspension/data/reference_car.toml").read_text(encoding="utf-8")
+TEXT = (ROOT / "vehicle/data/reference_car.toml").read_text(encoding="utf-8")
 CHRONO = ROOT / "tests/data/chrono/MacPhersonStrut.json"
 ADAMS = ROOT / "tests/data/adams/front_suspension.sub"
 STUDIES = ROOT / "tests/data/studies"

@@ -11,16 +11,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from kintrafo import Model, cli
+from kintrafo import Model
 from kintrafo.__main__ import run
 from kintrafo.generator.__main__ import app as generator_app
-from kintrafo.study import paper
+from kintrafo.vehicle import cli
+from kintrafo.vehicle.analysis import paper
 from matplotlib.image import imread
 from typer.testing import CliRunner
 
 MODEL = Model("reference_car")
 ROOT = Path(__file__).parent.parent
-REFERENCE = ROOT / "runtime/suspension/data/reference_car.toml"
+REFERENCE = ROOT / "vehicle/data/reference_car.toml"
 
 
 def test_paper_writes_figures_and_a_summary(tmp_path):
@@ -78,7 +79,7 @@ def test_an_interrupt_of_a_command_ends_quietly(monkeypatch, capfd):
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("kintrafo.study.checkup.checkup", interrupted)
+    monkeypatch.setattr("kintrafo.vehicle.analysis.checkup.checkup", interrupted)
     monkeypatch.setattr("sys.argv", ["kintrafo", "check", "reference_car"])
     with pytest.raises(SystemExit) as end:
         run()
@@ -88,7 +89,7 @@ def test_an_interrupt_of_a_command_ends_quietly(monkeypatch, capfd):
 
 def test_error_keeps_the_brackets_of_section_names(monkeypatch, capsys, tmp_path):
     path = tmp_path / "my_car.toml"
-    text = (Path(__file__).parent.parent / "runtime/suspension/data/reference_car.toml").read_text(
+    text = (Path(__file__).parent.parent / "vehicle/data/reference_car.toml").read_text(
         encoding="utf-8"
     )
     path.write_text(text.replace("spring_rate_N", "sprng_rate_N"), encoding="utf-8")
@@ -181,7 +182,7 @@ def test_help_says_all_that_the_function_does(name, monkeypatch):
 def test_what_documents_name_is_there_after_one_import():
     documents = [
         *(Path(__file__).parent.parent / "docs").glob("*.md"),
-        REFERENCE.parents[3] / "README.md",
+        ROOT / "README.md",
     ]
     named = {
         n for d in documents for n in re.findall(r"`(kintrafo(?:\.\w+)+)", d.read_text("utf-8"))
@@ -201,7 +202,7 @@ def test_what_documents_name_is_there_after_one_import():
         (["check", "rigid_axle"], {"matplotlib", "kintrafo.plots", "kintrafo.simulation"}),
         (
             ["characteristics", "reference_car"],
-            {"matplotlib", "scipy.interpolate", "kintrafo.simulation", "kintrafo.study.variation"},
+            {"matplotlib", "scipy.interpolate", "kintrafo.simulation", "kintrafo.vehicle.studies"},
         ),
     ],
 )

@@ -18,14 +18,14 @@ from kintrafo import (
     characteristics,
     compliance,
 )
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.report.tables import input_tables
-from kintrafo.suspension.kinds import KINDS
-from kintrafo.suspension.toml_writer import write_toml
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.input.toml_writer import write_toml
+from kintrafo.vehicle.kinds import KINDS
+from kintrafo.vehicle.report.tables import input_tables
 from soft_suspensions import BUSHES_OF, LINKED, STRUT, TRAILING, WISHBONES, Stiffness, Z
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
-DATA = Path(__file__).parents[1] / "runtime/suspension/data"
+DATA = Path(__file__).parents[1] / "vehicle/data"
 
 
 @pytest.mark.parametrize(

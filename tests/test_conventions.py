@@ -7,10 +7,10 @@ where the steering axis pierces the ground. Nothing here knows the definitions o
 import numpy as np
 import pytest
 from kintrafo import Model, Suspension, state_at_height
-from kintrafo.study.characteristics import over
-from kintrafo.suspension.points import hardpoints
-from kintrafo.suspension.positions import design_height
-from kintrafo.suspension.reach import at_rest
+from kintrafo.vehicle.analysis.characteristics import over
+from kintrafo.vehicle.models.points import hardpoints
+from kintrafo.vehicle.models.positions import design_height
+from kintrafo.vehicle.models.reach import at_rest
 
 RIGHT = Suspension.load("reference_car")
 CARS = {"right": RIGHT, "left": RIGHT.mirrored()}

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 import xarray as xr
-from kintrafo.cli.outputs import title_of
 from kintrafo.core.quantities import variable
-from kintrafo.plots.curves import LEAST_SPANS, figure
+from kintrafo.pictures.curves import LEAST_SPANS
+from kintrafo.vehicle.cli.outputs import title_of
+from kintrafo.vehicle.plots.curves import figure
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 TRAVEL = np.linspace(-0.08, 0.08, 33)

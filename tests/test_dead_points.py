@@ -10,8 +10,8 @@ from kintrafo.equations.errors import ClosureError
 from kintrafo.generated import four_bar, slider_crank
 from kintrafo.simulation import trust
 from kintrafo.simulation.solvers import native_available, native_methods
-from kintrafo.study.excitation import Course, excitation
 from kintrafo.systems.compile.build import compile_mechanism
+from kintrafo.vehicle.analysis.excitation import Course, excitation
 from scipy.integrate import solve_ivp
 
 _EXPLICIT = "Verner" if native_available() else "DOP853"

@@ -21,17 +21,13 @@ from kintrafo import (
     compliance,
     loads,
 )
-from kintrafo.assembly import wheel
-from kintrafo.assembly.corner import CornerAssembly
-from kintrafo.assembly.of import assembly_of
-from kintrafo.assembly.poses import Poses
 from kintrafo.core.arguments import Arguments
 from kintrafo.core.vectors import unit_vector
-from kintrafo.study.compliance.connections import Soft
-from kintrafo.study.compliance.equilibrium import Equilibrium, State
-from kintrafo.study.compliance.nonlinear import BY_NAME, unit_load
-from kintrafo.study.compliance.on_bushes import at_height, on_bushes, on_joints, softs_of
-from kintrafo.study.compliance.rigid_displacements import (
+from kintrafo.vehicle.analysis.compliance.connections import Soft
+from kintrafo.vehicle.analysis.compliance.equilibrium import Equilibrium, State
+from kintrafo.vehicle.analysis.compliance.nonlinear import BY_NAME, unit_load
+from kintrafo.vehicle.analysis.compliance.on_bushes import at_height, on_bushes, on_joints, softs_of
+from kintrafo.vehicle.analysis.compliance.rigid_displacements import (
     Angles,
     Distances,
     Lengths,
@@ -39,9 +35,13 @@ from kintrafo.study.compliance.rigid_displacements import (
     Radii,
     Twists,
 )
-from kintrafo.suspension.input.curve import Curve
-from kintrafo.suspension.positions import design_height
-from kintrafo.suspension.reach import at_rest
+from kintrafo.vehicle.assembly import wheel
+from kintrafo.vehicle.assembly.corner import CornerAssembly
+from kintrafo.vehicle.assembly.of import assembly_of
+from kintrafo.vehicle.assembly.poses import Poses
+from kintrafo.vehicle.input.curve import Curve
+from kintrafo.vehicle.models.positions import design_height
+from kintrafo.vehicle.models.reach import at_rest
 from oracle.constraints import Pose
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 from scipy.optimize import brentq
@@ -376,7 +376,7 @@ def test_many_travels_are_looked_at_in_parts(monkeypatch: pytest.MonkeyPatch) ->
     model, travels = Model("reference_car"), np.linspace(-0.05, 0.05, 7)
     bushes = {"arm_rear": {"radial_N_per_mm": 1e3}}
     whole = compliance.elastokinematics(model, bushes, along=travels)
-    module = import_module("kintrafo.study.compliance.elastokinematics")
+    module = import_module("kintrafo.vehicle.analysis.compliance.elastokinematics")
     monkeypatch.setattr(module, "_TOGETHER", 3)
     parts = compliance.elastokinematics(model, bushes, along=travels)
     # which of two bearings holds the arm along its axis does not depend on the positions either

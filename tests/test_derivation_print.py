@@ -12,11 +12,11 @@ from pathlib import Path
 import kintrafo
 import pytest
 from kintrafo import generated
-from kintrafo.cli import app
 from kintrafo.core.errors import InputError
 from kintrafo.generator.backends.report import document
 from kintrafo.generator.backends.report.latex import broken, escaped, formula_width, latex, marked
 from kintrafo.generator.mechanisms import model_named
+from kintrafo.vehicle.cli import app
 from own_models import derive
 from typer.testing import CliRunner
 

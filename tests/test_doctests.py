@@ -15,10 +15,11 @@ MODULES = sorted(
     for module in pkgutil.walk_packages(kintrafo.__path__, "kintrafo.")
     if not module.name.endswith("__main__")
 )
-# the three folders are one package, but only the first of them is on its path
+# the four folders are one package, but only one of them is on its path
 MODULES += sorted(
     ".".join(("kintrafo", *path.relative_to(ROOT).with_suffix("").parts))
-    for path in (ROOT / "generator").rglob("*.py")
+    for top in ("generator", "vehicle")
+    for path in (ROOT / top).rglob("*.py")
     if not path.stem.startswith("__")
 )
 
@@ -31,7 +32,7 @@ def test_docstring_examples(name):
 
 def test_there_are_examples():
     finder = doctest.DocTestFinder()
-    examples = list(finder.find(importlib.import_module("kintrafo.suspension.positions")))
+    examples = list(finder.find(importlib.import_module("kintrafo.vehicle.models.positions")))
     assert sum(len(test.examples) for test in examples) >= 4
 
 
@@ -52,7 +53,7 @@ def test_readme_python_runs(capsys):
 
 def test_readme_error_is_the_one_printed(tmp_path):
     (block,) = readme_blocks("text")[:1]
-    text = (ROOT / "runtime/suspension/data/reference_car.toml").read_text(encoding="utf-8")
+    text = (ROOT / "vehicle/data/reference_car.toml").read_text(encoding="utf-8")
     path = tmp_path / "my_car.toml"
     path.write_text(text.replace("spring_rate_N_per_m", "sprng_rate_N_per_m"), encoding="utf-8")
     with pytest.raises(kintrafo.InputError) as caught:

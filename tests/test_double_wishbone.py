@@ -11,7 +11,7 @@ from differences import difference, second_difference
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import Model, PositionError, Suspension, characteristics
-from kintrafo.suspension.points import hardpoints
+from kintrafo.vehicle.models.points import hardpoints
 from oracle.links import Carrier
 
 CAR = Suspension.load("double_wishbone_car")

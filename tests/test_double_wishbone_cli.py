@@ -9,12 +9,13 @@ import kintrafo
 import numpy as np
 import pytest
 import xarray as xr
-from kintrafo import InputError, Model, Suspension, cli
-from kintrafo.plots.overview import write_overview
-from kintrafo.study import scenario
-from kintrafo.study.checkup import checkup
-from kintrafo.study.compare import compare
-from kintrafo.suspension.toml_writer import toml_text, write_toml
+from kintrafo import InputError, Model, Suspension
+from kintrafo.vehicle import cli
+from kintrafo.vehicle.analysis import scenario
+from kintrafo.vehicle.analysis.checkup import checkup
+from kintrafo.vehicle.analysis.compare import compare
+from kintrafo.vehicle.input.toml_writer import toml_text, write_toml
+from kintrafo.vehicle.plots.overview import write_overview
 from matplotlib.image import imread
 
 CAR = "double_wishbone_car"

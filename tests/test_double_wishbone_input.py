@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, Suspension, equilibrium
 from kintrafo.generated import double_wishbone
-from kintrafo.suspension.kinds import KINDS
-from kintrafo.suspension.kinds.double_wishbone import DoubleWishbone
-from kintrafo.suspension.kinds.macpherson import MacPherson
+from kintrafo.vehicle.kinds import KINDS
+from kintrafo.vehicle.kinds.double_wishbone import DoubleWishbone
+from kintrafo.vehicle.kinds.macpherson import MacPherson
 
 CAR = Suspension.load("double_wishbone_car")
 CAR_OF_THE_PAPER = Suspension.load("reference_car")
@@ -262,7 +262,7 @@ def test_whatever_stands_in_a_file_ends_in_a_readable_error_or_a_model(changes):
     ("key", "instead_of"), [("free_length_mm", "force_at_design_N"), ("radius_mm", "")]
 )
 def test_commented_keys_of_the_starter_file_are_valid(key, instead_of, tmp_path):
-    text = (resources.files("kintrafo.suspension.data") / "double_wishbone_car.toml").read_text(
+    text = (resources.files("kintrafo.vehicle.data") / "double_wishbone_car.toml").read_text(
         "utf-8"
     )
     assert f"# {key} = " in text

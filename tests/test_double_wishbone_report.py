@@ -5,14 +5,13 @@ import re
 import shutil
 
 import kintrafo
-import kintrafo.report
 import numpy as np
 import pytest
 from kintrafo import Model, state_at_height
-from kintrafo.report.grid import Axis, Grid
-from kintrafo.report.page import render
-from kintrafo.report.poses import poses, reachable_grid
-from kintrafo.suspension.points import hardpoints
+from kintrafo.vehicle.models.points import hardpoints
+from kintrafo.vehicle.report.grid import Axis, Grid
+from kintrafo.vehicle.report.page import render
+from kintrafo.vehicle.report.poses import poses, reachable_grid
 
 MODEL = Model("double_wishbone_car")
 CHROMIUM = next(
@@ -28,7 +27,7 @@ def page():
     with pytest.MonkeyPatch.context() as patch:
         # few positions: the numbers between them do not matter here
         grid = Grid(Axis(-0.05, 0.025, 5), Axis(-0.04, 0.02, 5))
-        patch.setattr("kintrafo.report.page.reachable_grid", lambda _: grid)
+        patch.setattr("kintrafo.vehicle.report.page.reachable_grid", lambda _: grid)
         return render(MODEL)
 
 

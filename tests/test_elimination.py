@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 from kintrafo import Model, Suspension, arm_angles
-from kintrafo.assembly.poses import Poses
 from kintrafo.core.elimination import eliminated
-from kintrafo.study.loads.balance import balanced, balanced_at_many, dense
-from kintrafo.study.loads.reactions import Equations
-from kintrafo.suspension.reach import at_rest
+from kintrafo.vehicle.analysis.loads.balance import balanced, balanced_at_many, dense
+from kintrafo.vehicle.analysis.loads.reactions import Equations
+from kintrafo.vehicle.assembly.poses import Poses
+from kintrafo.vehicle.models.reach import at_rest
 
 COUNT, SIZE = 300, 12
 # Rounding, times a condition of some thousands, of solutions of size one.

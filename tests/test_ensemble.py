@@ -26,14 +26,14 @@ from kintrafo import (
     state_at_height,
 )
 from kintrafo.core.physical import impossible, inertia_of_no_body, out_of_range
+from kintrafo.datasets import export
+from kintrafo.datasets.recording import statistics
 from kintrafo.simulation.lanes import library, run
 from kintrafo.simulation.lanes.problem import Problem
 from kintrafo.simulation.solvers import native_available
-from kintrafo.study import export
-from kintrafo.study.recording import statistics
 from many_cars import BUMP, RACK, SPAN, STEP, TIMES, of_all_kinds, same, some_cars
 
-ensembles = import_module("kintrafo.study.ensembles.ensemble")
+ensembles = import_module("kintrafo.ensembles.ensemble")
 
 pytestmark = pytest.mark.skipif(not library.widths(), reason="built without lanes")
 
@@ -518,7 +518,7 @@ def test_dimensions_and_coordinates_of_a_grid(car: Model, start: Any) -> None:
 
 def test_results_are_those_that_are_named(mixed: xr.Dataset) -> None:
     """Names that no dimension of variants may have are those that results have."""
-    from kintrafo.study.ensembles.variants import BOUND, RESULTS, STATE, TIME
+    from kintrafo.ensembles.variants import BOUND, RESULTS, STATE, TIME
 
     assert {TIME, STATE, BOUND} <= set(mixed.dims)
     asked = ("camber", "tyre_force", "wheel_center_z")

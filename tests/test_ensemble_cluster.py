@@ -24,9 +24,9 @@ import pytest
 import xarray as xr
 from kintrafo import InputError, Model, System, ensemble, state_at_height
 from kintrafo.core.optional import MissingPackageError
+from kintrafo.ensembles.pieces import cutting, piece, queue, versions, whole, workers
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.simulation.lanes import library
-from kintrafo.study.ensembles.pieces import cutting, piece, queue, versions, whole, workers
 from kintrafo.systems.compile.shipped import shipped
 from many_cars import SPAN, of_all_kinds, same, some_cars
 
@@ -34,7 +34,7 @@ from benchmarks import cluster as benchmark
 
 distributed = pytest.importorskip("distributed")
 
-ensembles = import_module("kintrafo.study.ensembles.ensemble")
+ensembles = import_module("kintrafo.ensembles.ensemble")
 
 pytestmark = pytest.mark.skipif(not library.widths(), reason="built without lanes")
 
@@ -318,7 +318,7 @@ def test_a_folder_of_another_ensemble_is_refused(car: Model, tmp_path: Path, sta
 
 def test_versions_are_part_of_what_is_kept(car: Model, tmp_path: Path, monkeypatch: Any) -> None:
     ensemble(car, None, SPAN, kept=tmp_path)
-    identity = import_module("kintrafo.study.ensembles.pieces.identity")
+    identity = import_module("kintrafo.ensembles.pieces.identity")
     monkeypatch.setattr(identity, "versions", lambda: {"NumPy": "0.1"})
     with pytest.raises(InputError, match="other the version of kintrafo or its packages"):
         ensemble(car, None, SPAN, kept=tmp_path)

@@ -4,7 +4,7 @@ import kintrafo
 import numpy as np
 import pytest
 from kintrafo import Axle, AxleModel, InputError, Model, RigidAxleModel, equilibrium
-from kintrafo.study.scenario import Scenario, run
+from kintrafo.vehicle.analysis.scenario import Scenario, run
 
 MODELS = {
     "corner": Model("reference_car"),

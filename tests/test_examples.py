@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 import pytest
-from kintrafo import Model, Suspension, characteristics, cli, export, point_table, starter
-from kintrafo.report.chapters.chapter import Picture
+from kintrafo import Model, Suspension, characteristics, export, point_table, starter
 from kintrafo.systems.compile.compiler import find_compiler
+from kintrafo.vehicle import cli
+from kintrafo.vehicle.report.chapters.chapter import Picture
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 if TYPE_CHECKING:

@@ -83,7 +83,7 @@ def test_figures_are_the_same_bytes_again(
 
 
 def test_what_goes_up_and_down_often_is_a_thin_line():
-    from kintrafo.plots.curves import _width
+    from kintrafo.pictures.curves import _width
 
     x = np.linspace(0.0, 1.0, 1001)
     assert _width(np.sin(2 * np.pi * 100 * x)) < 1.0 < _width(np.sin(2 * np.pi * x))

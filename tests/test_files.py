@@ -14,12 +14,12 @@ from kintrafo import InputError, Model, Suspension, export, plots, report
 from kintrafo.core import written
 from kintrafo.core.files import refuse, replacing
 from kintrafo.core.legible import legible
-from kintrafo.study.measurement import measured
-from kintrafo.suspension.chrono import read
-from kintrafo.suspension.point_table import write_points
-from kintrafo.suspension.starter import write_starter
-from kintrafo.suspension.toml_writer import write_toml
 from kintrafo.systems.compile.build import compile_mechanism
+from kintrafo.vehicle.analysis.measurement import measured
+from kintrafo.vehicle.data.starter import write_starter
+from kintrafo.vehicle.files.chrono import read
+from kintrafo.vehicle.files.point_table import write_points
+from kintrafo.vehicle.input.toml_writer import write_toml
 from matplotlib.image import imread
 
 LINE = xr.Dataset({"camber": ("wheel_travel", [0.0, 0.1])}, {"wheel_travel": [0.0, 0.01]})

@@ -14,7 +14,7 @@ from kintrafo import (
     variation,
 )
 from kintrafo.core.quantities import display_of
-from kintrafo.study.variation.places import places_of
+from kintrafo.vehicle.studies.places import places_of
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CAR = Suspension.load("reference_car")
@@ -260,7 +260,7 @@ def test_parts_that_are_none_are_refused() -> None:
 
 def test_the_command_fits_bushes(kintrafo: Any, tmp_path: Any) -> None:  # noqa: F811
     from kintrafo import export
-    from kintrafo.suspension.toml_writer import write_toml
+    from kintrafo.vehicle.input.toml_writer import write_toml
 
     write_toml(SOFT, tmp_path / "soft.toml")
     everything = compliance.linear(Model(SOFT.with_changes({REAR: 300.0})), None, TRAVEL)

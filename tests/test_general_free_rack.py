@@ -5,11 +5,11 @@ import sys
 import numpy as np
 import pytest
 from kintrafo import Model, Suspension, equilibrium, simulate
-from kintrafo.cli import app
 from kintrafo.core.optional import MissingPackageError
 from kintrafo.generator.mechanisms.macpherson import GENERAL_FREE_RACK
-from kintrafo.suspension.kinds import macpherson
 from kintrafo.systems.compile.compiler import find_compiler
+from kintrafo.vehicle.cli import app
+from kintrafo.vehicle.kinds import macpherson
 from own_models import Built
 from typer.testing import CliRunner
 
@@ -80,7 +80,7 @@ def a_file_with_heavy_rack_simulates(folder):
     end = simulate(model, (0.0, 0.2), start, inputs=road)
     assert end.success
     assert abs(end.signals["wheel_center_z"][-1] - end.signals["wheel_center_z"][0]) > 0.005
-    from kintrafo.suspension.toml_writer import write_toml
+    from kintrafo.vehicle.input.toml_writer import write_toml
 
     path = write_toml(CAR, folder / "heavy.toml")
     result = CliRunner().invoke(app, ["topology", str(path)])

@@ -6,12 +6,12 @@ compiled model has.
 
 from typing import Any
 
-import kintrafo.report
+import kintrafo
 import numpy as np
 import pytest
 import test_report_browser as pages
 from kintrafo import Model, characteristics, variation
-from kintrafo.report import goals_chapter
+from kintrafo.vehicle.report import goals_chapter
 
 pytestmark = pages.pytestmark
 driver, browser = pages.driver, pages.browser

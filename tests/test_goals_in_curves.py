@@ -17,11 +17,11 @@ from kintrafo import (
     report,
     variation,
 )
-from kintrafo.assembly.motions import MOTIONS
-from kintrafo.cli import app
-from kintrafo.plots import curves
-from kintrafo.report import axle_chapter, goals_chapter
-from kintrafo.study.variation.goals import Limit
+from kintrafo.vehicle.assembly.motions import MOTIONS
+from kintrafo.vehicle.cli import app
+from kintrafo.vehicle.plots import curves
+from kintrafo.vehicle.report import axle_chapter, goals_chapter
+from kintrafo.vehicle.studies.goals import Limit
 from typer.testing import CliRunner
 
 GOALS = """
@@ -263,7 +263,7 @@ def figures(monkeypatch: pytest.MonkeyPatch) -> Any:
         )
         return made
 
-    monkeypatch.setattr("kintrafo.report.chapters.curves.figure", noted)
+    monkeypatch.setattr("kintrafo.vehicle.report.chapters.curves.figure", noted)
     return found
 
 

@@ -4,7 +4,7 @@ import json
 import re
 from typing import Any
 
-import kintrafo.report
+import kintrafo
 import numpy as np
 import pytest
 from kintrafo import (
@@ -16,11 +16,11 @@ from kintrafo import (
     characteristics,
     variation,
 )
-from kintrafo.assembly.by_wheel import flat
 from kintrafo.generated import four_bar
-from kintrafo.report.grid import Axis, Grid
-from kintrafo.report.marks import of_shown_side
-from kintrafo.report.page import render
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.report.grid import Axis, Grid
+from kintrafo.vehicle.report.marks import of_shown_side
+from kintrafo.vehicle.report.page import render
 
 CAR = Model("reference_car")
 OF_AXLES = ("bump", "roll", "left", "right")
@@ -44,7 +44,7 @@ DESCRIBED = {
 def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
     """Sample at few positions, to either side 100 mm of travel and 60 mm of rack."""
     grid = Grid(Axis(-0.1, 0.05, 5), Axis(-0.06, 0.03, 5))
-    monkeypatch.setattr("kintrafo.report.page.reachable_grid", lambda _: grid)
+    monkeypatch.setattr("kintrafo.vehicle.report.page.reachable_grid", lambda _: grid)
 
 
 def handed(page: str) -> dict[str, Any]:

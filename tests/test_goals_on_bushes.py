@@ -18,9 +18,9 @@ from kintrafo import (
     compliance,
     variation,
 )
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.report import elastokinematics_chapter
-from kintrafo.study.variation.sweep_axes import SWEEP_AXES
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.report import elastokinematics_chapter
+from kintrafo.vehicle.studies.sweep_axes import SWEEP_AXES
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CAR, AXLE, RIGID = Model("reference_car"), Axle.load("reference_axle"), RigidAxle.load("rigid_axle")

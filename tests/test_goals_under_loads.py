@@ -16,13 +16,13 @@ from kintrafo import (
     report,
     variation,
 )
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.assembly.of import assembly_of
-from kintrafo.cli import app
-from kintrafo.plots import curves
-from kintrafo.report import compliance_chapter, goals_chapter
-from kintrafo.study.variation.goals import Limit
-from kintrafo.suspension.toml_writer import write_toml
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.assembly.of import assembly_of
+from kintrafo.vehicle.cli import app
+from kintrafo.vehicle.input.toml_writer import write_toml
+from kintrafo.vehicle.plots import curves
+from kintrafo.vehicle.report import compliance_chapter, goals_chapter
+from kintrafo.vehicle.studies.goals import Limit
 from scipy.optimize import brentq
 from test_rigid_axle_compliance import FIVE
 from typer.testing import CliRunner
@@ -282,7 +282,7 @@ def test_the_chapter_of_compliance_draws_those_of_its_wheels(
         panels.update(zip(names, made.get_axes(), strict=True))
         return made
 
-    monkeypatch.setattr("kintrafo.report.chapters.curves.figure", noted)
+    monkeypatch.setattr("kintrafo.vehicle.report.chapters.curves.figure", noted)
     described = [{"at_mm": [-20, 20], "most": 0.3}, {"held": "locked", "most": 0.4}]
     ways = ["travel", "rack"] if isinstance(of, Model) else ["bump", "roll"]
     wanted = variation.goals({"limits": {name: described}}, ways)

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from kintrafo import Model, PositionError, state_at_height, travel_range
 from kintrafo.core.errors import InputError
-from kintrafo.suspension.positions import arm_angles
-from kintrafo.suspension.reach import height_and_slope
+from kintrafo.vehicle.models.positions import arm_angles
+from kintrafo.vehicle.models.reach import height_and_slope
 from oracle import newton
 from oracle.reference import reference_parameters
 

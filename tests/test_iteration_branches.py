@@ -16,9 +16,9 @@ import rigid_ways
 import swinging
 from following import FAMILIES, Judged, judged
 from kintrafo import Model, PositionError, characteristics, loads, state_at_height, travel_range
-from kintrafo.suspension.fleet import Fleet
-from kintrafo.suspension.fleet_positions import fleet_angles
-from kintrafo.suspension.positions import design_height
+from kintrafo.vehicle.models.fleet import Fleet
+from kintrafo.vehicle.models.fleet_positions import fleet_angles
+from kintrafo.vehicle.models.positions import design_height
 from placements import Placements
 from scipy.spatial.transform import Rotation
 

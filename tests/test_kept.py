@@ -7,12 +7,12 @@ from importlib import import_module
 import numpy as np
 import pytest
 from kintrafo import Model, ensemble
+from kintrafo.ensembles.pieces import cutting, kept
 from kintrafo.simulation.lanes import library
-from kintrafo.study.ensembles.pieces import cutting, kept
 
 pytestmark = pytest.mark.skipif(not library.widths(), reason="built without lanes")
 
-ensembles = import_module("kintrafo.study.ensembles.ensemble")
+ensembles = import_module("kintrafo.ensembles.ensemble")
 GIVEN = {
     "signals": ["camber"],
     "reductions": {"camber": ["max", ("percentile", 90.0)], "toe": [("psd", 8)]},

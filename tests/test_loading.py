@@ -4,9 +4,9 @@ from pathlib import Path
 
 import kintrafo
 import pytest
-from kintrafo.suspension.starter import packaged, packaged_axles
+from kintrafo.vehicle.data.starter import packaged, packaged_axles
 
-DATA = Path(kintrafo.__path__[0]) / "suspension"
+DATA = Path(__file__).parent.parent / "vehicle/data"
 
 
 @pytest.mark.parametrize(

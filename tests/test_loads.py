@@ -23,10 +23,10 @@ from kintrafo import (
     roads,
     simulate,
 )
-from kintrafo.assembly.corner import CornerAssembly
-from kintrafo.study.loads.along import in_motion
-from kintrafo.suspension.positions import design_height
-from kintrafo.suspension.reach import at_rest
+from kintrafo.vehicle.analysis.loads.along import in_motion
+from kintrafo.vehicle.assembly.corner import CornerAssembly
+from kintrafo.vehicle.models.positions import design_height
+from kintrafo.vehicle.models.reach import at_rest
 from oracle.constraints import ARM, BODIES, KNUCKLE, RACK, TIE_ROD, UPPER_STRUT, WHEEL
 from oracle.newton import Mechanism
 from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
@@ -382,7 +382,7 @@ def test_what_is_carried_without_bound_is_not_carried(monkeypatch: pytest.Monkey
     model = Model(CAR)
     whole, told = loads.static(model, cases), []
     for worst in np.geomspace(1e1, 1e6, 60):
-        monkeypatch.setattr("kintrafo.study.loads.balance._WORST_CONDITION", worst)
+        monkeypatch.setattr("kintrafo.vehicle.analysis.loads.balance._WORST_CONDITION", worst)
         with suppress(PositionError):  # none is carried
             found = loads.static(model, cases)
             carried = np.isfinite(found["force"]).all(dim=("load", "axis")).values

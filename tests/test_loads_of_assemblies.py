@@ -242,7 +242,7 @@ def test_arguments_that_cannot_be_used(subject: Any) -> None:
 
 def test_dead_points_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
     """As if all equations were at one."""
-    monkeypatch.setattr("kintrafo.study.loads.balance._WORST_CONDITION", 1.0)
+    monkeypatch.setattr("kintrafo.vehicle.analysis.loads.balance._WORST_CONDITION", 1.0)
     for name, subject in SHORT.items():
         for case in ({"contact_N": [0.0, 0.0, 6000.0]}, {"travel_mm": 0.0}):
             where = "left and right: " if name == "axle" else ""

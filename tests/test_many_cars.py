@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 import xarray as xr
 from kintrafo import InputError, Model, Suspension, characteristics, variation
-from kintrafo.assembly.of import assembly_of
 from kintrafo.core.errors import KintrafoError
-from kintrafo.study.variation import batch
-from kintrafo.study.variation.curves import Curves, changed
-from kintrafo.study.variation.evaluation import available
-from kintrafo.study.variation.places import places_of
-from kintrafo.suspension.positions import design_height, travel_range
+from kintrafo.vehicle.assembly.of import assembly_of
+from kintrafo.vehicle.models.positions import design_height, travel_range
+from kintrafo.vehicle.studies import batch
+from kintrafo.vehicle.studies.curves import Curves, changed
+from kintrafo.vehicle.studies.evaluation import available
+from kintrafo.vehicle.studies.places import places_of
 
 ALL = [
     "reference_car",

@@ -9,9 +9,9 @@ from pathlib import Path
 import kintrafo
 import numpy as np
 import pytest
-from kintrafo.cli import app
 from kintrafo.generated import excavator, four_bar, slider_crank
 from kintrafo.systems.skeleton import Skeleton
+from kintrafo.vehicle.cli import app
 from PIL import Image
 from typer.testing import CliRunner
 

@@ -31,7 +31,7 @@ from kintrafo.simulation.lanes import library
 CAR = Model("reference_car")
 START = state_at_height(CAR, 0.31)
 needs_lanes = pytest.mark.skipif(not library.widths(), reason="built without lanes")
-ensembles = import_module("kintrafo.study.ensembles.ensemble")
+ensembles = import_module("kintrafo.ensembles.ensemble")
 
 
 @pytest.fixture
@@ -154,7 +154,7 @@ def test_the_estimate_is_what_is_taken(monkeypatch, count, given):
     """Beside what Python itself says it has taken, at the most."""
     needed = []
     monkeypatch.setattr(
-        "kintrafo.study.ensembles.room.refuse_beyond", lambda _, size, *__: needed.append(size)
+        "kintrafo.ensembles.room.refuse_beyond", lambda _, size, *__: needed.append(size)
     )
     cars, options = many(count), {**given, "threads": 1}
     ensemble(CAR, many(2), (0.0, 0.01), START, **options)  # what is loaded once

@@ -20,11 +20,11 @@ from kintrafo import (
     simulate,
     state_at_height,
 )
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.study.sweep import positions
-from kintrafo.suspension.points import hardpoints
-from kintrafo.suspension.positions import arm_angles, design_height
-from kintrafo.suspension.reach import at_rest
+from kintrafo.vehicle.analysis.sweep import positions
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.models.points import hardpoints
+from kintrafo.vehicle.models.positions import arm_angles, design_height
+from kintrafo.vehicle.models.reach import at_rest
 from scipy.optimize import brentq, fsolve
 from scipy.spatial.transform import Rotation
 from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)

@@ -21,7 +21,6 @@ import pytest
 from changes import with_default
 from compiled_elsewhere import simulated_end, what_is_needed
 from kintrafo import generator
-from kintrafo.cli import app
 from kintrafo.generator import Formulation, JointForce, Mechanism
 from kintrafo.generator.mechanisms.andrews import MODELS as ANDREWS
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
@@ -32,6 +31,7 @@ from kintrafo.systems.compile import build as own_build
 from kintrafo.systems.compile import declaration
 from kintrafo.systems.compile.cache import cache_folder
 from kintrafo.systems.compile.compiler import find_compiler
+from kintrafo.vehicle.cli import app
 from typer.testing import CliRunner
 
 ROOT = Path(__file__).parent.parent

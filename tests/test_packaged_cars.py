@@ -13,9 +13,9 @@ from kintrafo import (
     simulate,
 )
 from kintrafo.generated import macpherson_general
-from kintrafo.study.checkup import checkup
-from kintrafo.suspension.positions import state_at_height
-from kintrafo.suspension.starter import packaged
+from kintrafo.vehicle.analysis.checkup import checkup
+from kintrafo.vehicle.data.starter import packaged
+from kintrafo.vehicle.models.positions import state_at_height
 
 OFFSET = Suspension.load("offset_strut_car")
 

@@ -8,6 +8,7 @@ ROOTS = {
     "runtime": "kintrafo",
     "generator": "kintrafo.generator",
     "generated": "kintrafo.generated",
+    "vehicle": "kintrafo.vehicle",
 }
 
 

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 from kintrafo import InputError, Model, Suspension, characteristics, variation
-from kintrafo.plots.pareto import write_front
-from kintrafo.study.variation.candidates import Candidates
-from kintrafo.study.variation.front import compromise, spread, unbeaten
+from kintrafo.vehicle.plots.pareto import write_front
+from kintrafo.vehicle.studies.candidates import Candidates
+from kintrafo.vehicle.studies.front import compromise, spread, unbeaten
 from matplotlib.image import imread
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
@@ -385,7 +385,7 @@ def test_what_cannot_be_used(given: dict[str, Any], words: str) -> None:
 
 
 def test_a_position_out_of_reach_is_no_study() -> None:
-    module = importlib.import_module("kintrafo.suspension.positions")
+    module = importlib.import_module("kintrafo.vehicle.models.positions")
     with pytest.raises(module.PositionError):
         call(targets={"toe": TOE["toe"] | {"at_mm": [900.0]}})
 

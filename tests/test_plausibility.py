@@ -3,9 +3,9 @@
 import pytest
 from kintrafo import Model, Suspension
 from kintrafo.core.errors import InputError
-from kintrafo.study.checkup import checkup
-from kintrafo.suspension.plausibility import plausibility
-from kintrafo.suspension.starter import packaged
+from kintrafo.vehicle.analysis.checkup import checkup
+from kintrafo.vehicle.analysis.plausibility import plausibility
+from kintrafo.vehicle.data.starter import packaged
 
 CARS = {name: Suspension.load(name) for name in packaged()}
 
@@ -139,8 +139,8 @@ def test_friction_does_not_overdamp_the_wheel():
 
 
 def test_the_paper_of_a_rough_strut_says_so_too():
-    from kintrafo.cli.paper import _hop
-    from kintrafo.study import paper
+    from kintrafo.vehicle.analysis import paper
+    from kintrafo.vehicle.cli.paper import _hop
 
     smooth, rough = Model(CARS[REFERENCE]), Model(changed(REFERENCE, {"strut.friction_N": 50.0}))
     text = _hop(rough, paper.rest(rough))

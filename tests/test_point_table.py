@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 from kintrafo import InputError, Suspension
-from kintrafo.suspension.kinds import KINDS
-from kintrafo.suspension.point_table import (
+from kintrafo.vehicle.files.point_table import (
     as_words,
     merged,
     read_points,
     write_merged,
     write_points,
 )
+from kintrafo.vehicle.kinds import KINDS
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CAR = Suspension.load("reference_car")

@@ -23,15 +23,15 @@ from kintrafo import (
     sweep,
     travel_range,
 )
-from kintrafo.assembly.rest import nearest
-from kintrafo.suspension.points import hardpoints
-from kintrafo.suspension.positions import (
+from kintrafo.systems.state import inputs_of
+from kintrafo.vehicle.assembly.rest import nearest
+from kintrafo.vehicle.models.points import hardpoints
+from kintrafo.vehicle.models.positions import (
     arm_angles,
     design_height,
     road_under_load,
 )
-from kintrafo.suspension.reach import at_rest, branch, height_and_slope
-from kintrafo.systems.state import inputs_of
+from kintrafo.vehicle.models.reach import at_rest, branch, height_and_slope
 from oracle import newton
 from oracle.multipliers import solve_prescribed
 from oracle.reference import reference_parameters
@@ -164,7 +164,7 @@ def test_models_travel_between_processes():
 def test_model_takes_a_path_and_refuses_what_is_none():
     from pathlib import Path
 
-    path = Path(__file__).parent.parent / "runtime/suspension/data/reference_car.toml"
+    path = Path(__file__).parent.parent / "vehicle/data/reference_car.toml"
     assert np.array_equal(Model(path).constants, MODEL.constants)
     with pytest.raises(kintrafo.InputError, match=r"not \{\}"):
         Model({})

@@ -12,11 +12,12 @@ from kintrafo import Axle, InputError, RigidAxle, Suspension, chrono, rig
 from kintrafo.core.errors import InputError as Error
 from kintrafo.core.reading import MOST_OF_DATA, MOST_OF_MEASUREMENTS, bytes_of
 from kintrafo.generator import Angle, DeclarationError, Ground, Point, PositionOf
-from kintrafo.study.loads import cases
-from kintrafo.study.measurement import measured
-from kintrafo.study.variation.goals import read as read_goals
-from kintrafo.suspension import adams_car, bushes
-from kintrafo.suspension.point_table import read_points
+from kintrafo.vehicle.analysis.loads import cases
+from kintrafo.vehicle.analysis.measurement import measured
+from kintrafo.vehicle.corner import bushes
+from kintrafo.vehicle.files import adams_car
+from kintrafo.vehicle.files.point_table import read_points
+from kintrafo.vehicle.studies.goals import read as read_goals
 
 if TYPE_CHECKING:
     from collections.abc import Callable

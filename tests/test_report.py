@@ -7,26 +7,26 @@ import re
 from html.parser import HTMLParser
 from pathlib import Path
 
-import kintrafo.report
+import kintrafo
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, compliance, loads, state_at_height
-from kintrafo.report import compliance_chapter, elastokinematics_chapter, loads_chapter
-from kintrafo.report.curves import curves
-from kintrafo.report.encode import packed, rounded
-from kintrafo.report.grid import Axis, Grid
-from kintrafo.report.page import _upper_limit, render
-from kintrafo.report.plotted import decimals, has_pole, shown_range
-from kintrafo.report.poses import poses, reachable_grid
-from kintrafo.report.tables import input_tables
-from kintrafo.suspension.points import hardpoints
-from kintrafo.suspension.typical import typical_ranges
+from kintrafo.vehicle.analysis.typical import typical_ranges
+from kintrafo.vehicle.models.points import hardpoints
+from kintrafo.vehicle.report import compliance_chapter, elastokinematics_chapter, loads_chapter
+from kintrafo.vehicle.report.curves import curves
+from kintrafo.vehicle.report.encode import packed, rounded
+from kintrafo.vehicle.report.grid import Axis, Grid
+from kintrafo.vehicle.report.page import _upper_limit, render
+from kintrafo.vehicle.report.plotted import decimals, has_pole, shown_range
+from kintrafo.vehicle.report.poses import poses, reachable_grid
+from kintrafo.vehicle.report.tables import input_tables
 from scipy.interpolate import KroghInterpolator
 
 MODEL = Model("reference_car")
-FOLDER = Path(__file__).parent.parent / "runtime/report"
+FOLDER = Path(__file__).parent.parent / "vehicle/report"
 DESIGN_HEIGHT = 0.3
 
 
@@ -44,7 +44,7 @@ def data(page):
 def coarse(monkeypatch):
     """Sample at few positions, where the numbers do not matter."""
     grid = Grid(Axis(-0.05, 0.025, 5), Axis(-0.04, 0.02, 5))
-    monkeypatch.setattr("kintrafo.report.page.reachable_grid", lambda _: grid)
+    monkeypatch.setattr("kintrafo.vehicle.report.page.reachable_grid", lambda _: grid)
 
 
 def payload(text):

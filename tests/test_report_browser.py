@@ -4,11 +4,11 @@ import re
 import shutil
 import time
 
-import kintrafo.report
+import kintrafo
 import numpy as np
 import pytest
 from kintrafo import Model, state_at_height
-from kintrafo.suspension.points import hardpoints
+from kintrafo.vehicle.models.points import hardpoints
 
 CHROMIUM = next(
     filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None

@@ -5,13 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from kintrafo import Model, characteristics, state_at_height
-from kintrafo.assembly.measures.corner import AT_STOPS
-from kintrafo.report.accuracy import measure
-from kintrafo.report.curves import curves, gaps_on
-from kintrafo.report.grid import Axis, Grid
-from kintrafo.report.plotted import shown_range
-from kintrafo.report.poses import poses
-from kintrafo.suspension.positions import design_height
+from kintrafo.vehicle.assembly.measures.corner import AT_STOPS
+from kintrafo.vehicle.models.positions import design_height
+from kintrafo.vehicle.report.accuracy import measure
+from kintrafo.vehicle.report.curves import curves, gaps_on
+from kintrafo.vehicle.report.grid import Axis, Grid
+from kintrafo.vehicle.report.plotted import shown_range
+from kintrafo.vehicle.report.poses import poses
 from scipy.optimize import brentq
 
 CAR = Model("offset_strut_car")  # with bump and rebound stops within its travel

@@ -18,8 +18,8 @@ from kintrafo import (
     export,
     rig,
 )
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.plots.curves import _alone
+from kintrafo.pictures.curves import _alone
+from kintrafo.vehicle.assembly.by_wheel import flat
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 MODEL = Model("reference_car")

@@ -25,12 +25,12 @@ from kintrafo import (
     equilibrium,
     roads,
 )
-from kintrafo.assembly.beam import Beam
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.assembly.measures import beam_rolling as formulas
-from kintrafo.assembly.measures.rigid_axle import MEASURES
-from kintrafo.study.checkup import checkup
-from kintrafo.study.scenario import Scenario, run
+from kintrafo.vehicle.analysis.checkup import checkup
+from kintrafo.vehicle.analysis.scenario import Scenario, run
+from kintrafo.vehicle.assembly.beam import Beam
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.assembly.measures import beam_rolling as formulas
+from kintrafo.vehicle.assembly.measures.rigid_axle import MEASURES
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import fsolve
 from scipy.spatial.transform import Rotation

@@ -23,10 +23,10 @@ from kintrafo import (
     compliance,
     loads,
 )
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.study.checkup import checkup
-from kintrafo.study.compliance.tables import compliances_of_beam
-from kintrafo.study.sheet import sheet
+from kintrafo.vehicle.analysis.checkup import checkup
+from kintrafo.vehicle.analysis.compliance.tables import compliances_of_beam
+from kintrafo.vehicle.analysis.sheet import sheet
+from kintrafo.vehicle.assembly.by_wheel import flat
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
 from soft_suspensions import minimum

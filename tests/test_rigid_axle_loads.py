@@ -22,9 +22,9 @@ from kintrafo import (
     roads,
     simulate,
 )
-from kintrafo.plots.loads import free_bodies
-from kintrafo.study.loads.sheets import overview
-from kintrafo.study.scenario import Scenario, run
+from kintrafo.vehicle.analysis.loads.sheets import overview
+from kintrafo.vehicle.analysis.scenario import Scenario, run
+from kintrafo.vehicle.plots.loads import free_bodies
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 from test_rigid_axle import AXLE, LEFT, LOPSIDED, MODEL, Found, each_axle, slopes
 
@@ -425,7 +425,7 @@ def test_no_spring_is_turned_upside_down() -> None:
 def test_a_motion_through_a_dead_point_is_refused(
     monkeypatch: pytest.MonkeyPatch, motion: Any
 ) -> None:
-    monkeypatch.setattr("kintrafo.study.loads.balance._WORST_CONDITION", 1.0)
+    monkeypatch.setattr("kintrafo.vehicle.analysis.loads.balance._WORST_CONDITION", 1.0)
     with pytest.raises(PositionError, match=r"at a wheel height of .* mm and .* mm: the linkage"):
         loads.along(*motion[:2])
 

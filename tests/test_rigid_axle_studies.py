@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 from kintrafo import Axle, InputError, Model, RigidAxle, characteristics, rig, roads, variation
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.study.scenario import Scenario, run
-from kintrafo.suspension.rigid.model import RigidAxleModel
+from kintrafo.vehicle.analysis.scenario import Scenario, run
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.models.rigid.model import RigidAxleModel
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 from test_rigid_axle import AXLE, Found
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 from kintrafo import InputError, RigidAxleModel, equilibrium, loads, simulate
-from kintrafo.study.scenario import Scenario, run
-from kintrafo.suspension.wheel_loads import UNITS
+from kintrafo.vehicle.analysis.scenario import Scenario, run
+from kintrafo.vehicle.corner.wheel_loads import UNITS
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 from test_rigid_axle import AXLE, LOPSIDED, Found
 from test_wheel_loads import LIMITS

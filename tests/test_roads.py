@@ -8,12 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, equilibrium, simulate
-from kintrafo.assembly.usual import grid
-from kintrafo.simulation.roads import sine, step
 from kintrafo.simulation.solvers import native_available
-from kintrafo.study.excitation import Course, excitation
-from kintrafo.study.measurement import measured
-from kintrafo.study.scenario import Scenario, run
+from kintrafo.vehicle.analysis.excitation import Course, excitation
+from kintrafo.vehicle.analysis.measurement import measured
+from kintrafo.vehicle.analysis.roads import sine, step
+from kintrafo.vehicle.analysis.scenario import Scenario, run
+from kintrafo.vehicle.assembly.usual import grid
 
 MODEL = Model("reference_car")
 

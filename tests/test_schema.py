@@ -8,10 +8,11 @@ from pathlib import Path
 import jsonschema
 import pytest
 from kintrafo import Axle, Suspension
-from kintrafo.cli import app
 from kintrafo.core.errors import InputError
-from kintrafo.suspension import data, schema
-from kintrafo.suspension.axle import data as axle_data
+from kintrafo.vehicle import data
+from kintrafo.vehicle.cli import app
+from kintrafo.vehicle.data import axles as axle_data
+from kintrafo.vehicle.files import schema
 from typer.testing import CliRunner
 
 ROOT = Path(__file__).parents[1]

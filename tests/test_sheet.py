@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from kintrafo import Axle, InputError, Model, RigidAxle, characteristics, compliance
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.study.sheet import sheet, tabulated
-from kintrafo.suspension.positions import arm_angles, design_height
-from kintrafo.suspension.reach import at_rest
+from kintrafo.vehicle.analysis.sheet import sheet, tabulated
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.models.positions import arm_angles, design_height
+from kintrafo.vehicle.models.reach import at_rest
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 BUSHES = {"arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0}}

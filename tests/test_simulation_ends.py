@@ -12,11 +12,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from kintrafo import InputError, Model, SimulationError, System, simulate, state_at_height
-from kintrafo.cli import app
 from kintrafo.generated import front_axle, slider_crank
 from kintrafo.simulation import solvers
 from kintrafo.simulation.solvers import native_available, native_methods
 from kintrafo.simulation.validity import bounds_of
+from kintrafo.vehicle.cli import app
 from typer.testing import CliRunner
 
 needs_sundials = pytest.mark.skipif(not native_available(), reason="built without SUNDIALS")

@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 from kintrafo import Axle, InputError, characteristics, compliance, loads
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.assembly.rig import Extent
-from kintrafo.suspension.axle.bar import AntiRollBar
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.assembly.rig import Extent
+from kintrafo.vehicle.models.axle.bar import AntiRollBar
 
 STRAIGHT: dict[str, Any] = {
     "unit": "mm",

@@ -17,12 +17,12 @@ from kintrafo import (
     compliance,
     variation,
 )
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.suspension import data
-from kintrafo.suspension.plausibility import plausibility
-from kintrafo.suspension.rigid import data as rigid_data
-from kintrafo.suspension.rigid.model import RigidAxleModel
-from kintrafo.suspension.spring_table import force_and_rate, rate_at
+from kintrafo.vehicle import data
+from kintrafo.vehicle.analysis.plausibility import plausibility
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.data import rigid_axles as rigid_data
+from kintrafo.vehicle.input.spring_table import force_and_rate, rate_at
+from kintrafo.vehicle.models.rigid.model import RigidAxleModel
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, interp1d
 from scipy.optimize import brentq
 

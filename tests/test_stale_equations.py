@@ -10,10 +10,10 @@ from dataclasses import fields
 
 import kintrafo
 import pytest
-from kintrafo.cli import app
 from kintrafo.generator.declare.declared import parts
 from kintrafo.generator.mechanisms import front_axle
 from kintrafo.systems.compile.identity import identity
+from kintrafo.vehicle.cli import app
 from typer.testing import CliRunner
 
 FORCE = """

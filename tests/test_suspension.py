@@ -10,11 +10,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from kintrafo.core.errors import InputError, KintrafoError
-from kintrafo.suspension.kinds import Suspension
-from kintrafo.suspension.model import Model
+from kintrafo.vehicle.kinds import Suspension
+from kintrafo.vehicle.models.model import Model
 
 CAR = Suspension.load("reference_car")
-CAR_TEXT = (resources.files("kintrafo.suspension.data") / "reference_car.toml").read_text("utf-8")
+CAR_TEXT = (resources.files("kintrafo.vehicle.data") / "reference_car.toml").read_text("utf-8")
 POINTS = [key for key in CAR.to_dict()["hardpoints"] if key != "unit"]
 RIGID_BODIES = ["control_arm", "knuckle", "tie_rod", "rack", "upper_strut"]
 ELEMENTS = ["xx", "yy", "zz", "xy", "xz", "yz"]

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, Suspension
-from kintrafo.suspension import data
-from kintrafo.suspension.schema import page_text
+from kintrafo.vehicle import data
+from kintrafo.vehicle.files.schema import page_text
 from scipy.interpolate import PchipInterpolator
 
 CAR = Suspension.load("reference_car")

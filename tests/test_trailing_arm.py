@@ -24,12 +24,12 @@ from kintrafo import (
     state_at_height,
     travel_range,
 )
-from kintrafo.assembly.by_wheel import flat
-from kintrafo.assembly.usual import usual_rack
-from kintrafo.study.compare import compare
-from kintrafo.study.sweep import positions
-from kintrafo.study.variation import sensitivity
-from kintrafo.suspension.positions import design_height
+from kintrafo.vehicle.analysis.compare import compare
+from kintrafo.vehicle.analysis.sweep import positions
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.assembly.usual import usual_rack
+from kintrafo.vehicle.models.positions import design_height
+from kintrafo.vehicle.studies import sensitivity
 from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
 
 CAR = Suspension.load("trailing_arm_car")

@@ -22,13 +22,13 @@ from kintrafo import (
     scenario,
     variation,
 )
-from kintrafo.assembly.from_model import gaps
-from kintrafo.assembly.of import assembly_of
 from kintrafo.core.quantities import display_of
-from kintrafo.study.variation.curves import Curves, changed
-from kintrafo.study.variation.places import places_of
-from kintrafo.suspension.starter import packaged
-from kintrafo.suspension.toml_writer import write_toml
+from kintrafo.vehicle.assembly.from_model import gaps
+from kintrafo.vehicle.assembly.of import assembly_of
+from kintrafo.vehicle.data.starter import packaged
+from kintrafo.vehicle.input.toml_writer import write_toml
+from kintrafo.vehicle.studies.curves import Curves, changed
+from kintrafo.vehicle.studies.places import places_of
 from numpy.polynomial import Chebyshev
 from scipy.optimize import brentq
 from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
@@ -524,7 +524,7 @@ def test_what_cannot_be_used(call: Any, words: str) -> None:
 
 def test_a_neighbour_that_cannot_be_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     """With steps of half a metre no bearing is where an arm can reach it."""
-    module = importlib.import_module("kintrafo.study.variation.sensitivity")
+    module = importlib.import_module("kintrafo.vehicle.studies.sensitivity")
     monkeypatch.setattr(module, "_STEPS", {"m": 0.5})
     with pytest.raises(InputError, match=r"ball_joint\.y: with -1000 mm there is no neighbour"):
         variation.sensitivity(CAR, ["hardpoints.ball_joint.y"], positions=[0.0])

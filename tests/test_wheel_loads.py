@@ -16,16 +16,16 @@ from kintrafo import (
     loads,
     simulate,
 )
-from kintrafo.assembly.corner import CornerAssembly
 from kintrafo.generator import DeclarationError, Direction, Input
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.suspension import with_wheel_loads
-from kintrafo.study.checkup import checkup
-from kintrafo.study.loads.along import in_motion
-from kintrafo.study.measurement import measured
-from kintrafo.study.scenario import Scenario, run
-from kintrafo.suspension.positions import design_height
-from kintrafo.suspension.wheel_loads import UNITS
+from kintrafo.vehicle.analysis.checkup import checkup
+from kintrafo.vehicle.analysis.loads.along import in_motion
+from kintrafo.vehicle.analysis.measurement import measured
+from kintrafo.vehicle.analysis.scenario import Scenario, run
+from kintrafo.vehicle.assembly.corner import CornerAssembly
+from kintrafo.vehicle.corner.wheel_loads import UNITS
+from kintrafo.vehicle.models.positions import design_height
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CARS = [Suspension.load("reference_car"), Suspension.load("double_wishbone_car").mirrored()]

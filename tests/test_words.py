@@ -10,12 +10,13 @@ import kintrafo
 import numpy as np
 import pytest
 import typer.main
-from kintrafo import InputError, Model, Suspension, cli, export, variation
+from kintrafo import InputError, Model, Suspension, export, variation
 from kintrafo.core.quantities import unit_or_stroke
 from kintrafo.equations.errors import located
 from kintrafo.generated import four_bar
-from kintrafo.report.embedded import embedded
-from kintrafo.study.sheet import sheet
+from kintrafo.pages.embedded import embedded
+from kintrafo.vehicle import cli
+from kintrafo.vehicle.analysis.sheet import sheet
 from test_cli_commands import kintrafo as run  # noqa: F401 (a fixture)
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from kintrafo import InputError, Model, Suspension, export, loads
 from kintrafo.core.quantities import variable
-from kintrafo.study import workbook
+from kintrafo.datasets import workbook
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 openpyxl = pytest.importorskip("openpyxl")

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import xarray as xr
 from kintrafo import Axle, characteristics, variation
-from kintrafo.plots.curves import figure
-from kintrafo.plots.figures import STYLE, save
+from kintrafo.pictures.figures import STYLE, save
+from kintrafo.vehicle.plots.curves import figure
 from matplotlib import rc_context
 
 PAGE = Path(__file__).parent.parent / "axles.md"

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from kintrafo import Model, Suspension
-from kintrafo.assembly import wheel
-from kintrafo.assembly.from_model import corner
-from kintrafo.plots.figures import BLUE, GREEN, ORANGE, STYLE
-from kintrafo.suspension.points import hardpoints
+from kintrafo.pictures.figures import BLUE, GREEN, ORANGE, STYLE
+from kintrafo.vehicle.assembly import wheel
+from kintrafo.vehicle.assembly.from_model import corner
+from kintrafo.vehicle.models.points import hardpoints
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -20,7 +20,7 @@ from matplotlib.patches import Arc, Circle, Polygon
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from kintrafo.suspension.corner import Corner
+    from kintrafo.vehicle.corner.corner import Corner
 
 Array = NDArray[np.float64]
 

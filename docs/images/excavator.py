@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from kintrafo.generated import excavator
-from kintrafo.plots.figures import BLUE, GREEN, ORANGE, STYLE
+from kintrafo.pictures.figures import BLUE, GREEN, ORANGE, STYLE
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

@@ -12,7 +12,7 @@ from kintrafo import Suspension
 from kintrafo.generator.backends.report.figures import draw_figures
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.planning.plan import Plan
-from kintrafo.plots.figures import BLUE, GREEN, ORANGE, STYLE
+from kintrafo.pictures.figures import BLUE, GREEN, ORANGE, STYLE
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

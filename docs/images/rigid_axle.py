@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from kintrafo import RigidAxle
-from kintrafo.plots.figures import STYLE, save
-from kintrafo.plots.rigid_axle import views
+from kintrafo.pictures.figures import STYLE, save
+from kintrafo.vehicle.plots.rigid_axle import views
 from matplotlib import rc_context
 
 if __name__ == "__main__":

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from kintrafo import RigidAxle, loads
-from kintrafo.plots.figures import STYLE, save
-from kintrafo.plots.loads import free_bodies
+from kintrafo.pictures.figures import STYLE, save
+from kintrafo.vehicle.plots.loads import free_bodies
 from matplotlib import rc_context
 
 if __name__ == "__main__":

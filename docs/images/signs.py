@@ -7,7 +7,7 @@ axes are drawn from the definitions in docs/conventions.md, with angles large en
 from pathlib import Path
 
 import numpy as np
-from kintrafo.plots.figures import BLUE, GREEN, ORANGE, STYLE
+from kintrafo.pictures.figures import BLUE, GREEN, ORANGE, STYLE
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

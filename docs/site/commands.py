@@ -6,7 +6,7 @@ import os
 os.environ["TYPER_USE_RICH"] = "0"
 
 from docutils import nodes
-from kintrafo import cli
+from kintrafo.vehicle import cli
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 from typer.testing import CliRunner

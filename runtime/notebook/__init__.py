@@ -2,23 +2,33 @@
 
 What IPython shows of an object is registered by the name of its class, so that importing kintrafo
 loads none of it, and lower floors know nothing of notebooks. Showing one more is one more line
-here and a function in `pages`.
+here and a function in `pages`; what stands on a higher floor is added by `show`.
 """
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
+_PAGES = f"{__name__}.pages"
 _SHOWN = {
-    ("kintrafo.suspension.base", "Suspension"): "suspension",
-    ("kintrafo.suspension.model", "Model"): "model",
-    ("kintrafo.suspension.axle.axle", "Axle"): "axle",
-    ("kintrafo.suspension.rigid.axle", "RigidAxle"): "rigid_axle",
-    ("kintrafo.simulation.result", "Simulation"): "simulation",
-    ("kintrafo.systems.linearisation", "Linearisation"): "linearisation",
-    ("kintrafo.systems.system", "System"): "system",
+    ("kintrafo.simulation.result", "Simulation"): (_PAGES, "simulation"),
+    ("kintrafo.systems.linearisation", "Linearisation"): (_PAGES, "linearisation"),
+    ("kintrafo.systems.system", "System"): (_PAGES, "system"),
 }
+"""By module and name of a class, module and name of the function that writes its page."""
+
+
+def show(pages: Mapping[tuple[str, str], tuple[str, str]]) -> None:
+    """Show objects of more classes, or some in another way.
+
+    Parameters
+    ----------
+    pages : mapping
+        By module and name of a class, module and name of the function that writes its page.
+    """
+    _SHOWN.update(pages)
+    register()
 
 
 def register(formatter: Any = None) -> None:
@@ -32,7 +42,7 @@ def register(formatter: Any = None) -> None:
     formatter = formatter or _running()
     if formatter is not None:
         for (module, name), page in _SHOWN.items():
-            formatter.for_type_by_name(module, name, _page(page))
+            formatter.for_type_by_name(module, name, _page(*page))
 
 
 def _running() -> Any:
@@ -42,11 +52,11 @@ def _running() -> Any:
     return None if shell is None else shell.display_formatter.formatters.get("text/html")
 
 
-def _page(name: str) -> Callable[[Any], str]:
+def _page(module: str, name: str) -> Callable[[Any], str]:
     """Return what writes a page; it is loaded when the first one is shown."""
 
     def write(shown: Any) -> str:
-        page: str = getattr(import_module(f"{__name__}.pages"), name)(shown)
+        page: str = getattr(import_module(module), name)(shown)
         return page
 
     return write

@@ -1,36 +1,21 @@
-"""What a notebook shows of suspensions, axles, models and motions, as HTML."""
+"""What a notebook shows of mechanisms, linear equations and motions, as HTML."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
-from ..plots.animation import still
-from ..plots.curves import figure, grouped
-from ..plots.overview import from_behind
-from ..plots.rigid_axle import views
+import xarray as xr
+from matplotlib.figure import Figure
+
+from ..datasets.recording import dataset_of
+from ..pictures.animation import still
+from ..pictures.curves import draw, varying
 from ..simulation.result import Simulation
-from ..study.recording import dataset_of
-from ..suspension.axle import Axle
-from ..suspension.kinds import Suspension
-from ..suspension.model import Model
-from ..suspension.rigid import RigidAxle
 from ..systems.linearisation import Linearisation
 from ..systems.skeleton import Skeleton
 from ..systems.system import System
 from .parts import columns, heading, picture, table
 
-# Of a motion so many groups of curves are drawn, those that are looked at first.
-_GROUPS = 2
-
-
-def suspension(shown: Suspension) -> str:
-    """Return the page of a suspension: seen from behind, beside its hardpoints."""
-    return _of_one(Model(shown), _title(shown))
-
-
-def model(shown: Model) -> str:
-    """Return the page of a model: that of its suspension, with its states and inputs."""
-    names = {"states": shown.state_names, "inputs": shown.input_names}
-    told = table(("equations", shown.equations.NAME), _listed(names))
-    return _of_one(shown, _title(shown.suspension)) + told
+# Of a motion so many curves are drawn.
+_MOST = 12
 
 
 def system(shown: System) -> str:
@@ -43,7 +28,7 @@ def system(shown: System) -> str:
         "inputs": shown.input_names,
         "signals": shown.signal_names,
     }
-    told = table((name, ""), _listed(names))
+    told = table((name, ""), rows_of(names))
     return heading(name.replace("_", " ")) + columns(picture(still(skeleton, places, 0, "")), told)
 
 
@@ -55,24 +40,23 @@ def linearisation(shown: Linearisation) -> str:
         "inputs": shown.input_names,
         "signals": shown.output_names,
     }
-    return table(("linear equations", ""), [*modes, *_listed(names)])
-
-
-def axle(shown: Axle) -> str:
-    """Return the page of an axle: both sides from behind, and the hardpoints of the right one."""
-    title = shown.heading()
-    return heading(f"{title[:1].upper()}{title[1:]}") + columns(
-        picture(from_behind([*shown.models.values()])), _points(shown.right)
-    )
-
-
-def rigid_axle(shown: RigidAxle) -> str:
-    """Return the page of a rigid axle: three views."""
-    return heading("Rigid axle") + picture(views(shown))
+    return table(("linear equations", ""), [*modes, *rows_of(names)])
 
 
 def simulation(shown: Simulation) -> str:
-    """Return the page of a motion: how it ended, and its first curves."""
+    """Return the page of a motion: how it ended, and the curves that vary."""
+    return motion(shown, lambda curves: [draw(curves, varying(curves)[:_MOST], alone=False)])
+
+
+def motion(shown: Simulation, drawn: Callable[[xr.Dataset], Iterable[Figure]]) -> str:
+    """Return the page of a motion, whose curves somebody else draws.
+
+    Parameters
+    ----------
+    shown : Simulation
+    drawn : callable
+        Returns figures of the dataset of the motion.
+    """
     told = {
         "ended": shown.message,
         "time": f"{shown.t[0]:g} s to {shown.t[-1]:g} s, {shown.t.size} outputs",
@@ -83,27 +67,9 @@ def simulation(shown: Simulation) -> str:
     if shown.t.size < 2:
         return whole
     curves = dataset_of(shown.signals.model, shown)
-    groups = list(grouped(curves).values())[:_GROUPS]
-    return whole + "".join(picture(figure(curves, names, alone=False)) for names in groups)
+    return whole + "".join(map(picture, drawn(curves)))
 
 
-def _of_one(shown: Model, title: str) -> str:
-    return heading(title) + columns(picture(from_behind([shown])), _points(shown.suspension))
-
-
-def _title(shown: Suspension) -> str:
-    return f"{shown.heading()}, {shown.vehicle.side} side"
-
-
-def _points(shown: Suspension) -> str:
-    points = shown.hardpoints
-    rows = (
-        (name, *(f"{1e3 * value + 0.0:.1f}" for value in points.metres(name)))
-        for name in points.given()
-    )
-    side = f"hardpoint, {shown.vehicle.side}"
-    return table((side, "x [mm]", "y [mm]", "z [mm]"), rows)
-
-
-def _listed(names: Mapping[str, Iterable[str]]) -> list[tuple[str, str]]:
+def rows_of(names: Mapping[str, Iterable[str]]) -> list[tuple[str, str]]:
+    """Return rows of a table: what there is, and its names."""
     return [(what, ", ".join(listed)) for what, listed in names.items()]

@@ -8,7 +8,7 @@ from io import BytesIO
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from ..plots.figures import METADATA, STYLE, lay_out
+from ..pictures.figures import METADATA, STYLE, lay_out
 
 
 def heading(text: str) -> str:

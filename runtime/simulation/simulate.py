@@ -82,7 +82,7 @@ def simulate(
     stop_at_outputs: bool = False,
     backend: Backend = "auto",
 ) -> Simulation:
-    """Integrate the equations of motion of a suspension.
+    """Integrate the equations of motion of a mechanism.
 
     Parameters
     ----------

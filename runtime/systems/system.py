@@ -144,7 +144,7 @@ class System:
     # -- evaluation -------------------------------------------------------------------------------
 
     def evaluate(self, function: str, state: ArrayLike, inputs: ArrayLike | None = None) -> Array:
-        """Evaluate a compiled function with the constants of this suspension.
+        """Evaluate a compiled function with the constants of this mechanism.
 
         Parameters
         ----------

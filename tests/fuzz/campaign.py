@@ -24,8 +24,8 @@ _PROCESSES = multiprocessing.get_context("forkserver")
 _PROCESSES.set_forkserver_preload(
     [
         "kintrafo.generator.mechanisms",
-        "kintrafo.plots",
-        "kintrafo.study.variation",
+        "kintrafo.vehicle.plots",
+        "kintrafo.vehicle.studies",
         "scipy.optimize",
     ]
 )

@@ -29,7 +29,7 @@ from kintrafo import (
     sweep,
     variation,
 )
-from kintrafo.assembly.by_wheel import flat
+from kintrafo.vehicle.assembly.by_wheel import flat
 
 from .subjects import AXLES, BUSHES, CORNERS, RIGID_AXLES
 

@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from kintrafo import cli
+from kintrafo.vehicle import cli
 
 DATA = Path(__file__).parents[1] / "data/studies"
 FILES = ("reference_car", "reference_axle", "rigid_axle")

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from kintrafo.assembly.by_wheel import flat
+from kintrafo.vehicle.assembly.by_wheel import flat
 
 from .analyses import analyses
 from .commands import observed

@@ -11,9 +11,9 @@ import numpy as np
 from adams_files import MILLIMETRES, rows_of, subsystem
 from kintrafo import Suspension
 from kintrafo.core.errors import InputError
-from kintrafo.suspension.adams_car import imported, read
-from kintrafo.suspension.kinds import KINDS
-from kintrafo.suspension.point_table import write_merged
+from kintrafo.vehicle.files.adams_car import imported, read
+from kintrafo.vehicle.files.point_table import write_merged
+from kintrafo.vehicle.kinds import KINDS
 
 from .. import keys, mutations
 from ..attempts import RawError, WrongError

@@ -30,11 +30,11 @@ from kintrafo import (
     sweep,
     variation,
 )
+from kintrafo.datasets.recording import dataset_of, statistics
 from kintrafo.generated import four_bar
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
-from kintrafo.study.recording import dataset_of, statistics
-from kintrafo.suspension.points import hardpoints
-from kintrafo.suspension.positions import design_height
+from kintrafo.vehicle.models.points import hardpoints
+from kintrafo.vehicle.models.positions import design_height
 
 from ..attempts import RawError, WrongError
 

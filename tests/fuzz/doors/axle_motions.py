@@ -18,8 +18,8 @@ from kintrafo.equations.errors import ModelError
 from kintrafo.generated import front_axle
 from kintrafo.generator.mechanisms import model_named
 from kintrafo.simulation.solvers import native_methods
-from kintrafo.suspension.axle.equations import declared
 from kintrafo.systems.compile.compiler import find_compiler
+from kintrafo.vehicle.models.axle.equations import declared
 from own_models import Built
 from scipy.integrate import solve_ivp
 

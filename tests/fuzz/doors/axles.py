@@ -11,8 +11,8 @@ from __future__ import annotations
 
 import numpy as np
 from kintrafo import Axle, Suspension, characteristics, loads
-from kintrafo.assembly import motions
-from kintrafo.assembly.by_wheel import flat
+from kintrafo.vehicle.assembly import motions
+from kintrafo.vehicle.assembly.by_wheel import flat
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
 

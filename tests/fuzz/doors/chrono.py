@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from kintrafo.core.errors import InputError
-from kintrafo.suspension.chrono import read
+from kintrafo.vehicle.files.chrono import read
 
 from .. import keys, mutations
 from ..attempts import RawError, WrongError

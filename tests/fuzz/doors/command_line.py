@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from unittest import mock
 
-from kintrafo import cli
-from kintrafo.suspension.starter import packaged
+from kintrafo.vehicle import cli
+from kintrafo.vehicle.data.starter import packaged
 
 from ..attempts import RawError, WrongError
 from .chrono import DATA

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from kintrafo.core.errors import InputError
-from kintrafo.study.measurement import Measurement, measured
+from kintrafo.vehicle.analysis.measurement import Measurement, measured
 
 from .. import mutations
 from ..attempts import RawError, WrongError

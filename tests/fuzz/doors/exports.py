@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pyarrow.parquet
 import xarray as xr
-from kintrafo.study import export
+from kintrafo.datasets import export
 from openpyxl import load_workbook
 
 from ..attempts import WrongError

@@ -10,9 +10,9 @@ from itertools import combinations
 
 import numpy as np
 from kintrafo import Model, Suspension, equilibrium, state_at_height, travel_range
-from kintrafo.study.characteristics.datasets import over
-from kintrafo.suspension.points import hardpoints
-from kintrafo.suspension.positions import PositionError
+from kintrafo.vehicle.analysis.characteristics.datasets import over
+from kintrafo.vehicle.models.points import hardpoints
+from kintrafo.vehicle.models.positions import PositionError
 
 from ..attempts import WrongError
 

@@ -70,7 +70,7 @@ _BEGIN = "import kintrafo.__main__ as m; print('begun', flush=True); m.run()"
 def _sources() -> dict[str, str]:
     """Return what the commands read: names of files, and texts."""
     read = {path.name: path.read_text(encoding="utf-8") for path in _STUDIES.glob("*.toml")}
-    soft = files("kintrafo.suspension.data").joinpath(f"{CAR}.toml").read_text(encoding="utf-8")
+    soft = files("kintrafo.vehicle.data").joinpath(f"{CAR}.toml").read_text(encoding="utf-8")
     return {
         **read,
         "soft.toml": f"{soft}\n{read['bushes.toml']}",

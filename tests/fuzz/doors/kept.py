@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import kintrafo
 import numpy as np
-from kintrafo.study.ensembles.pieces import cutting
+from kintrafo.ensembles.pieces import cutting
 
 from ..attempts import WrongError
 from .cache import DAMAGE as OF_FILES

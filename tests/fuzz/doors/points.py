@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from kintrafo import Suspension
 from kintrafo.core.errors import InputError
-from kintrafo.suspension.kinds import KINDS
-from kintrafo.suspension.point_table import merged, read_points, write_merged
+from kintrafo.vehicle.files.point_table import merged, read_points, write_merged
+from kintrafo.vehicle.kinds import KINDS
 
 from .. import mutations
 from ..attempts import RawError, WrongError

@@ -16,7 +16,7 @@ from kintrafo import (
     equilibrium,
     loads,
 )
-from kintrafo.assembly.by_wheel import flat
+from kintrafo.vehicle.assembly.by_wheel import flat
 
 from ..attempts import WrongError
 

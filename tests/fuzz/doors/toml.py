@@ -8,7 +8,7 @@ from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import kintrafo.suspension.data
+import kintrafo.vehicle.data
 import tomlkit
 from kintrafo import InputError, Model, Suspension
 
@@ -18,7 +18,7 @@ from ..attempts import RawError, UnjudgedError, WrongError
 if TYPE_CHECKING:
     from numpy.random import Generator
 
-FILES = [p for p in resources.files(kintrafo.suspension.data).iterdir() if p.name.endswith(".toml")]
+FILES = [p for p in resources.files(kintrafo.vehicle.data).iterdir() if p.name.endswith(".toml")]
 TEXTS = [path.read_bytes() for path in sorted(FILES, key=lambda path: path.name)]
 SHORT = 40
 # Words of the libraries below, which help nobody who wrote a hardpoint file.

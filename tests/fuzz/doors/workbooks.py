@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from zipfile import ZIP_DEFLATED, ZipFile
 
 from kintrafo.core.errors import InputError
-from kintrafo.suspension.point_table import PointTable, read_points
+from kintrafo.vehicle.files.point_table import PointTable, read_points
 from openpyxl import Workbook, load_workbook
 
 from .. import mutations

@@ -1,0 +1,219 @@
+"""Datasets as files: CSV and Excel for people, netCDF and Parquet for programs.
+
+CSV and Excel have one line of names with units, such as ``camber [deg]``, and values in display
+units. netCDF and Parquet keep SI units, all digits, and the description of every variable. All but
+netCDF are flat tables: where a dataset has the dimension ``wheel`` they have a column for each
+wheel, ``camber_left`` and ``camber_right``.
+"""
+
+import re
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ..core.arguments import Arguments, shown
+from ..core.errors import InputError
+from ..core.files import Paths, replacing
+from ..core.legible import legible
+from ..core.optional import require
+from ..core.quantities import bracketed, display_of
+from ..vehicle.assembly.by_wheel import flat
+from . import workbook
+
+# Enough for a micrometre in a kilometre, and still short enough to read.
+_CSV_DIGITS = "%.9g"
+# What a spreadsheet may run begins with one of these (OWASP, "CSV injection").
+_FORMULAS = ("=", "+", "-", "@", "\t", "\r")
+# What is smaller than this part of its column is a rounding error, and a zero for people.
+_ROUNDING = 1e-12
+# Names of sheets that Excel opens.
+_SHEET = re.compile(r"[^][:*?/\\'\x00-\x1f]{1,31}")
+_NAMED = "1 to 31 characters are needed, and none of [ ] : * ? / \\ '"
+
+
+def write(
+    dataset: xr.Dataset,
+    path: str | Path,
+    *,
+    force: bool = False,
+    inputs: Paths = (),
+    sheets: Mapping[str, xr.Dataset] | None = None,
+) -> Path:
+    """Write a dataset; the ending of the file's name is its format.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Variables over one dimension or more.
+    path : str or pathlib.Path
+        ``.csv``, ``.xlsx`` (Excel), ``.nc`` (netCDF) or ``.parquet``.
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
+    sheets : mapping of str to xarray.Dataset, optional
+        What is on the sheets of an Excel workbook, by their names; by default `dataset` alone.
+
+    Returns
+    -------
+    pathlib.Path
+        The file, which is there only when it is complete.
+
+    Raises
+    ------
+    InputError
+        If the ending is not known, or the file must not or cannot be written; if a sheet of Excel
+        cannot hold so many rows.
+    MissingPackageError
+        If the format needs a package that is not installed.
+    """
+    with Arguments("export") as given:
+        given.dataset(dataset)
+        if not given.refused and not dataset.data_vars:
+            given.refuse("dataset: it has no variables.")
+        given.flag("force", force)
+        given.paths("inputs", inputs)
+        sheets = {"data": dataset} if sheets is None else sheets
+        for name, sheet in given.mapping("sheets", sheets, "names and datasets").items():
+            given.kind(f"sheets[{name!r}]", sheet, xr.Dataset, "an xarray.Dataset is needed")
+            if not _SHEET.fullmatch(str(name)):
+                given.refuse(f"sheets: {shown(name)} is no name of a sheet: {_NAMED}.")
+        if sheets == {}:
+            given.refuse("sheets: one or more are needed.")
+    ending = check_format(path)
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        if ending == ".xlsx":
+            _write_excel(sheets, temporary)
+        else:
+            _WRITERS[ending](_legible(dataset), temporary)
+    return Path(path)
+
+
+def check_format(path: str | Path) -> str:
+    """Return the ending of a file's name, or refuse it where no such file can be written."""
+    with Arguments("export") as given:
+        given.path("path", path)
+    ending = Path(path).suffix.lower()
+    if ending not in _FORMATS:
+        found = f"{ending} is no format" if ending else "the name has no ending"
+        problem = f"{found} of data files. Use .csv, .xlsx (Excel), .nc (netCDF) or .parquet."
+        raise InputError([problem], str(path))
+    if ending == ".parquet":
+        require("pyarrow.parquet", purpose="Writing Parquet", extra="parquet")
+    if ending == ".xlsx":
+        require("openpyxl", purpose="Writing Excel files", extra="excel")
+    return ending
+
+
+def as_dict(dataset: xr.Dataset) -> dict[str, Any]:
+    """Return a dataset as nested dictionaries of plain lists and texts, in SI units.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+
+    Returns
+    -------
+    dict
+        ``coordinates`` and ``variables``, each by name: ``units``, ``long_name``, ``sign``,
+        ``dimensions`` and ``values``. What each wheel of an axle has is there for either wheel.
+    """
+    with Arguments("export") as given:
+        given.dataset(dataset)
+    table = flat(dataset)
+
+    def described(data: xr.DataArray) -> dict[str, Any]:
+        texts = {key: data.attrs.get(key, "") for key in ("units", "long_name", "sign")}
+        return {**texts, "dimensions": list(data.dims), "values": data.values.tolist()}
+
+    return {
+        "coordinates": {str(name): described(data) for name, data in table.coords.items()},
+        "variables": {str(name): described(data) for name, data in table.items()},
+    }
+
+
+def _frame(dataset: xr.Dataset) -> Any:
+    """Return a data frame with one row for each point, coordinates first."""
+    frame = dataset.to_dataframe(dim_order=list(dataset.sizes)).reset_index()
+    scalars = [name for name in dataset.coords if name not in dataset.sizes]
+    return frame[[*dataset.sizes, *scalars, *dataset.data_vars]]
+
+
+def _for_people(dataset: xr.Dataset) -> Any:
+    """Return a data frame in display units, with names that say them."""
+    dataset = flat(dataset)
+    frame = _frame(dataset)
+    for name in frame.select_dtypes("number").columns:
+        values = frame[name] * display_of(dataset[name].attrs).factor
+        greatest = values[np.isfinite(values)].abs().max()
+        # what is no number stays none, and what is infinite says nothing about rounding
+        frame[name] = values.mask(values.abs() <= _ROUNDING * greatest, 0.0)
+    frame.columns = [bracketed(name, dataset[name].attrs) for name in frame.columns]
+    return frame
+
+
+def _write_csv(dataset: xr.Dataset, path: Path) -> None:
+    frame = _for_people(dataset)
+    for name in frame.select_dtypes(exclude="number").columns:
+        frame[name] = [_harmless(str(text)) for text in frame[name]]
+    frame.columns = [_harmless(name) for name in frame.columns]
+    frame.to_csv(path, index=False, float_format=_CSV_DIGITS, lineterminator="\n")
+
+
+def _write_excel(sheets: Mapping[str, xr.Dataset], path: Path) -> None:
+    workbook.write({name: _for_people(_legible(sheet)) for name, sheet in sheets.items()}, path)
+
+
+def _harmless(text: str) -> str:
+    """Return a text that no spreadsheet takes for a formula: such a one gets an apostrophe."""
+    if not text.startswith(_FORMULAS) or not re.search(r"[\w(]", text):
+        return text  # a stroke that stands for nothing is no formula
+    try:
+        float(text)
+    except ValueError:
+        return f"'{text}"
+    return text  # a number with its sign
+
+
+def _legible(dataset: xr.Dataset) -> xr.Dataset:
+    """Return a dataset whose texts every format can hold: names of files may be any bytes."""
+    texts = {
+        name: data.copy(data=[legible(str(text)) for text in data.values])
+        for name, data in dataset.coords.items()
+        if data.dtype.kind in "OU" and data.ndim == 1
+    }
+    return dataset.assign_coords(texts) if texts else dataset
+
+
+def _write_netcdf(dataset: xr.Dataset, path: Path) -> None:
+    dataset.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
+
+
+def _write_parquet(dataset: xr.Dataset, path: Path) -> None:
+    pyarrow = require("pyarrow", purpose="Writing Parquet", extra="parquet")
+    parquet = require("pyarrow.parquet", purpose="Writing Parquet", extra="parquet")
+    dataset = flat(dataset)
+    frame = _frame(dataset)
+    fields = [
+        pyarrow.field(name, pyarrow.array(frame[name]).type, metadata=_texts(dataset[name].attrs))
+        for name in frame.columns
+    ]
+    schema = pyarrow.schema(fields, metadata=_texts(dataset.attrs))
+    columns = [np.asarray(frame[name]) for name in frame.columns]
+    with path.open("wb") as file:  # pyarrow has no names that are not UTF-8
+        parquet.write_table(pyarrow.Table.from_arrays(columns, schema=schema), file)
+
+
+def _texts(attrs: dict[Any, Any]) -> dict[str, str]:
+    return {str(name): str(value) for name, value in attrs.items()}
+
+
+_WRITERS: dict[str, Callable[[xr.Dataset, Path], None]] = {
+    ".csv": _write_csv,
+    ".nc": _write_netcdf,
+    ".parquet": _write_parquet,
+}
+_FORMATS = (*_WRITERS, ".xlsx")

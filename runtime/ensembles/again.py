@@ -1,0 +1,128 @@
+"""Systems that an explicit method cannot do are done again, one by one, by an implicit one."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.errors import KintrafoError
+from ..simulation.lanes.problem import End, Kind, Problem
+from ..simulation.simulate import simulate_inputs
+from ..systems.system import System
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Again:
+    """How systems of a problem are done again.
+
+    Attributes
+    ----------
+    problem : Problem
+        Whose outcome is overwritten where that succeeds.
+    method : str
+        Of `kintrafo.simulate`.
+    """
+
+    problem: Problem
+    method: Literal["BDF"] = "BDF"
+
+    def do(self, place: int, samples: Array, stopped: Callable[[], bool]) -> str:
+        """Simulate one system with the same inputs, times and tolerances.
+
+        Parameters
+        ----------
+        place : int
+        samples : ndarray, shape (number of series, number of times)
+            Overwritten where this succeeds.
+        stopped : callable
+            Tells whether the caller wants an end.
+
+        Returns
+        -------
+        str
+            Why it did not come to an end; empty if it did.
+        """
+        problem, systems, outcome = self.problem, self.problem.systems, self.problem.outcome
+        drive = systems.drives[systems.drive_of[place]]
+        inputs = replace(drive, constant=_row(systems.inputs, place))
+        try:
+            model = self._system(place)
+            state = _row(systems.states, place)
+            state = np.where(np.isnan(state), model.design_state, state)
+            end, times = inputs.segments[-1].end, problem.wanted.times
+            with_end = times if times[-1] == end else np.append(times, end)
+            found = simulate_inputs(
+                model,
+                inputs,
+                state,
+                with_end,
+                problem.accuracy,
+                method=self.method,
+                stopped=stopped,
+            )
+            values = np.array([*found.signals.values(), *found.y])[:, : times.size]
+        except KintrafoError as error:
+            return str(error)
+        samples[:] = values[problem.wanted.items[: len(samples)]]
+        outcome.reduced[place] = self._reduced(values)
+        outcome.beyond[place] = self._beyond(values, place)
+        outcome.finals[place], outcome.ended[place] = found.y[:, -1], end
+        outcome.steps[place], outcome.ends[place] = found.steps, End.DONE
+        return ""
+
+    def _system(self, place: int) -> System:
+        model, systems = self.problem.model, self.problem.systems
+        values = systems.parameters.copy()
+        values[systems.varied] = systems.variants[place]
+        names = model.equations.PARAMETERS
+        return System(model.equations, dict(zip(names, values.tolist(), strict=True)))
+
+    def _reduced(self, values: Array) -> Array:
+        """Return what is kept on the way, as lanes keep it."""
+        wanted = self.problem.wanted
+        found = np.empty(len(wanted.reductions))
+        for place, (item, kind, _, level) in enumerate(wanted.reductions):
+            series = values[wanted.items[item]]
+            found[place] = _KEPT[kind](series, wanted.weights, wanted.times, level)
+        return found
+
+    def _beyond(self, values: Array, place: int) -> Array:
+        """Return the values furthest beyond the bounds."""
+        wanted = self.problem.wanted
+        limits = _row(wanted.limits, place)
+        found = np.full(limits.size, np.nan)
+        for bound, (item, above) in enumerate(zip(wanted.bound_items, wanted.above, strict=True)):
+            worst = values[item].max() if above else values[item].min()
+            if worst > limits[bound] if above else worst < limits[bound]:
+                found[bound] = worst
+        return found
+
+
+def _row(rows: Array, place: int) -> Array:
+    """Return the row of a system; there may be one for all."""
+    row: Array = rows[place if len(rows) > 1 else 0]
+    return row
+
+
+def _time_above(series: Array, _weights: Array, times: Array, level: float) -> float:
+    """Return how long straight lines between outputs are above a level [s]."""
+    by = series - level
+    up, size = np.maximum(by, 0.0), np.abs(by)
+    both = size[:-1] + size[1:]
+    part = np.divide(up[:-1] + up[1:], both, out=np.zeros_like(both), where=both > 0.0)
+    return float((np.diff(times) * part).sum())
+
+
+_KEPT: dict[Kind, Callable[[Array, Array, Array, float], float]] = {
+    Kind.GREATEST: lambda series, *_: series.max(),
+    Kind.LEAST: lambda series, *_: series.min(),
+    Kind.FIRST: lambda series, *_: series[0],
+    Kind.LAST: lambda series, *_: series[-1],
+    Kind.SUM: lambda series, weights, *_: (weights * (series - series[0])).sum(),
+    Kind.SQUARES: lambda series, weights, *_: (weights * (series - series[0]) ** 2).sum(),
+    Kind.ABOVE: _time_above,
+}

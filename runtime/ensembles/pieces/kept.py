@@ -1,0 +1,182 @@
+"""A folder in which what was found of an ensemble is kept until all of it is there.
+
+`ensemble.json` tells which ensemble it is of; each other file is what was found of some systems,
+written whole or not at all. It is a file of NumPy (.npz) with the digest of its bytes behind them.
+"""
+
+import hashlib
+import io
+import json
+import re
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import InputError
+from ...core.files import replacing, told
+from ..collected import Collected
+from .cutting import Span
+from .identity import Identity, identity_of
+from .piece import Found, taken
+
+_NAME = "ensemble.json"
+_FILE = re.compile(r"systems-(\d+)-(\d+)\.npz")
+
+Arrays = dict[str, NDArray[Any]]
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A folder of one ensemble.
+
+    Attributes
+    ----------
+    folder : Path
+    ensemble : str
+        A digest of all that it is known by.
+    collected : Collected
+        What is to be found, of which every file has a part.
+    """
+
+    folder: Path
+    ensemble: str
+    collected: Collected
+
+    def found(self) -> Iterator[Found]:
+        """Yield what is there; what is damaged is told of as a warning, and left out.
+
+        Raises
+        ------
+        InputError
+            If something that is no file has the name of one.
+        """
+        for path in sorted(self.folder.iterdir()):
+            name = _FILE.fullmatch(path.name)
+            if name is None:
+                continue
+            if not path.is_file():  # nor could it be replaced by one
+                _refuse(path, "this is no file, where one is kept. Remove it.")
+            span = int(name[1]), int(name[2])
+            try:
+                yield self._found(span, _arrays_in(path.read_bytes()))
+            except (OSError, ValueError):
+                message = (
+                    f"{path}: what was kept is damaged. Systems {span[0]} to {span[1]} are "
+                    "simulated again."
+                )
+                warnings.warn(message, RuntimeWarning, stacklevel=2)
+
+    def keep(self, found: Found) -> None:
+        """Keep what was found of some systems."""
+        name = f"systems-{found.first:09d}-{found.last:09d}.npz"
+        content = io.BytesIO()
+        np.savez(content, **self._arrays(found))  # type: ignore[arg-type]  # its names are data
+        with replacing(self.folder / name, force=True) as temporary:
+            temporary.write_bytes(content.getvalue() + _digest(content.getvalue()))
+
+    def _arrays(self, found: Found) -> Arrays:
+        """Return all that is written to a file, by name."""
+        return {
+            "ensemble": np.array(self.ensemble),
+            "systems": np.array([found.first, found.last]),
+            "solvers": found.solvers,
+            "samples": found.samples,
+            "reasons": np.array(json.dumps([*found.reasons.items()])),
+            **{f"outcome {name}": values for name, values in found.outcome.items()},
+            **{f"series {place}": values for place, values in enumerate(found.of_series)},
+        }
+
+    def _found(self, span: Span, arrays: Arrays) -> Found:
+        """Return what was found of some systems; a `ValueError` if it is not exactly that."""
+        wanted = self._arrays(taken(self.collected, *span))
+        if _layout(arrays) != _layout(wanted):
+            raise ValueError(span)
+        if (arrays["ensemble"].item(), tuple(arrays["systems"])) != (self.ensemble, span):
+            raise ValueError(span)
+        return Found(
+            *span,
+            outcome={
+                name.removeprefix("outcome "): values
+                for name, values in arrays.items()
+                if name.startswith("outcome ")
+            },
+            samples=arrays["samples"],
+            of_series=tuple(v for name, v in arrays.items() if name.startswith("series ")),
+            solvers=arrays["solvers"],
+            reasons=dict(json.loads(arrays["reasons"].item())),
+        )
+
+
+def _arrays_in(content: bytes) -> Arrays:
+    """Return what was written to a file; a `ValueError` if a bit of it has changed since."""
+    whole, digest = content[:-_DIGEST_SIZE], content[-_DIGEST_SIZE:]
+    if digest != _digest(whole):
+        message = "its digest is another"
+        raise ValueError(message)
+    with np.load(io.BytesIO(whole), allow_pickle=False) as archive:
+        return {name: archive[name] for name in archive.files}
+
+
+def _digest(content: bytes) -> bytes:
+    return hashlib.sha256(content).digest()
+
+
+_DIGEST_SIZE = len(_digest(b""))
+
+
+def _layout(arrays: Arrays) -> list[tuple[str, str, tuple[int, ...]]]:
+    """Return names, types and shapes in their order; texts are of any length."""
+    return [
+        (name, "<U" if values.dtype.str.startswith("<U") else values.dtype.str, values.shape)
+        for name, values in arrays.items()
+    ]
+
+
+def kept_in(folder: str | Path, collected: Collected) -> Kept:
+    """Return the folder of an ensemble, made if there is none.
+
+    Raises
+    ------
+    InputError
+        If it is the folder of another ensemble or of something else, or the system does not let it
+        be read or written.
+    """
+    path, identity = Path(folder), identity_of(collected)
+    with told(path):
+        if path.exists() and not path.is_dir():
+            _refuse(path, "this is no folder. Name a folder that is empty, or that is not there.")
+        there = {entry.name for entry in path.iterdir()} if path.exists() else set()
+        if _NAME in there:
+            _check(path, identity)
+        elif there:
+            _refuse(path, "other things are in this folder. Name one that is empty or not there.")
+        else:
+            with replacing(path / _NAME, force=True) as temporary:
+                temporary.write_text(json.dumps(identity, indent=1), encoding="utf-8")
+    whole = json.dumps(identity, sort_keys=True).encode()
+    return Kept(path, hashlib.sha256(whole).hexdigest(), collected)
+
+
+def _check(path: Path, identity: Identity) -> None:
+    """Refuse the folder of another ensemble."""
+    try:
+        # a pipe would keep whoever reads it waiting
+        known: Any = json.loads((path / _NAME).read_bytes()) if (path / _NAME).is_file() else None
+        other = [name for name, digest in identity.items() if known.get(name) != digest]
+    except (ValueError, AttributeError, RecursionError):
+        _refuse(path, f"{_NAME} in it is damaged. Name another folder, or remove this one.")
+    if other:
+        _refuse(
+            path,
+            f"what is kept here is of another ensemble, with other {', '.join(other)}. Name "
+            "another folder, or remove this one.",
+        )
+
+
+def _refuse(path: Path, problem: str) -> None:
+    raise InputError([f"kept: {problem}"], str(path))

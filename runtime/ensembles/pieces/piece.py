@@ -1,0 +1,203 @@
+"""Some of the systems of an ensemble, and what was found of them: both go from machine to machine.
+
+What was found of a piece are the same bits wherever that was done, and in whatever pieces.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import InputError
+from ...simulation.accuracy import Accuracy
+from ...simulation.lanes.library import widths
+from ...simulation.lanes.problem import Problem, Systems, Wanted
+from ...simulation.lanes.run import run
+from ...simulation.signals import TimeInputs
+from ...systems.compile.shipped import Shipped, shipped
+from ...systems.system import System
+from ..again import Again
+from ..collected import Collected
+from ..wanted import Asked
+from .versions import differences, versions
+
+Array = NDArray[np.float64]
+Report = Callable[[int], None]
+
+
+@dataclass(frozen=True)
+class Common:
+    """What all pieces have in common.
+
+    Attributes
+    ----------
+    equations : Shipped
+    parameters : dict
+        Of the model.
+    drives : tuple of TimeInputs
+    wanted : Wanted
+        Without the limits, which each system has for itself.
+    asked : Asked
+    accuracy : Accuracy
+    width, stiff_after : int
+        As of `Problem`.
+    again : bool
+        Whether what lanes cannot do is done again.
+    versions : dict
+        Of the process that asks for it.
+    """
+
+    equations: Shipped
+    parameters: Mapping[str, float]
+    drives: tuple[TimeInputs, ...]
+    wanted: Wanted
+    asked: Asked
+    accuracy: Accuracy
+    width: int
+    stiff_after: int
+    again: bool
+    versions: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Some of the systems.
+
+    Attributes
+    ----------
+    first : int
+        Place of the first of them in the ensemble.
+    systems : Systems
+        Without the drives, which all have in common.
+    limits : ndarray
+        Of what bounds allow.
+    """
+
+    first: int
+    systems: Systems
+    limits: Array
+
+
+@dataclass(frozen=True)
+class Found:
+    """What was found of some systems.
+
+    Attributes
+    ----------
+    first, last : int
+        The first of them, and the one behind the last.
+    outcome : dict
+        The arrays of `Outcome` by name.
+    samples : ndarray
+    of_series : tuple of ndarray
+        In the order of what was asked for.
+    solvers : ndarray of str
+    reasons : dict
+        By the place in the ensemble.
+    """
+
+    first: int
+    last: int
+    outcome: Mapping[str, NDArray[Any]]
+    samples: Array
+    of_series: tuple[Array, ...]
+    solvers: NDArray[np.str_]
+    reasons: Mapping[int, str]
+
+
+def common_of(collected: Collected) -> Common:
+    """Return what the pieces of an ensemble have in common."""
+    problem, asked = collected.problem, collected.asked
+    model = problem.model
+    return Common(
+        equations=shipped(model.equations),
+        parameters=dict(model.parameters),
+        drives=tuple(problem.systems.drives),
+        wanted=replace(problem.wanted, limits=np.empty((0, 0))),
+        asked=replace(asked, bounds=()),
+        accuracy=problem.accuracy,
+        width=problem.width,
+        stiff_after=problem.stiff_after,
+        again=collected.again is not None,
+        versions=versions(),
+    )
+
+
+def piece_of(problem: Problem, first: int, last: int) -> Piece:
+    """Return some of the systems of a problem."""
+    systems = problem.systems
+
+    def own(rows: NDArray[Any]) -> NDArray[Any]:
+        """Return the rows of these systems; there may be one for all."""
+        return rows if len(rows) == 1 else rows[first:last]
+
+    cut = replace(
+        systems,
+        count=last - first,
+        variants=own(systems.variants),
+        states=own(systems.states),
+        inputs=own(systems.inputs),
+        drives=(),
+        drive_of=own(systems.drive_of),
+        left_out=own(systems.left_out),
+    )
+    return Piece(first, cut, own(problem.wanted.limits))
+
+
+def found_of(common: Common, piece: Piece, threads: int, report: Report | None = None) -> Found:
+    """Simulate a piece.
+
+    Raises
+    ------
+    InputError
+        If this process has other versions than that which asks for it, or no lanes.
+    """
+    other = differences(common.versions)
+    if other:
+        told = f"a worker was asked by a process that has {other}: install the same in both."
+        raise InputError([told], "ensemble")
+    problem = Problem(
+        System(common.equations.module(), common.parameters),
+        replace(piece.systems, drives=common.drives),
+        replace(common.wanted, limits=piece.limits),
+        common.accuracy,
+        # another processor may have other vectors, which give the same bits
+        max((w for w in widths() if w <= common.width), default=0),
+        common.stiff_after,
+    )
+    collected = Collected(problem, common.asked, Again(problem) if common.again else None)
+    run(problem, threads, collected, report)
+    return replace(
+        taken(collected, 0, piece.systems.count),
+        first=piece.first,
+        last=piece.first + piece.systems.count,
+        reasons={piece.first + place: why for place, why in collected.reasons.items()},
+    )
+
+
+def taken(collected: Collected, first: int, last: int) -> Found:
+    """Return what there is of some systems in the whole; `put` brings it back."""
+    here = slice(first, last)
+    return Found(
+        first,
+        last,
+        outcome={name: values[here] for name, values in vars(collected.problem.outcome).items()},
+        samples=collected.samples[here],
+        of_series=tuple(values[here] for values in collected.of_series.values()),
+        solvers=collected.solvers[here].astype(np.str_),
+        reasons={p: why for p, why in collected.reasons.items() if first <= p < last},
+    )
+
+
+def put(found: Found, collected: Collected) -> None:
+    """Put what was found of a piece into the whole."""
+    here = slice(found.first, found.last)
+    for name, values in found.outcome.items():
+        getattr(collected.problem.outcome, name)[here] = values
+    collected.samples[here] = found.samples
+    for whole, values in zip(collected.of_series.values(), found.of_series, strict=True):
+        whole[here] = values
+    collected.solvers[here] = found.solvers.tolist()
+    collected.reasons.update(found.reasons)

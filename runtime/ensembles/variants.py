@@ -1,0 +1,319 @@
+"""What each of many systems has of its own: parameters, elements of its start, inputs, labels."""
+
+import math
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ..core.arguments import Arguments, shown
+from ..core.physical import impossible
+from ..core.suggestions import suggestion
+from ..systems.inputs import derived_inputs
+from ..systems.system import System
+from .room import Room
+
+Array = NDArray[np.float64]
+
+CAR = "car"
+"""Name of the dimension of what is given as plain rows of numbers."""
+
+TIME, STATE, BOUND, FREQUENCY = "time", "state_element", "bound", "frequency"
+"""Dimensions of what is kept of each."""
+
+RESULTS = ("success", "valid", "reason", "end_time", "steps", "solver", "final_state", "beyond")
+"""What is said of each, whatever is asked for."""
+
+# What the parameters of a body's mass are called, behind its name.
+_OF_MASS = ("_mass", "_com_x", "_com_y", "_com_z", "_inertia_")
+
+
+@dataclass(frozen=True)
+class Variants:
+    """What differs between the systems.
+
+    Attributes
+    ----------
+    shape : dict
+        Dimensions and their lengths; the systems are all combinations, the last one changes first.
+    coordinates : dict
+        Those of the dataset that was given.
+    parameters, states, inputs : dict
+        By name, each of shape (count,).
+    labels : dict
+        By input: which of its courses each system has.
+    """
+
+    shape: dict[Hashable, int]
+    coordinates: dict[Hashable, Any] = field(default_factory=dict)
+    parameters: dict[str, Array] = field(default_factory=dict)
+    states: dict[str, Array] = field(default_factory=dict)
+    inputs: dict[str, Array] = field(default_factory=dict)
+    labels: dict[str, NDArray[Any]] = field(default_factory=dict)
+
+    @property
+    def count(self) -> int:
+        """How many systems there are."""
+        return int(np.prod(list(self.shape.values()), dtype=np.int64))
+
+
+def variants_of(
+    model: System, given: Any, courses: Mapping[str, Any], rows: int | None, room: Room
+) -> Variants:
+    """Read what differs between the systems, or refuse it.
+
+    Parameters
+    ----------
+    model : System
+    given : mapping, xarray.Dataset or None
+    courses : mapping
+        What inputs do over time: one course for all, or several by label.
+    rows : int or None
+        How many rows the start has; None where it has one for all.
+    room : Room
+        What is kept of the systems.
+    """
+    choices = {name: several for name, several in courses.items() if isinstance(several, Mapping)}
+    with Arguments("ensemble") as arguments:
+        for name, several in choices.items():
+            arguments.labels(f"inputs {name!r}", several)
+        columns = _columns(arguments, model, given, choices)
+        if not arguments.refused:
+            _check_names(arguments, model, columns, courses)
+            _check_units(arguments, model, columns, choices)
+            _check_coordinates(arguments, model, given, columns)
+        if not arguments.refused:
+            columns, shape = _broadcast(arguments, columns, rows)
+            room.refuse_beyond(arguments, math.prod(shape.values()), len(columns))
+        if not arguments.refused:
+            coordinates = _coordinates(arguments, model, given, columns)
+        if arguments.refused:
+            return Variants({})
+        found = Variants(shape, coordinates)
+        homes = (
+            (model.equations.PARAMETERS, found.parameters),
+            (model.state_names, found.states),
+            (choices, found.labels),
+            (model.input_names, found.inputs),
+        )
+        for name, column in columns.items():
+            home = next(home for names, home in homes if name in names)
+            home[name] = _checked(arguments, name, column, choices.get(name))
+    return found
+
+
+def impossible_sets(model: System, variants: Variants) -> NDArray[np.bool_]:
+    """Tell which systems have parameters out of their ranges, as `equations.prepare` would."""
+    values = {**model.parameters, **variants.parameters}
+    return impossible(values, model.equations.PARAMETERS, variants.count)
+
+
+def numbered(labels: NDArray[Any]) -> tuple[list[Any], NDArray[np.int64]]:
+    """Return the different ones of some labels, of any kinds, and which of these each one is."""
+    listed = labels.tolist()
+    places = {label: place for place, label in enumerate(dict.fromkeys(listed))}
+    return list(places), np.array([places[label] for label in listed], dtype=np.int64)
+
+
+# -- reading --------------------------------------------------------------------------------------
+
+
+def _columns(
+    arguments: Arguments, model: System, given: Any, choices: Mapping[str, Any]
+) -> dict[str, xr.DataArray]:
+    """Return what was given as labelled arrays by name."""
+    if given is None:
+        return {}
+    if isinstance(given, xr.Dataset):
+        # coordinates of the dataset may be what varies; others only label the systems
+        known = _described(model)
+        names = [*given.data_vars, *(name for name in given.coords if name in known)]
+        return {str(name): given[name].reset_coords(drop=True) for name in names}
+    found = {}
+    for name, values in arguments.mapping("variants", given, "names, values").items():
+        arguments.text("name in variants", name)
+        if isinstance(values, xr.DataArray):
+            found[str(name)] = values.reset_coords(drop=True)
+            continue
+        array = _row(values, exact=name in choices)
+        if array is None:
+            arguments.refuse(
+                f"variants {shown(name)} = {shown(values)}: one number, or a row of one for each "
+                "system, is needed. What goes over several dimensions is an xarray.DataArray."
+            )
+        else:
+            found[str(name)] = xr.DataArray(array, dims=(CAR,) * array.ndim)
+    return found
+
+
+def _described(model: System) -> dict[str, Any]:
+    """Return what the manifest says of everything that can vary."""
+    equations = model.equations
+    return {**equations.PARAMETERS, **equations.STATE, **equations.INPUTS}
+
+
+def _row(values: Any, *, exact: bool) -> NDArray[Any] | None:
+    """Return what is one value or a row of them; nothing for anything else.
+
+    Parameters
+    ----------
+    values
+    exact : bool
+        Whether they are labels, which stay as they are: an array of texts has "1" instead of 1.
+    """
+    if np.ma.is_masked(values):
+        return None
+    try:
+        array = np.asarray(values)
+        given = np.asarray(values, dtype=object)
+        if exact and array.tolist() != given.tolist():
+            array = given
+    except (TypeError, ValueError, OverflowError):
+        return None
+    # numbers, or labels of any kinds
+    kinds = str | float | int | np.generic
+    plain = array.dtype != object or all(isinstance(v, kinds) for v in array.flat)
+    return array if array.ndim < 2 and plain else None
+
+
+def _check_names(
+    arguments: Arguments, model: System, columns: Mapping[str, Any], courses: Mapping[str, Any]
+) -> None:
+    derived = derived_inputs(model.equations.INPUTS)
+    known = [name for name in _described(model) if name not in derived]
+    for name in columns:
+        if name in derived:
+            arguments.refuse(f"variants {name!r} follows from {derived[name]!r}: vary that.")
+        elif name not in known:
+            arguments.refuse(f"variants {name!r} is not known. {suggestion(name, known)}")
+        elif body := without_mass(model, name):
+            arguments.refuse(
+                f"variants {name!r} changes nothing: the equations of {model.equations.NAME} leave "
+                f"the {body} without mass."
+            )
+    for name, course in courses.items():
+        if name in columns and not isinstance(course, Mapping):
+            arguments.refuse(f"{name!r} is in both inputs and variants: give one of them.")
+        elif isinstance(course, Mapping) and name not in columns:
+            arguments.refuse(
+                f"inputs {name!r} has several courses: variants needs {name!r}, the label of one "
+                "of them for each system."
+            )
+
+
+def _check_units(
+    arguments: Arguments,
+    model: System,
+    columns: Mapping[str, xr.DataArray],
+    choices: Mapping[str, Any],
+) -> None:
+    """Refuse numbers that say that they are in another unit; labels have none."""
+    described = _described(model)
+    for name, column in columns.items():
+        told, unit = column.attrs.get("units"), described[name]["unit"]
+        if told is not None and told != unit and name not in choices:
+            arguments.refuse(
+                f"variants {name!r} are in {shown(told)}: they are needed in {unit!r}."
+            )
+
+
+def _check_coordinates(
+    arguments: Arguments, model: System, given: Any, columns: Mapping[str, xr.DataArray]
+) -> None:
+    """Refuse dimensions and coordinates that are called as results are."""
+    arrays = [given] if isinstance(given, xr.Dataset) else [*(given or {}).values()]
+    labelled = [a for a in arrays if isinstance(a, xr.Dataset | xr.DataArray)]
+    taken = {TIME, STATE, BOUND, FREQUENCY, *RESULTS, *model.signal_names}
+    if isinstance(given, xr.Dataset):
+        _check_dimensions(arguments, model, given, columns)
+    for name in {str(n) for a in labelled for n in (*a.dims, *a.coords)} & taken:
+        arguments.refuse(f"variants have a dimension or coordinate {name!r}: results have it.")
+
+
+def _check_dimensions(
+    arguments: Arguments, model: System, given: xr.Dataset, columns: Mapping[str, xr.DataArray]
+) -> None:
+    """Refuse dimensions over which nothing goes: what is meant there has another name."""
+    over = {dimension for column in columns.values() for dimension in column.dims}
+    for dimension in given.dims:
+        if dimension not in over:
+            arguments.refuse(
+                f"variants: nothing goes over the dimension {dimension!r}. "
+                f"{suggestion(str(dimension), _described(model))}"
+            )
+
+
+def without_mass(model: System, name: str) -> str:
+    """Return the body whose mass a parameter describes, and the equations leave out."""
+    equations = model.equations
+    out = [body for body in equations.BODIES if body not in equations.MASSIVE_BODIES]
+    return next((b for b in out if name.startswith(tuple(f"{b}{end}" for end in _OF_MASS))), "")
+
+
+def _broadcast(
+    arguments: Arguments, columns: dict[str, xr.DataArray], rows: int | None
+) -> tuple[dict[str, xr.DataArray], dict[Hashable, int]]:
+    """Return the columns over all dimensions, and these with their lengths."""
+    start = {} if rows is None else {"": xr.DataArray(np.zeros(rows), dims=CAR)}
+    try:
+        # labels in another order would bring rows of the start to other systems
+        alike = xr.align(*start.values(), *columns.values(), join="exact")
+        together = xr.broadcast(*alike)
+    except ValueError as error:
+        what = "variants" if rows is None else "variants and the rows of y0"
+        arguments.refuse(
+            f"{what} do not go together: rows as long as each other, and the same labels in the "
+            f"same order, are needed ({error})."
+        )
+        return {}, {}
+    shape = dict(together[0].sizes) if together else {}
+    if rows is not None and shape != {CAR: rows}:
+        arguments.refuse(
+            f"y0 has {rows} rows, and variants go over {', '.join(map(str, shape))}: vary elements "
+            "of the state by name in variants."
+        )
+    wide = dict(zip(columns, together[len(start) :], strict=True))
+    return wide, shape or {CAR: 1}
+
+
+def _coordinates(
+    arguments: Arguments, model: System, given: Any, columns: Mapping[str, xr.DataArray]
+) -> dict[Hashable, Any]:
+    """Return the labels of the systems, as far as they were given; refuse those that mislead."""
+    arrays = [given] if isinstance(given, xr.Dataset) else [*(given or {}).values()]
+    labelled = [array for array in arrays if isinstance(array, xr.Dataset | xr.DataArray)]
+    found: dict[Hashable, Any] = {}
+    for name, labels in (item for array in labelled for item in array.coords.items()):
+        if labels.dims and not found.setdefault(name, labels.variable).equals(labels.variable):
+            arguments.refuse(f"variants: coordinates {name!r} of several differ.")
+    for name, values in found.items():
+        if name not in _described(model):
+            continue
+        column = columns.get(str(name))
+        if column is None or not np.all(column.variable == values):
+            arguments.refuse(
+                f"variants have a coordinate {name!r}, which is not what {name!r} is: coordinates "
+                "of a dict are labels alone. Give an xarray.Dataset, or rename the coordinate."
+            )
+    return found
+
+
+def _checked(
+    arguments: Arguments, name: str, column: xr.DataArray, choices: Mapping[Any, Any] | None
+) -> NDArray[Any]:
+    """Return one value for each system."""
+    values = column.values.flatten()
+    if not values.size:
+        arguments.refuse(f"variants {name!r} is empty: one system or more is needed.")
+    if choices is None:
+        return arguments.array(f"variants {name!r}", values, dimensions=[1])
+    strange = [label for label in numbered(values)[0] if label not in choices]
+    if strange:
+        arguments.refuse(
+            f"variants {name!r} has the label {shown(strange[0])}; its courses are "
+            f"{', '.join(map(shown, choices))}."
+        )
+    return values

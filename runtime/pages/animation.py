@@ -1,0 +1,102 @@
+"""A motion of any mechanism as a GIF, or as a page that plays it."""
+
+from pathlib import Path
+
+import numpy as np
+
+from ..core.arguments import Arguments
+from ..core.errors import InputError
+from ..core.files import Paths, refuse, replacing
+from ..pictures.animation import write_gif
+from ..simulation.result import Simulation
+from ..systems.skeleton import Skeleton
+from .mechanism.page import motion_page
+
+ENDINGS = (".gif", ".html", ".htm")
+_QUICKEST = 50.0  # frames per second: no viewer of GIFs is quicker
+_MOST_FRAMES = 1500
+
+
+def animate(
+    result: Simulation,
+    path: str | Path,
+    *,
+    fps: float = 25.0,
+    slower: float = 1.0,
+    title: str | None = None,
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write a motion of a mechanism, or of a suspension, as something to look at.
+
+    Parameters
+    ----------
+    result : Simulation
+        What `kintrafo.simulate` returned.
+    path : str or pathlib.Path
+        Ends in ``.gif``, for an animated picture, or ``.html``, for a page to play, stop and turn.
+    fps : float, optional
+        Frames per second of a GIF, from 1 to 50. Frames are those of the outputs that are nearest.
+    slower : float, optional
+        How many times slower than real time a GIF plays.
+    title : str, optional
+        Heading of a page; by default what the mechanism is.
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used, or the file must not be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import numpy as np
+    >>> import kintrafo
+    >>> from kintrafo.generated import four_bar
+    >>> system = kintrafo.System(four_bar)
+    >>> times = np.linspace(0.0, 0.2, 6)
+    >>> result = kintrafo.simulate(system, (0.0, 0.2), system.design_state, t_eval=times)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     animate(result, f"{folder}/linkage.html").name
+    'linkage.html'
+    """
+    with Arguments("animate") as given:
+        given.kind("result", result, Simulation, "what kintrafo.simulate returns is needed")
+        fps = given.number("fps", fps, "1/s", least=1.0, below=_QUICKEST + 1e-9)
+        slower = given.number("slower", slower, "", above=0.0)
+        if title is not None:
+            given.text("title", title)
+    refuse([path], force=force, inputs=inputs, endings=ENDINGS)
+    if len(result.t) < 2:
+        raise InputError(["the motion has one output only; nothing moves"], "animate")
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        if Path(path).suffix.lower() == ".gif":
+            _write_gif(temporary, result, fps, slower)
+        else:
+            temporary.write_text(motion_page(result, title), encoding="utf-8", newline="\n")
+    return Path(path)
+
+
+def _write_gif(path: Path, result: Simulation, fps: float, slower: float) -> None:
+    skeleton = Skeleton(result.signals.model)
+    seconds = slower * abs(float(result.t[-1] - result.t[0]))
+    count = max(2, round(seconds * fps) + 1)
+    if count > _MOST_FRAMES:
+        least = _MOST_FRAMES / fps / slower
+        words = (
+            f"a GIF of {count} frames is more than the {_MOST_FRAMES} that viewers bear. Take "
+            f"fewer per second (fps), a motion of at most {least:g} s, or a page (.html)."
+        )
+        raise InputError([words], "animate")
+    wanted = np.linspace(result.t[0], result.t[-1], count)
+    rows = np.abs(result.t[None, :] - wanted[:, None]).argmin(axis=1)
+    places = skeleton.places(result.y.T[rows], result.inputs[rows])
+    write_gif(path, skeleton, wanted, places, fps)

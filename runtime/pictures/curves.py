@@ -1,0 +1,408 @@
+"""Curves for print: variables of a dataset, each in a panel of its own.
+
+Any variable over one dimension can be drawn, or over two, of which the second makes a family of
+lines. Names, units and signs are those of the variables' attributes, see
+`kintrafo.core.quantities`.
+"""
+
+from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from textwrap import fill
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib import colormaps, rcParams
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator, ScalarFormatter
+from numpy.typing import NDArray
+
+from ..core.arguments import Arguments
+from ..core.quantities import bracketed, display_of, displayed, long_name
+from ..vehicle.analysis.characteristics.datasets import DATA_SET
+from ..vehicle.assembly.by_wheel import WHEEL
+from .figures import BLUE, GREEN, ORANGE, written_plainly
+from .labels import label_lines
+
+Array = NDArray[np.float64]
+
+# Told apart in colour and, by the dashes, in black and white too.
+_COLOURS = (BLUE, ORANGE, GREEN, "#cc79a7", "#56b4e9", "#e69f00", "#000000")
+_DASHES = ("-", "--", "-.", ":")
+# The dimensions of several suspensions that are compared, and of both wheels of an axle.
+_FAMILIES = (DATA_SET, WHEEL)
+# More lines than this are a carpet: some of them are drawn.
+_MOST_LINES = 7
+COLUMNS = 3
+# What labels and ticks take of a panel [in].
+_AROUND = np.array([0.9, 0.7])
+# What the names of targets and limits take below the panels, which keep their size [in].
+_BELOW = 0.4
+# Round values only, and never an offset that must be added in the head.
+_TICK_STEPS = [1, 2, 2.5, 5, 10]
+# Less variation than this part of its size is rounding, and the curve a constant.
+_CONSTANT = 1e-6
+# A curve whose extremes are so many times farther apart than nine tenths of it passes a pole.
+_POLE = 10.0
+
+# Between what is marked and the end of its axis, as a part of this.
+_ROOM = 0.05
+
+# What spans less of a position's axis is drawn as little as it is, by the unit of the axis.
+LEAST_SPANS = {
+    "deg": 0.1,
+    "mm": 1.0,
+    "deg/mm": 0.001,
+    "N/mm": 0.5,
+    "%": 1.0,
+    "1": 0.01,
+}
+# So many curves have their names beside them, more have a legend.
+_FEW_NAMES = 3
+
+# A curve with more ups and downs than this, such as a rough road, is a thin line.
+_MANY_TURNS, _THIN = 40, 0.7
+
+
+Mark = Callable[[Axes, xr.DataArray, str, Mapping[str, str]], Array]
+"""Marks a panel: its axes, curves, dimension along the axis, and colours by the names of the lines.
+
+Returns what is marked along the vertical axis, which spans it.
+"""
+
+
+def unmarked(axes: Axes, data: xr.DataArray, along: str, colours: Mapping[str, str]) -> Array:
+    """Mark nothing."""
+    del axes, data, along, colours
+    return np.empty(0)
+
+
+def draw(
+    dataset: xr.Dataset,
+    names: Sequence[Hashable],
+    *,
+    title: str = "",
+    alone: bool = True,
+    columns: int = COLUMNS,
+    positions: Collection[str] = (),
+    mark: Mark = unmarked,
+) -> Figure:
+    """Draw curves of some variables, each in its own axes.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+    names : sequence of str
+        Variables over one dimension or two.
+    title : str, optional
+    alone : bool, optional
+        Whether this is the figure of one curve, with its definition where there is one.
+    columns : int, optional
+        How many curves stand beside each other at most.
+    positions : collection of str, optional
+        Dimensions whose zero is the design position.
+    mark : callable, optional
+        Marks what else is to be seen in a panel.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    with Arguments("figures") as given:
+        given.dataset(dataset)
+        given.text("title", title)
+        given.flag("alone", alone)
+        columns = given.whole("columns", columns, least=1)
+        if not given.refused:
+            names = given.names("names", names, map(str, drawable(dataset)))
+            if not names:
+                given.refuse("names is empty: at least one variable is needed.")
+    columns = min(columns, len(names))
+    rows = -(-len(names) // columns)
+    size = (7.2, 4.6) if alone else (max(3.7 * columns, 5.0), 1.0 + 2.5 * rows)
+    result = Figure(figsize=size, layout="constrained")
+    panels = result.subplots(rows, columns, squeeze=False).ravel()
+    for index, (axes, name) in enumerate(zip(panels, names, strict=False)):
+        along = _draw(axes, dataset[name], positions, mark)
+        (_describe_alone if alone else _describe_panel)(axes, dataset[name])
+        if index + columns >= len(names):
+            axes.set_xlabel(_with_sign(dataset[along]), fontsize=10 if alone else 9)
+    for axes in panels[len(names) :]:
+        axes.remove()
+    if _marks_of_goals(panels[: len(names)]):
+        result.set_size_inches(size[0], size[1] + _BELOW)
+    shape = np.array(size) / (columns, rows) - _AROUND
+    _name_lines(result, panels, [dataset[name] for name in names], shape, alone=alone)
+    result.suptitle("\n".join(line for line in (title, _held(dataset)) if line), fontsize=11)
+    return written_plainly(result)
+
+
+def varying(dataset: xr.Dataset) -> tuple[Hashable, ...]:
+    """Return the names of the variables that vary; of all that can be drawn where none does.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+
+    Returns
+    -------
+    tuple of str
+    """
+    names = drawable(dataset)
+    return tuple(name for name in names if not is_constant(displayed(dataset[name]))) or names
+
+
+def drawable(dataset: xr.Dataset) -> tuple[Hashable, ...]:
+    """Return the names of the variables that can be drawn."""
+    return tuple(n for n, data in dataset.items() if data.ndim in (1, 2) and data.dtype.kind == "f")
+
+
+def _draw(axes: Axes, data: xr.DataArray, positions: Collection[str], mark: Mark) -> str:
+    """Draw one variable with its zero lines and its design position; return what it is over."""
+    along, lines = _lines(data)
+    position = displayed(data[along])
+    styles = _styles(data, len(lines))
+    curves = [
+        axes.plot(position, values, dashes, color=colour, linewidth=_width(values))[0]
+        for (_, values), (colour, dashes) in zip(lines, styles, strict=True)
+    ]
+    for (_, values), (colour, _) in zip(lines, styles, strict=True):
+        alone = _alone(values)
+        axes.plot(position[alone], values[alone], "o", color=colour, markersize=3.5)
+    if along in positions:
+        axes.axvline(0.0, color="#888888", linewidth=0.8, zorder=1)
+        for (_, values), (colour, _) in zip(lines, styles, strict=True):
+            at_design = values[position == 0.0]
+            dot = "black" if len(lines) == 1 else colour
+            axes.plot(np.zeros(at_design.size), at_design, "o", color=dot, markersize=4)
+    colours = {label: colour for (label, _), (colour, _) in zip(lines, styles, strict=True)}
+    marked = mark(axes, data, along, colours)
+    axes.margins(x=0.02)
+    drawn = np.concatenate([v for _, v in lines])
+    _limit(axes, drawn, may_have_pole=along in positions)
+    _include(axes, marked)
+    if along in positions:
+        whole = np.concatenate([drawn, marked])
+        _widen(axes, whole, LEAST_SPANS.get(display_of(data.attrs).units, 0.0))
+    low, high = axes.get_ylim()
+    for curve, (_, values) in zip(curves, lines, strict=True):
+        curve.set_ydata(_without_leaps(values, low, high))
+    if low < 0.0 < high:
+        axes.axhline(0.0, color="#888888", linewidth=0.8, zorder=1)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(MaxNLocator(nbins=7, steps=_TICK_STEPS))
+        axis.set_major_formatter(ScalarFormatter(useOffset=False))
+    return along
+
+
+def _alone(values: Array) -> NDArray[np.bool_]:
+    """Return which values have none beside them, so that no line shows them."""
+    known = np.isfinite(np.pad(values, 1, constant_values=np.nan))
+    return known[1:-1] & ~known[:-2] & ~known[2:]
+
+
+def _describe_alone(axes: Axes, data: xr.DataArray) -> None:
+    axes.set_ylabel(_with_sign(data))
+    definition = str(data.attrs.get("definition", ""))
+    axes.set_title(fill(definition, 100), fontsize=8.5, color="#555555")
+
+
+def _describe_panel(axes: Axes, data: xr.DataArray) -> None:
+    axes.set_ylabel(fill(_typeset(bracketed(long_name(data), data.attrs)), 26), fontsize=9.5)
+    axes.set_title(fill(str(data.attrs.get("sign", "")), 46), fontsize=8, color="#555555")
+
+
+def _styles(data: xr.DataArray, count: int) -> list[tuple[Any, str]]:
+    """Return colour and dashes of each line: a scale for numbers, contrast for names."""
+    if count > 1 and _family(data) is None:
+        scale = colormaps["viridis"]
+        return [(scale(0.9 * index / (count - 1)), "-") for index in range(count)]
+    return [
+        (_COLOURS[index % len(_COLOURS)], _DASHES[index % len(_DASHES)]) for index in range(count)
+    ]
+
+
+def dimension_along(data: xr.DataArray) -> str:
+    """Return the dimension along the axis."""
+    dims = [str(d) for d in data.dims]
+    return next(d for d in dims if d not in _FAMILIES) if data.ndim > 1 else dims[0]
+
+
+def _family(data: xr.DataArray) -> str | None:
+    """Return the dimension of lines that have names."""
+    return next((name for name in _FAMILIES if name in data.dims), None)
+
+
+def _lines(data: xr.DataArray) -> tuple[str, list[tuple[str, Array]]]:
+    """Return the dimension along the axis, and label and displayed values of each line."""
+    along = dimension_along(data)
+    values = displayed(data)
+    if data.ndim == 1:
+        return along, [("", values)]
+    across = next(d for d in data.dims if d != along)
+    if data.dims[0] == along:
+        values = values.T
+    count = data.sizes[across]
+    chosen = np.unique(np.linspace(0, count - 1, min(count, _MOST_LINES)).round().astype(int))
+    labels = _labels(data[across])
+    return along, [(labels[i], values[i]) for i in chosen]
+
+
+def _labels(coordinate: xr.DataArray) -> list[str]:
+    if coordinate.dtype.kind != "f":
+        return [str(value) for value in coordinate.values]
+    unit = display_of(coordinate.attrs).units
+    return [f"{value:g} {unit}" for value in displayed(coordinate)]
+
+
+def is_constant(values: Array) -> bool:
+    """Return whether nothing but rounding varies."""
+    finite = values[np.isfinite(values)]
+    return finite.size > 0 and bool(np.ptp(finite) <= _CONSTANT * max(np.abs(finite).max(), 1e-6))
+
+
+def _limit(axes: Axes, values: Array, *, may_have_pole: bool) -> None:
+    """Choose limits that neither magnify rounding errors nor follow a curve into a pole."""
+    finite = values[np.isfinite(values)]
+    if finite.size == 0:
+        axes.text(0.5, 0.5, "not defined", transform=axes.transAxes, ha="center")
+    elif is_constant(finite):
+        middle = float(finite.mean())
+        half = max(0.05 * abs(middle), 0.1)
+        axes.set_ylim(middle - half, middle + half)
+    elif may_have_pole:
+        low, high = np.quantile(finite, (0.05, 0.95))
+        if high > low and np.ptp(finite) > _POLE * (high - low):
+            axes.set_ylim(1.5 * low - 0.5 * high, 1.5 * high - 0.5 * low)
+
+
+def _include(axes: Axes, marked: Array) -> None:
+    """Let an axis span what is marked, however far from the curve that is, with its arrows."""
+    if not marked.size:
+        return
+    low, high = axes.get_ylim()
+    least, most = marked.min(), marked.max()
+    room = _ROOM * (max(most, high) - min(least, low))
+    axes.set_ylim(min(low, least - room), max(high, most + room))
+
+
+def _widen(axes: Axes, values: Array, least: float) -> None:
+    """Let an axis span no less than what means something, with the curve in its middle."""
+    finite = values[np.isfinite(values)]
+    low, high = axes.get_ylim()
+    if finite.size and high - low < least:
+        middle = 0.5 * float(finite.min() + finite.max())
+        axes.set_ylim(middle - 0.5 * least, middle + 0.5 * least)
+
+
+def _without_leaps(values: Array, low: float, high: float) -> Array:
+    """Return a curve that ends where it leaves what is drawn, to come back from the other side.
+
+    That is a pole, of whose two branches nothing connects the ends.
+    """
+    side = np.sign(values - 0.5 * (low + high)) * ((values < low) | (values > high))
+    leaps = np.flatnonzero(side[:-1] * side[1:] < 0.0)
+    cut = values.copy()
+    cut[leaps] = np.nan
+    return cut
+
+
+def _with_sign(data: xr.DataArray) -> str:
+    sign = str(data.attrs.get("sign", ""))
+    label = _typeset(bracketed(long_name(data), data.attrs))
+    return f"{label}\n{sign}" if sign else label
+
+
+def _typeset(text: str) -> str:
+    return text.replace("^2", "\u00b2")
+
+
+def _name_lines(
+    result: Figure, panels: Array, curves: Sequence[xr.DataArray], shape: Array, *, alone: bool
+) -> None:
+    """Name the lines: few beside them, wherever a panel has room; else in one legend."""
+    named = False
+    for axes, data in zip(panels, curves, strict=False):
+        family = _family(data)
+        if data.ndim < 2 or family is None or data.sizes[family] > _FEW_NAMES:
+            continue
+        names = [name for name, _ in _lines(data)[1]]
+        named |= label_lines(axes, _drawn_lines(axes, len(names)), names, shape)
+    pairs = zip(panels, curves, strict=False)
+    several = next(((axes, data) for axes, data in pairs if data.ndim > 1), None)
+    lines = _Named() if named or several is None else _named_lines(*several)
+    marks = _marks_of_goals(panels[: len(curves)])
+    if several is not None and not (alone or marks):
+        _legend_in(several[0], lines)
+    elif lines.handles or marks:
+        _legend_below(result, lines, marks)
+
+
+def _drawn_lines(axes: Axes, count: int) -> list[Line2D]:
+    return [line for line in axes.get_lines() if line.get_linestyle() != "None"][:count]
+
+
+@dataclass(frozen=True)
+class _Named:
+    """What a legend has: lines, their names, and what these are."""
+
+    handles: Sequence[Any] = ()
+    labels: Sequence[str] = ()
+    title: str | None = None
+
+
+def _named_lines(axes: Axes, data: xr.DataArray) -> _Named:
+    along, lines = _lines(data)
+    across = next(d for d in data.dims if d != along)
+    title = None if across in _FAMILIES else long_name(data[across])
+    return _Named(_drawn_lines(axes, len(lines)), [label for label, _ in lines], title)
+
+
+def _legend_in(axes: Axes, lines: _Named) -> None:
+    """Name lines in a panel of a page."""
+    if lines.handles:
+        size = {"fontsize": 8, "title_fontsize": 8}
+        axes.legend(lines.handles, lines.labels, title=lines.title, loc="best", **size)
+
+
+def _legend_below(result: Figure, lines: _Named, marks: Mapping[str, Any]) -> None:
+    """Name lines, and marks of targets and limits, where they cover nothing."""
+    result.legend(
+        [*lines.handles, *marks.values()],
+        [*lines.labels, *marks],
+        title=lines.title,
+        loc="outside lower center",
+        ncols=4,
+        frameon=False,
+        fontsize=9,
+    )
+
+
+def _marks_of_goals(panels: Iterable[Axes]) -> dict[str, Any]:
+    """Return what stands for targets and for limits, by what it is called; curves have no label."""
+    return {
+        label: mark
+        for axes in panels
+        for mark, label in zip(*axes.get_legend_handles_labels(), strict=True)
+    }
+
+
+def _held(dataset: xr.Dataset) -> str:
+    """Say where the coordinates stand that do not vary."""
+    scalars = [data for name, data in dataset.coords.items() if data.ndim == 0]
+    texts = [
+        f"{long_name(data)} {float(displayed(data)):g} {display_of(data.attrs).units}"
+        for data in scalars
+        if data.dtype.kind == "f"
+    ]
+    return ", ".join(texts)
+
+
+def _width(values: Array) -> float:
+    """Return how wide a curve is: thin, where it goes up and down so often that it fills."""
+    steps = np.diff(values[np.isfinite(values)])
+    turns = np.count_nonzero(steps[1:] * steps[:-1] < 0.0)
+    width: float = _THIN if turns > _MANY_TURNS else rcParams["lines.linewidth"]
+    return width

@@ -1,0 +1,81 @@
+"""How all figures look, and how they are written: PNG, SVG and PDF."""
+
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+from ..core.files import Paths, replacing
+from ..core.legible import legible
+
+if TYPE_CHECKING:
+    from matplotlib.typing import RcKeyType
+
+BLUE, ORANGE, GREEN = "#0072b2", "#d55e00", "#009e73"
+STYLE: "dict[RcKeyType, Any]" = {
+    "font.size": 10.0,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.titlesize": 10.5,
+    "grid.color": "#dddddd",
+    "grid.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "lines.linewidth": 1.8,
+    "svg.hashsalt": "kintrafo",  # the same identifiers in every file
+}
+# Neither date nor version in the files: the same curves make the same bytes.
+METADATA: dict[str, dict[str, Any]] = {
+    "png": {"Software": None},
+    "svg": {"Date": None},
+    "pdf": {"CreationDate": None},
+}
+
+
+def save(figure: Figure, path: str | Path, *, force: bool = False, inputs: Paths = ()) -> Path:
+    """Write a figure; the ending of the file's name is its format.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    path : str or pathlib.Path
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InputError
+        If the file must not or cannot be written.
+    """
+    ending = Path(path).suffix.lower().removeprefix(".")
+    drawn = BytesIO()  # what cannot be written later leaves no open file behind
+    lay_out(figure)
+    figure.savefig(drawn, dpi=160, format=ending, metadata=METADATA.get(ending))
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        temporary.write_bytes(drawn.getvalue())
+    return Path(path)
+
+
+def written_plainly(figure: Figure) -> Figure:
+    """Let what a person wrote stand there as it was written, dollars and all."""
+    for text in figure.findobj(Text):
+        text.set_parse_math(False)
+        text.set_text("\n".join(map(legible, text.get_text().split("\n"))))
+    return figure
+
+
+def lay_out(figure: Figure) -> Figure:
+    """Find the places of all that is drawn, once: else each file is drawn twice for them."""
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
+        figure.set_layout_engine(None)
+    return figure

@@ -1,0 +1,122 @@
+"""How the command line ends: messages and exit codes."""
+
+import os
+import sys
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from enum import IntEnum
+from typing import TextIO
+
+from .console import problems
+
+
+class Exit(IntEnum):
+    """What the exit code tells a script."""
+
+    DONE = 0
+    REFUSED = 1  # what was asked cannot be done, or a check found a problem
+    MISTAKE = 2  # in the arguments or in a file; or a file cannot be written
+    MISSING = 3  # a package that is needed is not installed
+
+
+@contextmanager
+def standing_streams() -> Iterator[None]:
+    """See that what is printed goes somewhere, or that it is told where it does not.
+
+    A stream that was closed leads nowhere, and its number not to the next file that is opened.
+    What an encoding cannot say is written as Python writes it. A full disk ends the program with a
+    message and exit code 2, a reader that has gone with exit code 1.
+    """
+    _replace_closed()
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+    code = 0
+    try:
+        yield
+    except SystemExit as end:
+        code = end.code if isinstance(end.code, int) else int(end.code is not None)
+    try:
+        sys.stdout.flush()
+    except OSError as error:
+        code = _lost_output(error)
+    if code:
+        raise SystemExit(code)
+
+
+def _replace_closed() -> None:
+    for number, name, mode in ((0, "stdin", "r"), (1, "stdout", "w"), (2, "stderr", "w")):
+        if getattr(sys, name) is None:
+            # the lowest number that is free, which is that of the stream
+            os.open(os.devnull, os.O_RDWR)
+            setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115 (open as long as the program runs)
+
+
+def _lost_output(error: OSError) -> int:
+    """Say that the results could not be printed, and drop what is left of them."""
+    with suppress(OSError):
+        # what is still to be printed must not fail again when the interpreter ends
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    if isinstance(error, BrokenPipeError):
+        return Exit.REFUSED  # and no word: a reader that has seen enough is no mistake
+    _print(f"error: standard output cannot be written: {error.strerror}.", "red")
+    return Exit.MISTAKE
+
+
+@contextmanager
+def guarded() -> Iterator[None]:
+    """Turn what the user can do something about into a message on stderr and an exit code."""
+    try:
+        with warnings.catch_warnings():
+            warnings.showwarning = _show_warning
+            yield
+    except BrokenPipeError as error:
+        raise SystemExit(_lost_output(error)) from None
+    except Exception as error:
+        found = _explained(error)
+        if found is None:
+            raise
+        message, code = found
+        _print(f"error: {message}", "red")
+        raise SystemExit(code) from None
+
+
+def _explained(error: Exception) -> tuple[str, Exit] | None:
+    """Return message and exit code; None for a defect of the program."""
+    # imported here, because only a run that fails needs them
+    from ..core.errors import InputError, KintrafoError
+    from ..core.files import reason
+    from ..core.optional import MissingPackageError
+    from ..equations.errors import ParameterError
+
+    if isinstance(error, MissingPackageError):
+        return str(error), Exit.MISSING
+    if isinstance(error, InputError | ParameterError):
+        return str(error), Exit.MISTAKE
+    if isinstance(error, KintrafoError):
+        return str(error), Exit.REFUSED
+    if isinstance(error, OSError):
+        where = "" if error.filename is None else f"{os.fsdecode(error.filename)}: "
+        return f"{where}{reason(error)}", Exit.MISTAKE
+    return None
+
+
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    """Show a warning as a note, without the place in the program that raised it."""
+    del category, filename, lineno, file, line
+    _print(f"note: {message}", "yellow")
+
+
+def _print(text: str, style: str) -> None:
+    """Print on stderr; where that cannot be written either, the exit code tells it alone."""
+    with suppress(OSError):
+        # no markup: the names of sections stand in brackets
+        problems.print(text, style=style, highlight=False, markup=False)

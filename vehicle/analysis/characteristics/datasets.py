@@ -1,0 +1,192 @@
+"""Characteristics over the motions of a rig, as labelled arrays."""
+
+from collections.abc import Container
+from typing import Any
+
+import xarray as xr
+
+from ....core.arguments import Arguments
+from ....core.memory import positions_given
+from ....core.named_types import ArrayLike
+from ...assembly.assembly import Assembly
+from ...assembly.by_wheel import SIDES, of_wheels, wheel_coordinate
+from ...assembly.measures import axle, corner, rigid_axle
+from ...assembly.measures.measure import columns, values
+from ...assembly.of import given_assembly
+from ...assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
+from ...assembly.rig import Extent
+from ...corner.corner import Array
+
+DATA_SET = "data_set"
+"""The dimension of several sets of curves beside each other."""
+
+ALONG = {"travel": TRAVEL, "rack": RACK}
+"""What varies along the curves of a corner."""
+
+KNOWN: dict[str, dict[str, Quantity]] = {
+    "travel": columns(corner.OVER_TRAVEL, ["left"]),
+    "rack": columns(corner.OVER_RACK, ["left"]),
+}
+"""Characteristics of a corner by name, over wheel travel and over the rack."""
+
+_MOVING = columns((*axle.OVER_TRAVEL, *rigid_axle.MEASURES), SIDES)
+_STEERED = columns((m for m in axle.OVER_STEERING if m.quantity is not RACK), SIDES)
+OF_AXLES = {
+    TRAVEL.name: _MOVING,
+    ROLL.name: _MOVING,
+    RACK.name: _STEERED,
+    STEERING_WHEEL.name: _STEERED | {RACK.name: RACK},
+}
+"""Characteristics of axles by the names of their columns, by what they are over."""
+
+
+def over(
+    subject: Any,
+    motion: str | None = None,
+    along: ArrayLike | None = None,
+    *,
+    extent: Extent | None = None,
+    travel: float = 0.0,
+    rack_position: float = 0.0,
+) -> xr.Dataset:
+    """Return the characteristics of a suspension, an axle or a rigid axle over a motion of a rig.
+
+    Parameters
+    ----------
+    subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
+    motion : str, optional
+        Of a suspension 'travel' or, if it is steered, 'rack'. Of both kinds of axles 'bump' (both
+        wheels in parallel), 'roll', 'left' and 'right' (one wheel, the other one at design); of a
+        steered axle also 'steer' and 'rack'. By default the first of these.
+    along : array_like, shape (n,), optional
+        What varies: heights of wheel centres above design or displacements of the rack [m], roll
+        angles of the body, positive with the right side down, or angles of the steering wheel,
+        positive to the left [rad]. By default the usual range, as far as the wheels go: 80 mm of
+        travel and 60 mm of the rack to either side, 4 deg of roll.
+    extent : Extent, optional
+        How far the motion goes, where that is not the usual.
+    travel : float, optional
+        Where the rack moves: height of the wheel centres above design [m].
+    rack_position : float, optional
+        Where the wheels move: displacement of the rack [m].
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``wheel_travel`` [m], ``roll_angle`` [rad], ``steering_wheel_angle`` [rad] or
+        ``rack_position`` [m]; of an axle, what each wheel has also over ``wheel``. The motion
+        'steer' goes over the rack where nothing says how the steering wheel moves it. SI units;
+        each variable carries ``units``, ``long_name``, ``definition``, ``sign`` and the display
+        unit as ``display_units`` and ``display_factor``. What needs data of the vehicle that are
+        not given is left out.
+
+    Raises
+    ------
+    PositionError
+        If a position is out of reach; the message states the range.
+    InputError
+        If an argument cannot be used, a drop link does not reach, or an axle does not move with
+        rigid joints.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from kintrafo import load
+    >>> curves = over(load("reference_car"), "travel", [-0.05, 0.05])
+    >>> np.rad2deg(curves["camber"].values).round(4).tolist()
+    [1.3246, -0.9139]
+    >>> steered = over(load("reference_car"), "rack", [-0.04, 0.04])
+    >>> np.rad2deg(steered["steer_left"].values).round(3).tolist()
+    [18.174, -17.836]
+    >>> axle = over(load("reference_axle"), "bump", [-0.05, 0.0, 0.05])
+    >>> (axle["roll_center_height"].values * 1e3).round(1).tolist()
+    [224.8, 106.3, -18.2]
+    >>> axle["camber"].dims
+    ('wheel', 'wheel_travel')
+    """
+    with Arguments("characteristics") as given:
+        assembly = given_assembly(given, subject)
+        travel = given.number("travel", travel, "m")
+        rack = given.number("rack_position", rack_position, "m")
+        if extent is not None:
+            given.kind("extent", extent, Extent, "a kintrafo.characteristics.Extent is needed")
+        if extent is not None and along is not None:
+            given.refuse("along and extent are both given. Give one of them.")
+    motion = given_motion(assembly, motion)
+    with Arguments("characteristics") as given:
+        assembly.refuse_holding(given, motion, travel, rack)
+        quantity = assembly.motions[motion].along
+        if along is not None:
+            along = positions_given(given, "along", along, quantity.units)
+            if not given.refused:
+                assembly.refuse_positions(given, motion, along)
+    if along is None:
+        along = assembly.usual(motion, extent, travel=travel, rack=rack)
+    return dataset(assembly, motion, along, travel=travel, rack=rack)
+
+
+def given_motion(assembly: Assembly, motion: Any, name: str = "motion") -> str:
+    """Return a motion of an assembly, by default the usual one.
+
+    Raises
+    ------
+    InputError
+        If it has no such motion.
+    """
+    if motion is None:
+        return assembly.usual_motion
+    if isinstance(motion, str) and motion not in assembly.motions:
+        assembly.refuse_motion(motion)
+    with Arguments("characteristics") as given:
+        given.among(name, motion, assembly.motions)
+    return str(motion)
+
+
+def dataset(
+    assembly: Assembly, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
+) -> xr.Dataset:
+    """Return the characteristics at some positions of a motion; see `over`."""
+    how = assembly.motions[motion]
+    held = assembly.held_in(motion, travel, rack)
+    of = assembly.kinematics(assembly.position(motion, along, travel=travel, rack=rack))
+    variables = {}
+    for measure in assembly.measures(motion):
+        if not measure.defined_for(of):
+            continue
+        found = [measure.at(of, wheel) for wheel in measure.columns(assembly.wheels).values()]
+        if measure.scope == "wheel":
+            variables[measure.name] = of_wheels(measure.quantity, how.along.name, found)
+        else:
+            variables[measure.name] = xr.Variable(
+                how.along.name, found[0], measure.quantity.attributes()
+            )
+    coordinates = {
+        how.along.name: xr.Variable(how.along.name, along, how.along.attributes()),
+        "wheel": wheel_coordinate(assembly.wheels),
+    }
+    for quantity, value in held.items():
+        coordinates[quantity.name] = xr.Variable((), float(value), quantity.attributes())
+    return xr.Dataset(variables, coordinates, {"title": f"characteristics over {how.title}"})
+
+
+def flat_values(
+    assembly: Assembly, motion: str, along: Array, names: Container[str] | None = None
+) -> dict[str, Array]:
+    """Return characteristics over a motion by the names of their columns, all or some.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    motion : str
+    along : ndarray, shape (n,)
+        As of `over`.
+    names : container of str, optional
+        Of columns: ``camber``, of an axle ``camber_left``.
+
+    Returns
+    -------
+    dict of str to ndarray, each of shape (n,)
+        SI units.
+    """
+    of = assembly.kinematics(assembly.position(motion, along))
+    return values(assembly.measures(motion), of, assembly.wheels, names)

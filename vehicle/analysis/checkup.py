@@ -1,0 +1,280 @@
+"""A first look at a corner, an axle or a rigid axle."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...systems.linearisation import linearise
+from ..assembly.assembly import Assembly
+from ..assembly.equilibrium import equilibrium
+from ..assembly.of import given_assembly
+from ..assembly.usual import USUAL_TRAVEL
+from ..models.positions import PositionError
+from .plausibility import USUAL_HOP
+from .wheel_facts import Equilibrium, WheelFacts, facts_of, without_friction
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = [
+    "USUAL_HOP",
+    "USUAL_RIDE",
+    "AxleFacts",
+    "Checkup",
+    "Equilibrium",
+    "WheelFacts",
+    "as_dict",
+    "checkup",
+    "without_friction",
+]
+
+# Where the body of a comfortable passenger car has its frequency [Hz]: Audi, Self-Study Programme
+# 242, page 9.
+USUAL_RIDE = (1.0, 1.5)
+
+# Read at design over parallel travel, by their columns, and what stands before the value.
+_WORDS = {
+    "track": "track",
+    "roll_center_height": "roll-centre height",
+    "roll_steer": "roll steer",
+    "roll_stiffness": "roll stiffness",
+    "bar_share": "share of the anti-roll bar",
+    "roll_stiffness_bar": "roll stiffness of the anti-roll bar",
+    "roll_stiffness_with_tyres": "roll stiffness with tyres",
+    "wheel_rate_left": "wheel rate, left",
+    "wheel_rate_right": "wheel rate, right",
+    "anti_dive": "anti-dive",
+    "anti_lift_driven": "anti-lift under drive",
+    "anti_lift_braked": "anti-lift under braking",
+    "anti_squat": "anti-squat",
+}
+# What others say already: the facts of each corner; the track that a beam is described by.
+_NOT_OF_CORNERS = ("roll_steer", "roll_stiffness_bar", "wheel_rate_left", "wheel_rate_right")
+_NOT_ON_A_BEAM = ("track", "bar_share")
+# At rest so far from design, or on tyres so far apart, a rate, a unit or a free length is wrong.
+_MOST_TRAVEL = 0.5 * USUAL_TRAVEL
+
+
+@dataclass(frozen=True)
+class AxleFacts:
+    """What both wheels of an axle have together.
+
+    Attributes
+    ----------
+    heading : str
+        What the axle is called.
+    values : dict of str to float
+        At design, by the columns of `kintrafo.characteristics`, SI units; those that are known. Of
+        a rigid axle also ``reach_down`` and ``reach_up`` [m], ``heave_at_rest`` [m],
+        ``heave_frequency`` and ``roll_frequency``, the undamped natural frequencies of its modes on
+        the tyres [Hz], ``heave_damping_ratio`` and ``roll_damping_ratio``.
+    rows : dict of str to str
+        The same and more, as a person reads it.
+    """
+
+    heading: str
+    values: dict[str, float]
+    rows: dict[str, str]
+
+
+@dataclass(frozen=True)
+class Checkup:
+    """What a first look shows.
+
+    Attributes
+    ----------
+    wheels : tuple of WheelFacts
+        The wheels that move by themselves: that of a corner; of an axle both, or one where the
+        other is its mirror image; none of a rigid axle.
+    axle : AxleFacts or None
+        What both wheels have together; None of a corner.
+    problems : tuple of str
+        What keeps it from working, or is almost surely a mistake.
+    notes : tuple of str
+        What works but is unusual.
+    """
+
+    wheels: tuple[WheelFacts, ...]
+    axle: AxleFacts | None
+    problems: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+def checkup(subject: Any) -> Checkup:
+    """Look at a corner, an axle or a rigid axle.
+
+    Parameters
+    ----------
+    subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
+
+    Returns
+    -------
+    Checkup
+
+    Raises
+    ------
+    InputError
+        If the subject is not one of these, or a rigid axle moves only on its bushes.
+
+    Examples
+    --------
+    >>> from kintrafo import Model, load
+    >>> found = checkup(Model("reference_car"))
+    >>> found.problems, round(found.wheels[0].equilibrium.frequency, 2)
+    ((), 12.35)
+    >>> round(checkup(load("reference_axle")).axle.values["bar_share"], 2)
+    0.42
+    >>> round(checkup(load("rigid_axle")).axle.values["roll_center_height"], 2)
+    0.41
+    """
+    with Arguments("checkup") as given:
+        assembly = given_assembly(given, subject)
+    wheels = tuple(facts_of(model) for model in assembly.corners.values())
+    seen = assembly.plausibility()
+    problems, notes = [*seen.problems], [*seen.notes]
+    axle = None
+    if len(assembly.wheels) > 1:
+        found = _AxleLook(assembly, problems, notes)
+        axle = AxleFacts(assembly.heading, found.values, found.rows)
+    return Checkup(
+        wheels,
+        axle,
+        (*_told(assembly, [(one.side, one.problems) for one in wheels]), *problems),
+        (*_told(assembly, [(one.side, one.notes) for one in wheels]), *notes),
+    )
+
+
+def _told(assembly: Assembly, by_side: list[tuple[str, tuple[str, ...]]]) -> list[str]:
+    """Return what is said of wheels, beginning with their names where there are several."""
+    several = len(assembly.wheels) > 1
+    return [
+        f"{side} side: {text}" if several else text for side, texts in by_side for text in texts
+    ]
+
+
+class _AxleLook:
+    """Finds what both wheels of an axle have together."""
+
+    def __init__(self, assembly: Assembly, problems: list[str], notes: list[str]) -> None:
+        self._assembly, self._problems, self._notes = assembly, problems, notes
+        self.values: dict[str, float] = {}
+        self.rows: dict[str, str] = assembly.described()
+        self._reach()
+        if assembly.MODES:
+            self._at_rest()
+        try:
+            self._at_design()
+            self._in_roll()
+            if "steer" in assembly.motions:
+                self._in_steering()
+        except (InputError, PositionError) as error:
+            problems += getattr(error, "problems", (str(error),))
+
+    def _reach(self) -> None:
+        for name, (value, ends) in self._assembly.reach().items():
+            self.values[f"reach_{name}"] = value
+            self.rows[f"travel {name} to"] = f"{1e3 * value:.1f} mm{'' if ends else ' and more'}"
+
+    def _at_rest(self) -> None:
+        """Find where it rests, and its modes there; without friction, as it slides."""
+        assembly, model = self._assembly, self._assembly.model
+        smooth = assembly.without_friction().model
+        try:
+            state, sliding = equilibrium(model), equilibrium(smooth)
+        except PositionError as error:
+            self._problems.append(str(error))
+            return
+        signals = model.signals(state)
+        names = assembly.names_of(assembly.wheels[0])
+        heights, design = (
+            np.mean([of[f"{assembly.names_of(w).signals}wheel_center_z"] for w in assembly.wheels])
+            for of in (signals, model.signals(model.design_state))
+        )
+        travel = float(heights - design)
+        spring = next(
+            n for n in signals if n.startswith(names.prefix) and n.endswith("spring_force")
+        )
+        self.values["heave_at_rest"] = travel
+        self.rows["equilibrium"] = (
+            f"wheel centres at {1e3 * heights:.3f} mm, {1e3 * travel + 0.0:+.3f} mm from design"
+        )
+        self.rows["forces there, each wheel"] = (
+            f"tyre {float(signals[f'{names.signals}tyre_force']):.0f} N, "
+            f"spring {float(signals[spring]):.0f} N"
+        )
+        linear = linearise(smooth, sliding)
+        for name, words in assembly.MODES.items():
+            mode = linear.mode_of(name)
+            self.values[f"{name}_frequency"] = mode.natural_frequency
+            self.values[f"{name}_damping_ratio"] = mode.damping_ratio
+            self.rows[f"{words} on the tyres"] = mode.text
+        if abs(travel) > _MOST_TRAVEL:
+            self._notes.append(
+                f"the axle rests {1e3 * travel:+.1f} mm from its design position: "
+                "check the springs' free length or force, and the tyres' free height"
+            )
+
+    def _at_design(self) -> None:
+        from ...core.quantities import display_of  # noqa: PLC0415 (slow to import)
+
+        assembly, dataset = self._assembly, _over(self._assembly, "bump", [0.0])
+        left_out = _NOT_ON_A_BEAM if assembly.on_a_beam else _NOT_OF_CORNERS
+        alike = len(assembly.corners) < len(assembly.wheels)
+        for stem, words in _WORDS.items():
+            name = stem if stem in dataset else f"{stem}_left"
+            if stem in left_out or name not in dataset:
+                continue
+            shown = display_of(dataset[name].attrs)
+            self.values[name] = float(dataset[name][0])
+            told = words if name == stem or alike else f"{words}, left"
+            self.rows[told] = f"{self.values[name] * shown.factor:.4g} {shown.units}"
+
+    def _in_roll(self) -> None:
+        angles = self._assembly.usual("roll")
+        # that drop links reach is seen over all of the usual travel, too
+        _over(self._assembly, "bump")
+        dataset = _over(self._assembly, "roll", angles[[0, -1]])
+        if "roll_moment" in dataset:
+            moment = float(dataset["roll_moment"][-1])
+            self.rows[f"roll moment at {np.degrees(angles[-1]):.3g} deg"] = f"{moment:.4g} N m"
+
+    def _in_steering(self) -> None:
+        dataset = _over(self._assembly, "steer")
+        if self._assembly.subject.end == "rear":
+            return
+        (along,) = dataset.sizes
+        ends = np.degrees([dataset["steer_left"].values.min(), dataset["steer_left"].values.max()])
+        self.rows["left wheel steers"] = f"{ends[0]:.1f} deg to {ends[1]:.1f} deg"
+        if "steering_ratio" in dataset:
+            middle = int(np.abs(dataset[along].values).argmin())
+            ratio = float(dataset["steering_ratio"][middle])
+            self.rows["steering ratio"] = f"{ratio:.2f}, in the middle"
+        if "turning_circle" in dataset:
+            self.rows["turning circle"] = f"{float(dataset['turning_circle'].min()):.2f} m"
+
+
+def _over(assembly: Assembly, motion: str, along: Any = None) -> "xr.Dataset":
+    """Return characteristics over a motion as columns."""
+    from ..assembly.by_wheel import flat  # noqa: PLC0415 (slow to import)
+    from .characteristics.datasets import over  # noqa: PLC0415
+
+    return flat(over(assembly, motion, along))
+
+
+def as_dict(found: Checkup) -> dict[str, Any]:
+    """Return a checkup as plain numbers, texts and nested dictionaries, SI units."""
+    with Arguments("as_dict") as given:
+        given.kind("found", found, Checkup, "what checkup returns is needed")
+    if found.axle is None:
+        return found.wheels[0].as_dict()
+    sides = {one.side: one.as_dict() for one in found.wheels}
+    return {
+        "heading": found.axle.heading,
+        **({"sides": sides} if sides else {}),
+        "values": dict(found.axle.values),
+        "problems": list(found.problems),
+        "notes": list(found.notes),
+    }

@@ -1,0 +1,273 @@
+"""Several suspensions or axles side by side: their characteristics, and how much they differ."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...core.memory import positions_given
+from ...core.named_types import ArrayLike
+from ..assembly.assembly import Assembly
+from ..assembly.by_wheel import flat
+from ..assembly.of import given_assemblies
+from ..assembly.quantity import RACK
+from .characteristics.datasets import DATA_SET, dataset, given_motion
+from .compliance.flexibility import HELD, Held
+from .compliance.linear import linear
+
+Array = NDArray[np.float64]
+
+# A position so near to zero is that of design, of a rig as well [m] or [rad].
+_AT_DESIGN = 5e-4
+
+
+def compare(
+    subjects: Mapping[str, Any],
+    along: ArrayLike | None = None,
+    *,
+    over: str | None = None,
+    held: Held | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> xr.Dataset:
+    """Return the characteristics of several suspensions or axles over the same positions.
+
+    Parameters
+    ----------
+    subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
+        Two or more with a common motion, by the names that stand beside their curves.
+    along : array_like, shape (n,), optional
+        What varies, as of `kintrafo.characteristics.over` [m] or [rad]; by default the usual range,
+        as far as all of them go.
+    over : str, optional
+        The motion; by default 'travel', of axles 'bump'. Where nothing says how the steering wheel
+        of one of them moves its rack, 'steer' goes over the rack for all.
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
+        With it, their compliance on the bushes of their files comes too, over wheel travel: what
+        holds the wheels under loads, see `kintrafo.compliance.linear`.
+    progress : callable, optional
+        Called with the part that is done, up to 1.
+
+    Returns
+    -------
+    xarray.Dataset
+        As that of `kintrafo.characteristics.over`, with the further dimension ``data_set``; what
+        not all of them have is left out.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+    PositionError
+        If one of them does not reach a position.
+    """
+    with Arguments("compare") as given:
+        assemblies = given_assemblies(given, "subjects", subjects)
+        given.function("progress", progress)
+    if len(assemblies) < 2:
+        problem = f"{len(assemblies)} data set; two or more are needed for a comparison."
+        raise InputError([problem], "compare")
+    motion = _common_motion(assemblies, over)
+    with Arguments("compare") as given:
+        if along is not None:
+            units = next(iter(assemblies.values())).motions[motion].along.units
+            along = positions_given(given, "along", along, units)
+            for assembly in assemblies.values() if not given.refused else ():
+                assembly.refuse_positions(given, motion, along)
+        if held is not None:
+            given.among("held", held, HELD)
+            _refuse_compliance(given, assemblies, motion)
+    positions = common_positions([*assemblies.values()], motion) if along is None else along
+    datasets = []
+    for index, assembly in enumerate(assemblies.values()):
+        found = dataset(assembly, motion, positions)
+        if held is not None:
+            found = with_compliance(found, assembly, positions, held)
+        datasets.append(found)
+        if progress is not None:
+            progress((index + 1) / len(assemblies))
+    return beside_each_other(assemblies, datasets)
+
+
+def beside_each_other(names: Mapping[str, Any], datasets: Sequence[xr.Dataset]) -> xr.Dataset:
+    """Return datasets over one motion as one, with the dimension ``data_set``."""
+    common = [
+        n
+        for n in datasets[0]
+        if all(n in each and _alike(each[n], datasets[0][n]) for each in datasets)
+    ]
+    # where one has a rack and another has none, neither is held
+    racks = all(RACK.name in each.coords for each in datasets)
+    parts = [
+        each[common] if racks else each[common].drop_vars(RACK.name, errors="ignore")
+        for each in datasets
+    ]
+    labels = xr.Variable(DATA_SET, list(names), {"long_name": "data set"})
+    return xr.concat(
+        parts,
+        labels,
+        coords="minimal",
+        compat="override",
+        combine_attrs="override",
+        join="override",
+    )
+
+
+def _alike(one: xr.DataArray, other: xr.DataArray) -> bool:
+    """Return whether both are of each wheel, or both of the axle."""
+    return one.dims == other.dims
+
+
+def _common_motion(assemblies: Mapping[str, Assembly], over: str | None) -> str:
+    """Return the motion over which all assemblies are compared.
+
+    Raises
+    ------
+    InputError
+        If some do not have it, or have no motion in common.
+    """
+    first = next(iter(assemblies.values()))
+    for name, assembly in assemblies.items():
+        if assembly.usual_motion != first.usual_motion:
+            problem = (
+                f"{name} has the motions {', '.join(assembly.motions)}, and the first one "
+                f"{', '.join(first.motions)}: suspensions are not compared with axles."
+            )
+            raise InputError([problem], "compare")
+    for assembly in assemblies.values():
+        motion = given_motion(assembly, over, "over")
+    if len({assembly.motions[motion].along.name for assembly in assemblies.values()}) > 1:
+        return "rack"  # of some nothing says how the steering wheel moves it
+    return motion
+
+
+def _refuse_compliance(given: Arguments, assemblies: Mapping[str, Assembly], motion: str) -> None:
+    """Refuse compliance over other motions than the usual one, and that of rigid joints."""
+    usual = next(iter(assemblies.values())).usual_motion
+    if motion != usual:
+        given.refuse(
+            f"held: compliance is over wheel travel, {usual!r}. Leave it out over {motion!r}."
+        )
+    for name, assembly in assemblies.items():
+        if not assembly.has_bushes:
+            given.refuse(f"held: {name} has no [bushings], and nothing in it deflects.")
+
+
+def with_compliance(
+    found: xr.Dataset, assembly: Assembly, travels: Array, held: Held, rack_position: float = 0.0
+) -> xr.Dataset:
+    """Return characteristics over wheel travel with compliance beside them.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        Characteristics at the same travels.
+    assembly : Assembly
+        Its file has bushes.
+    travels : ndarray
+        Wheel travel, of an axle in parallel [m].
+    held : {'height', 'tyre', 'spring', 'locked'}
+        What holds the wheels under loads.
+    rack_position : float, optional
+        [m]
+    """
+    soft = linear(assembly, None, travels, held=held, rack_position=rack_position)
+    curves = soft.drop_dims(["moved", "by"])
+    return found.assign({str(name): data.variable for name, data in curves.items()})
+
+
+def common_positions(assemblies: Sequence[Assembly], motion: str) -> Array:
+    """Return the usual positions of a motion that all assemblies take, zero included [m] or [rad].
+
+    They are those of the first one that lie within, with the nearer ends.
+    """
+    grids = [assembly.usual(motion) for assembly in assemblies]
+    low, high = max(grid[0] for grid in grids), min(grid[-1] for grid in grids)
+    inner = grids[0][(grids[0] > low) & (grids[0] < high)]
+    return np.union1d(inner, [low, high])
+
+
+@dataclass(frozen=True)
+class Difference:
+    """How much one characteristic differs from that of the first suspension or axle, SI units.
+
+    Attributes
+    ----------
+    name, data_set : str
+        Characteristic, as in a flat table, and what is compared with the first one.
+    first, other : float
+        Both values at the design position; NaN where they are not defined.
+    largest : float
+        The difference, other minus first, where it is largest; NaN where there is none.
+    where : float
+        Position of the largest difference [m] or [rad].
+    """
+
+    name: str
+    data_set: str
+    first: float
+    other: float
+    largest: float
+    where: float
+
+    @property
+    def at_design(self) -> float:
+        """The difference at the design position."""
+        return self.other - self.first
+
+
+def differences(dataset: xr.Dataset) -> list[Difference]:
+    """Return how the suspensions of a comparison differ from the first one.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `compare`; of axles each wheel has differences of its own.
+
+    Returns
+    -------
+    list of Difference
+        In the order of the characteristics, then of the suspensions.
+
+    Examples
+    --------
+    >>> angles = (("data_set", "wheel_travel"), [[0.0, 1.0], [0.5, 3.0]])
+    >>> places = {"data_set": ["a", "b"], "wheel_travel": [0.0, 0.1]}
+    >>> [found] = differences(xr.Dataset({"camber": angles}, places))
+    >>> found.at_design, found.largest, found.where
+    (0.5, 2.0, 0.1)
+    """
+    with Arguments("differences") as given:
+        given.dataset(dataset, over=DATA_SET)
+    table = flat(dataset)
+    curves = {str(n): data for n, data in table.items() if DATA_SET in data.dims}
+    return [
+        _difference(name, data, label)
+        for name, data in curves.items()
+        for label in map(str, dataset[DATA_SET].values[1:])
+    ]
+
+
+def _difference(name: str, data: xr.DataArray, label: str) -> Difference:
+    along = next(d for d in data.dims if d != DATA_SET)
+    positions = np.asarray(data[along].values, dtype=np.float64)
+    first = np.asarray(data.isel({DATA_SET: 0}).values, dtype=np.float64)
+    other = np.asarray(data.sel({DATA_SET: label}).values, dtype=np.float64)
+    both = np.isfinite(first) & np.isfinite(other)
+    change = np.subtract(other, first, out=np.full(first.shape, np.nan), where=both)
+    design = int(np.argmin(np.where(both, np.abs(positions), np.inf)))
+    worst = int(np.nanargmax(np.abs(change))) if both.any() else design
+    if not abs(positions[design]) <= _AT_DESIGN:
+        first, other = np.full((2, positions.size), np.nan)
+    return Difference(
+        name=name,
+        data_set=label,
+        first=float(first[design]),
+        other=float(other[design]),
+        largest=float(change[worst]),
+        where=float(positions[worst]),
+    )

@@ -1,0 +1,120 @@
+"""How far an anti-roll bar is twisted between bodies that move freely.
+
+By the drop links of two suspensions, or by the inclination of a rigid axle.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.vectors import cross
+from ...corner.corner import UP
+from ...models.axle.bar import HalfBar
+from .rigid_displacements import Angles, Measured, Places, cross_matrix, second_by_rotation
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Foot:
+    """Where a drop link is joined to a body.
+
+    Attributes
+    ----------
+    half : HalfBar
+    body : int
+    arm : ndarray, shape (n, 3)
+        From the centre of the body [m].
+    """
+
+    half: HalfBar
+    body: int
+    arm: Array
+
+
+@dataclass(frozen=True)
+class Bars:
+    """The twist of an anti-roll bar, the left half less the right one, by their closed form.
+
+    Attributes
+    ----------
+    left, right : Foot
+    """
+
+    left: Foot
+    right: Foot
+
+    def at(self, places: Places) -> Measured:
+        """Return it somewhere [rad]; no number where a drop link does not reach."""
+        (one, first, bent), (other, second, also) = (
+            _turned(foot, places) for foot in (self.left, self.right)
+        )
+        bend = np.zeros((len(one), 1, 12, 12))
+        bend[:, 0, :6, :6], bend[:, 0, 6:, 6:] = bent, -also
+        return Measured(
+            np.array([[self.left.body, self.right.body]]),
+            (one - other)[:, None],
+            np.concatenate([first, -second], axis=-1)[:, None],
+            bend,
+        )
+
+
+@dataclass(frozen=True)
+class Inclinations:
+    """The angle between a direction of a body and the level, positive with its end up.
+
+    Attributes
+    ----------
+    body : int
+    direction : ndarray, shape (n, 3)
+        A unit vector.
+    """
+
+    body: int
+    direction: Array
+
+    def at(self, places: Places) -> Measured:
+        """Return it somewhere [rad]."""
+        upward = np.broadcast_to(UP, self.direction.shape)
+        pair = np.array([[0, self.body]])
+        sine = Angles(pair, upward[:, None], self.direction[:, None]).at(places)
+        # by the chain rule, with the derivatives of asin
+        square = 1.0 - sine.value**2
+        slope = sine.slope / np.sqrt(square)[..., None]
+        outer = slope[..., :, None] * slope[..., None, :]
+        bend = sine.bend + sine.value[..., None, None] * outer
+        bend /= np.sqrt(square)[..., None, None]
+        return Measured(pair, np.arcsin(sine.value), slope, bend)
+
+
+def _turned(foot: Foot, places: Places) -> tuple[Array, Array, Array]:
+    """Return the angle of a half, and its derivatives by six coordinates of the body."""
+    arm = places.of(np.array([foot.body]), foot.arm[:, None])[:, 0]
+    at = places.centers[:, foot.body] + arm
+    turn = foot.half.turn(at)
+    slope, bend = _by_foot(foot.half, at, turn)
+    turning = -cross_matrix(arm)
+    moving = np.concatenate([np.broadcast_to(np.eye(3), turning.shape), turning], axis=-1)
+    by = np.einsum("nij,ni->nj", moving, slope)
+    second = moving.mT @ bend @ moving
+    second[:, 3:, 3:] += second_by_rotation(arm, slope)
+    return turn, by, second
+
+
+def _by_foot(half: HalfBar, foot: Array, turn: Array) -> tuple[Array, Array]:
+    """Return the derivatives of the angle of a half by the place of the foot.
+
+    With the link d = T - F and the top's derivatives T' and T'' by the angle, its length
+    g = d d / 2 has the derivatives g_F = -d, g_FF = 1, g_phi = T' d, g_Fphi = -T' and
+    g_phiphi = T'' d + T' T'.
+    """
+    top = half.top_at(turn)
+    link, first = top - foot, cross(np.broadcast_to(half.axis, top.shape), top - half.bush)
+    second = cross(np.broadcast_to(half.axis, top.shape), first)
+    by_turn = (first * link).sum(-1)[:, None]
+    slope = link / by_turn
+    mixed = first[..., :, None] * slope[..., None, :]
+    curved = (second * link + first * first).sum(-1)[:, None, None]
+    bend = mixed + mixed.mT - np.eye(3) - curved * slope[..., :, None] * slope[..., None, :]
+    return slope, bend / by_turn[..., None]

@@ -1,0 +1,421 @@
+"""The equilibrium of a suspension or an axle whose joints give way, however far: Newton's method.
+
+Unknown are displacements and rotations of all parts, what holds them together, and what holds the
+wheels. The matrix is exact; steps are those of all positions at once.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.threads import in_one_thread
+from ....core.vectors import cross
+from ...assembly.anti_roll_bar import Bar, RollBar
+from ...assembly.poses import Assembled
+from ...assembly.wheel import lowest_point
+from ...corner.corner import UP
+from .connections import Connections, Soft
+from .flexibility import Held, rates_of_tyres
+from .rigid_displacements import Measured, Places, cross_matrix
+
+Array = NDArray[np.float64]
+
+_MOST_STEPS = 40
+# The most that a bush may deflect: real ones reach some tens of millimetres [m].
+_FARTHEST = 0.1
+# A step this small is the last one: the next would be as small as its square, in m and rad.
+_LAST_STEP = 1e-9
+# No step goes farther: beyond it, first derivatives say little.
+_LONGEST = 0.02
+# Conditions that follow from others, to rounding.
+_REPEATED = 1e-9
+# Unknown forces are counted in this many newtons, so that they are of the size of displacements.
+_FORCE = 1e5
+LOADS = 9
+"""Numbers of a load, see `Equilibrium.under`."""
+
+# A unit of what the road does to hold a wheel up, as a load.
+_UPWARD = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+
+
+@dataclass(frozen=True)
+class State:
+    """Where the parts of a suspension or an axle are, and what holds them there; n positions.
+
+    Attributes
+    ----------
+    places : Places
+    forces : ndarray, shape (n, conditions)
+        Of the conditions [N], [N m].
+    road : ndarray, shape (n, wheels)
+        Vertical force of the road at each contact [N].
+    lock : ndarray, shape (n, wheels)
+        What locks each spring [N].
+    found : ndarray of bool, shape (n,)
+        Whether this is an equilibrium that lasts.
+    """
+
+    places: Places
+    forces: Array
+    road: Array
+    lock: Array
+    found: NDArray[np.bool_]
+
+
+class _Rest(NamedTuple):
+    """What springs and tyres remember of a state: lengths [m], and forces of the road [N]."""
+
+    length: Array
+    road: Array
+
+
+class Equilibrium:
+    """A suspension on bushes in many positions, under loads at the contacts of its wheel.
+
+    Parameters
+    ----------
+    sides : sequence of tuple of Assembled and Soft
+        With rigid joints, and what gives way: of a suspension, of both of an axle, or of a rigid
+        axle.
+    bar : Bar or RollBar, optional
+        An anti-roll bar between both, or on a rigid axle.
+
+    Attributes
+    ----------
+    poses : list of Assembled
+        By side.
+    wheels : list of RoadWheel
+        With rigid joints.
+    start : State
+        With rigid joints: no equilibrium.
+    """
+
+    def __init__(
+        self, sides: Sequence[tuple[Assembled, Soft]], bar: Bar | RollBar | None = None
+    ) -> None:
+        self.poses, self._connections = [poses for poses, _ in sides], Connections(sides, bar)
+        self.wheels = [wheel for poses in self.poses for wheel in poses.wheels.values()]
+        connections = self._connections
+        self._count = connections.start.centers.shape[1]
+        measured = connections.at(connections.start)
+        self._rigid = _independent(
+            measured.slopes(self._count)[0, :, 1:].reshape(len(connections.laws), -1),
+            [which for which, law in enumerate(connections.laws) if law is None],
+        )
+        self._soft = [which for which, law in enumerate(connections.laws) if law is not None]
+        n = len(self.poses[0].states)
+        nothing = np.zeros((n, len(self.wheels)))
+        forces = np.zeros((n, len(self._rigid)))
+        never = np.zeros(n, dtype=bool)
+        self.start = State(connections.start, forces, nothing, nothing, never)
+        self._weights = {
+            connections.index(side, body): weight
+            for side, poses in enumerate(self.poses)
+            for body, weight in poses.weights().items()
+        }
+        self._spokes = [
+            wheel.center - connections.start.centers[:, body]
+            for wheel, body in zip(self.wheels, connections.wheels, strict=True)
+        ]
+        self._heights = self._contact_heights(connections.start)
+        self._rates = rates_of_tyres(self.wheels)
+
+    # -- where a wheel is -------------------------------------------------------------------------
+
+    def axis(self, places: Places, side: int = 0) -> Array:
+        """Return the spin axis of a wheel, pointing outboard, (n, 3)."""
+        wheel = np.array([self._connections.wheels[side]])
+        return places.of(wheel, self.wheels[side].axis[:, None])[:, 0]
+
+    def center(self, places: Places, side: int = 0) -> Array:
+        """Return the centre of a wheel, (n, 3) [m]."""
+        wheel = self._connections.wheels[side]
+        spoke = places.of(np.array([wheel]), self._spokes[side][:, None])[:, 0]
+        center: Array = places.centers[:, wheel] + spoke
+        return center
+
+    def contact(self, places: Places, side: int = 0) -> Array:
+        """Return the lowest point of a wheel, (n, 3) [m]."""
+        return lowest_point(self.center(places, side), self.axis(places, side), self._radius(side))
+
+    def moved(self, point: Array, since: Places, places: Places, side: int = 0) -> Array:
+        """Return how far a wheel took a point with it, (n, 3) [m].
+
+        Parameters
+        ----------
+        point : ndarray, shape (n, 3)
+            Where it was [m].
+        since, places : Places
+            Before and after.
+        side : int, optional
+        """
+        wheel = self._connections.wheels[side]
+        turned = places.turned[:, wheel] @ since.turned[:, wheel].mT
+        arm = np.einsum("nij,nj->ni", turned, point - since.centers[:, wheel])
+        shift: Array = places.centers[:, wheel] + arm - point
+        return shift
+
+    def beyond(self, state: State) -> list[str]:
+        """Return which lengths are beyond what the files allow."""
+        strokes = self._connections.strokes(state.places)
+        return [
+            allowed.beyond
+            for poses, own in zip(self.poses, strokes, strict=True)
+            for allowed in poses.allowed_lengths()
+            if (allowed.left(own) < 0.0).any()
+        ]
+
+    def overstretched(self, state: State) -> str:
+        """Return which bush deflects farther than any bush can; empty where none does."""
+        far = self._connections.given_way(state.places)
+        for bush, amount in sorted(far.items(), key=lambda item: -float(np.nanmax(item[1]))):
+            most = 1e3 * float(np.nanmax(amount))
+            if most > 1e3 * _FARTHEST:
+                return (
+                    f"the bush at {bush} deflects by {most:.4g} mm, more than any bush can: "
+                    f"{1e3 * _FARTHEST:g} mm"
+                )
+        return ""
+
+    def _radius(self, side: int) -> float:
+        radius = self.wheels[side].vehicle.tyre_radius
+        assert radius is not None  # callers have seen to it
+        return radius
+
+    def _contact_heights(self, places: Places) -> Array:
+        heights = [self.contact(places, side)[:, 2] for side in range(len(self.wheels))]
+        return np.stack(heights, axis=1)
+
+    # -- equilibrium ------------------------------------------------------------------------------
+
+    def under(self, load: Array, held: Held, near: State, since: State | None = None) -> State:
+        """Return the equilibrium under a load.
+
+        Parameters
+        ----------
+        load : ndarray, shape (n, wheels, 9)
+            Force and moment on each wheel at its lowest point, and force at its centre, chassis
+            axes [N], [N m].
+        held : {'height', 'tyre', 'spring', 'locked'}
+            What holds a wheel: the road at the height where the contact was with rigid joints, or
+            a tyre on a road that stays where it was in `since`; or a force of the road as in
+            `near`, the spring as it is or as long as it was in `since`.
+        near : State
+            Where to begin; it need not be an equilibrium.
+        since : State, optional
+            Without the load; by default `near`.
+        """
+        state = near
+        rest = self._rest(since or near)
+        found = np.zeros(len(load), dtype=bool)
+        for _ in range(_MOST_STEPS):
+            matrix, left = self._linear(state, load, held, rest)
+            step = _solution(matrix, left)
+            step[found] = 0.0
+            state, far = self._moved(state, step, held)
+            found |= far < _LAST_STEP
+            if found.all() or not np.isfinite(far).any():
+                break
+        matrix, _ = self._linear(state, load, held, rest)
+        return replace(state, found=found & self._lasts(matrix, held))
+
+    def rate(self, state: State, load: Array) -> Array:
+        """Return how the forces of the road rise with the heights, (n, wheels, wheels) [N/m].
+
+        Parameters
+        ----------
+        state : State
+            An equilibrium under a load, the wheels held by the road.
+        load : ndarray, shape (n, wheels, 9)
+        """
+        wheels = state.road.shape[1]
+        matrix, left = self._linear(state, load, "height", self._rest(state))
+        columns = []
+        for wheel in range(wheels):
+            higher = np.zeros_like(left)
+            higher[:, wheel - wheels] = -1.0
+            columns.append(_solution(matrix, higher)[:, -wheels:] * _FORCE)
+        return np.stack(columns, axis=-1)
+
+    def torque_of_bar(self, state: State) -> Array:
+        """Return the torque of the bar, positive with the first half turned the farther [N m]."""
+        which = self._connections.bar
+        if which is None:
+            return np.zeros(len(state.road))
+        law = self._connections.laws[which]
+        assert law is not None
+        return law(self._connections.at(state.places).value[:, which])[0]
+
+    def _moved(self, state: State, step: Array, held: Held) -> tuple[State, Array]:
+        """Return the state after a step, and how far that went."""
+        size = 6 * (self._count - 1)
+        far = np.abs(step[:, :size]).max(axis=1)
+        with np.errstate(invalid="ignore"):
+            part = np.minimum(1.0, _LONGEST / np.maximum(far, _LONGEST))
+        by = np.zeros((len(step), self._count, 6))
+        by[:, 1:] = (part[:, None] * step[:, :size]).reshape(len(step), -1, 6)
+        forces = state.forces + part[:, None] * step[:, size : size + len(self._rigid)] * _FORCE
+        state = replace(state, places=state.places.moved(np.nan_to_num(by)), forces=forces)
+        if held != "spring":
+            name = "lock" if held == "locked" else "road"
+            own = step[:, -state.road.shape[1] :]
+            more = getattr(state, name) + part[:, None] * own * _FORCE
+            state = replace(state, **{name: more})
+        return state, far
+
+    def _rest(self, since: State) -> _Rest:
+        measured = self._connections.at(since.places).value
+        return _Rest(measured[:, self._connections.springs], since.road)
+
+    def _linear(self, state: State, load: Array, held: Held, rest: _Rest) -> tuple[Array, Array]:
+        """Return the derivative of what is left of all equations, and what is left."""
+        measured = self._connections.at(state.places)
+        n, size = len(load), 6 * (self._count - 1)
+        slopes = measured.slopes(self._count)[:, :, 1:].reshape(n, len(self._connections.laws), -1)
+        inner, stiffness = self._inner(state, measured, slopes)
+        outer, outer_by = self._outer(state.places, load + state.road[..., None] * _UPWARD)
+        conditions, values = slopes[:, self._rigid], measured.value[:, self._rigid]
+        direction = -conditions.mT
+        if held != "spring":
+            rows = slopes[:, self._connections.springs]
+            off = measured.value[:, self._connections.springs] - rest.length
+            columns = -rows.mT
+            if held != "locked":
+                rows = self._upward(state.places, load)
+                columns = rows.mT
+                off = self._contact_heights(state.places) - self._heights
+            if held == "tyre":
+                off = off + (state.road - rest.road) / self._rates
+            conditions = np.concatenate([conditions, rows], axis=1)
+            direction = np.concatenate([direction, columns], axis=2)
+            values = np.concatenate([values, off], axis=1)
+        matrix = np.zeros((n, size + values.shape[1], size + values.shape[1]))
+        matrix[:, :size, :size] = (outer_by - stiffness) / _FORCE
+        matrix[:, :size, size:] = direction
+        matrix[:, size:, :size] = conditions
+        if held == "tyre":
+            own = slice(-len(self.wheels), None)
+            matrix[:, own, own] = np.diag(_FORCE / self._rates)
+        return matrix, np.concatenate([(outer - inner) / _FORCE, values], axis=1)
+
+    def _inner(self, state: State, measured: Measured, slopes: Array) -> tuple[Array, Array]:
+        """Return what resists displacements and rotations of the parts, and its derivative."""
+        laws = self._connections.laws
+        forces, rates = np.zeros_like(measured.value), np.zeros_like(measured.value)
+        for which in self._soft:
+            law = laws[which]
+            assert law is not None
+            forces[:, which], rates[:, which] = law(measured.value[:, which])
+        forces[:, self._rigid] = state.forces
+        forces[:, self._connections.springs] += state.lock
+        n, size = slopes.shape[0], slopes.shape[-1]
+        bent = measured.bent(forces, self._count)[:, 1:, :, 1:].reshape(n, size, size)
+        stiffness = bent + slopes.mT @ (rates[..., None] * slopes)
+        total = np.einsum("nf,nfx->nx", forces, slopes)
+        # a moment is told in axes that stay, in which a rotation after another is no sum
+        for begin in range(3, size, 6):
+            rows = slice(begin, begin + 3)
+            stiffness[:, rows, rows] -= 0.5 * cross_matrix(total[:, rows])
+        return total, stiffness
+
+    def _upward(self, places: Places, load: Array) -> Array:
+        """Return what a unit of the road's force at each wheel does, (n, wheels, unknowns)."""
+        found = []
+        for side in range(load.shape[1]):
+            one = np.zeros_like(load)
+            one[:, side] = _UPWARD
+            found.append(self._outer(places, one)[0] - self._gravity(len(load)))
+        return np.stack(found, axis=1)
+
+    def _outer(self, places: Places, load: Array) -> tuple[Array, Array]:
+        """Return what pushes and turns the parts from outside, and its derivative."""
+        n = len(load)
+        total, by = self._gravity(n), np.zeros((n, *2 * (6 * (self._count - 1),)))
+        for side, wheel in enumerate(self._connections.wheels):
+            begin = 6 * (wheel - 1)
+            rows = slice(begin + 3, begin + 6)
+            force, moment, pushed = np.split(load[:, side], 3, axis=1)
+            center = places.centers[:, wheel]
+            arm = self.contact(places, side) - center
+            spoke = self.center(places, side) - center
+            total[:, begin : begin + 3] += force + pushed
+            total[:, rows] += moment + cross(arm, force) + cross(spoke, pushed)
+            by[:, rows, rows] += cross_matrix(pushed) @ cross_matrix(spoke)
+            by[:, rows, rows] -= cross_matrix(force) @ self._contact_by_turn(places, side, spoke)
+        return total, by
+
+    def _contact_by_turn(self, places: Places, side: int, spoke: Array) -> Array:
+        """Return how the lowest point moves as the wheel turns, (n, 3, 3)."""
+        axis = self.axis(places, side)
+        turning = -cross_matrix(axis)
+        rise = axis[:, 2, None]
+        across = np.sqrt(1.0 - rise**2)
+        upward = UP - rise * axis
+        by_rise = -(axis[..., None] * turning[:, None, 2] + rise[..., None] * turning)
+        shrink = (upward * rise / across**3)[..., None] * turning[:, None, 2]
+        moved: Array = -cross_matrix(spoke)
+        moved -= self._radius(side) * (by_rise / across[..., None] + shrink)
+        return moved
+
+    def _gravity(self, n: int) -> Array:
+        total = np.zeros((n, self._count, 6))
+        for which, weight in self._weights.items():
+            total[:, which, :3] = weight
+        return total[:, 1:].reshape(n, -1)
+
+    @in_one_thread
+    def _lasts(self, matrix: Array, held: Held) -> NDArray[np.bool_]:
+        """Tell where all that the conditions leave free is resisted."""
+        size = 6 * (self._count - 1)
+        stiffness, conditions = -matrix[:, :size, :size], matrix[:, size:, :size]
+        if held == "tyre":  # a spring is no condition
+            rows = conditions[:, -len(self.wheels) :]
+            stiffness = stiffness + rows.mT @ (self._rates[:, None] / _FORCE * rows)
+            conditions = conditions[:, : -len(self.wheels)]
+        fine = np.isfinite(matrix.reshape(len(matrix), -1).sum(axis=1))
+        _, _, right = np.linalg.svd(np.where(fine[:, None, None], conditions, 0.0))
+        free = right[:, conditions.shape[1] :]
+        reduced = free @ np.where(fine[:, None, None], stiffness, 0.0) @ free.mT
+        least = np.linalg.eigvalsh(0.5 * (reduced + reduced.mT))
+        lasts: NDArray[np.bool_] = fine & (least > 0.0).all(axis=1)
+        return lasts
+
+
+def _independent(slopes: Array, wanted: Sequence[int]) -> list[int]:
+    """Return those of some conditions that do not follow from those before them.
+
+    Which these are is the same in every position, as their order is.
+
+    Parameters
+    ----------
+    slopes : ndarray, shape (measures, unknowns)
+    wanted : sequence of int
+        Which measures are conditions.
+    """
+    kept: list[int] = []
+    basis = np.zeros((0, slopes.shape[1]))
+    for which in wanted:
+        row = slopes[which]
+        for _ in range(2):  # once more takes the rounding errors of the first time away
+            row = row - (basis @ row) @ basis
+        size = np.linalg.norm(row)
+        if size > _REPEATED * np.linalg.norm(slopes[which]):
+            kept.append(which)
+            basis = np.vstack([basis, row / size])
+    return kept
+
+
+@in_one_thread
+def _solution(matrix: Array, left: Array) -> Array:
+    """Return the steps after which nothing is left, to first order; no numbers where none is."""
+    try:
+        return -np.linalg.solve(matrix, left[..., None])[..., 0].astype(float)
+    except np.linalg.LinAlgError:  # one spoils all
+        found: Array = np.full(left.shape, np.nan)
+        for i, (each, rest) in enumerate(zip(matrix, left, strict=True)):
+            if np.isfinite(each).all() and np.linalg.cond(each) < 1e15:
+                found[i] = -np.linalg.solve(each, rest)
+    return found

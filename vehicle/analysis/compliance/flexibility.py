@@ -1,0 +1,323 @@
+"""How the wheels give way to forces: the energy of what is soft, by the unit-load theorem.
+
+Everything is linear in unit loads: forces and moments at the contact of each wheel, the torque of
+an anti-roll bar, and what is tense by itself. What each soft thing does under one of them while it
+carries another is an energy; what statics does not decide gives the least of it.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import root
+
+from ....core.arguments import Arguments
+from ...assembly.load import Load
+from ...assembly.poses import CONTACT, Assembled, rotated, touching
+from ...assembly.soft_lines import SoftLines
+from ...corner.bushes import Bush
+from ...corner.corner import RoadWheel
+from ...corner.structure import GROUND, Joint
+from ...input.vehicle import Tyre
+from ..loads.reactions import Equations
+
+Array = NDArray[np.float64]
+Held = Literal["height", "tyre", "spring", "locked"]
+
+HELD = {
+    "height": "the contact stays at its height",
+    "tyre": "the tyre stands on a road that stays at its height",
+    "spring": "spring and stops carry the wheel",
+    "locked": "the spring is locked",
+}
+"""What holds a wheel under the loads."""
+
+_VERTICAL, _COMPONENTS = 2, 6
+# What is softer than the rest by this, rounding of it, is rigid.
+_RIGID = 1e-12
+
+
+@dataclass(frozen=True)
+class Side:
+    """A suspension, or a rigid axle, and what is soft about it; arrays over n positions.
+
+    Attributes
+    ----------
+    poses : Assembled
+    bushes : sequence of Bush
+    lines : SoftLines or None
+        None with locked springs.
+    bar : Load or None
+        What an anti-roll bar does on it for a unit torque.
+    """
+
+    poses: Assembled
+    bushes: Sequence[Bush]
+    lines: SoftLines | None
+    bar: Load | None = field(default=None)
+
+
+def flexibility(sides: Sequence[Side], held: Held, *, rack: float = 0.0, bar: float = 0.0) -> Array:
+    """Return displacement and rotation of the contacts by loads on them.
+
+    Parameters
+    ----------
+    sides : sequence of Side
+        A suspension, both of an axle, or a rigid axle.
+    held : {'height', 'tyre', 'spring', 'locked'}
+        What holds each wheel.
+    rack : float, optional
+        How far the rack gives way along its axis for a unit force [m/N].
+    bar : float, optional
+        Twist of the anti-roll bar by its torque, where there is one [rad/(N m)].
+
+    Returns
+    -------
+    ndarray, shape (n, 6 wheels, 6 wheels)
+        Chassis axes; force and moment on each wheel in turn.
+    """
+    energies = [_Energy(side) for side in sides]
+    wheels = [wheel for side in sides for wheel in side.poses.wheels.values()]
+    applied = _COMPONENTS * len(wheels)
+    has_bar = any(side.bar for side in sides)
+    size = applied + has_bar + sum(each.tensions for each in energies)
+    energy = np.zeros((len(sides[0].poses.states), size, size))
+    on_rack, first, begin = np.zeros((*energy.shape[:1], 1, size)), 0, applied + has_bar
+    for side, each in zip(sides, energies, strict=True):
+        # which of all unknowns those of this side are
+        count = _COMPONENTS * len(side.poses.wheels)
+        own = [*range(first, first + count), *[applied][: int(has_bar)]]
+        own += range(begin, begin + each.tensions)
+        first, begin = first + count, begin + each.tensions
+        energy[:, np.array(own)[:, None], own] += each.energy
+        on_rack[..., own] += each.on_rack
+    energy += _energy(on_rack, rack)
+    if has_bar:
+        energy[:, applied, applied] += bar
+    total = _released(energy, list(range(applied, size)))
+    if held not in ("height", "tyre"):
+        return total
+    upward = [_COMPONENTS * i + _VERTICAL for i in range(len(wheels))]
+    tyres = np.diag(1.0 / rates_of_tyres(wheels)) if held == "tyre" else 0.0
+    return _released(total, upward, soft=tyres, keep=True)
+
+
+def rates_of_tyres(wheels: Sequence[RoadWheel]) -> Array:
+    """Return the vertical rates of the tyres, zero where there is none, (wheels,) [N/m]."""
+    return np.array([wheel.vehicle.tyre_rate or 0.0 for wheel in wheels])
+
+
+def refuse_without_rate(given: Arguments, held: Held, *tyres: Tyre) -> None:
+    """Refuse to let a tyre hold its wheel that has no vertical rate."""
+    if held == "tyre" and not all(tyre.rate_N_per_m > 0.0 for tyre in tyres):
+        given.refuse(
+            "held: the tyre is to hold the wheel, and [tyre] rate_N_per_m = 0 N/m. Enter its rate, "
+            "or let something else hold the wheel: height, spring, locked."
+        )
+
+
+class _Energy:
+    """The energy of what is soft about a suspension, or a rigid axle, under unit loads.
+
+    Attributes
+    ----------
+    tensions : int
+        How many states of tension there are by themselves, those between springs and stops the
+        last.
+    energy : ndarray, shape (n, unknowns, unknowns)
+        By unit forces and moments at the contacts, a unit torque of the bar where there is one, and
+        the tensions.
+    on_rack : ndarray, shape (n, 1, unknowns)
+        The force on the rack along its axis.
+    """
+
+    def __init__(self, side: Side) -> None:
+        poses, lines = side.poses, side.lines
+        stops = np.zeros((len(poses.states), 0)) if lines is None else lines.stops
+        forces = _Forces(side, poses.structure.dampers[: stops.shape[-1]])
+        self.tensions = forces.tensions
+        self.energy = np.zeros((len(poses.states), *2 * forces.spring.shape[-1:]))
+        self.on_rack = np.zeros_like(forces.spring[:, :1])
+        if lines is not None:
+            self.energy += _energy(forces.spring, lines.springs)
+        by_point = {bush.point: bush for bush in side.bushes}
+        for joint, carried in zip(poses.structure.joints, forces.carried, strict=True):
+            if joint.first == "rack":
+                assert poses.rack_axis is not None  # where there is a rack
+                self.on_rack -= np.einsum("c,nkcu->nku", poses.rack_axis, carried[:, :, :3])
+            self.energy += _of_joint(joint, carried, by_point, poses)
+        for which in range(-stops.shape[-1], 0):
+            acting = np.isfinite(stops[:, which])
+            self.energy[acting, which, which] += stops[acting, which]
+            self.energy[~acting, which, :] = self.energy[~acting, :, which] = 0.0
+            self.on_rack[~acting, :, which] = 0.0
+
+
+def shared(equations: Equations, unknowns: Array, bushes: Sequence[Bush]) -> list[Array]:
+    """Return what the joints carry in the first position, the parts as they are at design.
+
+    What statics does not decide has the least energy of the bushes, however curved they are; what
+    is rigid on all sides is left as it is.
+
+    Parameters
+    ----------
+    equations : Equations
+    unknowns : ndarray, shape (n, unknowns)
+        From `Equations.solve`.
+    bushes : sequence of Bush
+
+    Returns
+    -------
+    list of ndarray, each of shape (touching points, 6)
+        Of each joint.
+    """
+    states = np.concatenate([unknowns[..., None], equations.indeterminate], axis=-1)
+    tensions = [joint.tensions(equations.poses.points)[0] for joint in equations.joints]
+    place, count = states.shape[-1], sum(own.shape[-1] for own in tensions)
+    every = []
+    for at_points, own in zip(equations.at_joints(states), tensions, strict=True):
+        nothing = np.zeros((*own.shape[:-1], count))
+        carried = np.concatenate([at_points[0], nothing], axis=-1)
+        carried[..., place : place + own.shape[-1]] = own
+        place += own.shape[-1]
+        every.append(carried)
+    by_point = {bush.point: bush for bush in bushes}
+    on_bushes = [
+        (by_point[point], carried[i])
+        for joint, carried in zip(equations.joints, every, strict=True)
+        for i, point in enumerate(joint.at)
+        if point in by_point
+    ]
+    parts = _of_least_energy(on_bushes, every[0].shape[-1] - 1)
+    return [carried[..., 0] + carried[..., 1:] @ parts for carried in every]
+
+
+def _of_least_energy(on_bushes: Sequence[tuple[Bush, Array]], count: int) -> Array:
+    """Return how much of each state of tension makes the energy of bushes least.
+
+    Parameters
+    ----------
+    on_bushes : sequence of tuple of Bush and ndarray
+        What each carries, (6, 1 + count): of the loads, and of each state of tension.
+    count : int
+    """
+
+    def slopes(parts: Array) -> tuple[Array, Array]:
+        first, second = np.zeros(count), np.zeros((count, count))
+        for bush, carried in on_bushes:
+            own = carried[:, 1:]
+            moved, by = bush.give(carried[:, 0] + own @ parts)
+            first, second = first + own.T @ moved, second + own.T @ by @ own
+        return first, second
+
+    sizes, ways = np.linalg.eigh(slopes(np.zeros(count))[1])
+    free = ways[:, sizes > _RIGID * sizes.max(initial=0.0)]
+
+    def reduced(along: Array) -> tuple[Array, Array]:
+        first, second = slopes(free @ along)
+        return free.T @ first, free.T @ second @ free
+
+    if not free.shape[1]:
+        return np.zeros(count)
+    search: Any = root  # its stubs know no function that gives its slopes as well
+    found: Array = search(reduced, np.zeros(free.shape[1]), jac=True, options={"xtol": 1e-14}).x
+    first, second = reduced(found)
+    parts: Array = free @ (found - np.linalg.solve(second, first))
+    return parts
+
+
+def _of_joint(joint: Joint, carried: Array, bushes: Mapping[str, Bush], poses: Assembled) -> Array:
+    """Return the energy of the bushes of a joint."""
+    total = np.zeros((*carried.shape[:1], *2 * carried.shape[-1:]))
+    for i, point in enumerate(joint.at):
+        if point in bushes:
+            soft = _world_compliance(bushes[point], joint, poses.turned)
+            total += _energy(carried[:, i], soft)
+    return total
+
+
+def _world_compliance(bush: Bush, joint: Joint, turned: Mapping[str, Array]) -> Array:
+    """Return a compliance in chassis axes, the joint's first part having turned, (..., 6, 6)."""
+    if joint.first in GROUND:
+        return bush.compliance
+    return rotated(bush.compliance, turned[joint.first])
+
+
+class _Forces:
+    """What everything carries of unit loads, and of what is tense by itself.
+
+    Parameters
+    ----------
+    side : Side
+    stopped : sequence of str
+        Beside which dampers stops carry, too.
+
+    Attributes
+    ----------
+    carried : list of ndarray, each of shape (n, touching points, 6, loads + tensions)
+        Of each joint: under unit forces and moments in chassis axes and that of the bar, the
+        suspension held by its springs; then in each state of tension: of a joint by itself, of
+        several together, and between springs and stops.
+    spring : ndarray, shape (n, springs, loads + tensions)
+        The force of each spring.
+    tensions : int
+    """
+
+    def __init__(self, side: Side, stopped: Sequence[str]) -> None:
+        poses, springs = side.poses, side.poses.structure.springs
+        equations, still = Equations(poses, springs), np.zeros(3)
+        loads = []
+        for part, on_road in poses.wheels.items():
+            at = touching(on_road)
+            loads += [Load(part, CONTACT, "road", axis, still, at) for axis in np.eye(3)]
+            loads += [Load(part, CONTACT, "road", still, axis, at) for axis in np.eye(3)]
+        loads += [side.bar] if side.bar else []
+        applied = [equations.applied([load]) for load in loads]
+        applied += [equations.applied(equations.pushed(line)) for line in stopped]
+        unknowns = equations.solve(np.stack(applied, axis=-1))
+        tensions = [joint.tensions(poses.points) for joint in equations.joints]
+        count, begin = sum(t.shape[-1] for t in tensions), len(loads)
+        # behind the tensions of single joints come those of several together
+        by_loads, by_stops = np.split(unknowns, [begin], axis=-1)
+        further = np.concatenate([equations.indeterminate, by_stops], axis=-1)
+        self.tensions = count + further.shape[-1]
+        nothing = np.zeros((len(poses.states), len(springs), count))
+        of_springs = (each[:, -len(springs) :] for each in (by_loads, further))
+        of_loads, of_further = of_springs
+        self.spring = np.concatenate([of_loads, nothing, of_further], axis=-1)
+        self.carried = []
+        after = len(loads) + count
+        both = zip(equations.at_joints(by_loads), equations.at_joints(further), strict=True)
+        for (at_joint, at_further), own in zip(both, tensions, strict=True):
+            every = np.zeros((*at_joint.shape[:-1], len(loads) + self.tensions))
+            every[..., : len(loads)] = at_joint
+            every[..., after:] = at_further
+            every[..., begin : begin + own.shape[-1]] = own
+            begin += own.shape[-1]
+            self.carried.append(every)
+
+
+def _energy(forces: Array, soft: Array | float) -> Array:
+    """Return what forces do on the displacements by other ones, (n, forces, forces)."""
+    scaled = forces * soft if np.ndim(soft) == 0 else soft @ forces
+    result: Array = forces.mT @ scaled
+    return result
+
+
+def _released(
+    flexibility: Array, held: list[int], *, soft: Array | float = 0.0, keep: bool = False
+) -> Array:
+    """Return a flexibility where some displacements are zero, by the forces that this takes.
+
+    What belongs to them is left out, unless it is to be kept: as zeros, or where what holds them is
+    soft itself, as what it lets them do.
+    """
+    rows = np.array(held, dtype=int)
+    inner = flexibility[:, rows[:, None], rows] + soft
+    # what is rigid on all sides carries nothing by itself
+    forces = np.linalg.pinv(inner, hermitian=True) @ flexibility[:, rows]
+    result: Array = flexibility - flexibility[:, :, rows] @ forces
+    others = slice(None) if keep else np.delete(np.arange(result.shape[-1]), rows)
+    return result[:, others][:, :, others]

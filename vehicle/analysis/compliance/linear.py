@@ -1,0 +1,353 @@
+"""Compliance of the wheels by the unit-load theorem: what bushes do under loads, to first order."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ....core.arguments import Arguments
+from ....core.memory import positions_given
+from ....core.named_types import ArrayLike
+from ....core.quantities import Display, display_of, variable
+from ....core.vectors import cross
+from ...assembly import wheel
+from ...assembly.assembly import Assembly
+from ...assembly.axle import SIDES
+from ...assembly.by_wheel import WHEEL, of_wheel, of_wheels, wheel_coordinate
+from ...assembly.of import given_assembly
+from ...assembly.poses import touching, wheel_axes
+from ...assembly.quantity import TRAVEL, Quantity
+from ...corner.bushes import left_out, refuse_rigid
+from ...corner.corner import Array, Motion, RoadWheel
+from .flexibility import HELD, Held, Side, flexibility, refuse_without_rate
+from .rig_loads import (
+    RIG_LOADS,
+    Loading,
+    RigLoad,
+    give_of_tyre,
+    load_at_contact,
+    loadings,
+    sense_of,
+    where_of,
+)
+
+MOVED = ("x", "y", "z", "rx", "ry", "rz")
+LOADED = ("fx", "fy", "fz", "mx", "my", "mz")
+"""Components of what moves at a contact, and of what is exerted there."""
+
+
+def linear(
+    subject: Any,
+    bushings: Mapping[str, Any] | None = None,
+    travel: ArrayLike | None = None,
+    *,
+    rack_position: float = 0.0,
+    held: Held = "height",
+) -> xr.Dataset:
+    """Return how the wheels move per unit of a load, over parallel wheel travel, to first order.
+
+    Parameters
+    ----------
+    subject : Suspension, Model, Axle or RigidAxle
+    bushings : mapping, optional
+        In the place of those of the file. By hardpoint: ``axial_N_per_mm`` along its axis and
+        ``radial_N_per_mm`` across it, one number or two; what is left out is rigid. ``axis``, by
+        default that of the arm's bearings, of the strut, the tie rod or the wheel; at other ball
+        joints it must be given. ``radial_axis``, the direction of the first of two radial numbers.
+        Both in chassis axes at design; they turn with the part that is nearer to the chassis. In
+        the place of stiffnesses ``axial_curve`` and ``radial_curve``, of which the slope at zero
+        counts. At ``wheel_center``, the bearing, ``tilt_Nm_per_deg`` about all axes across the spin
+        axis. ``rack``: its ``axial_N_per_mm``, how stiff the steering holds the rack. Of an axle
+        they are those of one side, that whose points the anti-roll bar has (``side`` of the file,
+        or the right one), and the other side has their image. Of a rigid axle the hardpoints are
+        the names of rods with ``_chassis`` or ``_axle`` behind them.
+    travel : array_like, shape (n,), optional
+        Heights of the wheel centres above design [m]; by default the usual range.
+    rack_position : float, optional
+        Displacement of the rack [m].
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
+        What holds each wheel, besides an anti-roll bar: the contact of the rigid wheel stays at its
+        height; or the pad beneath its tyre does, so that the wheel goes up and down as the tyre
+        deflects; spring and stops, as on a rig that keeps the vertical force; or a locked spring.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``wheel`` and ``wheel_travel``: toe, camber and displacement by a lateral force inward,
+        a braking force, a rearward force at the wheel centre and an aligning torque,
+        ``toe_by_lateral`` and so on; of an axle by loads of the same size on both wheels,
+        ``..._parallel`` and ``..._opposed``. Where the file has the tyre's rates along these
+        forces, ``patch_displacement_by_...``: the wheel's at the contact and what the standing tyre
+        deflects, as the pad of a rig moves. ``flexibility``, displacement and rotation of the
+        contacts by force and moment on the wheels there, tyre axes of each, of shape (n, 6 wheels,
+        6 wheels) [m/N], [rad/N], [m/(N m)], [rad/(N m)]. Of a rigid axle besides, of the line
+        through its wheel centres, ``axle_steer_by_...`` and ``axle_lateral_by_...``, positive to
+        the left, and ``axle_longitudinal_by_...``, positive forward.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+    PositionError
+        If a travel is out of reach.
+
+    Notes
+    -----
+    By the unit-load theorem: each bush deflects under what it carries of a unit load, and moves the
+    wheel by that times what it carries of another one. What is statically indeterminate, such as
+    the force along the axis of an arm, is shared by least energy. Linear about bushes that are at
+    their hardpoints; what resists their torsion or tilting, and what the static load does in turned
+    bushes, are left out. The force at the contact stays where the wheel's lowest point was. The
+    rack and the anti-roll bar of an axle are elastic parts that both sides load; what the bar
+    carries where it is bent at rest does not stiffen anything here. A rod carries a force along it,
+    so that of its bushes counts how soft they are along the rod. Five rods share forces by least
+    energy at the positions of the four that hold the axle firmest.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> bushes = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
+    >>> found = linear(kintrafo.load("reference_car"), bushes, [0.0])
+    >>> round(float(np.rad2deg(found["toe_by_lateral"][0])) * 1e3, 3)  # deg/kN
+    0.065
+
+    Opposed forces do not move a soft rack:
+
+    >>> soft = {"rack": {"axial_N_per_mm": 5000.0}}
+    >>> right = linear(kintrafo.load("reference_axle"), soft, [0.0]).sel(wheel="right")
+    >>> for how in ("parallel", "opposed"):
+    ...     print(round(abs(float(np.rad2deg(right[f"toe_by_lateral_{how}"][0]))) * 1e3, 4))
+    0.0189
+    0.0
+
+    A Panhard rod of 5 kN/mm under 1 kN on each wheel:
+
+    >>> soft = {"panhard_rod_chassis": {"axial_N_per_mm": 5000.0}}
+    >>> found = linear(kintrafo.load("rigid_axle"), soft, [0.0])
+    >>> round(1e6 * float(found["axle_lateral_by_lateral_parallel"][0]), 2)  # mm/kN
+    0.38
+    """
+    with Arguments("compliance") as given:
+        assembly = given_assembly(given, subject)
+        rack_position = given.number("rack_position", rack_position, "m")
+        given.among("held", held, HELD)
+        if travel is not None:
+            travel = positions_given(given, "travel", travel, "m")
+        if not given.refused:
+            assembly.refuse_holding(given, assembly.usual_motion, 0.0, rack_position)
+            bushes = assembly.bushes(given, bushings)
+            refuse_rigid(given, bushes.every, bushes.rack)
+            refuse_without_rate(given, held, *assembly.tyres)
+            refuse_without_radius(given, assembly)
+    if travel is None:
+        travel = assembly.usual(assembly.usual_motion, rack=rack_position)
+    travels = np.asarray(travel)
+    poses = assembly.poses(assembly.at_travel(travels, rack_position))
+    lines = {} if held == "locked" else assembly.soft_lines(poses)
+    bars = assembly.bar_loads(poses)
+    sides = [
+        Side(own, bushes.by_suffix[suffix], lines.get(suffix), bars.get(suffix))
+        for suffix, own in poses.items()
+    ]
+    by_torque = 1.0 / assembly.bar.rate if assembly.bar and bars else 0.0
+    flexible = flexibility(sides, held, rack=bushes.rack, bar=by_torque)
+    wheels = [one for own in poses.values() for one in own.wheels.values()]
+    found = _dataset(assembly, wheels, flexible, travels)
+    without = " and ".join(filter(None, [left_out(bushes.every), *assembly.simplified]))
+    return found.assign_attrs(title="compliance", held=HELD[held], left_out=without)
+
+
+def refuse_without_radius(given: Arguments, assembly: Assembly) -> None:
+    """Refuse a wheel whose radius is not known."""
+    if None in assembly.tyre_radii:
+        given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
+
+
+# -- results --------------------------------------------------------------------------------------
+
+
+def _dataset(
+    assembly: Assembly, wheels: Sequence[RoadWheel], flexible: Array, travels: Array
+) -> xr.Dataset:
+    """Return what the wheels do under each load, and the flexibility of their contacts."""
+    over, found = TRAVEL.name, dict[str, xr.Variable]()
+    axes = np.zeros((len(travels), *2 * [len(flexible[0])]))
+    for which, one in enumerate(wheels):
+        for begin in (6 * which, 6 * which + 3):
+            axes[:, begin : begin + 3, begin : begin + 3] = wheel_axes(one)
+    for test, how, moved in _under_loads(wheels, flexible):
+        found |= _of_wheels(test, how, wheels, moved)
+        if assembly.on_a_beam:
+            found |= _of_beam(test, how, wheels, moved)
+    words = "displacement and rotation of the contacts by forces and moments there, tyre axes"
+    found["flexibility"] = variable((over, "moved", "by"), axes @ flexible @ axes.mT, words, "SI")
+    ends = [f"_{wheel}" for wheel in assembly.wheels] if len(wheels) > 1 else [""]
+    coordinates = {
+        over: xr.Variable(over, travels, TRAVEL.attributes()),
+        WHEEL: wheel_coordinate(assembly.wheels),
+        "moved": [f"{name}{end}" for end in ends for name in MOVED],
+        "by": [f"{name}{end}" for end in ends for name in LOADED],
+    }
+    return xr.Dataset(found, coordinates)
+
+
+def _under_loads(
+    wheels: Sequence[RoadWheel], flexible: Array
+) -> Iterator[tuple[RigLoad, Loading, Sequence[Array]]]:
+    """Yield how the contacts move under each load of a rig.
+
+    Yields
+    ------
+    test : RigLoad
+    how : Loading
+    moved : sequence of ndarray, each of shape (n, 6)
+        Displacement and rotation of each contact, chassis axes [m], [rad].
+    """
+    for test in RIG_LOADS:
+        loads = [load_at_contact(test, wheel) for wheel in wheels]
+        for how in loadings(test, wheels):
+            parts = zip(how.parts, loads, strict=True)
+            load = np.concatenate([part * one for part, one in parts], axis=-1)
+            moved = np.einsum("nab,nb->na", flexible, load)
+            yield test, how, np.split(moved, len(wheels), axis=-1)
+
+
+def _of_wheels(
+    test: RigLoad, how: Loading, wheels: Sequence[RoadWheel], moved: Sequence[Array]
+) -> dict[str, xr.Variable]:
+    """Return what the wheels do under a load, by the formulas of the characteristics."""
+    of_each = [_of_wheel(test, *own) for own in zip(wheels, moved, how.parts, strict=True)]
+    found = {}
+    for kind, quantity in quantities_under(test, how).items():
+        if all(kind in values for values in of_each):
+            values = [values[kind] for values in of_each]
+            found[quantity.name] = of_wheels(quantity, TRAVEL.name, values)
+    return found
+
+
+def _of_wheel(test: RigLoad, on_road: RoadWheel, moved: Array, part: float) -> dict[str, Array]:
+    """Return what a wheel does that has a part of a load, by the kind of it."""
+    turn = moved[:, 3:]
+    shift = moved[:, :3] + cross(turn, where_of(test, on_road) - touching(on_road))
+    motion = Motion(shift, turn)
+    found = {
+        "toe": wheel.toe_rate(on_road, motion),
+        "camber": wheel.camber_rate(on_road, motion),
+        "displacement": (sense_of(test, on_road) * shift).sum(axis=-1),
+    }
+    if soft := give_of_tyre(test, on_road):
+        found["patch_displacement"] = found["displacement"] + part * soft
+    return found
+
+
+def _of_beam(
+    test: RigLoad, how: Loading, wheels: Sequence[RoadWheel], moved: Sequence[Array]
+) -> dict[str, xr.Variable]:
+    """Return what the line through the wheel centres of a beam does under a load."""
+    left, right = wheels
+    one, other = (
+        own[:, :3] + cross(own[:, 3:], wheel.center - touching(wheel))
+        for own, wheel in zip(moved, wheels, strict=True)
+    )
+    middle = 0.5 * (one + other)
+    values = {
+        "axle_steer": _turn(left.center, right.center, one - other),
+        "axle_lateral": middle[:, 1],
+        "axle_longitudinal": middle[:, 0],
+    }
+    return {
+        quantity.name: xr.Variable(TRAVEL.name, values[kind], quantity.attributes())
+        for kind, quantity in quantities_of_beam(test, how).items()
+    }
+
+
+def _turn(left: Array, right: Array, forward: Array) -> Array:
+    """Return how far the line through the wheel centres turns to the left [rad].
+
+    Parameters
+    ----------
+    left, right : ndarray, shape (n, 3)
+        The wheel centres [m].
+    forward : ndarray, shape (n, 3)
+        How far the left one goes more than the right one [m].
+    """
+    line = (left - right)[:, :2]
+    turn: Array = (line[:, 0] * forward[:, 1] - line[:, 1] * forward[:, 0]) / (line**2).sum(-1)
+    return turn
+
+
+# -- what the results are called ------------------------------------------------------------------
+
+OF_BEAM = {
+    "axle_steer": ("rad", "steer angle of the axle", "positive to the left"),
+    "axle_lateral": ("m", "lateral displacement of the axle", "positive to the left"),
+    "axle_longitudinal": ("m", "longitudinal displacement of the axle", "positive forward"),
+}
+"""What a beam does: unit, words and sign."""
+
+
+def quantities_under(test: RigLoad, how: Loading) -> dict[str, Quantity]:
+    """Return what a wheel has under a load, by the kind of it."""
+    toe, camber = "toe angle", "camber"
+    kinds = [
+        ("toe", "rad", toe, f"change of {toe}", "positive toe-in"),
+        ("camber", "rad", camber, f"change of {camber}", "positive with the top outboard"),
+    ]
+    words, sign = f"displacement {test.where}", f"positive {test.where}"
+    if test.where:
+        at = test.at.replace("_", " ").replace("center", "centre")
+        kinds.append(("displacement", "m", words, f"{words} of the {at}", sign))
+    if test.through:
+        words += " of the contact patch"
+        meaning = f"{words}, on a tyre that gives way"
+        kinds.append(("patch_displacement", "m", words, meaning, sign))
+    return {
+        kind: _quantity(
+            how.key(kind, test), unit, f"{words} by {how.title(test)}", meaning, sign, test
+        )
+        for kind, unit, words, meaning, sign in kinds
+    }
+
+
+def quantities_of_beam(test: RigLoad, how: Loading) -> dict[str, Quantity]:
+    """Return what the line through the wheel centres of a beam has under a load."""
+    by = "by the line through the wheel centres, for each wheel's load"
+    return {
+        kind: _quantity(
+            how.key(kind, test),
+            unit,
+            f"{words} by {how.title(test)}",
+            f"change of the {words}, {by}",
+            sign,
+            test,
+        )
+        for kind, (unit, words, sign) in OF_BEAM.items()
+    }
+
+
+def _quantity(name: str, unit: str, words: str, meaning: str, sign: str, test: RigLoad) -> Quantity:
+    shown = display_of({"units": unit})
+    display = Display(f"{shown.units}/{test.shown.units}", shown.factor * test.shown.factor)
+    per = f"{unit}/({test.unit})" if " " in test.unit else f"{unit}/{test.unit}"
+    return Quantity(name, per, words, meaning, sign, display=display)
+
+
+COMPLIANCES = {
+    quantity.name: quantity
+    for test in RIG_LOADS
+    for how in loadings(test, ("wheel",))
+    for quantity in quantities_under(test, how).values()
+}
+"""What a corner has under loads, by name."""
+
+COMPLIANCES_OF_AXLES = {
+    quantity.name: quantity
+    for test in RIG_LOADS
+    for how in loadings(test, SIDES)
+    for quantity in (
+        *(of_wheel(q, side) for side in SIDES for q in quantities_under(test, how).values()),
+        *quantities_of_beam(test, how).values(),
+    )
+}
+"""What an axle has under loads, by the names of a flat table."""

@@ -1,0 +1,162 @@
+"""An assembly on its bushes, as a caller describes them, held by the road."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.arguments import Arguments
+from ....core.quantities import display_of
+from ...assembly.assembly import Assembly, Bushings
+from ...assembly.load import Load, known
+from ...assembly.poses import Assembled
+from ...assembly.quantity import TRAVEL, Quantity
+from ...corner.bushes import RACK, Bush
+from ...corner.corner import RoadWheel
+from ...models.reach import PositionError
+from ..loads.reactions import Equations
+from .connections import GUIDE, Carried, Soft
+from .equilibrium import LOADS, Equilibrium, State
+from .flexibility import shared
+from .linear import refuse_without_radius
+
+Array = NDArray[np.float64]
+Hardpoints = Literal["loaded", "relaxed"]
+
+HARDPOINTS = {
+    "loaded": "the hardpoints are where the joints are under the static load at design",
+    "relaxed": "the hardpoints are where the joints are with relaxed bushes",
+}
+"""What the hardpoints of a file mean."""
+
+WHEEL_LOAD = Quantity(
+    "wheel_load", "N", "wheel load", "vertical force of the road", "positive upward"
+)
+RIGID = Soft({}, 0.0, {})
+
+
+def softs_of(
+    given: Arguments, assembly: Assembly, bushings: Any, hardpoints: Hardpoints
+) -> dict[str, Soft]:
+    """Read the bushes, and what they carry at the hardpoints, by the suffixes of the parts."""
+    if given.refused:
+        return {}
+    bushes = assembly.bushes(given, bushings)
+    if not bushes.every and not bushes.rack and not given.refused:
+        given.refuse("bushings: one or more are needed.")
+    refuse_without_radius(given, assembly)
+    loaded = hardpoints == "loaded" and not given.refused
+    carried = _carried_at_design(assembly, bushes) if loaded else {}
+    return {
+        suffix: Soft({bush.point: bush for bush in own}, bushes.rack, carried.get(suffix, {}))
+        for suffix, own in bushes.by_suffix.items()
+    }
+
+
+def _carried_at_design(assembly: Assembly, bushes: Bushings) -> dict[str, Carried]:
+    """Return what the joints carry at design, with what an anti-roll bar does there."""
+    poses = assembly.poses(assembly.at_travel(np.zeros(1)))
+    torque = assembly.bar_torque(poses)[:, None]
+    pulled = {
+        suffix: [replace(unit, force=torque * unit.force, moment=torque * unit.moment)]
+        for suffix, unit in assembly.bar_loads(poses).items()
+    }
+    found = {
+        suffix: dict(carried_at(own, pulled.get(suffix, ()), bushes.by_suffix[suffix]))
+        for suffix, own in poses.items()
+    }
+    if assembly.steered and len(found) > 1:
+        # one rack, on which all tie rods pull
+        both = sum((own[GUIDE] for own in found.values()), np.zeros(6))
+        found = {suffix: own | {GUIDE: both} for suffix, own in found.items()}
+    return {**found}
+
+
+def carried_at(
+    poses: Assembled, pulled: Sequence[Load] = (), bushes: Sequence[Bush] = ()
+) -> Carried:
+    """Return what the joints carry at design, the first position, the wheel held by the road.
+
+    Parameters
+    ----------
+    poses : Assembled
+    pulled : sequence of Load, optional
+        What else acts on the parts.
+    bushes : sequence of Bush, optional
+        Those that share what statics does not decide: the force along the axis of an arm, and what
+        holds parts more often than they move.
+    """
+    equations = Equations(poses)
+    unknowns = equations.solve(equations.applied([*known(poses), *pulled]))
+    every = shared(equations, unknowns, bushes)
+    found = {
+        (joint.first, joint.second, point): at_points[which]
+        for joint, at_points in zip(equations.joints, every, strict=True)
+        for which, point in enumerate(joint.at)
+    }
+    if poses.rack_axis is None:
+        return found
+    # the guide of the rack holds what the tie rod does to it
+    return found | {GUIDE: found[RACK, "tie_rod", "tie_rod_inner"]}
+
+
+def on_joints(
+    assembly: Assembly, poses: Mapping[str, Assembled], softs: Mapping[str, Soft] | None = None
+) -> Equilibrium:
+    """Return an assembly on its bushes where it is with rigid joints; by default on rigid ones."""
+    sides = [(own, softs[suffix] if softs else RIGID) for suffix, own in poses.items()]
+    return Equilibrium(sides, assembly.bar)
+
+
+def gives_way(softs: Mapping[str, Soft]) -> bool:
+    """Return whether anything moves that rigid joints hold."""
+    return any(
+        soft.rack or any(bush.gives_way for bush in soft.bushes.values()) for soft in softs.values()
+    )
+
+
+def on_bushes(suspension: Equilibrium, state: State, side: int = 0) -> RoadWheel:
+    """Return a wheel where it is on the bushes."""
+    center, axis = suspension.center(state.places, side), suspension.axis(state.places, side)
+    return replace(suspension.wheels[side], center=center, axis=axis)
+
+
+def at_height(suspension: Equilibrium, along: Array, over: Quantity = TRAVEL) -> State:
+    """Return the equilibria on the road without another load.
+
+    Parameters
+    ----------
+    suspension : Equilibrium
+    along : ndarray, shape (n,)
+        Where that is, for messages.
+    over : Quantity, optional
+        What that counts.
+    """
+    nothing = np.zeros((*suspension.start.road.shape, LOADS))
+    base = suspension.under(nothing, "height", suspension.start)
+    if not base.found.all():
+        shown = display_of(over.attributes())
+        at = ", ".join(f"{shown.factor * a:.4g} {shown.units}" for a in along[~base.found][:3])
+        problem = (
+            f"no equilibrium that lasts was found at a {over.long_name} of {at}: the bushes do not "
+            "hold the linkage there. Make them stiffer, or leave that out."
+        )
+        raise PositionError(problem)
+    if words := suspension.overstretched(base):
+        problem = f"without another load {words}. Make it stiffer, or correct loads and springs."
+        raise PositionError(problem)
+    return base
+
+
+def place_of_beam(suspension: Equilibrium, state: State) -> dict[str, Array]:
+    """Return where the line through two wheel centres is: its steer angle and middle, (n,)."""
+    left, right = (suspension.center(state.places, which) for which in (0, 1))
+    line, middle = left - right, 0.5 * (left + right)
+    start = np.mean([wheel.design_center for wheel in suspension.wheels], axis=0)
+    return {
+        "axle_steer": np.arctan2(-line[:, 0], line[:, 1]),
+        "axle_lateral": middle[:, 1] - start[1],
+        "axle_longitudinal": middle[:, 0] - start[0],
+    }

@@ -1,0 +1,161 @@
+"""The loads that a rig applies to wheels: to one, or to both of an axle together."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ....core.quantities import Display
+from ....core.vectors import cross
+from ...assembly.poses import CENTER, CONTACT, touching, wheel_axes
+from ...corner.corner import Array, RoadWheel
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class RigLoad:
+    """A load on the wheel, as a rig applies it.
+
+    Attributes
+    ----------
+    name, words : str
+    at : str
+        Where it acts, and where displacements are given.
+    force, moment : tuple of float
+        On a left wheel, tyre axes; the mirror image on a right one.
+    unit : str
+        SI unit of the load.
+    shown : Display
+        Unit for people, and how many of the SI unit it has.
+    sense : tuple of float
+        Direction in which a displacement counts, on a left wheel.
+    where : str
+        That direction in words; empty where none is given.
+    through : str
+        The rate of the tyre through which it goes, in `Vehicle`; empty where there is none.
+    """
+
+    name: str
+    words: str
+    at: str
+    force: Vector
+    moment: Vector
+    unit: str
+    shown: Display
+    sense: Vector
+    where: str
+    through: str = ""
+
+
+_KILONEWTON = Display("kN", 1e3)
+_INWARD, _REARWARD, _NOTHING = (0.0, -1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+RIG_LOADS = (
+    RigLoad("lateral", "a lateral force inward at the contact", CONTACT, _INWARD, _NOTHING, "N",
+          _KILONEWTON, _INWARD, "inward", "tyre_lateral_rate"),
+    RigLoad("braking", "a braking force at the contact", CONTACT, _REARWARD, _NOTHING, "N",
+          _KILONEWTON, _REARWARD, "rearward", "tyre_longitudinal_rate"),
+    RigLoad("recession", "a rearward force at the wheel centre", CENTER, _REARWARD, _NOTHING, "N",
+          _KILONEWTON, _REARWARD, "rearward"),
+    RigLoad("aligning", "a torque about the vertical towards toe-out", CONTACT, _NOTHING,
+          (0.0, 0.0, 1.0), "N m", Display("100 N m", 1e2), _NOTHING, ""),
+)  # fmt: skip
+BY_NAME = {load.name: load for load in RIG_LOADS}
+
+
+@dataclass(frozen=True)
+class Loading:
+    """How the wheels are loaded together.
+
+    Attributes
+    ----------
+    name : str
+        "parallel", in one direction, or "opposed"; empty for the wheel of a corner.
+    parts : tuple of float
+        Of the load of `RIG_LOADS` that each wheel has, the image of that on a left one on a right
+        one.
+    words : str
+        Both in words.
+    """
+
+    name: str
+    parts: tuple[float, ...]
+    words: str
+
+    def key(self, kind: str, load: RigLoad) -> str:
+        """Return the name of what wheels do under a load."""
+        return f"{kind}_by_{load.name}{self.name and f'_{self.name}'}"
+
+    def title(self, load: RigLoad) -> str:
+        """Return the load on all wheels in words."""
+        return f"{_OF_BOTH[load.name]}, {self.words}" if self.name else load.words
+
+
+_OF_BOTH = {
+    "lateral": "lateral forces",
+    "braking": "longitudinal forces",
+    "recession": "forces at the wheel centres",
+    "aligning": "torques about the vertical",
+}
+_IMAGES, _OPPOSED = (1.0, 1.0), (1.0, -1.0)
+_FORE_AND_AFT = (
+    Loading("parallel", _IMAGES, "both rearward"),
+    Loading("opposed", _OPPOSED, "left rearward and right forward"),
+)
+_ONE_WHEEL = (Loading("", (1.0,), ""),)
+_TWO_WHEELS = {
+    "lateral": (
+        Loading("parallel", (-1.0, 1.0), "both to the left"),
+        Loading("opposed", _IMAGES, "both inward"),
+    ),
+    "braking": _FORE_AND_AFT,
+    "recession": _FORE_AND_AFT,
+    "aligning": (
+        Loading("parallel", _OPPOSED, "both to the left"),
+        Loading("opposed", _IMAGES, "both towards toe-out"),
+    ),
+}
+
+
+def loadings(load: RigLoad, wheels: Sequence[object]) -> tuple[Loading, ...]:
+    """Return how a rig applies a load to so many wheels."""
+    return _ONE_WHEEL if len(wheels) == 1 else _TWO_WHEELS[load.name]
+
+
+def load_at_contact(test: RigLoad, on_road: RoadWheel) -> Array:
+    """Return the load of a rig on a wheel, as force and moment at its contact, (n, 6).
+
+    On a right wheel it is the mirror image of that on a left one. Chassis axes [N], [N m].
+    """
+    axes, side = wheel_axes(on_road), on_road.vehicle.side
+    force, moment = (
+        np.einsum("nij,i->nj", axes, vector)
+        for vector in (_mirror(side) * test.force, side * _mirror(side) * test.moment)
+    )
+    arm = where_of(test, on_road) - touching(on_road)
+    return np.concatenate([force, moment + cross(arm, force)], axis=-1)
+
+
+def where_of(test: RigLoad, on_road: RoadWheel) -> Array:
+    """Return where a load acts, (n, 3) [m]."""
+    return on_road.center if test.at == CENTER else touching(on_road)
+
+
+def sense_of(test: RigLoad, on_road: RoadWheel) -> Array:
+    """Return the direction in which displacements under a load count, (n, 3)."""
+    sense = _mirror(on_road.vehicle.side) * test.sense
+    along: Array = np.einsum("nij,i->nj", wheel_axes(on_road), sense)
+    return along
+
+
+def give_of_tyre(test: RigLoad, on_road: RoadWheel) -> float | None:
+    """Return how far the standing tyre deflects under a unit of a load [m/N].
+
+    None where the load does not go through it, or its rate is not known.
+    """
+    rate = getattr(on_road.vehicle, test.through) if test.through else None
+    return None if rate is None else 1.0 / rate
+
+
+def _mirror(side: float) -> Array:
+    return np.array([1.0, side, 1.0])

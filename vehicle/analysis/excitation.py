@@ -1,0 +1,99 @@
+"""What moves a suspension in a simulation: road and rack, by formula or as they were measured."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...simulation.courses import Signal
+from .measurement import Measurement
+from .roads import sine, step
+
+
+@dataclass(frozen=True)
+class Course:
+    """The course of one input over time: at most one of `held`, `step` and `sine`.
+
+    Attributes
+    ----------
+    held : float, optional
+        Constant value [m].
+    step : float, optional
+        Value behind a jump [m].
+    step_at : float
+        Time of the jump [s].
+    sine : float, optional
+        Amplitude of a harmonic motion [m].
+    frequency : float
+        Of that motion [Hz].
+    """
+
+    held: float | None = None
+    step: float | None = None
+    step_at: float = 0.1
+    sine: float | None = None
+    frequency: float = 1.0
+
+    @property
+    def given(self) -> tuple[str, ...]:
+        """The names of what is given."""
+        return tuple(n for n in ("held", "step", "sine") if getattr(self, n) is not None)
+
+    def signal(self, end: float) -> Signal:
+        """Return what `kintrafo.simulate` takes, for a simulation up to a time [s]."""
+        with Arguments("course") as given:
+            for name in self.given:
+                given.number(name, getattr(self, name), "m")
+        if self.step is not None:
+            return step(self.step, at=self.step_at, end=end)
+        if self.sine is not None:
+            return sine(self.sine, self.frequency, end=end)
+        return self.held or 0.0
+
+
+def excitation(
+    courses: Mapping[str, Course], end: float, measured: Measurement | None = None
+) -> dict[str, Signal]:
+    """Return the inputs of a simulation.
+
+    Parameters
+    ----------
+    courses : mapping of str to Course
+        By the name of the input: ``road_height``, ``rack_position``.
+    end : float
+        Last time of the simulation [s].
+    measured : Measurement, optional
+        Whose columns are inputs too.
+
+    Returns
+    -------
+    dict
+        As `kintrafo.simulate` takes it.
+
+    Raises
+    ------
+    InputError
+        If one input is given in two ways.
+
+    Examples
+    --------
+    >>> excitation({"road_height": Course(held=0.01)}, end=1.0)
+    {'road_height': 0.01}
+    """
+    with Arguments("simulation") as given:
+        end = given.number("duration", end, "s", above=0.0)
+        for name, course in given.mapping("courses", courses, "input names, courses").items():
+            given.kind(f"course of {name!r}", course, Course, "a Course is needed")
+        if measured is not None:
+            given.kind("measured", measured, Measurement, "a Measurement is needed")
+    inputs: dict[str, Signal] = {} if measured is None else dict(measured.inputs())
+    problems = []
+    for name, course in courses.items():
+        ways = (*course.given, *(("measured",) if name in inputs else ()))
+        if len(ways) > 1:
+            problems.append(f"{name} is given in {len(ways)} ways: {', '.join(ways)}. Keep one.")
+        elif course.given:
+            inputs[name] = course.signal(end)
+    if problems:
+        raise InputError(problems, "simulation")
+    return inputs

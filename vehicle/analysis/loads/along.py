@@ -1,0 +1,191 @@
+"""The loads on every part of an assembly that moves: Newton and Euler along a simulation."""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ....core.arguments import Arguments
+from ....core.memory import refuse_beyond
+from ....core.quantities import attributes, variable
+from ....core.threads import shared_out
+from ....datasets.recording import TIME
+from ....simulation.result import Simulation
+from ....systems.system import System
+from ...assembly.assembly import Assembly
+from ...assembly.by_wheel import stacked
+from ...assembly.load import Load
+from ...assembly.of import given_assembly
+from ...assembly.poses import CENTER, CONTACT, Assembled, touching, wheel_axes
+from ...corner.corner import RoadWheel
+from .applied_loads import WHEEL, of_wheel
+from .dataset import loads_of
+from .inertia import Twists
+from .reactions import Equations
+
+Array = NDArray[np.float64]
+
+# Signals of the same car in the same states agree to that, whatever computed them.
+_SAME = 1e-6
+# So many moments are looked at together, for the memory of it.
+_TOGETHER = 5000
+_NEEDED = "a kintrafo.Model, AxleModel or RigidAxleModel is needed: the one that was simulated"
+
+
+def along(model: System, result: Simulation) -> xr.Dataset:
+    """Return the loads on every part at each output of a simulation.
+
+    Parameters
+    ----------
+    model : Model, AxleModel or RigidAxleModel
+        The one that was simulated.
+    result : Simulation
+
+    Returns
+    -------
+    xarray.Dataset
+        As of `static`, over ``time`` [s] instead of cases. Besides what acts, ``by`` inertia names
+        minus mass times acceleration and minus the rate of the moment of momentum, so that the sum
+        over each part is zero. An anti-roll bar and its drop links have no mass. ``holding_force``
+        [N] is a vertical force on each wheel that the motion would need besides: none where the
+        equations of motion and the balance of the parts agree. How exact the motion is, the
+        tolerances of the simulation decide. The tyre pushes at the wheel centre, in the plane of
+        the wheel, as in the equations. With ``wheel_loads`` the road does at the contact as well;
+        ``by`` input are the forces at the centre and the moment on the wheel, ``by`` shaft is its
+        torque. That of the hub is a part of what the bearing carries.
+
+    Raises
+    ------
+    InputError
+        If the result is not a motion of this model.
+    PositionError
+        If the motion comes to a dead point, where what is carried has no bound.
+
+    Examples
+    --------
+    >>> from kintrafo import Model, simulate, state_at_height
+    >>> model = Model("reference_car")
+    >>> motion = simulate(model, (0.0, 0.1), state_at_height(model, 0.325))
+    >>> found = along(model, motion)
+    >>> bool(abs(found["holding_force"]).max() < 1e-5)
+    True
+    """
+    with Arguments("along") as given:
+        given.kind("model", model, System, _NEEDED)
+        if not given.refused:
+            assembly = given_assembly(given, model, "model")
+        given.kind("result", result, Simulation, "what kintrafo.simulate returns is needed")
+        if not given.refused and not is_motion_of(model, result):
+            given.refuse(f"result: it is not a motion of this model, {model!r}.")
+    return over_time(partial(in_motion, assembly), result)
+
+
+def over_time(find: Callable[[Array, Array], xr.Dataset], result: Simulation) -> xr.Dataset:
+    """Return the loads of a motion, from what finds those in some states with their inputs.
+
+    Parts of the motion are looked at in as many threads as there are cores: most of it is
+    arithmetic over arrays, which does not keep other threads waiting.
+    """
+    size = result.t.size
+    parts = [slice(begin, begin + _TOGETHER) for begin in range(0, size, _TOGETHER)]
+    by_part: dict[int, xr.Dataset] = {}
+
+    def take(some: tuple[int, xr.Dataset]) -> None:
+        if not by_part:  # they are as large as each other, and put together at the end
+            _refuse_beyond(2.0 * len(parts) * some[1].nbytes, size)
+        by_part.update([some])
+
+    shared_out(
+        lambda rows, _: (rows.start, find(result.y.T[rows], result.inputs[rows])), parts, take
+    )
+    found = [by_part[rows.start] for rows in parts]
+    data = {
+        str(name): _one_after_another([each[name].variable for each in found]) for name in found[0]
+    }
+    coordinates = {**found[0].coords, TIME: variable(TIME, result.t, "time", "s")}
+    return xr.Dataset(data, coordinates, {**found[0].attrs, "title": "loads along a motion"})
+
+
+def _refuse_beyond(needed: float, outputs: int) -> None:
+    with Arguments("along") as given:
+        what = f"the loads of {outputs:,} outputs"
+        refuse_beyond(given, needed, what, "Simulate with fewer outputs, by t_eval.")
+
+
+def _one_after_another(parts: Sequence[xr.Variable]) -> xr.Variable:
+    """Return what was found in parts of a motion as of all of it.
+
+    The same as `xarray.concat`, which compares all coordinates first.
+    """
+    first = parts[0]
+    if TIME not in first.dims:
+        return first
+    # as they lie in memory, outputs behind each other
+    order = [*(name for name in first.dims if name != TIME), TIME]
+    values = np.concatenate([part.transpose(*order).values for part in parts], axis=-1)
+    return xr.Variable(order, values, first.attrs).transpose(*first.dims)
+
+
+def is_motion_of(model: System, result: Simulation) -> bool:
+    """Tell whether a result has the signals that the model has in its states."""
+    if tuple(result.signals) != model.signal_names:
+        return False
+    again = model.signals(result.y.T, result.inputs)
+    return all(
+        np.allclose(values, again[name], rtol=_SAME, atol=_SAME, equal_nan=True)
+        for name, values in result.signals.items()
+    )
+
+
+def in_motion(assembly: Assembly, states: Array, inputs: Array) -> xr.Dataset:
+    """Return the loads in some states, of shape (n, states), as over time."""
+    poses, rates = assembly.in_motion(states, inputs)
+    acting, loads, holding = assembly.acting(poses), {}, []
+    for suffix, group in poses.items():
+        equations = Equations(group)
+        own = [*acting[suffix], *_on_wheels(group), *_inertia(group, rates[suffix])]
+        unknowns = equations.solve(equations.applied(own))
+        loads[suffix] = [*equations.carried(unknowns), *own]
+        holding += [*unknowns[:, -len(group.wheels) :].T]
+    meaning = "vertical force at the wheel that the motion would need besides"
+    held = stacked(TIME, holding, attributes(meaning, "N"))
+    return loads_of(TIME, assembly, poses, loads).assign(holding_force=held)
+
+
+def _on_wheels(group: Assembled) -> list[Load]:
+    """Return the forces of the tyres, through the wheel centres, and what inputs exert."""
+    tyres, inputs, still = group.tyre_forces(), group.inputs_of_wheels(), np.zeros(3)
+    roads, given = [], []
+    for part, wheel in group.wheels.items():
+        road = Load(WHEEL, CENTER, "road", tyres[part], still, wheel.center)
+        roads += of_wheel(part, [road])
+        if part in inputs:
+            given += of_wheel(part, _of_inputs(inputs[part], wheel))
+    return [*roads, *given]
+
+
+def _of_inputs(given: Mapping[str, Array], wheel: RoadWheel) -> list[Load]:
+    """Return what inputs, see `vehicle.corner.wheel_loads`, exert on a wheel; each (n,)."""
+    axes, nothing = wheel_axes(wheel), np.zeros(3)
+    contact, center, moment = (
+        np.einsum("an,nai->ni", [given[f"{name}_{axis}"] for axis in "xyz"], axes)
+        for name in ("contact_force", "center_force", "wheel_moment")
+    )
+    shaft = given["shaft_torque"][:, None] * (wheel.vehicle.side * wheel.axis)
+    return [
+        Load(WHEEL, CONTACT, "road", contact, nothing, touching(wheel)),
+        Load(WHEEL, CENTER, "input", center, moment, wheel.center),
+        Load(WHEEL, CENTER, "shaft", nothing, shaft, wheel.center),
+    ]
+
+
+def _inertia(group: Assembled, by_time: Array) -> list[Load]:
+    """Return what the acceleration of each part takes, as loads."""
+    rates = group.rates_of_inputs()
+    twists = Twists.of(group.model, group.states, group.inputs, by_time, rates)
+    return [
+        twists.load(part, mass, group.turned[part], group.centers[part])
+        for part, mass in group.masses().items()
+    ]

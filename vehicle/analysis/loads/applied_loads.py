@@ -1,0 +1,112 @@
+"""What load cases, or the tyres at rest, exert on the wheels of an assembly."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...assembly.load import Load
+from ...assembly.poses import CENTER, CONTACT, Assembled, touching, wheel_axes
+from ...corner.corner import RoadWheel
+from .cases import Case
+from .dataset import of_side
+
+Array = NDArray[np.float64]
+
+WHEEL = "wheel"
+"""What begins the names of the parts that are wheels."""
+
+
+@dataclass(frozen=True)
+class WheelLoads:
+    """What acts on k wheels in n load cases.
+
+    Attributes
+    ----------
+    racks : ndarray, shape (n,)
+        Displacements of the rack [m].
+    travels : ndarray, shape (n, k)
+        Heights above design at which wheels are held [m]; not a number where one is free.
+    vectors : ndarray, shape (n, k, 12), or None
+        As of `Case.vector`. None: the forces of the tyres on the road at z = 0.
+    """
+
+    racks: Array
+    travels: Array
+    vectors: Array | None
+
+    @classmethod
+    def of(cls, cases: Sequence[Sequence[Case]]) -> "WheelLoads":
+        """Return the loads of cases, each with what it says of every wheel."""
+        return cls(
+            np.array([wheels[0].rack for wheels in cases]),
+            np.array(
+                [[np.nan if c.travel is None else c.travel for c in wheels] for wheels in cases]
+            ),
+            np.array([[case.vector for case in wheels] for wheels in cases]),
+        )
+
+    @classmethod
+    def of_tyres(cls, wheels: int) -> "WheelLoads":
+        """Return the loads of rest on the road."""
+        return cls(np.zeros(1), np.full((1, wheels), np.nan), None)
+
+    def on(self, wheels: slice) -> "WheelLoads":
+        """Return the loads on some of the wheels."""
+        own = None if self.vectors is None else self.vectors[:, wheels]
+        return replace(self, travels=self.travels[:, wheels], vectors=own)
+
+    @property
+    def free(self) -> NDArray[np.bool_]:
+        """Whether a wheel is not held, (n, k)."""
+        return np.isnan(self.travels)
+
+    def at(self, poses: Mapping[str, Assembled], rows: NDArray[np.int64]) -> Array:
+        """Return what acts in some positions, as `Case.vector`, (positions, k, 12).
+
+        Parameters
+        ----------
+        poses : mapping
+        rows : ndarray, shape (positions,)
+            The case of each.
+        """
+        if self.vectors is not None:
+            return self.vectors[rows]
+        found = np.zeros((len(rows), self.travels.shape[1], 12))
+        forces = [(w, g.tyre_forces()[p]) for g in poses.values() for p, w in g.wheels.items()]
+        for place, (wheel, force) in enumerate(forces):
+            found[:, place, 6:9] = np.einsum("nij,nj->ni", wheel_axes(wheel), force)
+        return found
+
+
+def wheels_of(poses: Mapping[str, Assembled]) -> Iterator[tuple[str, str, RoadWheel]]:
+    """Yield suffix, part and wheel of each wheel of an assembly, in their order."""
+    for suffix, group in poses.items():
+        for part, wheel in group.wheels.items():
+            yield suffix, part, wheel
+
+
+def of_wheel(part: str, loads: Sequence[Load]) -> list[Load]:
+    """Return loads on a wheel with the names that its part has."""
+    return [of_side(load, part.removeprefix(WHEEL)) for load in loads]
+
+
+def road_and_drive(part: str, wheel: RoadWheel, vectors: Array) -> list[Load]:
+    """Return the loads of road and drive on a wheel.
+
+    Parameters
+    ----------
+    part : str
+        Which the wheel is.
+    wheel : RoadWheel
+    vectors : ndarray, shape (n, 12)
+        As `Case.vector`.
+    """
+    force, moment, at_center, center_moment = np.einsum(
+        "nij,nki->knj", wheel_axes(wheel), vectors.reshape(-1, 4, 3)
+    )
+    road = Load(WHEEL, CONTACT, "road", force, moment, touching(wheel))
+    return of_wheel(
+        part, [road, Load(WHEEL, CENTER, "drive", at_center, center_moment, wheel.center)]
+    )

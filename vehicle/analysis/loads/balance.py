@@ -1,0 +1,111 @@
+"""Equations of equilibrium, solved at many positions, and where they mean nothing."""
+
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.elimination import Entries, eliminated
+from ....core.threads import in_one_thread
+
+Array = NDArray[np.float64]
+
+# Rounding of loads, 1e-16, that equations so near to singular enlarge to 1e-6 of them; of cars
+# within their travel it is some hundreds.
+_WORST_CONDITION = 1e10
+# Vectors that show how much equations enlarge what is random: of a condition nearly all of it.
+_PROBES = 2
+
+DEAD_POINT = (
+    "the linkage is at a dead point, or what holds it has no leverage: the joints carry anything."
+)
+"""Why there are no loads."""
+
+
+def balanced(matrix: Array, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Return what balances loads, and where that means something.
+
+    Where it does not is a dead point: there they are no numbers.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (..., m, m)
+        What a unit of each unknown does, as columns.
+    applied : ndarray, shape (..., m) or (..., m, cases)
+        Loads.
+
+    Returns
+    -------
+    unknowns : ndarray
+        As many as `applied` has.
+    sound : ndarray of bool, shape (...)
+    """
+    several = applied.ndim == matrix.ndim
+    found = _solution(matrix, _with_probes(applied if several else applied[..., None]))
+    sound = _sound(np.abs(matrix).sum(-2).max(-1), found)
+    return found[..., :-_PROBES] if several else found[..., 0], sound
+
+
+def balanced_at_many(entries: Entries, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Return the same as `balanced`, of equations with few entries at many positions.
+
+    Parameters
+    ----------
+    entries : mapping
+        Of the matrix, those that are not zero at all of n positions, each of shape (n,).
+    applied : ndarray, shape (n, m) or (n, m, cases)
+        Loads.
+    """
+    several = applied.ndim == 3
+    right = _with_probes(applied if several else applied[..., None])
+    columns, accurate = eliminated(entries, np.ascontiguousarray(np.moveaxis(right, 0, -1)))
+    found = np.moveaxis(columns, -1, 0)
+    if not accurate.all():
+        size = right.shape[-2]
+        found[~accurate] = _solution(dense(entries, (size, size), ~accurate), right[~accurate])
+    sums = np.zeros((right.shape[-2], len(right)))
+    for (_, column), values in entries.items():
+        sums[column] += np.abs(values)
+    sound = _sound(sums.max(axis=0), found)
+    return found[..., :-_PROBES] if several else found[..., 0], sound
+
+
+def dense(
+    entries: Entries, shape: tuple[int, int], where: NDArray[np.bool_] | slice = slice(None)
+) -> Array:
+    """Return matrices, (positions, *shape), of their entries."""
+    count = len(next(iter(entries.values()))[where])
+    matrix = np.zeros((count, *shape))
+    for (row, column), values in entries.items():
+        matrix[:, row, column] = values[where]
+    return matrix
+
+
+def _with_probes(applied: Array) -> Array:
+    """Return right sides, (..., m, cases), and behind them what is enlarged as rounding is."""
+    probes = np.broadcast_to(_probes(applied.shape[-2]), (*applied.shape[:-1], _PROBES))
+    return np.concatenate([-applied, probes], axis=-1)
+
+
+def _sound(size: Array, found: Array) -> NDArray[np.bool_]:
+    """Tell where equations of some norm mean something; elsewhere solutions become no numbers."""
+    sound: NDArray[np.bool_] = size * np.abs(found[..., -_PROBES:]).max((-2, -1)) < _WORST_CONDITION
+    found[~sound] = np.nan
+    return sound
+
+
+@cache
+def _probes(size: int) -> Array:
+    """Return vectors of signs, the same in every run."""
+    return np.random.default_rng(0).choice([-1.0, 1.0], (size, _PROBES))
+
+
+@in_one_thread
+def _solution(matrix: Array, right: Array) -> Array:
+    """Return solutions; of matrices that are singular to the last bit huge numbers."""
+    try:
+        found: Array = np.linalg.solve(matrix, right).astype(float)
+    except np.linalg.LinAlgError:  # one spoils all
+        found = np.linalg.pinv(matrix, rcond=1e-15) @ right
+        found[np.linalg.cond(matrix) >= _WORST_CONDITION] = np.inf
+    return found

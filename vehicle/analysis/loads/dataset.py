@@ -1,0 +1,285 @@
+"""Loads on parts as a dataset, and the extremes of them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ....core.arguments import Arguments
+from ....core.quantities import variable
+from ....core.vectors import cross
+from ...assembly.assembly import Assembly
+from ...assembly.by_wheel import WHEEL, flat, wheel_coordinate
+from ...assembly.coupling import BodyPose
+from ...assembly.load import Load
+from ...assembly.poses import Assembled
+from ...corner.structure import GROUND
+from ...models.reach import PositionError
+from .mounts import totals, with_totals
+
+Array = NDArray[np.float64]
+
+CASE, LOAD, AXIS, PART = "case", "load", "axis", "part"
+"""Dimensions of the loads."""
+
+_ENDS = "min", "min_case", "max", "max_case"
+_NEEDED = "what kintrafo.loads.static or along returns is needed"
+
+
+def loads_of(
+    over: str,
+    assembly: Assembly,
+    poses: Mapping[str, Assembled],
+    loads: Mapping[str, Sequence[Load]],
+) -> xr.Dataset:
+    """Return the loads of an assembly over the positions, with those between its groups.
+
+    Parameters
+    ----------
+    over : str
+        Dimension of the positions.
+    assembly : Assembly
+    poses, loads : mapping
+        By suffix.
+    """
+    own = [of_side(load, suffix) for suffix, every in loads.items() for load in every]
+    places = {
+        f"{part}{suffix}": BodyPose(group.centers[part], group.turned[part])
+        for suffix, group in poses.items()
+        for part in group.structure.parts
+    }
+    further, shared = assembly.between(poses, own)
+    mounted = {
+        f"{point}{suffix}": mount and f"{mount}{suffix}"
+        for suffix, group in poses.items()
+        for point, mount in group.structure.mounted.items()
+    }
+    found = dataset_of(over, [*own, *further], places | shared, mounted)
+    found = found.assign(assembly.further(over, poses, found))
+    return found.assign_coords({WHEEL: wheel_coordinate(assembly.wheels)}).assign_attrs(
+        rules="; ".join(assembly.rules)
+    )
+
+
+def of_side(load: Load, suffix: str) -> Load:
+    """Return a load whose names say of which side it is; what there is once has none."""
+    return replace(
+        load,
+        part=load.part if load.part in GROUND else load.part + suffix,
+        point=load.point if load.point == "mass" else load.point + suffix,
+        by=load.by if load.by in (*GROUND, "gravity", "inertia") else load.by + suffix,
+    )
+
+
+def dataset_of(
+    over: str,
+    loads: Sequence[Load],
+    places: Mapping[str, BodyPose],
+    mounted: Mapping[str, str],
+) -> xr.Dataset:
+    """Return loads over the positions.
+
+    Parameters
+    ----------
+    over : str
+        Dimension of the positions.
+    loads : sequence of Load
+        All that there are.
+    places : mapping
+        The parts that are in equilibrium.
+    mounted : mapping of str to str
+        As of `Structure`.
+    """
+    count = max(len(place.center) for place in places.values())
+    fields = {name: _columns(loads, name, count) for name in ("force", "moment", "at")}
+    parts = [load.part for load in loads]
+    moving = [part for part in places if part in parts]
+    rows = {part: [i for i, other in enumerate(parts) if other == part] for part in moving}
+    data = {
+        "force": (fields["force"], "force on the part, chassis axes", "N"),
+        "moment": (fields["moment"], "moment about the point, chassis axes", "N m"),
+        "at": (fields["at"], "where it acts, chassis axes", "m"),
+    }
+    for name in ("force", "moment"):
+        inside = _in_parts(fields[name], {part: places[part].turned for part in moving}, rows)
+        meaning = f"{name} on the part, in the axes that the part had at design"
+        data[f"{name}_in_part"] = (inside, meaning, data[name][2])
+    left = [_sum(fields, rows[part], places[part].center) for part in moving]
+    residuals = {}
+    for name, unit, sums in zip(
+        ("", "_moment"), ("N", "N m"), zip(*left, strict=True), strict=True
+    ):
+        meaning = f"what is left of the sum of the {'moments' if name else 'forces'} on a part"
+        sizes = np.linalg.norm(sums, axis=1)
+        residuals[f"residual{name}"] = variable((over, "moving_part"), sizes.T, meaning, unit)
+    coordinates = {
+        LOAD: [f"{load.part} at {load.point} by {load.by}" for load in loads],
+        PART: (LOAD, parts),
+        "point": (LOAD, [load.point for load in loads]),
+        "by": (LOAD, [load.by for load in loads]),
+        AXIS: ["x", "y", "z"],
+        "moving_part": moving,
+    }
+    described = {
+        name: variable((over, LOAD, AXIS), np.moveaxis(columns, -1, 0), meaning, unit)
+        for name, (columns, meaning, unit) in data.items()
+    }
+    found = xr.Dataset(described | residuals, coordinates)
+    return found.assign(totals(over, loads, mounted, count))
+
+
+def over_cases(
+    found: xr.Dataset, names: Sequence[str], carried: Sequence[int], reasons: Sequence[str]
+) -> xr.Dataset:
+    """Return the loads of the cases that are carried as those of all cases.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        Over the cases that are carried.
+    names : sequence of str
+        Of all cases.
+    carried : sequence of int
+        Which of them are carried.
+    reasons : sequence of str
+        Why a case is not carried; empty where it is.
+    """
+    found = found.assign_coords({CASE: [names[i] for i in carried]}).reindex({CASE: [*names]})
+    found["reason"] = variable(CASE, np.array(reasons), "why the case cannot be carried", "1")
+    message = f"{len(carried)} of {len(names)} cases are carried"
+    return found.assign_attrs(title="loads in load cases", message=message)
+
+
+def refuse_if_none(names: Sequence[str], carried: Sequence[int], reasons: Sequence[str]) -> None:
+    """Refuse cases of which none can be carried, see `over_cases`.
+
+    Raises
+    ------
+    PositionError
+        Rather than an `InputError`: what was given has a meaning, and the suspension cannot do it.
+    """
+    if not carried:
+        told = [f"{name}: {reason}" for name, reason in zip(names, reasons, strict=True)]
+        raise PositionError("\n  - ".join(["none of the cases can be carried", *told[:3]]))
+
+
+def _sum(fields: dict[str, Array], rows: list[int], about: Array) -> tuple[Array, Array]:
+    """Return the sum of some loads, and of their moments about a point, (3, count)."""
+    force, moment, at = (fields[name][rows] for name in ("force", "moment", "at"))
+    turning = cross(np.moveaxis(at - about.T, 1, -1), np.moveaxis(force, 1, -1))
+    return force.sum(axis=0), moment.sum(axis=0) + turning.sum(axis=0).T
+
+
+def envelope(dataset: xr.Dataset) -> xr.Dataset:
+    """Return the least and the greatest of every load, and in which cases they are.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `static`; cases that are not carried are left out.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``force_min``, ``force_max``, ``moment_min``, ``moment_max`` over ``load`` and ``axis``, and
+        for each of them the case, ``force_min_case`` and so on.
+    """
+    with Arguments("envelope") as given:
+        given.kind("dataset", dataset, xr.Dataset, _NEEDED)
+        _check(given, dataset, CASE)
+    found = {}
+    for name in ("force", "moment"):
+        for end in ("min", "max"):
+            values = dataset[name]
+            key = f"{name}_{end}"
+            found[key] = getattr(values, end)(CASE).assign_attrs(values.attrs)
+            found[f"{key}_case"] = getattr(values, f"idx{end}")(CASE).drop_attrs()
+    return xr.Dataset(found, attrs={"title": "envelope of the loads"})
+
+
+def table(dataset: xr.Dataset) -> xr.Dataset:
+    """Return loads with a column for each component, as a strength engineer's program reads them.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `static` or `along`.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``force_x`` to ``moment_z`` and ``at_x`` to ``at_z`` over case, or time, and load: a row for
+        each load on each part, and for the total at each mount of the chassis as that on the part
+        ``total``; chassis axes.
+    """
+    with Arguments("table") as given:
+        given.kind("dataset", dataset, xr.Dataset, _NEEDED)
+        _check(given, dataset)
+    dataset = with_totals(flat(dataset))
+    columns = {
+        f"{name}_{axis}": dataset[name].sel({AXIS: axis}, drop=True)
+        for name in ("force", "moment", "at")
+        for axis in dataset[AXIS].values
+    }
+    for name, column in columns.items():
+        words = str(column.attrs["long_name"]).split(",", maxsplit=1)
+        column.attrs["long_name"] = f"{words[0]}, {name[-1]}"
+    if "reason" in dataset:
+        columns["reason"] = dataset["reason"]
+    return xr.Dataset(columns, attrs=dataset.attrs)
+
+
+def workbook(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
+    """Return loads as the sheets of an Excel workbook, see `kintrafo.export.write`.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `static` or `along`.
+
+    Returns
+    -------
+    dict of str to xarray.Dataset
+        ``loads``, as of `table`, and in load cases ``envelope``: a row for each of these, with the
+        least and the greatest of every component, and the case in which it is.
+    """
+    found = {"loads": table(dataset)}
+    if CASE not in dataset.dims:
+        return found
+    ends = envelope(with_totals(flat(dataset)))
+    columns = {
+        f"{name}_{axis}_{end}": ends[f"{name}_{end}"].sel({AXIS: axis}, drop=True)
+        for name, axis, end in product(("force", "moment"), "xyz", _ENDS)
+    }
+    return found | {"envelope": xr.Dataset(columns, attrs=ends.attrs)}
+
+
+def _check(given: Arguments, dataset: xr.Dataset, *further: str) -> None:
+    """Refuse a dataset that is none of loads."""
+    if given.refused:
+        return
+    dimensions = {LOAD, AXIS, *further} <= {*dataset.dims}
+    if not (dimensions and {"force", "moment", "at"} <= {*map(str, dataset)}):
+        given.refuse(f"dataset: {_NEEDED}, over {', '.join((*further, LOAD, AXIS))}.")
+
+
+def _columns(loads: Sequence[Load], name: str, count: int) -> Array:
+    """Return a vector of each load by components, (loads, 3, count): so sums run over columns."""
+    found = np.empty((len(loads), 3, count))
+    for columns, load in zip(found, loads, strict=True):
+        columns.T[...] = getattr(load, name)
+    return found
+
+
+def _in_parts(
+    columns: Array, turned: Mapping[str, Array], rows: Mapping[str, Sequence[int]]
+) -> Array:
+    """Return vectors, (loads, 3, count), in the axes that each part had at design."""
+    found = columns.copy()
+    for part, rotation in turned.items():
+        own = np.ascontiguousarray(np.moveaxis(rotation, 0, -1))
+        found[rows[part]] = np.einsum("ijn,lin->ljn", own, columns[rows[part]])
+    return found

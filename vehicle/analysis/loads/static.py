@@ -1,0 +1,289 @@
+"""The loads on every part of an assembly that stands still under load cases."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ....core.arguments import Arguments
+from ....core.quantities import attributes, variable
+from ...assembly.assembly import Assembly
+from ...assembly.by_wheel import stacked
+from ...assembly.load import Load
+from ...assembly.of import given_assembly
+from ...assembly.poses import Assembled
+from ...corner.corner import UP
+from .applied_loads import WheelLoads, road_and_drive, wheels_of
+from .balance import DEAD_POINT
+from .cases import GREATEST, cases_of, in_parts_of_it, standard_cases
+from .dataset import CASE, loads_of, over_cases, refuse_if_none
+from .reactions import Equations
+from .static_equilibrium import static_equilibrium
+
+Array = NDArray[np.float64]
+
+
+def static(
+    subject: Any,
+    cases: Mapping[str, Any] | None = None,
+    *,
+    static_load: float | None = None,
+) -> xr.Dataset:
+    """Return the loads on every part in some load cases, each at rest.
+
+    Parameters
+    ----------
+    subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
+    cases : mapping, optional
+        By name: ``contact_N`` and ``contact_Nm``, force and moment at the lowest point of the
+        wheel, whose brake holds it; ``center_N`` and ``center_Nm``, at the wheel centre, where what
+        a brake or a final drive on the body takes belongs; all of them three numbers in the axes of
+        the tyre, y to the left. ``contact_g`` and ``center_g`` in parts of the static load.
+        ``rack_mm``; ``travel_mm`` where a wheel is to stand there, instead of a vertical force at
+        the contact. Of an axle they count for both wheels; in ``left`` and ``right`` are those of
+        one. By default those of `standard_cases`.
+    static_load : float, optional
+        Vertical force on each wheel [N]; by default that of the rest on the road at z = 0.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``case``, ``load`` and ``axis``: ``force`` [N] and ``moment`` [N m] about the point at
+        which it acts (``at`` [m]), in chassis axes, and ``force_in_part`` and ``moment_in_part`` in
+        the axes that the part had at design. Every load says on which ``part`` it is, at which
+        ``point`` and ``by`` whom: what two parts exert on each other is there twice, with both
+        signs. Names of parts and points of an axle that there are twice end in ``_left`` and
+        ``_right``.
+
+        Over ``case``, and of an axle over ``wheel``: ``travel`` [m], ``wheel_load`` [N], and
+        ``holding_force`` [N], the vertical force at the contact that is missing: none, to rounding.
+        ``rack`` [m] where there is one, and ``reason`` where a case cannot be carried. ``residual``
+        [N] and ``residual_moment`` [N m] over ``moving_part`` are what is left of the sums of
+        forces and moments on it: none, to rounding.
+
+        ``total_force`` [N] and ``total_moment`` [N m] over ``mount`` are the sums of all loads on
+        the chassis at a point to which parts are bolted, moments about that point (``total_at``
+        [m]), and ``total_by`` names what acts; the spring of a strut belongs to the mount of the
+        strut.
+
+        A rack is held along its axis by ``steering``, and by the chassis, its guide, in all else:
+        at ``rack_guide``, where the tie rod of a corner ends, or at the ``rack_middle`` of an axle,
+        whose ``rack_force`` [N] is what the steering exerts along the axis. ``bar_torque`` [N m] is
+        that of an anti-roll bar, positive with the left half turned the farther, or of a rigid axle
+        with the left wheel up; parts of an axle with a bar are ``drop_link_left``, ``_right`` and
+        the ``anti_roll_bar``. A rod of a rigid axle touches the ``beam`` and the chassis at the
+        points ``NAME_axle`` and ``NAME_chassis``; ``rod_force`` [N] over ``rod`` is positive where
+        it pulls.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+    PositionError
+        If none of the cases can be carried.
+
+    Notes
+    -----
+    Equilibrium of every part, linear in the forces of the joints. Wheels go to the stable position
+    nearest to design in which springs, stops and bar carry the case, of those that a grid over
+    their travels shows; the wheels of a rigid axle go there from design. Two bearings of an arm on
+    one axis share the force along it equally: statics does not decide that.
+
+    Examples
+    --------
+    >>> from kintrafo import Axle, Model, RigidAxle
+    >>> found = static(Model("reference_car"), {"static": {"contact_g": [0, 0, 1]}})
+    >>> mount = found.sel(case="static", axis="z", load=found["point"] == "spring_top")
+    >>> [round(float(force)) for force in mount["force"]]
+    [3541]
+    >>> turn = {"left": {"contact_g": [0, 0, 1]}, "right": {"contact_g": [0, 0, 1.5]}}
+    >>> found = static(Axle.load("reference_axle"), {"turn": turn})
+    >>> [round(1e3 * float(travel), 1) for travel in found["travel"].sel(case="turn")]
+    [15.5, 57.9]
+    >>> turn = {"left": {"contact_N": [0, 2000, 3000]}, "right": {"contact_N": [0, 6000, 9000]}}
+    >>> found = static(RigidAxle.load("rigid_axle"), {"turn": turn})
+    >>> round(float(found["rod_force"].sel(case="turn", rod="panhard_rod")))
+    7628
+    """
+    with Arguments("loads") as given:
+        assembly = given_assembly(given, subject)
+        if not given.refused:
+            if None in assembly.tyre_radii:
+                given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
+            described = standard_cases(assembly) if cases is None else cases
+            described = given.mapping("cases", described, "names and load cases")
+        if not given.refused:
+            assembly.require_rigid_motion()
+            if static_load is None:
+                static_loads = _at_rest_on_the_road(given, assembly, described)
+            else:
+                load = given.number("static_load", static_load, "N", above=0.0, below=GREATEST)
+                static_loads = [load] * len(assembly.wheels)
+            wanted = cases_of(given, assembly, described, static_loads)
+    loads = WheelLoads.of(wanted)
+    coordinates, reasons = static_equilibrium(assembly, loads)
+    return _in_cases(assembly, [wheels[0].name for wheels in wanted], loads, coordinates, reasons)
+
+
+def _at_rest_on_the_road(
+    given: Arguments, assembly: Assembly, described: Mapping[str, Any]
+) -> list[float]:
+    """Return the vertical forces on all wheels at rest, where a case needs them [N]."""
+    if not in_parts_of_it(described):
+        return [0.0] * len(assembly.wheels)
+    coordinates, (reason,) = static_equilibrium(assembly, WheelLoads.of_tyres(len(assembly.wheels)))
+    if reason:
+        given.refuse(f"static_load is needed, [N]: no stable rest on the road: {reason}")
+        return [1.0] * len(assembly.wheels)
+    poses = assembly.at_wheel_coordinates(coordinates, np.zeros(1))
+    return [float(poses[suffix].tyre_forces()[part][0, 2]) for suffix, part, _ in wheels_of(poses)]
+
+
+def _in_cases(
+    assembly: Assembly,
+    names: Sequence[str],
+    loads: WheelLoads,
+    coordinates: Array,
+    reasons: list[str],
+) -> xr.Dataset:
+    """Return the loads in load cases.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    names : sequence of str
+        Of the cases.
+    loads : WheelLoads
+    coordinates : ndarray, shape (cases, wheels)
+        Where the wheels stand, see `Assembly.at_wheel_coordinates`.
+    reasons : list of str
+        Why a case is not carried; empty where it is.
+    """
+    carried = np.array([row for row, reason in enumerate(reasons) if not reason], dtype=int)
+    refuse_if_none(names, carried.tolist(), reasons)
+    racks, held = loads.racks[carried], ~loads.free[carried]
+    poses = assembly.at_wheel_coordinates(coordinates[carried], racks)
+    acting, outside = assembly.acting(poses), _outside(poses, loads.at(poses, carried))
+    balance = {
+        suffix: _Balance.of(group, [*acting[suffix], *outside[suffix]])
+        for suffix, group in poses.items()
+    }
+    missing = np.concatenate([one.missing for one in balance.values()], axis=1)
+    refused = _refused(assembly, {s: ~one.sound for s, one in balance.items()}, missing, held)
+    if any(refused):
+        told = [*reasons]
+        for row, words in zip(carried, refused, strict=True):
+            told[row] = words
+        return _in_cases(assembly, names, loads, coordinates, told)
+    # the road has what holds a wheel that is held; nothing has what is left of others
+    vertical = np.where(held, missing, 0.0)
+    of_road = iter(vertical.T)
+    pushed = {
+        suffix: [_with_upward(load, next(of_road)) if _is_road(load) else load for load in own]
+        for suffix, own in outside.items()
+    }
+    every = {s: [*one.carried, *acting[s], *pushed[s]] for s, one in balance.items()}
+    data = {
+        "travel": (
+            [(w.center - w.design_center)[:, 2] for _, _, w in wheels_of(poses)],
+            "wheel travel, positive in bump",
+            "m",
+        ),
+        "wheel_load": (
+            [load.force[:, 2] for own in pushed.values() for load in own if _is_road(load)],
+            "vertical force of the road",
+            "N",
+        ),
+        "holding_force": (
+            [*(missing - vertical).T],
+            "vertical force at the contact that is missing",
+            "N",
+        ),
+    }
+    of_wheels = {
+        name: stacked(CASE, values, attributes(words, unit))
+        for name, (values, words, unit) in data.items()
+    }
+    of_rack = {"rack": variable(CASE, racks, "displacement of the rack", "m")}
+    found = loads_of(CASE, assembly, poses, every)
+    found = found.assign((of_rack if assembly.steered else {}) | of_wheels)
+    return over_cases(found, names, carried.tolist(), reasons)
+
+
+def _outside(poses: Mapping[str, Assembled], vectors: Array) -> dict[str, list[Load]]:
+    """Return the loads of road and drive by suffix, (n, wheels, 12) as `Case.vector`."""
+    found: dict[str, list[Load]] = {suffix: [] for suffix in poses}
+    for place, (suffix, part, wheel) in enumerate(wheels_of(poses)):
+        found[suffix] += road_and_drive(part, wheel, vectors[:, place])
+    return found
+
+
+@dataclass(frozen=True)
+class _Balance:
+    """What the joints of a group carry.
+
+    Attributes
+    ----------
+    carried : list of Load
+    missing : ndarray, shape (n, wheels)
+        Vertical force at each contact besides [N].
+    sound : ndarray of bool, shape (n,)
+        Where they mean something.
+    """
+
+    carried: list[Load]
+    missing: Array
+    sound: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, group: Assembled, loads: list[Load]) -> "_Balance":
+        """Return it under some loads."""
+        equations = Equations(group)
+        unknowns, sound = equations.solved(equations.applied(loads))
+        return cls(equations.carried(unknowns), unknowns[:, -len(group.wheels) :], sound)
+
+
+def _refused(
+    assembly: Assembly,
+    dead: Mapping[str, NDArray[np.bool_]],
+    missing: Array,
+    held: NDArray[np.bool_],
+) -> list[str]:
+    """Return why positions are none: a dead point, or a road that would have to pull.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    dead : mapping
+        By suffix, where what is carried has no bound, (n,).
+    missing : ndarray, shape (n, wheels)
+        Vertical forces that the road exerts on wheels that are held [N].
+    held : ndarray of bool, shape (n, wheels)
+    """
+    heads = [f"{wheel}: " if len(assembly.wheels) > 1 else "" for wheel in assembly.wheels]
+    found = []
+    for row, (forces, holds) in enumerate(zip(missing, held, strict=True)):
+        lost = [suffix for suffix, which in dead.items() if which[row]]
+        if lost:
+            where = " and ".join(suffix.strip("_") for suffix in lost if suffix)
+            found.append(f"{where}: {DEAD_POINT}" if where else DEAD_POINT)
+            continue
+        found.append(
+            "; ".join(
+                f"{head}the road would have to pull the wheel there with {-force:.4g} N."
+                for head, force, holding in zip(heads, forces, holds, strict=True)
+                if holding and force < 0.0
+            )
+        )
+    return found
+
+
+def _is_road(load: Load) -> bool:
+    return load.by.startswith("road")
+
+
+def _with_upward(load: Load, vertical: Array) -> Load:
+    return replace(load, force=load.force + vertical[:, None] * UP)

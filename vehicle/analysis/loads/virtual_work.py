@@ -1,0 +1,101 @@
+"""What loads do in the motions of a mechanism: virtual work, in which no joint appears."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.vectors import cross
+from ...assembly.assembly import Assembly
+from ...assembly.load import Load
+from ...assembly.poses import Assembled, touching, wheel_axes
+from ...corner.structure import GROUND
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class VirtualWork:
+    """Power of loads in n positions, in each of k motions at unit rate; the assembly has k wheels.
+
+    Attributes
+    ----------
+    own : ndarray, shape (n, k)
+        Power of what acts without the wheels' loads.
+    units : ndarray, shape (n, k, k, 12)
+        By wheel and motion, that of unit loads on a wheel as of `Case.vector`.
+    rise : ndarray, shape (n, k, k)
+        By wheel and motion, that of a vertical unit force at its contact.
+    """
+
+    own: Array
+    units: Array
+    rise: Array
+
+    @classmethod
+    def of(cls, assembly: Assembly, poses: Mapping[str, Assembled]) -> "VirtualWork":
+        """Return the work in the motions of all wheels."""
+        acting = assembly.acting(poses)
+        count, size = len(next(iter(poses.values())).states), len(assembly.wheels)
+        own, rise = np.zeros((count, size)), np.zeros((count, size, size))
+        units = np.zeros((count, size, size, 12))
+        first = 0
+        for suffix, group in poses.items():
+            twists = group.twists()
+            motions = slice(first, first + len(group.wheels))
+            own[:, motions] = _power(group, twists, acting[suffix])
+            for row, (part, wheel) in enumerate(group.wheels.items(), first):
+                contact = _velocity(group, twists, part, touching(wheel))
+                center, turning = (
+                    _velocity(group, twists, part, wheel.center),
+                    twists[part][..., :3],
+                )
+                moved = np.stack([contact, turning, center, turning], axis=2)
+                turned = np.einsum("nij,nmpj->nmpi", wheel_axes(wheel), moved)
+                units[:, row, motions] = turned.reshape(*turned.shape[:2], 12)
+                rise[:, row, motions] = contact[..., 2]
+            first += len(group.wheels)
+        return cls(own, units, rise)
+
+    def missing(self, loads: Array) -> Array:
+        """Return the vertical force of the road that each wheel needs besides, (n, k) [N].
+
+        Parameters
+        ----------
+        loads : ndarray, shape (n or 1, k, 12)
+            What acts on the wheels, as `Case.vector`.
+
+        Returns
+        -------
+        ndarray
+            Not finite where no such force does work: at a dead point.
+        """
+        power = self.own + (loads[:, :, None] * self.units).sum(axis=(1, 3))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            found: Array = -power / self.rise[:, 0] if power.shape[1] == 1 else self._solved(power)
+        return np.where(np.isfinite(found), found, np.nan)
+
+    def _solved(self, power: Array) -> Array:
+        dead = ~(np.abs(np.linalg.det(self.rise)) > 0.0)
+        rise = np.where(dead[:, None, None], np.eye(power.shape[1]), self.rise)
+        found = np.asarray(-np.linalg.solve(rise.mT, power[..., None])[..., 0], dtype=float)
+        return np.where(dead[:, None], np.nan, found)
+
+
+def _velocity(group: Assembled, twists: Mapping[str, Array], part: str, at: Array) -> Array:
+    """Return the velocity of a point of a part in each motion, (n, motions, 3)."""
+    arm = (at - group.centers[part])[:, None]
+    moved: Array = twists[part][..., 3:] + cross(twists[part][..., :3], arm)
+    return moved
+
+
+def _power(group: Assembled, twists: Mapping[str, Array], loads: Sequence[Load]) -> Array:
+    """Return what loads do together in each motion, (n, motions)."""
+    total = np.zeros((len(group.states), len(group.wheels)))
+    for load in (load for load in loads if load.part not in GROUND):
+        velocity = _velocity(group, twists, load.part, load.at)
+        total += (load.force[..., None, :] * velocity).sum(-1)
+        if load.moment.any():
+            total += (load.moment[..., None, :] * twists[load.part][..., :3]).sum(-1)
+    return total

@@ -1,0 +1,188 @@
+"""Roads, rack motions and forces that were measured: reading them from CSV files."""
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...core.suggestions import nearest, suggestion
+from ...core.tables import Table, read_table
+from ...core.units import in_si
+from ...simulation.interpolation import Between, Samples
+from ..corner.wheel_loads import UNITS
+from ..kinds import KINDS
+
+Array = NDArray[np.float64]
+
+
+_UNITS = {
+    "time": "s",
+    "distance": "m",
+    "road_height": "m",
+    "rack_position": "m",
+    **{kind.NAMES.actuator: "N" for kind in KINDS.values()},
+    **UNITS,
+}
+_SHOWN = {"time": ("s", "ms"), "road_height": ("mm", "m"), "rack_position": ("mm", "m")}
+_COLUMNS = {
+    f"{name}_{shown.replace(' ', '')}": name
+    for name, unit in _UNITS.items()
+    for shown in _SHOWN.get(name, (unit,))
+}
+"""What quantities are called with the units that people use of them."""
+_ABSCISSAE = ("time", "distance")
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """Inputs that were measured over time or along a road.
+
+    Attributes
+    ----------
+    times : ndarray, shape (n,)
+        Beginning with zero [s].
+    values : dict
+        Input name (``road_height``, ``rack_position``, that of the actuator) to samples of shape
+        (n,), SI units.
+    left_out : tuple of str
+        Columns that were not read.
+    """
+
+    times: Array
+    values: dict[str, Array]
+    left_out: tuple[str, ...] = ()
+
+    @property
+    def duration(self) -> float:
+        """Last time [s]."""
+        return float(self.times[-1])
+
+    def inputs(self, between: Between = "monotone") -> dict[str, Samples]:
+        """Return the samples as `kintrafo.simulate` takes them; `between` is that of `Samples`."""
+        return {name: Samples(self.times, values, between) for name, values in self.values.items()}
+
+
+def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
+    """Read inputs from a CSV file.
+
+    The first line names the columns: ``time_s`` or ``time_ms``, or ``distance_m`` along the road;
+    and at least one of ``road_height_mm``, ``rack_position_mm`` (also in ``_m``), and the force of
+    the actuator by the name that the kind of suspension has for it: ``strut_force_N``,
+    ``spring_actuator_N``; and what acts on the wheel of a model with ``wheel_loads``:
+    ``contact_force_x_N`` and so on, ``center_force_x_N``, ``wheel_moment_x_Nm``,
+    ``shaft_torque_Nm``, ``hub_torque_Nm``. Other units that are usual, and other forms of these
+    names, ``Road height [in]``, are read as `kintrafo.core.tables` says. Columns are separated by
+    commas, semicolons or tabs; with the latter two, decimals may have a comma. Times increase and
+    are shifted to begin with zero; a time that is given twice is a jump. `kintrafo.Samples` says
+    what is in between.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+    speed : float, optional
+        Speed at which a road that is given over the distance is driven on [m/s].
+
+    Returns
+    -------
+    Measurement
+
+    Raises
+    ------
+    InputError
+        If the file cannot be used; with the lines that are wrong.
+    """
+    with Arguments("measured") as given:
+        given.kind("path", path, (str, Path), "the path of a CSV file is needed")
+        if speed is not None:
+            given.number("speed", speed, "m/s", above=0.0)
+    sheet = read_table(path)
+    columns = sheet.columns(_UNITS)
+    _check(sheet)
+    table = sheet.numbers([column.at for column in columns])
+    values = {
+        column.name: table[:, at] * in_si(sheet.unit_for(column, _UNITS[column.name]) or "")[1]
+        for at, column in enumerate(columns)
+    }
+    times = _times(values, [line for line, _ in sheet.rows], speed, sheet.source)
+    read = {column.at for column in columns}
+    left_out = tuple(name for i, name in enumerate(sheet.names) if i not in read)
+    values = {name: column for name, column in values.items() if name not in _ABSCISSAE}
+    return Measurement(times, values, left_out)
+
+
+def _check(sheet: Table) -> None:
+    columns = sheet.columns(_UNITS)
+    names = [column.name for column in columns]
+    read = {column.at for column in columns}
+    others = [heading for i, heading in enumerate(sheet.headings) if i not in read]
+    problems = [
+        f"column {heading.text!r} is not known. {suggestion(heading.label, _COLUMNS)}"
+        for heading in others
+        if _resembles(heading.label)
+    ]
+    problems += [
+        f"{name} is in {names.count(name)} columns. Keep one of them."
+        for name in dict.fromkeys(names)
+        if names.count(name) > 1
+    ]
+    problems += [
+        problem
+        for column in columns
+        if (problem := sheet.unit_problem(column, _UNITS[column.name]))
+    ]
+    if not problems and sum(name in _ABSCISSAE for name in names) != 1:
+        problems.append(
+            f"one column time_s, time_ms or distance_m is needed; the first line has {sheet.names}."
+        )
+    if not problems and len(names) < 2:
+        wanted = [n for n, name in _COLUMNS.items() if name not in _ABSCISSAE]
+        hints = [nearest(heading.label, wanted) for heading in others]
+        hint = "".join(f" Did you mean {name}?" for name in hints if name)
+        needed = f"one of the columns {', '.join(wanted)} is needed; there is {sheet.names}.{hint}"
+        problems.append(needed)
+    if problems:
+        raise InputError(problems, sheet.source)
+
+
+def _resembles(name: str) -> bool:
+    """Tell whether a column that is not known was probably meant to be one that is."""
+    first = re.split(r"[\W_]", name.strip(), maxsplit=1)[0].lower()
+    return first in {known.partition("_")[0] for known in _UNITS}
+
+
+def _times(
+    columns: dict[str, Array], lines: Sequence[int], speed: float | None, source: str
+) -> Array:
+    """Return times that begin with zero, or refuse them where they fall."""
+    if "distance" in columns:
+        if speed is None or not (math.isfinite(speed) and speed > 0.0):
+            given = "none is given" if speed is None else f"{speed * 3.6:g} km/h is given"
+            problem = f"a road over distance_m needs a speed of more than 0 km/h; {given}."
+            raise InputError([problem], source)
+        with np.errstate(over="ignore"):
+            times = columns["distance"] / speed
+    elif speed is not None:
+        problem = "a speed is for a road over distance_m; this one is over time. Leave it out."
+        raise InputError([problem], source)
+    else:
+        times = columns["time"]
+    fall = np.flatnonzero(times[1:] < times[:-1])
+    if fall.size:
+        line = lines[int(fall[0]) + 1]
+        name = "distance" if "distance" in columns else "time"
+        problem = f"line {line}: the {name} falls. Sort the rows, each {name} once."
+        raise InputError([problem], source)
+    with np.errstate(over="ignore", invalid="ignore"):
+        shifted: Array = times - times[0]
+    if not np.all(np.isfinite(shifted)):
+        problem = f"times from {times[0]:g} to {times[-1]:g} s are too far apart. Check the column."
+        raise InputError([problem], source)
+    if shifted[-1] == 0.0:
+        raise InputError(["all rows have the same time. Check the column."], source)
+    return shifted

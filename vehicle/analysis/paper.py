@@ -1,0 +1,161 @@
+"""The results of the paper: Figures 4, 5 and 6, and what there is to say about them.
+
+J. A. M. Góis and C. A. P. Sarzeto, "Modelo de suspensão MacPherson utilizando transformadores
+cinemáticos", Instituto Militar de Engenharia, Rio de Janeiro, 2000. The paper gives no hardpoints,
+masses or rates; the reference car is this project's own, so the curves compare in kind.
+"""
+
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...systems.linearisation import linearise
+from ...systems.modes import Mode
+from ..assembly.equilibrium import equilibrium
+from ..models.model import Model
+from ..models.positions import arm_angles, state_at_height
+from ..models.reach import at_rest
+
+if TYPE_CHECKING:
+    from ...simulation.result import Simulation
+
+Array = NDArray[np.float64]
+
+REST_HEIGHT = 0.300  # height of the wheel centre at rest [m]
+TRAVEL = 0.150  # to either side of it [m]
+START_HEIGHT = 0.325  # [m]
+SPIN_RATE = 2.0 * np.pi * 14.8  # 14.8 revolutions per second [rad/s]
+DURATION = 1.0  # [s]
+OUTPUT_INTERVAL = 1e-4  # of the paper's integration routines [s]
+
+PAPER_RUNGE_KUTTA_S = 360.0  # "more than 6 min", IMSL DIVPRK, 233 MHz Pentium
+PAPER_GEAR_S = 13.0  # IMSL DIVPAG, same machine
+
+
+@dataclass(frozen=True)
+class Kinematics:
+    """Figures 4 and 5: the wheel over its travel, rack held at zero.
+
+    Attributes
+    ----------
+    x, y, z : ndarray
+        Wheel centre in chassis axes [m].
+    camber, steer : ndarray
+        [rad]; camber positive with the top outboard, steer positive to the left.
+    side : str
+        'left' or 'right'.
+    design : int
+        Index of the design position, which is one of the points.
+    """
+
+    x: Array
+    y: Array
+    z: Array
+    camber: Array
+    steer: Array
+    side: str
+    design: int
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """Figure 6: one second from 0.325 m with the wheel spinning.
+
+    Attributes
+    ----------
+    result : Simulation
+        Output every 1e-4 s, as in the paper.
+    seconds : float
+        Time that the integration took, output included [s].
+    """
+
+    result: "Simulation"
+    seconds: float
+
+
+def kinematics(model: Model, points: int = 121) -> Kinematics:
+    """Compute Figures 4 and 5.
+
+    Parameters
+    ----------
+    model : Model
+    points : int, optional
+        Number of equally spaced wheel heights; the design position comes besides.
+
+    Returns
+    -------
+    Kinematics
+    """
+    ends = (REST_HEIGHT - TRAVEL, REST_HEIGHT + TRAVEL)
+    design_height = float(model.signal("wheel_center_z", model.design_state))
+    heights = np.linspace(*ends, points)
+    # the design position is one of them: an equally spaced one where that is the same
+    heights = np.union1d(heights[np.abs(heights - design_height) > 1e-9], design_height)
+    signals = model.signals(*at_rest(model, arm_angles(model, heights)))
+    return Kinematics(
+        x=signals["wheel_center_x"],
+        y=signals["wheel_center_y"],
+        z=signals["wheel_center_z"],
+        camber=signals["camber"],
+        steer=signals["steer"],
+        side=model.suspension.vehicle.side,
+        design=int(np.searchsorted(heights, design_height)),
+    )
+
+
+def dynamics(model: Model) -> Dynamics:
+    """Compute Figure 6 by Gear's method.
+
+    Parameters
+    ----------
+    model : Model
+
+    Returns
+    -------
+    Dynamics
+    """
+    from ...simulation.simulate import simulate  # noqa: PLC0415 (slow to import)
+
+    start = state_at_height(model, START_HEIGHT, spin_rate=SPIN_RATE)
+    times = np.linspace(0.0, DURATION, round(DURATION / OUTPUT_INTERVAL) + 1)
+    before = time.perf_counter()
+    result = simulate(model, (0.0, DURATION), start, t_eval=times, rtol=1e-6, atol=1e-9)
+    return Dynamics(result, time.perf_counter() - before)
+
+
+@dataclass(frozen=True)
+class Rest:
+    """The state of rest and how the suspension moves about it.
+
+    Attributes
+    ----------
+    state : ndarray
+        Equilibrium, the wheel spinning at 14.8 revolutions per second.
+    height : float
+        Of the wheel centre [m].
+    hop : Mode
+        The wheel-hop mode.
+    """
+
+    state: Array
+    height: float
+    hop: Mode
+
+
+def rest(model: Model) -> Rest:
+    """Find the equilibrium and the wheel-hop mode there.
+
+    Parameters
+    ----------
+    model : Model
+
+    Returns
+    -------
+    Rest
+    """
+    state = equilibrium(model, spin_rate=SPIN_RATE)
+    height = float(model.signal("wheel_center_z", state))
+    return Rest(state, height, linearise(model, state).mode_of(model.names.arm))

@@ -1,0 +1,392 @@
+"""What no suspension of a car looks like: signs, units and points that people get wrong.
+
+Everything here can move, so that nothing of it is refused; `kintrafo check` tells it. A *problem*
+is what is almost surely a mistake, and the text says which; a *note* is what is unusual. Limits lie
+between what cars have and what the mistake makes of it, on a scale of factors half way: units that
+are mistaken differ by 1,000 or more.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.vectors import angle_between_lines
+from ..input.bodies import RigidBody, WheelBody
+from ..input.spring import SEATS
+from ..input.spring_table import ends_of_table, rate_at
+from ..input.vehicle import Tyre, Wheel
+from ..kinds import Suspension
+from .typical import typical_ranges
+
+Array = NDArray[np.float64]
+
+# Where passenger cars have their wheel hop [Hz]: TRL Report SR12 UC, vehicles over discontinuities
+# of the road.
+USUAL_HOP = (10.0, 15.0)
+
+# Beyond the centre plane by more than this is on the other side of the car [m]. Racks with a
+# central take-off have their joints within some centimetres of that plane.
+_ACROSS = 0.1
+# A rack that is turned out of the tie rod moves it lengthwise by the cosine: by half at this [deg].
+_LARGEST_RACK_ANGLE = 60.0
+# A point so near to the origin was given in metres in a file in millimetres [m]: the points of a
+# car are within 3 m of its origin.
+_NEAR_ORIGIN = 0.003
+# How far the wheel centre is inboard of a ball joint, at most [m]: with brakes inboard, it is some
+# centimetres outboard.
+_INBOARD = 0.1
+# How far a wheel centre is below the bearings of its arm, at most [m]; more has a portal axle.
+_BELOW = 0.1
+# Caster and kingpin inclination are worth a word so many widths of their usual range beside it.
+_WIDTHS = 2.0
+# A wheel hops on its tyre at 10 to 15 Hz (`USUAL_HOP`). A rate in N/mm or masses in grams make 30
+# times less of it, by the root of 1,000; half way between, by factors, there are some 6 times.
+_APART = 5.6
+# The rate of a tyre is 5 to 20 times that of the spring, of racing cars as much as it; a spring in
+# N/mm makes 1,000 times more of it, a tyre in N/mm 1,000 times less.
+_TYRE_TO_SPRING = (0.05, 500.0)
+# Of the damping that would keep the wheel on its tyre from oscillating, dampers have 10 to 60 %.
+_DAMPING = (0.005, 20.0)
+# Radii of wheels, from karts to lorries, are 0.1 to 0.7 m; units that are mistaken make 1,000 times
+# more or less of them, and half way, by factors, are these [m].
+_RADII = (0.005, 20.0)
+# Rates of one tyre are alike; one in N/mm is 1,000 times less, and half way, by factors, is this.
+_ALIKE = 31.6
+# Nothing that rolls has more inertia than a hoop. In kg mm^2 an inertia is 1,000,000 times as much;
+# half way, by factors, leaves room for what is counted with a wheel.
+_HOOPS = 1e3
+# The wheelbase of a car is 1.5 to 4 m, and its centre of gravity 0.25 to 1 m high; one that was
+# given in metres makes 1,000 times less of it in millimetres [m].
+_SHORTEST_WHEELBASE, _LOWEST_CENTER = 0.05, 0.01
+# Wheels of cars stand within some degrees of upright and straight ahead [deg].
+_MOST_ALIGNMENT = 10.0
+# Of lengths [m].
+_ROUNDING = 1e-9
+
+
+class WholeVehicle(Protocol):
+    """What a file says of the whole vehicle; None where it says nothing."""
+
+    @property
+    def wheelbase_mm(self) -> float | None:
+        """Distance of the axles."""
+
+    @property
+    def center_of_gravity_height_mm(self) -> float | None:
+        """Height above the ground."""
+
+
+@dataclass(frozen=True)
+class Plausibility:
+    """What is told of a file.
+
+    Attributes
+    ----------
+    problems, notes : tuple of str
+        Almost surely mistakes; and what is unusual.
+    """
+
+    problems: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+def plausibility(suspension: Suspension) -> Plausibility:
+    """Look for what people get wrong in hardpoint files.
+
+    Parameters
+    ----------
+    suspension : Suspension
+
+    Returns
+    -------
+    Plausibility
+
+    Examples
+    --------
+    >>> from kintrafo import Suspension
+    >>> car = Suspension.load("reference_car")
+    >>> plausibility(car)
+    Plausibility(problems=(), notes=())
+    >>> along = car.with_changes({"rack.axis": [1.0, 0.0, 0.0]})
+    >>> print(plausibility(along).problems[0].split(":")[0])
+    [rack] axis = [1.0, 0.0, 0.0]
+    """
+    problems = (
+        *_other_side(suspension),
+        *_swapped(suspension),
+        *_stray(suspension),
+        *_rack(suspension),
+        *_rates(suspension),
+        *unlikely_tyre(suspension.tyre),
+        *_inertia(suspension),
+        *unlikely_wheel(suspension.bodies.wheel, suspension.tyre_radius()),
+        *unlikely_vehicle(suspension.vehicle),
+    )
+    notes = (
+        *_wheel_place(suspension),
+        *_steering_axis(suspension),
+        *unusual_alignment(suspension.wheel),
+        *beyond_the_table(suspension.parameters(), suspension.hardpoints.distance(*SEATS)),
+    )
+    return Plausibility(problems, notes)
+
+
+def _outboard(suspension: Suspension, name: str) -> float:
+    """Return how far a point is from the centre plane, on the side of the wheel [m]."""
+    return suspension.vehicle.sign * float(suspension.hardpoints.metres(name)[1])
+
+
+def _other_side(suspension: Suspension) -> Iterator[str]:
+    points = suspension.hardpoints
+    for name in points.given():
+        across = -_outboard(suspension, name)
+        if across > _ACROSS:
+            yield (
+                f"{points.text(name)} is {1e3 * across:.0f} mm beyond the centre plane, and the "
+                f"wheel is on the {suspension.vehicle.side}. Is the sign of y right?"
+            )
+
+
+def _swapped(suspension: Suspension) -> Iterator[str]:
+    points = suspension.hardpoints
+    at_knuckle = [name for name, part in points.CARRIERS.items() if part == "knuckle"]
+    for rod in (name.removesuffix("_outer") for name in at_knuckle if name.endswith("_outer")):
+        outer, inner = (_outboard(suspension, f"{rod}_{end}") for end in ("outer", "inner"))
+        if outer < inner:
+            words, base = rod.replace("_", " "), "rack" if rod == "tie_rod" else "chassis"
+            yield (
+                f"{points.text(f'{rod}_outer', f'{rod}_inner')}: the {words}'s end at the knuckle "
+                f"is {1e3 * (inner - outer):.0f} mm inboard of that at the {base}. Are the two "
+                "swapped?"
+            )
+    for ball, bearings in points.ARMS.items():
+        hinge = min(_outboard(suspension, name) for name in bearings)
+        inboard = hinge - _outboard(suspension, ball)
+        if inboard > 0.0:
+            yield (
+                f"{points.text(ball, *bearings)}: {ball} is {1e3 * inboard:.0f} mm inboard of the "
+                "arm's bearings on the chassis. Are they swapped?"
+            )
+    if points.STEERING_AXIS is None:
+        return
+    low, high = points.STEERING_AXIS
+    drop = float(points.metres(low)[2] - points.metres(high)[2])
+    if drop > 0.0:
+        yield (
+            f"{points.text(low, high)}: {high} is {1e3 * drop:.0f} mm below {low}. z points up: is "
+            "its sign right?"
+        )
+
+
+def _stray(suspension: Suspension) -> Iterator[str]:
+    points = suspension.hardpoints
+    given = {points.text(n): points.metres(n) for n in points.given() if n != "wheel_center"}
+    yield from stray_points(given, points.unit)
+
+
+def stray_points(points: Mapping[str, Array], unit: str) -> Iterator[str]:
+    """Find points that were given in metres in a file in millimetres.
+
+    Parameters
+    ----------
+    points : mapping of str to ndarray
+        By what stands in the file: their places [m].
+    unit : str
+        Of the file.
+    """
+    for text, place in points.items():
+        distance = float(np.linalg.norm(place))
+        if distance < _NEAR_ORIGIN and unit == "mm":
+            yield (
+                f"{text} is {1e3 * distance:.3g} mm from the origin. Is it in metres? The unit of "
+                'all points is "mm".'
+            )
+
+
+def _rack(suspension: Suspension) -> Iterator[str]:
+    if not suspension.steered():
+        return
+    points, axis = suspension.hardpoints, suspension.rack.axis
+    rod = points.metres("tie_rod_outer") - points.metres("tie_rod_inner")
+    angle = angle_between_lines(np.array(axis), rod)
+    if angle > _LARGEST_RACK_ANGLE:
+        yield (
+            f"[rack] axis = {list(axis)}: the rack moves at {angle:.1f} deg to the tie rod, and so "
+            "hardly moves it. A rack lies across the car: [0.0, 1.0, 0.0], which moves to the left."
+        )
+
+
+def _rates(suspension: Suspension) -> Iterator[str]:
+    bodies = suspension.bodies
+    mass = bodies.wheel.mass_kg + sum(body.mass_kg for body in bodies.rigid().values())
+    length = suspension.hardpoints.distance(*SEATS)
+    yield from unlikely_rates(suspension.parameters(), length, mass, suspension.rate_key)
+
+
+def unlikely_rates(
+    values: Mapping[str, float], length: float, mass: float, key: Callable[[str], str]
+) -> Iterator[str]:
+    """Compare tyre and masses, the tyre with the spring, and the damper with both.
+
+    Parameters
+    ----------
+    values : mapping
+        Rates by their names in the equations.
+    length : float
+        Of the spring at design [m].
+    mass : float
+        Of all bodies of a wheel [kg].
+    key : callable
+        Returns where the rate of a part, "spring" or "damper", stands in the file.
+    """
+    tyre, damper = (values[f"{part}_rate"] for part in ("tyre", "damper"))
+    spring = float(rate_at(values, np.array(length)))
+    if tyre == 0.0:
+        return
+    hop = float(np.sqrt(tyre / mass)) / (2.0 * np.pi)
+    low, high = USUAL_HOP
+    if not low / _APART <= hop <= high * _APART:
+        yield (
+            f"[tyre] rate_N_per_m = {tyre:g} N/m and {mass:g} kg of all bodies: the wheel would "
+            f"hop on its tyre at {hop:.3g} Hz, on cars it does at {low:g} to {high:g} Hz. Is the "
+            "rate in N/mm, or a mass in grams?"
+        )
+        return
+    least, most = _TYRE_TO_SPRING
+    if spring != 0.0 and not least <= tyre / spring <= most:
+        yield (
+            f"{key('spring')} = {spring:g} N/m: the tyre's rate is "
+            f"{tyre / spring:.3g} times that, on cars it is 5 to 20 times as much. Is it in N/mm?"
+        )
+    least, most = _DAMPING
+    ratio = damper / (2.0 * float(np.sqrt(tyre * mass)))
+    if damper != 0.0 and not least <= ratio <= most:
+        yield (
+            f"{key('damper')} = {damper:g} N s/m: the wheel on its tyre has a "
+            f"damping ratio of {ratio:.2g} by it, on cars some 0.1 to 0.6. Is it in N s/mm?"
+        )
+
+
+def beyond_the_table(values: Mapping[str, float], length: float) -> Iterator[str]:
+    """Find a spring that is as long at design [m] as its curve does not go."""
+    ends = ends_of_table(values)
+    if ends is not None and not ends[0] - _ROUNDING <= length <= ends[1] + _ROUNDING:
+        shortest, longest = (1e3 * end for end in ends)
+        yield (
+            f"[spring] force_N: at design the spring is {1e3 * length:.1f} mm long, and its curve "
+            f"goes from {shortest:.1f} to {longest:.1f} mm; beyond it goes on straight. Add points."
+        )
+
+
+def _inertia(suspension: Suspension) -> Iterator[str]:
+    points = suspension.hardpoints
+    size = max(points.distance(name, "wheel_center") for name in points.given())
+    yield from unlikely_inertia(suspension.bodies.rigid(), size)
+
+
+def unlikely_inertia(bodies: Mapping[str, RigidBody], size: float) -> Iterator[str]:
+    """Compare the radius of gyration of bodies with the size of what they are part of [m]."""
+    for name, body in bodies.items():
+        elements = body.elements()
+        if body.mass_kg > 0.0:
+            # the trace of the tensor is twice the polar moment about the centre of mass
+            polar = 0.5 * (elements["xx"] + elements["yy"] + elements["zz"])
+            gyration = float(np.sqrt(max(polar, 0.0) / body.mass_kg))
+            if gyration > size:
+                yield (
+                    f"[bodies.{name}] mass_kg = {body.mass_kg:g} kg and its inertia make a radius "
+                    f"of gyration of {gyration:.3g} m, and the suspension is {size:.2f} m large. "
+                    "Is the inertia in kg mm^2, or the mass wrong?"
+                )
+
+
+def unlikely_vehicle(vehicle: WholeVehicle) -> Iterator[str]:
+    """Find lengths of the whole vehicle that were given in metres."""
+    for name, least, usual in (
+        ("wheelbase_mm", _SHORTEST_WHEELBASE, "1500 to 4000"),
+        ("center_of_gravity_height_mm", _LOWEST_CENTER, "250 to 1000"),
+    ):
+        value = getattr(vehicle, name)
+        if value is not None and value < 1e3 * least:
+            yield f"[vehicle] {name} = {value:g} mm: cars have {usual} mm. Is it in metres?"
+
+
+def unusual_alignment(wheel: Wheel) -> Iterator[str]:
+    """Find wheels that stand as on no car."""
+    for name in ("camber_deg", "toe_deg"):
+        value = getattr(wheel, name)
+        if abs(value) > _MOST_ALIGNMENT:
+            yield f"[wheel] {name} = {value:g} deg: cars have some degrees. Is it right?"
+
+
+def unlikely_tyre(tyre: Tyre) -> Iterator[str]:
+    """Compare the rates of a tyre along the ground with that of its springing; see its radius."""
+    radius = tyre.radius_mm
+    if radius is not None and not _RADII[0] <= 1e-3 * radius <= _RADII[1]:
+        yield (
+            f"[tyre] radius_mm = {radius:g} mm: wheels of vehicles have 100 to 700 mm. Is it in "
+            f"{'m' if 1e-3 * radius < _RADII[0] else 'another unit'}?"
+        )
+    for name in ("lateral_rate_N_per_m", "longitudinal_rate_N_per_m"):
+        rate, vertical = getattr(tyre, name), tyre.rate_N_per_m
+        if rate is not None and vertical and not 1.0 / _ALIKE <= rate / vertical <= _ALIKE:
+            yield (
+                f"[tyre] {name} = {rate:g} N/m, beside a rate_N_per_m of {vertical:g} N/m: tyres "
+                "give way in all directions by much the same. Is one of them in N/mm?"
+            )
+
+
+def unlikely_wheel(wheel: WheelBody, radius: float | None) -> Iterator[str]:
+    """Compare the inertia of a wheel about its axis with that of a hoop."""
+    hoop = wheel.mass_kg * (radius or np.inf) ** 2
+    if wheel.inertia_spin_kg_m2 - wheel.inertia_shaft_kg_m2 > _HOOPS * hoop:
+        yield (
+            f"[bodies.wheel] inertia_spin_kg_m2 = {wheel.inertia_spin_kg_m2:g} kg m^2: a hoop of "
+            f"{wheel.mass_kg:g} kg and the tyre's radius of {radius:.3f} m has {hoop:.3g} kg m^2, "
+            "and no wheel has more. Is it in kg mm^2?"
+        )
+
+
+def _wheel_place(suspension: Suspension) -> Iterator[str]:
+    points = suspension.hardpoints
+    for ball, bearings in points.ARMS.items():
+        inboard = _outboard(suspension, ball) - _outboard(suspension, "wheel_center")
+        if inboard > _INBOARD:
+            yield (
+                f"{points.text('wheel_center', ball)}: the wheel centre is {1e3 * inboard:.0f} mm "
+                f"inboard of {ball}."
+            )
+        hinge = 0.5 * sum(float(points.metres(name)[2]) for name in bearings)
+        below = hinge - float(points.metres("wheel_center")[2])
+        if below > _BELOW and ball == (points.STEERING_AXIS or ("",))[0]:
+            yield (
+                f"{points.text('wheel_center')} is {1e3 * below:.0f} mm below the bearings of its "
+                "arm. z points up: is its sign right?"
+            )
+
+
+def _steering_axis(suspension: Suspension) -> Iterator[str]:
+    points = suspension.hardpoints
+    if points.STEERING_AXIS is None:
+        return
+    low, high = points.STEERING_AXIS
+    x, y, z = points.metres(high) - points.metres(low)
+    if z <= 0.0:
+        return
+    usual = typical_ranges(suspension.suspension)
+    for name, away, axis in (
+        ("caster", -x, "x"),
+        ("kingpin_inclination", -suspension.vehicle.sign * y, "y"),
+    ):
+        angle = float(np.degrees(np.arctan2(away, z)))
+        low_end, high_end = usual[name]["low"], usual[name]["high"]
+        beside = max(low_end - angle, angle - high_end)
+        if beside > _WIDTHS * (high_end - low_end):
+            yield (
+                f"{points.text(low, high)}: the {name.replace('_', ' ')} is {angle:.1f} deg; cars "
+                f"have {low_end:g} to {high_end:g} ({usual[name]['source']}). Is the sign of "
+                f"{axis} right?"
+            )

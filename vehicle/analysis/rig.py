@@ -1,0 +1,257 @@
+"""Curves that were measured on a rig: reading them, and characteristics beside them."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...core.suggestions import nearest
+from ...core.tables import Column, Table, read_table
+from ...core.units import in_si
+from ..assembly.assembly import Assembly
+from ..assembly.by_wheel import flat
+from ..assembly.of import given_assemblies
+from ..assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
+from .characteristics.datasets import ALONG, DATA_SET, KNOWN, OF_AXLES, dataset
+from .compare import with_compliance
+from .compliance.flexibility import HELD, Held
+from .compliance.linear import COMPLIANCES, COMPLIANCES_OF_AXLES
+
+Array = NDArray[np.float64]
+
+_ALONG = {quantity.name: quantity for quantity in (*ALONG.values(), ROLL, STEERING_WHEEL)}
+_SOFT = COMPLIANCES_OF_AXLES | COMPLIANCES
+_KNOWN: dict[str, dict[str, Quantity]] = {name: dict(known) for name, known in OF_AXLES.items()}
+for _over, _known in KNOWN.items():
+    _KNOWN[ALONG[_over].name] |= _known
+_KNOWN[TRAVEL.name] |= _SOFT
+_EVERY = {
+    name: quantity
+    for known in _KNOWN.values()
+    for name, quantity in known.items()
+    if name not in _ALONG
+}
+# What is held moves by less than this [m], and by less than this part of what does not.
+_NOISE, _PART_OF_NOISE = 1e-4, 1e-2
+
+
+def measured_curves(path: str | Path) -> xr.Dataset:
+    """Read curves from a CSV file.
+
+    The first line names the columns, each with its unit: ``wheel_travel [mm]`` or
+    ``rack_position [mm]``, and characteristics, such as ``toe [deg]`` or ``wheel_rate [N/mm]``, by
+    their names in kintrafo; over wheel travel compliance, too, ``toe_by_lateral [deg/kN]``. Of an
+    axle they are over ``wheel_travel`` of both wheels, ``roll_angle [deg]``, ``rack_position`` or
+    ``steering_wheel_angle [deg]``, and what each wheel has ends in ``_left`` or ``_right``,
+    ``toe_left [deg]``.
+    Columns of other names are left out. How names and units may be written, `kintrafo.core.tables`
+    says: ``Wheel Travel (mm)`` is the same, and units may stand in a row or comment of their own.
+    Rows may be in any order, and a
+    position may be there more than once, as of a loop with friction. A cell may be empty. Where
+    both positions are there, one must be the same in all rows, to 0.1 mm: the suspension is held
+    there, at its mean.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``wheel_travel``, ``rack_position`` [m], ``roll_angle`` or ``steering_wheel_angle``
+        [rad]; SI units. The
+        attribute ``left_out`` names the columns that were not read.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be used.
+    """
+    with Arguments("measured_curves") as given:
+        given.path("path", path)
+    sheet = read_table(path)
+    columns = sheet.columns([*_ALONG, *_EVERY])
+    units = {column.name: _quantity(column.name).units for column in columns}
+    _check(sheet, columns, units)
+    curves = {name: _EVERY[name] for name in units if name in _EVERY}
+    # where the steering wheel turns, the rack is what it moves
+    moved = {RACK.name: RACK} if {STEERING_WHEEL.name, RACK.name} <= units.keys() else {}
+    curves |= moved
+    places = [
+        column.name for column in columns if column.name in _ALONG and column.name not in moved
+    ]
+    numbers = sheet.numbers(
+        [column.at for column in columns],
+        may_be_empty=[column.at for column in columns if column.name in curves],
+    )
+    table = {
+        column.name: numbers[:, at] * in_si(sheet.unit_for(column, units[column.name]) or "")[1]
+        for at, column in enumerate(columns)
+    }
+    varying, held = _told_apart(sheet, {name: table[name] for name in places})
+    along = _ALONG[varying]
+    data = {
+        quantity.name: xr.Variable(varying, table[quantity.name], quantity.attributes())
+        for quantity in curves.values()
+        if quantity.name in _KNOWN[varying]
+    }
+    if not data:
+        names = [quantity.name for quantity in curves.values()]
+        others = [over for over, known in _KNOWN.items() if {*names} & {*known}]
+        problem = f"{', '.join(names)}: known over {' and '.join(others)} only."
+        raise InputError([problem], sheet.source)
+    coordinates = {varying: xr.Variable(varying, table[varying], along.attributes())}
+    coordinates |= {name: xr.Variable((), at, _ALONG[name].attributes()) for name, at in held}
+    read = {column.at for column in columns if column.name in (*places, *data)}
+    left = ", ".join(name for i, name in enumerate(sheet.names) if i not in read)
+    return xr.Dataset(data, coordinates, {"title": "measured curves", "left_out": left})
+
+
+def _quantity(name: str) -> Quantity:
+    return _ALONG[name] if name in _ALONG else _EVERY[name]
+
+
+def _told_apart(sheet: Table, places: Mapping[str, Array]) -> tuple[str, list[tuple[str, float]]]:
+    """Return which position varies, and where the other one is held if it is there."""
+    spread = {name: float(np.ptp(values)) for name, values in places.items()}
+    least = min(_NOISE, _PART_OF_NOISE * max(spread.values()))
+    varying = [name for name in places if spread[name] > least]
+    if len(varying) != 1:
+        problem = (
+            f"one of {' and '.join(places)} must vary along the curves, and the other be held; "
+            f"{len(varying)} vary."
+        )
+        raise InputError([problem], sheet.source)
+    held = [(name, float(v.mean())) for name, v in places.items() if name not in varying]
+    return varying[0], held
+
+
+def beside(
+    measured: xr.Dataset,
+    subjects: Mapping[str, Any],
+    name: str = "measured",
+    *,
+    held: Held = "height",
+) -> xr.Dataset:
+    """Return characteristics at the positions of measured curves, beside these.
+
+    Parameters
+    ----------
+    measured : xarray.Dataset
+        From `measured_curves`.
+    subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
+        By the names that stand beside their curves.
+    name : str, optional
+        That of the measurement.
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
+        What held the wheels when compliance was measured, see `kintrafo.compliance.linear`.
+
+    Returns
+    -------
+    xarray.Dataset
+        The curves that were measured, by the names of their columns, over ``data_set``: the
+        measurement is the first, then come the `subjects`. `kintrafo.compare.differences` takes it.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+    PositionError
+        If a suspension does not reach a position.
+    """
+    with Arguments("beside") as given:
+        given.dataset(measured)
+        assemblies = given_assemblies(given, "subjects", subjects)
+        given.text("name", name)
+        given.among("held", held, HELD)
+        if not given.refused and name in assemblies:
+            given.refuse(f"name = {name!r} is that of a subject, too. Choose another one.")
+        if not (assemblies or given.refused):
+            given.refuse("subjects is empty: one or more are needed.")
+        if not given.refused and len({*measured.dims} & {*_ALONG}) != 1:
+            given.refuse("measured: what kintrafo.rig.measured_curves returns is needed.")
+        if not given.refused:
+            for label, assembly in assemblies.items():
+                _refuse_other_motions(given, label, assembly, measured)
+    found = [measured]
+    for assembly in assemblies.values():
+        whole = flat(_curves(assembly, measured, held))
+        found.append(whole[[n for n in map(str, measured) if n in whole]])
+    names = xr.Variable(DATA_SET, [name, *assemblies], {"long_name": "data set"})
+    # positions are the same and may repeat: nothing is to be aligned
+    return xr.concat(
+        found, names, join="override", coords="minimal", compat="override",
+        combine_attrs="override",
+    )  # fmt: skip
+
+
+def motion_of(assembly: Assembly, measured: xr.Dataset) -> str | None:
+    """Return the motion of an assembly in which what varies along measured curves varies.
+
+    Over wheel travel it is the usual one: both wheels of an axle move in parallel.
+    """
+    for motion, how in assembly.motions.items():
+        if how.along.name in measured.dims:
+            return motion
+    return None
+
+
+def _refuse_other_motions(
+    given: Arguments, name: str, assembly: Assembly, measured: xr.Dataset
+) -> None:
+    """Refuse curves over what an assembly does not have."""
+    if motion_of(assembly, measured) is None:
+        (along,) = {*measured.dims} & {*_ALONG}
+        known = ", ".join(dict.fromkeys(how.along.name for how in assembly.motions.values()))
+        given.refuse(
+            f"measured: curves over {along}, which {name} does not have; there is {known}."
+        )
+
+
+def _curves(assembly: Assembly, measured: xr.Dataset, held_by: Held) -> xr.Dataset:
+    """Return the characteristics at the positions of a measurement."""
+
+    def held(quantity: Quantity) -> float:
+        return float(measured[quantity.name]) if quantity.name in measured.coords else 0.0
+
+    motion = motion_of(assembly, measured)
+    assert motion is not None  # others were refused
+    along = assembly.motions[motion].along
+    travel = 0.0 if along is TRAVEL else held(TRAVEL)
+    rack = 0.0 if along is RACK or not assembly.steered else held(RACK)
+    values = measured[along.name].values
+    found = dataset(assembly, motion, values, travel=travel, rack=rack)
+    if along is TRAVEL and assembly.has_bushes and {*map(str, measured)} & {*_SOFT}:
+        return with_compliance(found, assembly, values, held_by, rack)
+    return found
+
+
+def _check(sheet: Table, columns: Sequence[Column], units: Mapping[str, str]) -> None:
+    names = [column.name for column in columns]
+    problems = [
+        f"{name} is in {names.count(name)} columns. Keep one of them."
+        for name in dict.fromkeys(names)
+        if names.count(name) > 1
+    ]
+    problems += [
+        problem for column in columns if (problem := sheet.unit_problem(column, units[column.name]))
+    ]
+    if {*names}.isdisjoint(_ALONG):
+        problems.append(
+            f"one column {TRAVEL.name} [mm] or {RACK.name} [mm] is needed; the first line has "
+            f"{sheet.names}."
+        )
+    if {*names}.isdisjoint(_EVERY) and not problems:
+        read = {column.at for column in columns}
+        others = [h.label for i, h in enumerate(sheet.headings) if i not in read]
+        hints = [f"Did you mean {h}?" for h in (nearest(name, _EVERY) for name in others) if h]
+        problems.append(
+            " ".join([f"no characteristic is among the columns {sheet.names}.", *hints[:1]])
+        )
+    if problems:
+        raise InputError(problems, sheet.source)

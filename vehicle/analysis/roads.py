@@ -1,0 +1,95 @@
+"""Roads and rack motions by formula, for `kintrafo.simulate`.
+
+Each function returns something that ``simulate(..., inputs={"road_height": ...})`` takes; heights
+are in metres, positive up. What was measured is read by `kintrafo.measurement`.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+
+Array = NDArray[np.float64]
+Samples = tuple[Array, Array]
+
+# A cubic spline leaves its function by h^4 / 384 of the fourth derivative: 6e-11 for these.
+_SAMPLES_OF_A_PERIOD = 512
+_MOST_PERIODS = 5000
+
+
+def step(height: float, *, at: float, end: float) -> Samples | float:
+    """Return a road that rises at once.
+
+    Parameters
+    ----------
+    height : float
+        Height behind the step [m]; negative for a drop.
+    at : float
+        Time at which the tyre meets it [s].
+    end : float
+        Last time of the simulation [s].
+
+    Returns
+    -------
+    tuple of ndarray, or float
+        Samples with a jump; a number where the step is there from the start.
+
+    Examples
+    --------
+    >>> times, heights = step(0.02, at=0.1, end=1.0)
+    >>> times.tolist(), heights.tolist()
+    ([0.0, 0.1, 0.1, 1.0], [0.0, 0.0, 0.02, 0.02])
+    """
+    with Arguments("road step") as given:
+        height = given.number("height", height, "m")
+        at = given.number("at", at, "s")
+        end = given.number("end", end, "s", above=0.0)
+    if at <= 0.0:
+        return height
+    if at >= end:
+        problem = f"at {at:g} s, but the simulation ends at {end:g} s. Let it end later."
+        raise InputError([problem], "road step")
+    return np.array([0.0, at, at, end]), np.array([0.0, 0.0, height, height])
+
+
+def sine(amplitude: float, frequency: float, *, end: float) -> CubicSpline:
+    """Return a harmonic motion that starts in its middle, upward.
+
+    Parameters
+    ----------
+    amplitude : float
+        To either side [m].
+    frequency : float
+        [Hz]
+    end : float
+        Last time of the simulation [s].
+
+    Returns
+    -------
+    scipy.interpolate.CubicSpline
+        Of time [s], from zero to `end`, NaN elsewhere; it follows the sine to 1e-10 of the
+        amplitude.
+
+    Examples
+    --------
+    >>> round(float(sine(0.01, 0.5, end=2.0)(0.5)), 11)
+    0.01
+    """
+    with Arguments("sine") as given:
+        amplitude = given.number("amplitude", amplitude, "m")
+        frequency = given.number("frequency", frequency, "Hz")
+        end = given.number("end", end, "s", above=0.0)
+    periods = frequency * end
+    if not 0.0 < periods <= _MOST_PERIODS:
+        problem = (
+            f"frequency = {frequency:g} Hz: more than 0 Hz and at most {_MOST_PERIODS / end:g} Hz "
+            f"({_MOST_PERIODS} periods in {end:g} s) are possible."
+        )
+        raise InputError([problem], "sine")
+    times = np.linspace(0.0, end, 4 + math.ceil(_SAMPLES_OF_A_PERIOD * periods))
+    heights = amplitude * np.sin(2.0 * math.pi * frequency * times)
+    return CubicSpline(times, heights, extrapolate=False)

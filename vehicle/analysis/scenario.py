@@ -1,0 +1,251 @@
+"""One run over a road: where it starts, what road and rack do, for how long."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...datasets.recording import dataset_of
+from ...simulation.courses import Signal
+from ...simulation.result import Simulation
+from ...simulation.signals import time_inputs
+from ...simulation.simulate import simulate
+from ...systems.state import State
+from ..assembly.assembly import Assembly
+from ..assembly.by_wheel import together
+from ..assembly.equilibrium import equilibrium, refuse_missing_loads
+from ..assembly.of import assembly_of, given_model
+from ..corner.wheel_loads import UNITS
+from ..models.axle.equations import AxleModel
+from ..models.model import Model
+from ..models.positions import state_at_height
+from ..models.rigid.model import RigidAxleModel
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+BOTH = "both"
+"""Under all wheels."""
+
+_RACK = "rack_position"
+
+# More output than this is a mistake in the step, and would fill the memory.
+_MOST_OUTPUTS = 5_000_000
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """What happens to a corner, an axle or a rigid axle in a simulation.
+
+    Attributes
+    ----------
+    duration : float
+        [s]
+    output_step : float
+        Time between outputs [s].
+    height : float, optional
+        Height of the wheel centre of a corner at the start, chassis axes [m]; by default that of
+        the equilibrium on the road as it is at the start, where axles start.
+    spin_rate : float
+        Rate of the wheels relative to their carriers, positive rolling forward [rad/s].
+    inputs : dict
+        Inputs by name, as `kintrafo.simulate` takes them; see `kintrafo.roads`.
+    """
+
+    duration: float = 1.0
+    output_step: float = 0.001
+    height: float | None = None
+    spin_rate: float = 0.0
+    inputs: dict[str, Signal] = field(default_factory=dict)
+
+    def checked(self, given: Arguments) -> tuple[float, float]:
+        """Return duration and output step [s], or refuse them."""
+        duration = given.number("duration", self.duration, "s", above=0.0)
+        step = given.number("output step", self.output_step, "s", above=0.0)
+        if not given.refused and duration / step > _MOST_OUTPUTS:
+            given.refuse(
+                f"an output every {step:g} s for {duration:g} s makes more than "
+                f"{_MOST_OUTPUTS} rows. Choose a larger output step."
+            )
+        return duration, step
+
+    def times(self) -> Array:
+        """Return the times of the output, the first and the last included [s]."""
+        with Arguments("simulation") as given:
+            duration, step = self.checked(given)
+        count = int(np.floor(duration / step + 1e-9))
+        times = np.linspace(0.0, count * step, count + 1)
+        if duration - times[-1] > 1e-9 * step:
+            return np.array([*times, duration])
+        times[-1] = duration
+        return times
+
+
+def run(
+    model: Model | AxleModel | RigidAxleModel,
+    scenario: Scenario,
+    *,
+    wheels: str = BOTH,
+    **options: Any,
+) -> "tuple[Simulation, xr.Dataset]":
+    """Simulate a scenario.
+
+    Parameters
+    ----------
+    model : Model, AxleModel or RigidAxleModel
+    scenario : Scenario
+        Its ``road_height``, and loads on a wheel, are those of the wheels that are named; the
+        others have a level road. Inputs of an axle may be given by their own names as well.
+    wheels : {'both', 'left', 'right'}, optional
+    **options : Any
+        Of `kintrafo.simulate`: ``method``, ``rtol``, ``atol``, ...
+
+    Returns
+    -------
+    Simulation
+        With the times at which the first wheel left the ground in ``t_events[0]``, and at which it
+        came back in ``t_events[1]``; those of the second wheel behind them, the left one first.
+    xarray.Dataset
+        Signals, states and inputs over time, see `kintrafo.datasets.recording.dataset_of`.
+
+    Raises
+    ------
+    InputError, PositionError, SimulationError
+        As `kintrafo.simulate`, `kintrafo.equilibrium` and `kintrafo.state_at_height`.
+
+    Examples
+    --------
+    >>> from kintrafo import Model, RigidAxleModel, roads
+    >>> bump = roads.step(0.02, at=0.1, end=1.0)
+    >>> result, motion = run(Model("reference_car"), Scenario(inputs={"road_height": bump}))
+    >>> round(float(motion["wheel_center_z"][-1] - motion["wheel_center_z"][0]), 4)
+    0.0178
+    >>> over = Scenario(inputs={"road_height": bump})
+    >>> _, motion = run(RigidAxleModel("rigid_axle"), over, wheels="left")
+    >>> float(motion["right_road_height"].max())
+    0.0
+    """
+    start, inputs = started(model, scenario, wheels=wheels)
+    assembly = assembly_of(model)
+    events = [name for wheel in assembly.wheels for name in assembly.names_of(wheel).events]
+    span, times = (0.0, scenario.duration), scenario.times()
+    result = simulate(model, span, start, inputs=inputs, t_eval=times, events=events, **options)
+    return result, motion_of(model, result)
+
+
+def motion_of(model: Model | AxleModel | RigidAxleModel, result: Simulation) -> "xr.Dataset":
+    """Return signals, states and inputs of a simulation; those of an axle name their wheel.
+
+    Parameters
+    ----------
+    model : Model, AxleModel or RigidAxleModel
+        The one that was simulated.
+    result : Simulation
+
+    Returns
+    -------
+    xarray.Dataset
+        See `kintrafo.datasets.recording.dataset_of`.
+    """
+    with Arguments("motion_of") as given:
+        assembly = given_model(given, model)
+    motion = dataset_of(model, result)
+    if "bar_spring_moment" in motion:
+        motion["bar_spring_moment"].attrs["long_name"] = "moment of the anti-roll bar"
+    for name, data in motion.items():
+        wheel = str(name).partition("_")[0]
+        if wheel in assembly.wheels and assembly.names_of(wheel).prefix:
+            words = data.attrs["long_name"].replace(f"{wheel}_", "")
+            data.attrs["long_name"] = f"{words}, {wheel}"
+    return motion
+
+
+def by_wheel(model: Model | AxleModel | RigidAxleModel, motion: "xr.Dataset") -> "xr.Dataset":
+    """Return a motion in which what each wheel has is over the dimension ``wheel``, to be drawn.
+
+    Parameters
+    ----------
+    model : Model, AxleModel or RigidAxleModel
+    motion : xarray.Dataset
+        From `run`.
+
+    Returns
+    -------
+    xarray.Dataset
+        That of a corner is as it was. Of ``left_road_height`` and ``right_road_height`` there is
+        ``road_height``.
+    """
+    with Arguments("by_wheel") as given:
+        assembly = given_model(given, model)
+        given.dataset(motion)
+    if len(assembly.wheels) == 1:
+        return motion
+    return together(motion, assembly.wheels)
+
+
+def started(
+    model: Model | AxleModel | RigidAxleModel, scenario: Scenario, *, wheels: str = BOTH
+) -> tuple[State, dict[str, Signal]]:
+    """Return the state that a scenario starts from, and its inputs by the names of the model.
+
+    Arguments and errors as of `run`.
+    """
+    with Arguments("simulation") as given:
+        assembly = given_model(given, model)
+        given.kind("scenario", scenario, Scenario, "a Scenario is needed")
+        if not given.refused:
+            given.among("wheels", wheels, dict.fromkeys((BOTH, *assembly.wheels)))
+            _refuse_unusable(given, assembly, scenario)
+    chosen = assembly.wheels if wheels == BOTH else (wheels,)
+    inputs = _by_wheel(assembly, scenario.inputs, chosen)
+    courses = time_inputs(model, inputs, (0.0, scenario.duration))
+    at_start = map(float, courses.at(0.0, courses.segments[0]))
+    first = dict(zip(model.input_names, at_start, strict=True))
+    rack, spin = first.get(_RACK, 0.0), scenario.spin_rate
+    if scenario.height is not None:
+        corner: Model = assembly.model
+        return state_at_height(corner, scenario.height, rack_position=rack, spin_rate=spin), inputs
+    roads = {wheel: assembly.names_of(wheel).road for wheel in assembly.wheels}
+    further = inputs.keys() - {_RACK, *roads.values()}
+    start = equilibrium(
+        model,
+        rack_position=rack,
+        road_height={wheel: first[road] for wheel, road in roads.items()},
+        spin_rate=spin,
+        inputs={name: first[name] for name in model.input_names if name in further},
+    )
+    return start, inputs
+
+
+def _refuse_unusable(given: Arguments, assembly: Assembly, scenario: Scenario) -> None:
+    """Refuse times that cannot be, and a start and inputs that the assembly does not have."""
+    scenario.checked(given)
+    inputs = given.mapping("inputs", scenario.inputs, "input names, what they do")
+    if scenario.height is not None and len(assembly.wheels) > 1:
+        given.refuse("height: an axle starts from rest. Leave it out.")
+    if _RACK in inputs and not assembly.steered:
+        given.refuse(f"{_RACK}: it has no rack, and nothing steers its wheels. Leave that out.")
+    refuse_missing_loads(given, assembly, inputs)
+
+
+def _by_wheel(
+    assembly: Assembly, given: Mapping[str, Signal], wheels: Sequence[str]
+) -> dict[str, Signal]:
+    """Return inputs by the names of the model: what is given for one wheel, for each of these."""
+    inputs, prefixes = dict(given), [assembly.names_of(wheel).prefix for wheel in wheels]
+    for name in ("road_height", *UNITS):
+        named = [f"{prefix}{name}" for prefix in prefixes]
+        if name not in inputs or named == [name]:
+            continue
+        twice = [other for other in named if other in inputs]
+        if twice:
+            problem = f"{name} and {', '.join(twice)} are given. Give one of them for a wheel."
+            raise InputError([problem], "simulation")
+        inputs |= dict.fromkeys(named, inputs.pop(name))
+    return inputs

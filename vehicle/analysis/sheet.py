@@ -1,0 +1,205 @@
+"""The K&C sheet: kinematic and compliance gradients at design on one page, as a rig's summary has.
+
+Each has its definition, and its sign in two systems of axes: ISO 8855 (x forward, y left, z up), in
+which everything here is computed, and the one of SAE J670 whose z axis points down (x forward, y
+right). The latter is how its edition of 1976 has them; that of 2008 allows both.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ...core.arguments import Arguments
+from ...core.quantities import attributes, displayed, long_name, unit_or_stroke
+from ...core.tabulated import Tabulated, significant
+from ..assembly.assembly import Assembly
+from ..assembly.by_wheel import flat
+from ..assembly.of import given_assembly
+from .characteristics.datasets import dataset
+from .compliance.flexibility import HELD, Held
+from .compliance.linear import linear
+from .loads.sheets import without_side
+
+QUANTITY = "quantity"
+"""Dimension of the sheet."""
+
+_SIDES = ("_left", "_right")
+_LEFTWARD, _RIGHTWARD = "to the left", "to the right"
+# Of one wheel or of an axle, by the part of the sheet; what is not known of one is left out.
+_PARTS = {
+    "at rest": (
+        "toe", "camber", "caster", "kingpin_inclination", "trail", "steering_axis_offset",
+        "scrub_radius", "hub_trail", "spindle_offset", "track",
+    ),
+    "in bump": (
+        "bump_steer", "camber_gradient", "caster_gradient", "heave_steer", "motion_ratio",
+        "damper_motion_ratio", "wheel_rate", "ride_rate", "roll_center_height_kinematic",
+        "swing_arm_length_kinematic", "side_view_swing_arm_angle", "side_view_hub_angle",
+        "anti_dive", "anti_lift_braked", "anti_lift_driven", "anti_squat",
+    ),
+    "in roll": (
+        "roll_center_height", "roll_center_lateral", "roll_steer", "roll_camber", "jacking",
+        "wheel_rate_alone", "roll_motion_ratio", "roll_moment_gradient", "roll_stiffness",
+        "roll_stiffness_springs", "roll_stiffness_bar", "bar_share", "roll_stiffness_with_tyres",
+    ),
+    "steered": ("steer_gradient", "steering_ratio"),
+}  # fmt: skip
+_COMPLIANCE = "compliance"
+
+
+def sheet(
+    subject: Any,
+    bushings: Mapping[str, Any] | None = None,
+    *,
+    held: Held = "height",
+) -> xr.Dataset:
+    """Return the kinematic and compliance gradients at design, with definitions and signs.
+
+    Parameters
+    ----------
+    subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
+    bushings : mapping, optional
+        As of `kintrafo.compliance.linear`, in the place of those of the file. Where neither has
+        any, the sheet has no compliance.
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
+        What holds a wheel under the loads of the compliance.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``quantity``, the names of the characteristics and compliances: the values with the
+        signs of ``iso_8855`` and of ``sae_j670`` (z down), in the units for people that stand in
+        ``unit``; ``part`` of the sheet, ``meaning``, ``definition``, and when either value is
+        positive, ``iso_8855_sign`` and ``sae_j670_sign``.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+
+    Notes
+    -----
+    Both systems count toe towards the vehicle, camber by its top, and what has a side of the wheel
+    alike. What counts to the left in ISO 8855, such as steer angles, counts to the right in the
+    axes of SAE J670 with z down: its value has the other sign.
+
+    Examples
+    --------
+    >>> from kintrafo import load
+    >>> found = sheet(load("reference_car"))
+    >>> row = found.sel(quantity="steer_gradient")
+    >>> float(row["iso_8855"]) == -float(row["sae_j670"]), str(row["unit"].values)
+    (True, 'deg/mm')
+    """
+    with Arguments("sheet") as given:
+        assembly = given_assembly(given, subject)
+        given.among("held", held, HELD)
+    found = dict(_kinematic(assembly))
+    if bushings is not None or assembly.has_bushes:
+        found |= _compliant(assembly, bushings, held)
+    return _dataset(found, held)
+
+
+def tabulated(found: xr.Dataset, title: str) -> list[Tabulated]:
+    """Return the sheet as tables, one for each of its parts.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        From `sheet`.
+    title : str
+        Begins the titles.
+    """
+    with Arguments("tabulated") as given:
+        given.dataset(found, over=QUANTITY)
+        given.text("title", title)
+    parts = dict.fromkeys(map(str, found["part"].values))
+    on_axle = any(str(name).endswith(_SIDES) for name in found[QUANTITY].values)
+    values = ("left", "right", "axle") if on_axle else ("value",)
+    heads = ("", *values, "unit", "in ISO 8855", "in SAE J670, z down")
+    words = frozenset({0, *range(len(values) + 1, len(heads))})
+    tables = []
+    for part in parts:
+        here = found.isel({QUANTITY: np.flatnonzero(found["part"].values == part)})
+        rows = tuple(_rows(here, values))
+        held = f", {found.attrs['held']}" if part == _COMPLIANCE else ""
+        tables.append(Tabulated(f"{title}{part}{held}", heads, rows, words))
+    return tables
+
+
+def _rows(here: xr.Dataset, values: Sequence[str]) -> Iterator[tuple[str, ...]]:
+    """Yield the rows of a part, each with both wheels."""
+    names = [str(name) for name in here[QUANTITY].values]
+    for stem in dict.fromkeys(map(without_side, names)):
+        cells = dict.fromkeys(values, "")
+        for name in (name for name in names if without_side(name) == stem):
+            own = here.sel({QUANTITY: name})
+            column = name.removeprefix(f"{stem}_") if name != stem else values[-1]
+            cells[column] = significant(float(own["iso_8855"]))
+        meaning, unit, iso, sae = (
+            str(own[key].values) for key in ("meaning", "unit", "iso_8855_sign", "sae_j670_sign")
+        )
+        meaning = meaning.removesuffix(", left").removesuffix(", right")
+        yield (meaning, *cells.values(), unit, iso, "the same" if iso == sae else "the other sign")
+
+
+# -- what stands in it ----------------------------------------------------------------------------
+
+
+def _kinematic(assembly: Assembly) -> Iterator[tuple[str, tuple[str, xr.DataArray]]]:
+    """Yield the characteristics at design with the parts of the sheet, by their names."""
+    known: dict[str, xr.DataArray] = {}
+    for curves in _curves(assembly):
+        known = {str(name): data for name, data in curves.items()} | known
+    for part, stems in _PARTS.items():
+        for stem in stems:
+            for name in (stem, *(f"{stem}{side}" for side in _SIDES)):
+                if name in known:
+                    yield name, (part, known[name])
+
+
+def _curves(assembly: Assembly) -> list[xr.Dataset]:
+    """Return all characteristics at design, by the names of their columns."""
+    steering = () if assembly.steered_by is None else (assembly.steered_by,)
+    return [
+        flat(dataset(assembly, motion, np.zeros(1)))
+        for motion in (assembly.usual_motion, *steering)
+    ]
+
+
+def _compliant(
+    assembly: Assembly, bushings: Mapping[str, Any] | None, held: Held
+) -> dict[str, tuple[str, xr.DataArray]]:
+    """Return the compliances at design, by the names of their columns."""
+    found = flat(linear(assembly, bushings, [0.0], held=held)).drop_dims(["moved", "by"])
+    return {str(name): (_COMPLIANCE, data) for name, data in found.items()}
+
+
+def _dataset(rows: Mapping[str, tuple[str, xr.DataArray]], held: Held) -> xr.Dataset:
+    iso = np.array([displayed(data).item() for _, data in rows.values()])
+    signs = [str(data.attrs.get("sign", "")) for _, data in rows.values()]
+    flipped = [sign.replace(_LEFTWARD, _RIGHTWARD) for sign in signs]
+    # a zero has no sign
+    sae = np.where([a != b for a, b in zip(signs, flipped, strict=True)], 0.0 - iso, iso)
+    texts = {
+        "part": [part for part, _ in rows.values()],
+        "unit": [unit_or_stroke(data.attrs) for _, data in rows.values()],
+        "meaning": [long_name(data) for _, data in rows.values()],
+        "definition": [str(data.attrs.get("definition", "")) for _, data in rows.values()],
+        "iso_8855_sign": signs,
+        "sae_j670_sign": flipped,
+    }
+    words = "value at design with the sign of"
+    values = {
+        "iso_8855": xr.Variable(QUANTITY, iso, attributes(f"{words} ISO 8855", "")),
+        "sae_j670": xr.Variable(QUANTITY, sae, attributes(f"{words} SAE J670, z down", "")),
+    }
+    told = {name: xr.Variable(QUANTITY, each) for name, each in texts.items()}
+    order = ("part", "iso_8855", "sae_j670", "unit", "meaning", "definition")
+    data = told | values
+    ordered = {name: data[name] for name in (*order, "iso_8855_sign", "sae_j670_sign")}
+    return xr.Dataset(
+        ordered, {QUANTITY: [*rows]}, {"title": "K&C sheet at design", "held": HELD[held]}
+    )

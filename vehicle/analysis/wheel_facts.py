@@ -1,0 +1,264 @@
+"""What a wheel that moves by itself has: geometry, reach, rest on the road, wheel hop."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.vectors import distance_from_line
+from ..assembly import wheel
+from ..assembly.equilibrium import equilibrium
+from ..assembly.from_model import corner
+from ..corner.facts import Extended
+from ..models.model import Model
+from ..models.positions import PositionError, Range, design_height, travel_range
+from . import paper
+from .plausibility import plausibility
+
+Array = NDArray[np.float64]
+
+# Less travel than this between design and an end is worth a word [m].
+_LITTLE_TRAVEL = 0.040
+# So far from design, the wheel's place at rest is worth a word [m].
+_FAR_FROM_DESIGN = 0.005
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """The suspension at rest on level road.
+
+    Attributes
+    ----------
+    height : float
+        Of the wheel centre, chassis axes [m].
+    travel : float
+        From design, positive in bump [m].
+    signals : dict
+        All signals of the model there, SI units.
+    frequency : float
+        Undamped natural frequency of the wheel-hop mode [Hz]; NaN where nothing would swing.
+    damping_ratio : float
+        Of that mode, without friction; above one where it does not oscillate.
+    damping_ratio_with_friction : float or None
+        With the friction as steep as it is at rest, which holds for speeds far below
+        ``friction_velocity_m_per_s`` alone; None if there is no friction.
+    ride_frequency : float or None
+        Undamped natural frequency of the body above a wheel at rest on the road: of the mass that
+        spring and stops carry, on their rate in series with the tyre's [Hz]. None where they carry
+        nothing or have no rate.
+    """
+
+    height: float
+    travel: float
+    signals: dict[str, float]
+    frequency: float
+    damping_ratio: float
+    damping_ratio_with_friction: float | None
+    ride_frequency: float | None
+
+
+@dataclass(frozen=True)
+class WheelFacts:
+    """What there is to say of one wheel; lengths in m, angles in rad, ISO 8855 chassis axes.
+
+    Attributes
+    ----------
+    title : str
+        What its suspension is called.
+    side : str
+        'left' or 'right'.
+    geometry : dict
+        Lengths and angles at design, by name; those that end in ``_angle`` are angles.
+    reach : Range
+        Wheel heights that can be reached with the rack in its middle, and what ends them.
+    travel : tuple of float
+        The same as travel from design: lowest and highest.
+    extension_travel : float or None
+        Travel at which the strut is fully extended; None if it never is, or there is none.
+    equilibrium : Equilibrium or None
+        None if there is no stable one.
+    problems : tuple of str
+        What keeps the suspension from working, or is almost surely a mistake.
+    notes : tuple of str
+        What works but is unusual.
+    """
+
+    title: str
+    side: str
+    geometry: dict[str, float]
+    reach: Range
+    travel: tuple[float, float]
+    extension_travel: float | None
+    equilibrium: Equilibrium | None
+    problems: tuple[str, ...]
+    notes: tuple[str, ...]
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the same as plain numbers, texts and nested dictionaries, SI units."""
+        rest = self.equilibrium
+        return {
+            "suspension": self.title,
+            "side": self.side,
+            "geometry": dict(self.geometry),
+            "travel": {
+                "rebound": self.travel[0],
+                "rebound_limit": self.reach.lower_limit,
+                "bump": self.travel[1],
+                "bump_limit": self.reach.upper_limit,
+                "strut_fully_extended": self.extension_travel,
+            },
+            "equilibrium": None if rest is None else dict(vars(rest)),
+            "problems": list(self.problems),
+            "notes": list(self.notes),
+        }
+
+
+def facts_of(model: Model) -> WheelFacts:
+    """Return what there is to say of the wheel of a corner."""
+    reach, design = travel_range(model), design_height(model)
+    travel = reach.height[0] - design, reach.height[1] - design
+    problems: list[str] = []
+    rest = None
+    try:
+        rest = _equilibrium(model)
+    except PositionError as error:
+        problems.append(str(error))
+    extension = _extension_travel(model, reach)
+    seen = plausibility(model.suspension)
+    return WheelFacts(
+        title=model.suspension.TITLE,
+        side=model.suspension.vehicle.side,
+        geometry=_geometry(model),
+        reach=reach,
+        travel=travel,
+        extension_travel=extension,
+        equilibrium=rest,
+        problems=(*seen.problems, *problems),
+        notes=(*seen.notes, *_notes(model.suspension.extended(), travel, rest, extension)),
+    )
+
+
+def _equilibrium(model: Model) -> Equilibrium:
+    state = equilibrium(model)
+    signals = {name: float(value) for name, value in model.signals(state).items()}
+    mode = paper.rest(model).hop
+    smooth = without_friction(model)
+    sliding = mode if smooth is model else paper.rest(smooth).hop
+    height = signals["wheel_center_z"]
+    return Equilibrium(
+        height=height,
+        travel=height - design_height(model),
+        signals=signals,
+        frequency=sliding.natural_frequency,
+        damping_ratio=sliding.damping_ratio,
+        damping_ratio_with_friction=None if smooth is model else mode.damping_ratio,
+        ride_frequency=_ride_frequency(model, state),
+    )
+
+
+def without_friction(model: Model) -> Model:
+    """Return the model without friction, the same one if it has none.
+
+    Friction is smoothed near rest, so that it has a slope there: a damper of friction over speed,
+    many times what the wheel meets in any motion that is seen. At rest it has no force.
+
+    Parameters
+    ----------
+    model : Model
+
+    Returns
+    -------
+    Model
+    """
+    with Arguments("without_friction") as given:
+        given.kind("model", model, Model, Model.NEEDED)
+    smooth = model.suspension.without_friction()
+    return model if smooth is model.suspension else model.of_another(smooth)
+
+
+def _ride_frequency(model: Model, state: Array) -> float | None:
+    at_rest = corner(model, state[model.state_names.index(model.names.arm)])
+    # a force acts at the wheel by its motion ratio (virtual work)
+    pushing = (at_rest.spring, *at_rest.stops)
+    carried = -sum(float(spring.force * spring.stroke.slope) for spring in pushing)
+    rate = float(wheel.ride_rate(at_rest))
+    gravity = model.suspension.gravity.acceleration_m_per_s2
+    if carried <= 0.0 or not rate > 0.0:
+        return None
+    return float(np.sqrt(rate * gravity / carried)) / (2.0 * np.pi)
+
+
+def _geometry(model: Model) -> dict[str, float]:
+    points = model.suspension.hardpoints
+    at_design = corner(model, model.design_state[0])
+    axis, center = at_design.steering_axis, points.metres("wheel_center")
+    found = {
+        "half_track": abs(float(center[1])),
+        "wheel_center_height": float(center[2]),
+        **model.suspension.lengths(),
+    }
+    if axis is None:
+        return found
+    outer = points.metres("tie_rod_outer")
+    return found | {
+        "tie_rod_length": points.distance("tie_rod_outer", "tie_rod_inner"),
+        "steering_arm_length": distance_from_line(outer, axis.lower, axis.upper),
+        "caster_angle": float(wheel.caster(at_design)),
+        "kingpin_inclination_angle": float(wheel.kingpin_inclination(at_design)),
+    }
+
+
+def _extension_travel(model: Model, reach: Range) -> float | None:
+    """Return the travel at which what the wheel hangs on is drawn out, looked up in a table.
+
+    None if nothing is, or it never is.
+    """
+    extended = model.suspension.extended()
+    if extended is None:
+        return None
+    angles = np.linspace(*reach.arm_angle, 721)
+    states = np.tile(model.design_state, (angles.size, 1))
+    states[:, 0] = angles
+    signals: dict[str, Array] = model.signals(states)
+    longer = signals[extended.signal] - extended.length
+    # from low to high positions it becomes shorter
+    below = np.flatnonzero((longer[:-1] > 0.0) & (longer[1:] <= 0.0))
+    if below.size == 0:
+        return None
+    first = int(below[-1])
+    height = signals["wheel_center_z"][first : first + 2]
+    crossing = np.interp(0.0, -longer[first : first + 2], height)
+    return float(crossing) - design_height(model)
+
+
+def _notes(
+    extended: Extended | None,
+    travel: tuple[float, float],
+    rest: Equilibrium | None,
+    extension: float | None,
+) -> list[str]:
+    notes = [
+        f"only {abs(end) * 1e3:.1f} mm of {name} can be reached from design."
+        for end, name in zip(travel, ("rebound", "bump"), strict=True)
+        if abs(end) < _LITTLE_TRAVEL
+    ]
+    if rest is None:
+        return notes
+    if abs(rest.travel) > _FAR_FROM_DESIGN:
+        notes.append(
+            f"the wheel rests {rest.travel * 1e3:+.1f} mm from design. Where the spring is free "
+            "of force and [tyre] free_height_mm decide where."
+        )
+    if extended is not None and extension is not None and rest.travel < extension:
+        notes.append(f"at rest, the {extended.name} is longer than {extended.key}.")
+    if rest.signals["tyre_force"] <= 0.0:
+        notes.append("the tyre carries nothing at rest: check [tyre] free_height_mm.")
+    if not np.isfinite(rest.frequency):
+        notes.append("the wheel does not swing about this rest: pushed off it, it does not return.")
+    elif rest.damping_ratio <= 0.0:
+        notes.append("the wheel-hop mode is not damped.")
+    if rest.damping_ratio >= 1.0:
+        notes.append("the wheel-hop mode is overdamped.")
+    return notes

@@ -1,0 +1,539 @@
+"""The protocol that every analysis is written for: an assembly has wheels."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.quantities import variable
+from ..analysis.plausibility import Plausibility
+from ..corner.bushes import Bush
+from ..corner.corner import Array
+from ..input.vehicle import Tyre
+from ..models.axle.file import Held as TorqueHolder
+from ..models.model import Model
+from .anti_roll_bar import Bar, RollBar
+from .coupling import BodyPose
+from .held import Held
+from .load import Load, known
+from .measures.measure import Measure
+from .poses import Assembled
+from .quantity import RACK, Quantity
+from .rig import Extent, RigMotion, RigPosition, WheelReach
+from .soft_lines import SoftLines
+from .wheel_names import WheelNames
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass(frozen=True)
+class Bushings:
+    """The bushes of an assembly, and how far its rack gives way.
+
+    Attributes
+    ----------
+    by_suffix : mapping of str to list of Bush
+        By what ends the names of the parts that they are between, as of `Assembly.poses`.
+    rack : float
+        Displacement of the rack along its axis by a unit force [m/N]; zero where it is held.
+    """
+
+    by_suffix: Mapping[str, list[Bush]]
+    rack: float
+
+    @property
+    def every(self) -> list[Bush]:
+        """All bushes."""
+        return [bush for bushes in self.by_suffix.values() for bush in bushes]
+
+
+class Assembly(ABC):
+    """A corner, an axle or a rigid axle.
+
+    Its parts may be in several groups that only an anti-roll bar and a rack join, as the two sides
+    of an axle are: whatever is of a group is by the suffix of the names of its parts, ``""``,
+    ``"_left"`` or ``"_right"``.
+
+    Attributes
+    ----------
+    wheels : tuple of str
+        The names of the wheels, 'left' and 'right', or the side of a corner; those of the groups
+        in turn.
+    motions : mapping of str to RigMotion
+        What a rig can do with it, the usual motion first.
+    model : Model, AxleModel or RigidAxleModel
+        Its equations of motion; those of an axle are derived and compiled when they are first
+        needed.
+    """
+
+    wheels: tuple[str, ...]
+    motions: Mapping[str, RigMotion]
+    model: Any
+
+    NEEDED: ClassVar[str] = (
+        "a kintrafo.Suspension or Model, an Axle, or a RigidAxle is needed; "
+        "kintrafo.load reads each of them"
+    )
+
+    # -- what it is -------------------------------------------------------------------------------
+
+    @property
+    @abstractmethod
+    def subject(self) -> Any:
+        """What was read from a file: a Suspension, an Axle or a RigidAxle."""
+
+    @property
+    def design_sections(self) -> dict[str, dict[str, Any]]:
+        """The sections of its files, whose numbers studies vary, by what begins their places."""
+        return {"": self.subject.to_dict()}
+
+    @property
+    @abstractmethod
+    def steered(self) -> bool:
+        """Whether it has a rack."""
+
+    @property
+    @abstractmethod
+    def tyres(self) -> Sequence[Tyre]:
+        """The tyres, by wheel."""
+
+    @property
+    @abstractmethod
+    def tyre_radii(self) -> Sequence[float | None]:
+        """The radii of the wheels as thin discs [m]; None where nothing says it."""
+
+    @property
+    def moves_rigidly(self) -> bool:
+        """Whether it moves with rigid joints: five rods hold a rigid axle."""
+        return True
+
+    @property
+    def simplified(self) -> Sequence[str]:
+        """What linear compliance leaves out, in words."""
+        return ()
+
+    @property
+    def on_a_beam(self) -> bool:
+        """Whether one body carries both wheels, so that it has a steer angle of its own."""
+        return False
+
+    @property
+    def usual_motion(self) -> str:
+        """The motion of a rig in which all wheels rise and fall together."""
+        return next(iter(self.motions))
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether one side is the mirror image of the other."""
+        return True
+
+    @property
+    @abstractmethod
+    def words(self) -> str:
+        """What it is, in sentences."""
+
+    @property
+    def own_sections(self) -> Mapping[str, Any]:
+        """What its own file says besides the files of its sides, by section; of an axle."""
+        return {}
+
+    # -- where a rig holds it ---------------------------------------------------------------------
+
+    @abstractmethod
+    def usual(
+        self, motion: str, extent: Extent | None = None, *, travel: float = 0.0, rack: float = 0.0
+    ) -> Array:
+        """Return the usual positions of a motion, zero included, in SI units.
+
+        Parameters
+        ----------
+        motion : str
+        extent : Extent, optional
+            How far it goes, where that is not the usual.
+        travel, rack : float, optional
+            What is held meanwhile [m].
+        """
+
+    @abstractmethod
+    def position(
+        self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
+    ) -> RigPosition:
+        """Return where wheels and rack are along a motion.
+
+        Parameters
+        ----------
+        motion : str
+        along : ndarray, shape (n,)
+            What varies, see `RigMotion`.
+        travel : float, optional
+            Height of the wheels above design where the motion is one of the steering [m].
+        rack : float, optional
+            Displacement of the rack in other motions [m].
+
+        Raises
+        ------
+        PositionError
+            If a position is out of reach.
+        """
+
+    def at_travel(self, travels: Array, rack: Array | float = 0.0) -> RigPosition:
+        """Return where all wheels are at some heights above design [m], in parallel."""
+        return RigPosition(dict.fromkeys(self.wheels, travels), np.asarray(rack, float))
+
+    def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
+        """Return what a motion holds, for the coordinates of its results."""
+        del motion, travel
+        return {RACK: rack} if self.steered else {}
+
+    @abstractmethod
+    def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
+        """Refuse what cannot be held in a motion: a travel, or a rack that it moves itself."""
+
+    def refuse_motion(self, motion: str) -> None:
+        """Refuse a motion that it does not have, with the reason where there is one.
+
+        Raises
+        ------
+        InputError
+        """
+        del motion
+
+    def refuse_of_steering(self, names: Iterable[str]) -> None:
+        """Refuse characteristics that it does not have because nothing steers it.
+
+        Raises
+        ------
+        InputError
+        """
+        del names
+
+    def refuse_positions(self, given: Arguments, motion: str, along: Array) -> None:
+        """Refuse positions that a motion does not have, whatever the wheels reach."""
+        del given, motion, along
+
+    @property
+    def steered_by(self) -> str | None:
+        """The motion in which the steering moves, if it has one."""
+        return None
+
+    @abstractmethod
+    def coordinates_of(self, suffix: str) -> dict[str, str]:
+        """Return what the coordinates of a group are called, by its states in `poses`."""
+
+    @abstractmethod
+    def joints(self, suffix: str) -> tuple[str, ...]:
+        """Return the moving hardpoints of a group of parts, by their names in `poses`."""
+
+    # -- what it is measured by -------------------------------------------------------------------
+
+    @abstractmethod
+    def measures(self, motion: str) -> tuple[Measure, ...]:
+        """Return its characteristics over a motion."""
+
+    @abstractmethod
+    def kinematics(self, position: RigPosition) -> Any:
+        """Return what the formulas of its measures take: how wheels are and how they move first.
+
+        Raises
+        ------
+        PositionError
+            If a position is out of reach; the message states the range.
+        InputError
+            If it does not move with rigid joints, or a drop link does not reach.
+        """
+
+    # -- its equations of motion ------------------------------------------------------------------
+
+    @property
+    @abstractmethod
+    def coordinates(self) -> tuple[str, ...]:
+        """The states that move the wheels up and down, by name."""
+
+    @abstractmethod
+    def names_of(self, wheel: str) -> WheelNames:
+        """Return what the equations call what belongs to a wheel."""
+
+    def at_rest(self, coordinates: Array, rack: float) -> tuple[Array, Array]:
+        """Return states and inputs without rates, (..., states) and (..., inputs).
+
+        Parameters
+        ----------
+        coordinates : ndarray, shape (..., coordinates)
+        rack : float
+            Displacement of the rack, if there is one [m].
+        """
+        model, lead = self.model, coordinates.shape[:-1]
+        states = np.broadcast_to(model.design_state, (*lead, model.design_state.size)).copy()
+        states[..., [model.state_names.index(name) for name in self.coordinates]] = coordinates
+        inputs = np.zeros((*lead, len(model.input_names)))
+        if self.steered:
+            inputs[..., model.input_names.index("rack_position")] = rack
+        return states, inputs
+
+    @abstractmethod
+    def coordinates_at_rest(self, held: Held) -> Array:
+        """Return the coordinates of the stable state of rest, shape (coordinates,).
+
+        Raises
+        ------
+        PositionError
+            If there is none.
+        """
+
+    def refuse_unsteered(self, what: str) -> None:
+        """Refuse what moves a rack where there is none.
+
+        Raises
+        ------
+        InputError
+            That says so of the kind of suspension.
+        """
+        del what
+
+    # -- its parts --------------------------------------------------------------------------------
+
+    @abstractmethod
+    def poses(self, position: RigPosition) -> dict[str, Assembled]:
+        """Return its parts with rigid joints, by the suffixes of their names.
+
+        Raises
+        ------
+        PositionError
+            If a position is out of reach; the message states the range.
+        InputError
+            If a drop link does not reach.
+        """
+
+    @abstractmethod
+    def soft_lines(self, poses: Mapping[str, Assembled]) -> dict[str, SoftLines]:
+        """Return how springs and stops give way for a unit force along each.
+
+        Raises
+        ------
+        InputError
+            If the springs hold no wheel there.
+        """
+
+    # -- where it stands --------------------------------------------------------------------------
+
+    ENDS: ClassVar[str] = "the linkage reaches no farther"
+    """What ends the way of the wheels, in words."""
+
+    @property
+    def independent(self) -> Sequence["Assembly"]:
+        """The assemblies that stand independently of each other; the wheels are theirs in turn."""
+        return (self,)
+
+    @property
+    @abstractmethod
+    def design_wheel_coordinates(self) -> Array:
+        """The coordinates at design, see `at_wheel_coordinates`."""
+
+    @abstractmethod
+    def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
+        """Return the coordinates where some wheels are at heights above design.
+
+        Parameters
+        ----------
+        travels : sequence of float or None
+            By wheel [m]; None: as at design.
+        rack : float
+            Displacement of the rack [m].
+
+        Returns
+        -------
+        ndarray, shape (wheels,)
+
+        Raises
+        ------
+        PositionError
+            If a wheel cannot be there.
+        """
+
+    @abstractmethod
+    def wheel_reach(self, rack: float) -> Sequence[WheelReach] | None:
+        """Return how far each wheel goes; None where it depends on the other one.
+
+        Raises
+        ------
+        PositionError
+            If the rack [m] cannot be there.
+        """
+
+    @abstractmethod
+    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, Assembled]:
+        """Return its parts at rest, by the suffixes of their names.
+
+        Parameters
+        ----------
+        coordinates : ndarray, shape (n, wheels)
+            One for each wheel, which increases as the wheel rises.
+        racks : ndarray, shape (n,)
+            Displacements of the rack [m].
+        """
+
+    def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
+        """Tell where parts within the reach of each wheel are together, (n,)."""
+        del racks
+        return np.ones(len(coordinates), dtype=bool)
+
+    def locked(self, coordinates: Array) -> NDArray[np.bool_]:
+        """Tell where a linkage is so near the end of its reach that it carries anything, (n,)."""
+        return np.zeros(len(coordinates), dtype=bool)
+
+    def require_rigid_motion(self) -> None:  # noqa: B027 (most have nothing to refuse)
+        """Refuse an assembly that rigid joints do not let move.
+
+        Raises
+        ------
+        InputError
+        """
+
+    @abstractmethod
+    def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
+        """Tell whether a wheel has a stop."""
+
+    # -- loads ------------------------------------------------------------------------------------
+
+    def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueHolder | None:
+        """Return what holds the torque of brakes or drive; None where nothing drives it."""
+        return "carrier" if what == "brakes" else "body"
+
+    @property
+    @abstractmethod
+    def rules(self) -> tuple[str, ...]:
+        """What decides where statics alone does not."""
+
+    def acting(self, poses: Mapping[str, Assembled]) -> dict[str, list[Load]]:
+        """Return weights, and forces of springs, dampers, stops and of an anti-roll bar."""
+        return {suffix: known(each) for suffix, each in poses.items()}
+
+    def between(
+        self, poses: Mapping[str, Assembled], loads: Sequence[Load]
+    ) -> tuple[list[Load], dict[str, BodyPose]]:
+        """Return the loads on what is between the groups and the chassis: rack, anti-roll bar.
+
+        Parameters
+        ----------
+        poses : mapping
+            By suffix.
+        loads : sequence of Load
+            All others, with the suffixes in their names.
+
+        Returns
+        -------
+        loads : list of Load
+        places : dict of str to BodyPose
+            These parts.
+        """
+        del poses, loads
+        return [], {}
+
+    def further(
+        self, over: str, poses: Mapping[str, Assembled], found: "xr.Dataset"
+    ) -> "dict[str, xr.Variable]":
+        """Return what follows from all loads: forces of rack and rods, torque of the bar.
+
+        Parameters
+        ----------
+        over : str
+            Dimension of the positions.
+        poses : mapping
+        found : xarray.Dataset
+            The loads.
+        """
+        del found
+        if self.bar is None:
+            return {}
+        words = f"torque of the anti-roll bar, {self.BAR_SIGN}"
+        return {"bar_torque": variable(over, self.bar_torque(poses), words, "N m")}
+
+    @abstractmethod
+    def in_motion(
+        self, states: Array, inputs: Array
+    ) -> tuple[dict[str, Assembled], dict[str, Array]]:
+        """Return its parts in states of its equations, and the rates of these, by suffix."""
+
+    # -- bushes -----------------------------------------------------------------------------------
+
+    @abstractmethod
+    def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
+        """Return bushes as a caller describes them, or those of the file.
+
+        Parameters
+        ----------
+        given : Arguments
+            Gets what is wrong.
+        bushings : mapping or None
+            By hardpoint; of an axle those of one side, and the other has their image.
+        """
+
+    def with_bushings(self, bushings: Mapping[str, Any]) -> Any:
+        """Return its subject on other bushes than those of its file, see `bushes`."""
+        return self.subject.with_changes({"bushings": dict(bushings)})
+
+    @property
+    @abstractmethod
+    def has_bushes(self) -> bool:
+        """Whether its file has bushes."""
+
+    # -- what its summary has ---------------------------------------------------------------------
+
+    MODES: ClassVar[Mapping[str, str]] = {}
+    """Coordinates of both wheels together, and what their modes on the tyres are called."""
+
+    @property
+    @abstractmethod
+    def heading(self) -> str:
+        """What it is called."""
+
+    @property
+    def corners(self) -> Mapping[str, Model]:
+        """The wheels that move by themselves; of two that are mirror images one."""
+        return {}
+
+    def plausibility(self) -> Plausibility:
+        """Return what is unlikely of it, besides what is of its corners."""
+        return Plausibility((), ())
+
+    def described(self) -> dict[str, str]:
+        """Return what it is at design in words, besides its corners, by what stands before."""
+        return {}
+
+    def reach(self) -> dict[str, tuple[float, bool]]:
+        """Return how far both wheels go, 'down' and 'up' [m], and whether something ends that."""
+        return {}
+
+    @abstractmethod
+    def without_friction(self) -> "Assembly":
+        """Return the same without friction.
+
+        Raises
+        ------
+        InputError
+            If it moves only on its bushes.
+        """
+
+    # -- what couples the wheels ------------------------------------------------------------------
+
+    BAR_SIGN: ClassVar[str] = ""
+    """When the torque of the anti-roll bar is positive."""
+
+    @property
+    def bar(self) -> Bar | RollBar | None:
+        """The anti-roll bar, if it has one."""
+        return None
+
+    def bar_loads(self, poses: Mapping[str, Assembled]) -> dict[str, Load]:
+        """Return what a unit torque of the bar does to each group; empty without a bar."""
+        del poses
+        return {}
+
+    def bar_torque(self, poses: Mapping[str, Assembled]) -> Array:
+        """Return the torque of the bar with rigid joints, (n,) [N m]; zero without one."""
+        return np.zeros(len(next(iter(poses.values())).states))

@@ -1,0 +1,489 @@
+"""An axle as an assembly: two corners, with a rack and an anti-roll bar between them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...core.quantities import variable
+from ...core.vectors import unit_vector
+from ..analysis.plausibility import Plausibility
+from ..corner.bushes import described_bushings, mirrored_bushings, softness_of_rack
+from ..corner.corner import Array
+from ..input.vehicle import Tyre
+from ..models.axle import Axle
+from ..models.axle.axle import LEFT, RIGHT
+from ..models.axle.equations import AxleModel
+from ..models.model import Model
+from ..models.reach import PositionError
+from . import motions
+from .anti_roll_bar import Bar
+from .assembly import Assembly, Bushings
+from .axle_coupling import on_the_bar, pull_of_bar, rules_of, torque_of_bar, turn_of_half
+from .corner import CornerAssembly, lines_of, poses_of
+from .coupling import STEERING, BodyPose, on_the_rack
+from .held import Held
+from .load import RACK as THE_RACK
+from .load import Load
+from .measures.axle import OVER_STEERING, OVER_TRAVEL
+from .measures.measure import Measure
+from .pair import Pair
+from .poses import Assembled, Poses
+from .quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
+from .rest import settled
+from .rig import Extent, RigMotion, RigPosition, WheelReach
+from .soft_lines import SoftLines
+from .steering_wheel import rack_of
+from .wheel_names import WheelNames
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+SIDES = (LEFT, RIGHT)
+_NO_REST = (
+    "the axle has no stable equilibrium near that of its sides. Check the anti-roll bar's "
+    "free_twist_deg and rate, or the heights of the road."
+)
+# Motions of the rack, both wheels at one height.
+_STEERING = ("steer", "rack")
+
+
+class AxleAssembly(Assembly):
+    """An axle of two corners.
+
+    Parameters
+    ----------
+    axle : Axle
+    model : AxleModel, optional
+        Its equations, where there are some already.
+    """
+
+    wheels = SIDES
+    ENDS = "the linkage or a drop link reaches no farther"
+    BAR_SIGN = "positive with the left half turned the farther"
+
+    def __init__(self, axle: Axle, model: AxleModel | None = None) -> None:
+        self.axle, self._model = axle, model
+        self.motions = motions_of_two(motions.MOTIONS)
+        if self.steered:
+            over = STEERING_WHEEL if motions.turns_the_rack(axle) else RACK
+            self.motions |= {
+                "steer": RigMotion(over, motions.MOTIONS["steer"], "steering"),
+                "rack": RigMotion(RACK, "the rack moves, both wheels at one height", "the rack"),
+            }
+
+    @property
+    def subject(self) -> Axle:
+        """The axle."""
+        return self.axle
+
+    @property
+    def design_sections(self) -> dict[str, dict[str, Any]]:
+        """The sections of its own file, and of both sides: of one and its image, and of each."""
+        whole = self.axle.to_dict()
+        found = {f"{side}.": each.to_dict() for side, each in self.axle.sides.items()}
+        if "side" in whole:
+            found = {"side.": whole.pop("side")} | found
+        own = {name: values for name, values in whole.items() if name not in SIDES}
+        return found | {"": own}
+
+    @property
+    def steered(self) -> bool:
+        """Whether it has a rack."""
+        return self.axle.steered()
+
+    @property
+    def tyres(self) -> Sequence[Tyre]:
+        """The tyres, the left one first."""
+        return [side.tyre for side in self.axle.sides.values()]
+
+    @property
+    def tyre_radii(self) -> Sequence[float | None]:
+        """The radii of the wheels [m]."""
+        return [side.tyre_radius() for side in self.axle.sides.values()]
+
+    @property
+    def has_bushes(self) -> bool:
+        """Whether the file of a side has bushes."""
+        return any(side.bushings for side in self.axle.sides.values())
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether both sides have the same data."""
+        return self.axle.symmetric
+
+    @property
+    def words(self) -> str:
+        """What it is, in sentences."""
+        on_rack = ", on one rack" if self.steered else ""
+        words = [
+            f"Both wheels of the {self.axle.heading()}{on_rack}.",
+            "One side is the mirror image of the other." if self.symmetric else "The sides differ.",
+        ]
+        bar = self.axle.bar
+        if bar is not None:
+            rate, part = np.deg2rad(bar.rate()), bar.link_on.replace("_", " ")
+            soft = ", its bushes or drop links included" if bar.gives_way() else ""
+            words.append(f"Anti-roll bar: {rate:.4g} N m/deg{soft}, drop links on the {part}.")
+        return " ".join(words)
+
+    @property
+    def own_sections(self) -> Mapping[str, Any]:
+        """What its own file says."""
+        axle = self.axle
+        found = {
+            "anti_roll_bar": axle.bar,
+            "drive": axle.drive,
+            "brakes": axle.brakes,
+            "steering": axle.steering,
+        }
+        return {name: section for name, section in found.items() if section is not None}
+
+    def usual(
+        self, motion: str, extent: Extent | None = None, *, travel: float = 0.0, rack: float = 0.0
+    ) -> Array:
+        """Return the usual positions of a motion, zero included [m] or [rad]."""
+        del travel, rack
+        far = extent or Extent()
+        if motion == "roll":
+            return motions.rolls(self.axle, far)
+        if motion == "steer":
+            angles = motions.steering_angles(self.axle, far)
+            return motions.racks(self.axle, far) if angles is None else angles
+        if motion == "rack":
+            return motions.racks(self.axle, far)
+        return motions.travels(self.axle, far, (motion,) if motion in SIDES else SIDES)
+
+    def position(
+        self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
+    ) -> RigPosition:
+        """Return where wheels and rack are along a motion."""
+        if motion in _STEERING:
+            turns = self.motions[motion].along is STEERING_WHEEL
+            racks, per_turn = rack_of(self.axle, along) if turns else (along, None)
+            return RigPosition(dict.fromkeys(SIDES, np.full_like(along, travel)), racks, per_turn)
+        if motion == "roll":
+            left, right = motions.opposite(self.axle, along, rack)
+        else:
+            left, right = (
+                along if motion in ("bump", side) else np.zeros_like(along) for side in SIDES
+            )
+        return RigPosition({LEFT: left, RIGHT: right}, np.asarray(rack, float))
+
+    def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
+        """Return what a motion holds."""
+        return {TRAVEL: travel} if motion in _STEERING else super().held_in(motion, travel, rack)
+
+    def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
+        """Refuse a rack that the motion moves, and a travel that is for steering."""
+        if motion in _STEERING and rack:
+            given.refuse(f"rack_position: the motion {motion!r} moves the rack. Leave it out.")
+        if motion not in _STEERING and travel:
+            given.refuse("travel: it is for the motion 'steer'; others move the wheels by along.")
+
+    @cached_property
+    def model(self) -> AxleModel:
+        """Its equations, derived and compiled when they are first needed."""
+        return AxleModel(self.axle) if self._model is None else self._model
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The angles of the arms."""
+        return tuple(f"{side}_{model.names.arm}" for side, model in self.axle.models.items())
+
+    def names_of(self, wheel: str) -> WheelNames:
+        """Return what its equations call what belongs to a wheel."""
+        names, prefix = self.axle.models[wheel].names, f"{wheel}_"
+        signals = f"{prefix}{self.axle.end}_"
+        return WheelNames(prefix, signals, f"{prefix}{names.spin}", f"{prefix}{names.actuator}")
+
+    def coordinates_at_rest(self, held: Held) -> Array:
+        """Return the arm angles of the state of rest nearest to that of the sides without a bar."""
+        alone = held.without_inputs()
+        sides = [CornerAssembly(model) for model in self.axle.models.values()]
+        near = np.concatenate([side.coordinates_at_rest(alone) for side in sides])
+        return settled(self, held, near, _NO_REST)
+
+    def refuse_unsteered(self, what: str) -> None:
+        """Refuse what moves a rack where there is none."""
+        self.axle.right.refuse_without_rack(what)
+
+    def refuse_positions(self, given: Arguments, motion: str, along: Array) -> None:
+        """Refuse angles of a steering wheel whose motion of the rack nothing says, or beyond it."""
+        if motion != "steer":
+            return
+        if self.motions[motion].along is not STEERING_WHEEL:
+            given.refuse(
+                "along: nothing says how the steering wheel moves the rack. Give [rack] "
+                "travel_per_turn_mm in the hardpoint file, or [steering] in the axle's; or take "
+                "the motion 'rack', over displacements of it."
+            )
+        elif self.axle.steering is not None:
+            problem = self.axle.steering.beyond(along)
+            if problem:
+                given.refuse(problem)
+
+    @property
+    def steered_by(self) -> str | None:
+        """The motion of the steering wheel, or of the rack where nothing says how it moves that."""
+        turns = self.steered and self.motions["steer"].along is STEERING_WHEEL
+        return "steer" if turns else "rack" if self.steered else None
+
+    def refuse_motion(self, motion: str) -> None:
+        """Refuse steering without a rack."""
+        if motion in ("rack", "steer"):
+            self.axle.right.refuse_without_rack(f"the motion {motion!r}")
+
+    def coordinates_of(self, suffix: str) -> dict[str, str]:
+        """Return what the arm's angle of a side is called."""
+        return {self.axle.models[suffix.removeprefix("_")].names.arm: "arm_angle"}
+
+    def joints(self, suffix: str) -> tuple[str, ...]:
+        """Return the moving hardpoints of a side."""
+        return self.axle.sides[suffix.removeprefix("_")].hardpoints.JOINTS
+
+    def measures(self, motion: str) -> tuple[Measure, ...]:
+        """Return its characteristics over a motion."""
+        return OVER_STEERING if motion in _STEERING else OVER_TRAVEL
+
+    def kinematics(self, position: RigPosition) -> Pair:
+        """Return how both wheels are and how they move first."""
+        left, right = (position.travels[side] for side in SIDES)
+        return Pair.at(self.axle, left, right, position.rack, position.per_turn)
+
+    def poses(self, position: RigPosition) -> dict[str, Assembled]:
+        """Return the parts of both sides with rigid joints."""
+        found: dict[str, Assembled] = {}
+        for side, model in self.axle.models.items():
+            poses = poses_of(model, position.travels[side], position.rack)
+            if self.axle.halves:
+                _, turn = turn_of_half(self.axle, side, poses)
+                refuse_loose_link(side, turn, np.asarray(position.travels[side]))
+            found[f"_{side}"] = poses
+        return found
+
+    def soft_lines(self, poses: Mapping[str, Assembled]) -> dict[str, SoftLines]:
+        """Return how springs and stops of both sides give way."""
+        return {suffix: lines_of(each) for suffix, each in poses.items()}
+
+    @cached_property
+    def _corners(self) -> dict[str, CornerAssembly]:
+        return {side: CornerAssembly(model) for side, model in self.axle.models.items()}
+
+    @property
+    def independent(self) -> Sequence[Assembly]:
+        """The sides, if no anti-roll bar joins them."""
+        return (self,) if self.axle.halves else tuple(self._corners.values())
+
+    @property
+    def design_wheel_coordinates(self) -> Array:
+        """Those of both sides."""
+        return np.concatenate([one.design_wheel_coordinates for one in self._corners.values()])
+
+    def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
+        """Return the coordinates where some wheels are at heights above design."""
+        found = []
+        for (side, one), travel in zip(self._corners.items(), travels, strict=True):
+            try:
+                found.append(one.wheel_coordinates([travel], rack))
+            except PositionError as error:
+                raise PositionError(f"{side}: {error}") from None
+        return np.concatenate(found)
+
+    def wheel_reach(self, rack: float) -> list[WheelReach]:
+        """Return how far each wheel goes by itself."""
+        return [reach for one in self._corners.values() for reach in one.wheel_reach(rack)]
+
+    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, Assembled]:
+        """Return its parts at rest; the coordinates are those of the sides."""
+        sides = enumerate(self._corners.items())
+        return {f"_{side}": one.at_angles(coordinates[:, i], racks) for i, (side, one) in sides}
+
+    def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
+        """Tell where the drop links reach."""
+        found = super().reached(coordinates, racks)
+        for i, side in enumerate(self.axle.halves):
+            poses = self._corners[side].at_angles(coordinates[:, i], racks)
+            found &= np.isfinite(turn_of_half(self.axle, side, poses)[1])
+        return found
+
+    def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
+        """Tell whether a wheel has a stop."""
+        return getattr(self.axle.sides[wheel], which) is not None
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """What decides where statics alone does not."""
+        own = [rule for side in self.axle.sides.values() for rule in side.structure().rules]
+        return tuple(dict.fromkeys([*own, *rules_of(self.axle)]))
+
+    def acting(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
+        """Return what acts on both sides, the drop links included."""
+        found = super().acting(poses)
+        if self.axle.halves:
+            torque = self.bar_torque(poses)
+            for side in SIDES:
+                pull = pull_of_bar(self.axle, side, poses[f"_{side}"], torque)
+                found[f"_{side}"].append(pull)
+        return found
+
+    def between(
+        self, poses: Mapping[str, Assembled], loads: Sequence[Load]
+    ) -> tuple[list[Load], dict[str, BodyPose]]:
+        """Return the loads on the anti-roll bar with its drop links, and on the rack."""
+        bar, places = on_the_bar(self.axle, poses, loads) if self.axle.halves else ([], {})
+        if not self.steered:
+            return bar, places
+        rack, of_rack = on_the_rack(self._rack_axis, loads, "rack_middle")
+        return [*bar, *rack], places | of_rack
+
+    @property
+    def _rack_axis(self) -> Array:
+        return unit_vector(self.axle.right.rack.axis)
+
+    def further(
+        self, over: str, poses: Mapping[str, Assembled], found: "xr.Dataset"
+    ) -> "dict[str, xr.Variable]":
+        """Return the force of the steering on the rack, and the torque of the bar."""
+        of_bar = super().further(over, poses, found)
+        if not self.steered:
+            return of_bar
+        (row,) = np.flatnonzero((found["part"] == THE_RACK) & (found["by"] == STEERING))
+        force = found["force"].values[:, row] @ self._rack_axis
+        words = "force of the steering on the rack along its axis"
+        return {"rack_force": variable(over, force, words, "N")} | of_bar
+
+    def in_motion(
+        self, states: Array, inputs: Array
+    ) -> tuple[dict[str, Assembled], dict[str, Array]]:
+        """Return the parts of both sides in states of the whole axle, and the rates of these."""
+        model = self.model
+        by_time = model.evaluate("rhs", states, inputs)
+        poses: dict[str, Assembled] = {}
+        rates = {}
+        for side, corner in model.corners.items():
+            columns = [model.state_names.index(f"{side}_{name}") for name in corner.state_names]
+            own = [f"{side}_{name}" for name in corner.input_names]
+            given = [
+                model.input_names.index(name if name in model.input_names else shared)
+                for name, shared in zip(own, corner.input_names, strict=True)
+            ]
+            poses[f"_{side}"] = Poses.of(corner, states[:, columns], inputs[:, given])
+            rates[f"_{side}"] = by_time[:, columns]
+        return poses, rates
+
+    def described_bushings(
+        self, given: Arguments, bushings: Mapping[str, Any] | None
+    ) -> dict[str, dict[str, Any]]:
+        """Return what is said of the bushes of both sides: the files', or what is given, mirrored.
+
+        What is wrong of the latter is told of the side that it is given for.
+        """
+        if bushings is None:
+            return {
+                side: described_bushings(given, None, suspension.bushings)
+                for side, suspension in self.axle.sides.items()
+            }
+        one = self.axle.bar_side
+        other = LEFT if one == RIGHT else RIGHT
+        described = described_bushings(given, bushings, None)
+        with_one = Arguments("compliance")
+        self.axle.sides[one].bushes(with_one, described)
+        return {one: described, other: {} if with_one.refused else mirrored_bushings(described)}
+
+    def with_bushings(self, bushings: Mapping[str, Any]) -> Axle:
+        """Return the axle on other bushes than those of its files."""
+        with Arguments("compliance") as given:
+            described = self.described_bushings(given, bushings)
+        changes = {f"{side}.bushings": described[side] for side in SIDES}
+        return self.axle.with_changes(changes)
+
+    def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
+        """Return bushes of both sides, and how far their rack gives way."""
+        described = self.described_bushings(given, bushings)
+        found = {f"_{side}": self.axle.sides[side].bushes(given, described[side]) for side in SIDES}
+        return Bushings(found, softness_of_rack(given, described[self.axle.bar_side]))
+
+    @property
+    def heading(self) -> str:
+        """What it is called."""
+        return self.axle.heading()
+
+    @property
+    def corners(self) -> Mapping[str, Model]:
+        """Both sides, or one where the other is its mirror image."""
+        if self.axle.symmetric:
+            return {self.axle.bar_side: self.axle.models[self.axle.bar_side]}
+        return {side: self.axle.models[side] for side in SIDES}
+
+    def plausibility(self) -> Plausibility:
+        """Return what is unusual of its anti-roll bar."""
+        bent = self.axle.bar is not None and self.axle.bar.free_twist_deg
+        note = "the anti-roll bar is bent at design: the sides' equilibrium is without it"
+        return Plausibility((), (note,) if bent else ())
+
+    def described(self) -> dict[str, str]:
+        """Return its anti-roll bar in words."""
+        bar = self.axle.bar
+        if bar is None:
+            return {}
+        soft = ", its bushes or drop links included" if bar.gives_way() else ""
+        part = bar.link_on.replace("_", " ")
+        rate = np.deg2rad(bar.rate())
+        return {"anti-roll bar": f"{rate:.4g} N m/deg{soft}, drop links on the {part}"}
+
+    def without_friction(self) -> "AxleAssembly":
+        """Return the same without friction."""
+        left, right = (one.without_friction() for one in self.axle.sides.values())
+        return AxleAssembly(replace(self.axle, left=left, right=right))
+
+    @property
+    def bar(self) -> Bar | None:
+        """The anti-roll bar, if it has one."""
+        if self.axle.bar is None:
+            return None
+        halves = self.axle.halves[LEFT], self.axle.halves[RIGHT]
+        return Bar(halves, self.axle.bar.rate(), self.axle.bar.free_twist())
+
+    def bar_loads(self, poses: Mapping[str, Any]) -> dict[str, Load]:
+        """Return the pull of the drop link of each side by a unit torque of the bar."""
+        if not self.axle.halves:
+            return {}
+        return {f"_{side}": pull_of_bar(self.axle, side, poses[f"_{side}"]) for side in SIDES}
+
+    def bar_torque(self, poses: Mapping[str, Any]) -> Array:
+        """Return the torque of the bar with rigid joints, (n,) [N m]."""
+        return torque_of_bar(self.axle, poses) if self.axle.halves else super().bar_torque(poses)
+
+
+def motions_of_two(words: Mapping[str, str]) -> dict[str, RigMotion]:
+    """Return the motions of a rig with two wheels but for steering."""
+    return {
+        "bump": RigMotion(TRAVEL, words["bump"], "parallel wheel travel"),
+        "roll": RigMotion(ROLL, words["roll"], "roll"),
+        LEFT: RigMotion(TRAVEL, words[LEFT], "travel of the left wheel"),
+        RIGHT: RigMotion(TRAVEL, words[RIGHT], "travel of the right wheel"),
+    }
+
+
+def refuse_loose_link(side: str, turn: Array, travels: Array) -> None:
+    """Refuse positions in which the drop link of a side does not reach its lever.
+
+    Raises
+    ------
+    InputError
+    """
+    lost = ~np.isfinite(turn)
+    if lost.any():
+        there = np.broadcast_to(travels, lost.shape)[lost]
+        first = 1e3 * float(there[np.abs(there).argmin()])
+        problem = (
+            f"[anti_roll_bar] the {side} drop link does not reach its lever at {first:+.4g} mm of "
+            "wheel travel. Choose less travel, or move link_top, link_foot or bush."
+        )
+        raise InputError([problem], "axle")

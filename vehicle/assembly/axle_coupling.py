@@ -1,0 +1,110 @@
+"""What both sides of an axle load: the anti-roll bar with its drop links, and the rack."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ...core.vectors import cross
+from ..corner.corner import Array
+from ..models.axle import Axle
+from ..models.axle.axle import LEFT, RIGHT
+from ..models.points import carried
+from .coupling import STILL, BodyPose, on_both, sum_of
+from .load import Load
+from .poses import Poses
+
+SIDES = (LEFT, RIGHT)
+BAR, LINK = "anti_roll_bar", "drop_link"
+
+_OF_BAR = "two bearings of an anti-roll bar share the force along it equally"
+_OF_RACK = "the housing of the rack holds it in the middle between the tie rods"
+
+
+def rules_of(axle: Axle) -> tuple[str, ...]:
+    """Return what decides where statics alone does not."""
+    of_bar, of_rack = (_OF_BAR,) * bool(axle.halves), (_OF_RACK,) * axle.steered()
+    return (*of_bar, *of_rack)
+
+
+def turn_of_half(axle: Axle, side: str, poses: Poses) -> tuple[Array, Array]:
+    """Return the foot of a drop link, (n, 3) [m], and the angle of its half, (n,) [rad]."""
+    half = axle.halves[side]
+    places = {"foot": (half.body, half.foot)}
+    foot = carried(poses.model, places, poses.states, poses.inputs)["foot"]
+    return foot, half.turn(foot)
+
+
+def pull_of_bar(axle: Axle, side: str, poses: Poses, torque: Array | float = 1.0) -> Load:
+    """Return what a torque of the bar does on a side: against more twist of it."""
+    foot, turn = turn_of_half(axle, side, poses)
+    half = axle.halves[side]
+    direction, lever = half.lever(foot, turn)
+    sense = {LEFT: -1.0, RIGHT: 1.0}[side]
+    force = (sense * torque / lever)[:, None] * direction
+    return Load(half.body, "link_foot", LINK, force, np.zeros(3), foot)
+
+
+def torque_of_bar(axle: Axle, poses: Mapping[str, Poses]) -> Array:
+    """Return the torque of the bar, positive with the left half turned the farther, (n,) [N m]."""
+    assert axle.bar is not None
+    left, right = (turn_of_half(axle, side, poses[f"_{side}"])[1] for side in SIDES)
+    torque: Array = axle.bar.rate() * (left - right - axle.bar.free_twist())
+    return torque
+
+
+def on_the_bar(
+    axle: Axle, poses: Mapping[str, Any], loads: Sequence[Load]
+) -> tuple[list[Load], dict[str, BodyPose]]:
+    """Return the loads on the anti-roll bar and its drop links, and on the chassis.
+
+    Parameters
+    ----------
+    axle : Axle
+    poses : mapping of str to Poses
+        Of both sides, by suffix.
+    loads : sequence of Load
+        All others; those of the drop links on the sides are among them.
+
+    Returns
+    -------
+    loads : list of Load
+    places : dict of str to BodyPose
+
+    Notes
+    -----
+    A drop link carries a force along it. The bar, bent as it is, is a body on two bearings at its
+    bushes: forces across the line through them follow from the balance of forces and moments. Where
+    the halves turn about axes that are not on this line, a moment about it is left, half at each.
+    """
+    found, places = [], {}
+    for side in SIDES:
+        (pull,) = (load for load in loads if load.by == f"{LINK}_{side}")
+        _, turn = turn_of_half(axle, side, poses[f"_{side}"])
+        top = axle.halves[side].top_at(turn)
+        link, point = f"{LINK}_{side}", f"link_top_{side}"
+        foot = replace(pull, part=link, by=pull.part, force=-pull.force)
+        found += [foot, *on_both(link, BAR, Load(link, point, BAR, pull.force, STILL, top))]
+        places[link] = BodyPose.unturned(pull.at)
+    bushes = [np.broadcast_to(axle.halves[s].bush, top.shape) for s in SIDES]
+    middle = np.mean(bushes, axis=0)
+    bearings = _on_bearings(bushes, sum_of(found, BAR, middle))
+    for side, bush, wrench in zip(SIDES, bushes, bearings, strict=True):
+        load = Load(BAR, f"bar_bush_{side}", "chassis", wrench[:, :3], wrench[:, 3:], bush)
+        found += on_both(BAR, "chassis", load)
+    return found, places | {BAR: BodyPose.unturned(middle)}
+
+
+def _on_bearings(bushes: list[Array], wrench: Array) -> tuple[Array, Array]:
+    """Return what two bearings exert on a bar under a force and a moment about their middle."""
+    force, moment = wrench[:, :3], wrench[:, 3:]
+    apart = bushes[0] - bushes[1]
+    square = (apart * apart).sum(-1, keepdims=True)
+    # couple of forces across the line: apart x pair = -moment, but for what is about the line
+    pair = cross(apart, moment) / square
+    about = (moment * apart).sum(-1, keepdims=True) / square * apart
+    left, right = (
+        np.concatenate([sign * pair - 0.5 * force, -0.5 * about], -1) for sign in (1, -1)
+    )
+    return left, right

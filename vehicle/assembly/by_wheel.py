@@ -1,0 +1,159 @@
+"""The dimension of the wheels in results, and tables that have none.
+
+Results have what each wheel has over the dimension ``wheel``; those of a corner, which has one
+wheel, over a coordinate without a dimension. Tables of a spreadsheet have a column for each: there
+the name of the wheel ends that of the column.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ...core.arguments import Arguments
+from ..corner.corner import Array
+from .quantity import Quantity
+
+WHEEL, DATA_SET = "wheel", "data_set"
+"""The dimension of the wheels, and that of several sets of curves beside each other."""
+
+_ATTRIBUTES = {"long_name": "wheel"}
+SIDES = ("left", "right")
+"""The wheels of an axle."""
+
+
+def wheel_coordinate(wheels: Sequence[str]) -> xr.Variable:
+    """Return the names of wheels as a coordinate, without a dimension if there is one wheel."""
+    if len(wheels) == 1:
+        return xr.Variable((), wheels[0], _ATTRIBUTES)
+    return xr.Variable(WHEEL, list(wheels), _ATTRIBUTES)
+
+
+def of_wheels(
+    quantity: Quantity, dims: str | Sequence[str], values: Sequence[Array]
+) -> xr.Variable:
+    """Return what each wheel has as one variable.
+
+    Parameters
+    ----------
+    quantity : Quantity
+        What it is.
+    dims : str or sequence of str
+        Further dimensions.
+    values : sequence of ndarray
+        By wheel, in the order of `Assembly.wheels`.
+    """
+    return stacked(dims, values, quantity.attributes())
+
+
+def stacked(
+    dims: str | Sequence[str], values: Sequence[Array], attributes: Mapping[str, Any]
+) -> xr.Variable:
+    """Return what each wheel has as one variable with some attributes, see `of_wheels`."""
+    further = (dims,) if isinstance(dims, str) else tuple(dims)
+    if len(values) == 1:
+        return xr.Variable(further, values[0], attributes)
+    return xr.Variable((WHEEL, *further), np.stack(values), attributes)
+
+
+def of_wheel(quantity: Quantity, wheel: str) -> Quantity:
+    """Return a quantity of each wheel as that of one, as a column of a flat table has it."""
+    return replace(
+        quantity, name=f"{quantity.name}_{wheel}", long_name=f"{quantity.long_name}, {wheel}"
+    )
+
+
+def flat(dataset: xr.Dataset) -> xr.Dataset:
+    """Return a dataset without the dimension of the wheels, as tables have it.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From an analysis.
+
+    Returns
+    -------
+    xarray.Dataset
+        Where there is ``camber`` over ``wheel`` there are ``camber_left`` and ``camber_right``; all
+        else is as it is. The wheel of a corner is no longer named.
+
+    Examples
+    --------
+    >>> both = xr.Dataset({"camber": ("wheel", [0.1, 0.2])}, {"wheel": ["left", "right"]})
+    >>> {name: float(value) for name, value in flat(both).items()}
+    {'camber_left': 0.1, 'camber_right': 0.2}
+    """
+    with Arguments("flat") as given:
+        given.dataset(dataset)
+    if WHEEL not in dataset.dims:
+        return dataset.drop_vars(WHEEL, errors="ignore")
+    found: dict[str, xr.Variable] = {}
+    for name, data in dataset.items():
+        if WHEEL not in data.dims:
+            found[str(name)] = data.variable
+            continue
+        for wheel in map(str, dataset[WHEEL].values):
+            own = data.sel({WHEEL: wheel}, drop=True).variable
+            words = f"{data.attrs.get('long_name', name)}, {wheel}"
+            found[f"{name}_{wheel}"] = xr.Variable(
+                own.dims, own.data, own.attrs | {"long_name": words}
+            )
+    others = dataset.drop_vars(WHEEL).coords
+    order = [*(str(dim) for dim in dataset.sizes if dim in others), *map(str, others)]
+    coords = {name: others[name].variable for name in dict.fromkeys(order)}
+    return xr.Dataset(found, coords, dataset.attrs)
+
+
+def together(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
+    """Return a dataset in which what each wheel has is one variable over the wheels.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        With names that begin with that of a wheel, ``left_road_height``, as in equations of motion.
+    wheels : sequence of str
+
+    Returns
+    -------
+    xarray.Dataset
+        With ``road_height`` over ``wheel`` where there is one of each wheel.
+    """
+    found: dict[str, xr.DataArray | xr.Variable] = {}
+    for name, data in dataset.items():
+        wheel, _, stem = str(name).partition("_")
+        names = [f"{wheel}_{stem}" for wheel in wheels]
+        if wheel not in wheels or not all(each in dataset for each in names):
+            found[str(name)] = data
+        elif stem not in found:
+            words = str(data.attrs["long_name"]).removesuffix(f", {wheel}")
+            values = np.stack([dataset[each].values for each in names])
+            attributes = data.attrs | {"long_name": words}
+            found[stem] = xr.Variable((WHEEL, *data.dims), values, attributes)
+    return xr.Dataset(found, {**dataset.coords, WHEEL: wheel_coordinate(wheels)}, dataset.attrs)
+
+
+def by_ending(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
+    """Return a flat dataset with what each wheel has over the wheels, as before `flat`.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        With names that end in that of a wheel, ``camber_left``.
+    wheels : sequence of str
+
+    Returns
+    -------
+    xarray.Dataset
+        With ``camber`` over ``wheel`` where there is one of each wheel.
+    """
+    begun = {
+        str(name): f"{wheel}_{str(name).removesuffix(f'_{wheel}')}"
+        for name in dataset
+        for wheel in wheels
+        if str(name).endswith(f"_{wheel}")
+    }
+    found = together(dataset.rename_vars(begun), wheels)
+    back = {new: old for old, new in begun.items() if new in found}
+    return found.rename_vars(back)

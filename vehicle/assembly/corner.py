@@ -1,0 +1,302 @@
+"""A corner as an assembly: one wheel."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
+from typing import Any, Literal
+
+import numpy as np
+
+from ...core.arguments import Arguments
+from ...core.named_types import ArrayLike
+from ..corner.bushes import described_bushings, softness_of_rack
+from ..corner.corner import Array, Corner
+from ..input.vehicle import Tyre
+from ..kinds import Suspension
+from ..models.model import Model
+from ..models.positions import PositionError, arm_angles, design_height
+from ..models.reach import at_rest, height_and_slope, travel_range
+from .assembly import Assembly, Bushings
+from .coupling import BodyPose, on_the_rack, rules_of
+from .from_model import corner
+from .held import Held
+from .load import Load
+from .measures.corner import OF_STEERING, OVER_RACK, OVER_TRAVEL
+from .measures.measure import Measure
+from .poses import Assembled, Poses
+from .quantity import RACK, TRAVEL, Quantity
+from .rest import forces_of, nearest
+from .rig import Extent, RigMotion, RigPosition, WheelReach
+from .single import Single
+from .soft_lines import SoftLines, soft_lines
+from .usual import usual_rack, usual_travel
+from .wheel_names import WheelNames
+
+_TRAVEL = {"travel": RigMotion(TRAVEL, "the wheel rises and falls", "wheel travel")}
+_RACK = {"rack": RigMotion(RACK, "the rack moves, the wheel at one height", "the rack")}
+
+
+class CornerAssembly(Assembly):
+    """A corner.
+
+    Parameters
+    ----------
+    model : Model
+    """
+
+    def __init__(self, model: Model) -> None:
+        self.model: Model = model
+        self.wheels = (model.suspension.vehicle.side,)
+        self.motions = _TRAVEL | _RACK if self.steered else _TRAVEL
+
+    @property
+    def subject(self) -> Suspension:
+        """The suspension."""
+        return self.model.suspension
+
+    @property
+    def steered(self) -> bool:
+        """Whether it has a rack."""
+        return self.subject.steered()
+
+    @property
+    def tyres(self) -> Sequence[Tyre]:
+        """The tyre."""
+        return (self.subject.tyre,)
+
+    @property
+    def tyre_radii(self) -> Sequence[float | None]:
+        """The radius of the wheel [m]."""
+        return (self.subject.tyre_radius(),)
+
+    @property
+    def has_bushes(self) -> bool:
+        """Whether its file has bushes."""
+        return bool(self.subject.bushings)
+
+    @property
+    def words(self) -> str:
+        """What it is, in a sentence."""
+        return f"A {self.subject.heading()}, {self.wheels[0]} side."
+
+    def usual(
+        self, motion: str, extent: Extent | None = None, *, travel: float = 0.0, rack: float = 0.0
+    ) -> Array:
+        """Return the usual positions of a motion, zero included [m]."""
+        far = extent or Extent()
+        if motion == "rack":
+            return usual_rack(self.model, extent=far.rack, step=far.step, travel=travel)
+        return usual_travel(
+            self.model, rebound=far.rebound, bump=far.bump, step=far.step, rack=rack
+        )
+
+    def position(
+        self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
+    ) -> RigPosition:
+        """Return where wheel and rack are along a motion."""
+        if motion == "rack":
+            return RigPosition({self.wheels[0]: np.full_like(along, travel)}, along)
+        return self.at_travel(along, rack)
+
+    def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
+        """Return what a motion holds."""
+        return {TRAVEL: travel} if motion == "rack" else super().held_in(motion, travel, rack)
+
+    def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
+        """Refuse a travel of the wheel in a motion that moves it, or a rack that is moved."""
+        if motion == "rack" and rack:
+            given.refuse("rack_position: the motion 'rack' moves the rack. Leave it out.")
+        if motion != "rack" and travel:
+            given.refuse("travel: the motion 'travel' moves the wheel by along. Leave it out.")
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The angle of the arm."""
+        return (self.model.names.arm,)
+
+    def names_of(self, wheel: str) -> WheelNames:
+        """Return what its equations call what belongs to its wheel."""
+        del wheel
+        return WheelNames("", "", self.model.names.spin, self.model.names.actuator)
+
+    def at_rest(self, coordinates: Array, rack: float) -> tuple[Array, Array]:
+        """Return states and inputs without rates; a free rack is a state."""
+        return at_rest(self.model, coordinates[..., 0], rack)
+
+    def coordinates_at_rest(self, held: Held) -> Array:
+        """Return the arm angle of the stable state of rest that is nearest to design."""
+        forces, reach = forces_of(self, held), travel_range(self.model, held.rack)
+
+        def moment(angle: ArrayLike) -> Array:
+            return forces(np.asarray(angle)[..., None])[..., 0]
+
+        return np.array([nearest(moment, reach, self.model.design_state[0])])
+
+    def refuse_unsteered(self, what: str) -> None:
+        """Refuse what moves a rack where there is none."""
+        self.subject.refuse_without_rack(what)
+
+    @property
+    def steered_by(self) -> str | None:
+        """The motion of the rack."""
+        return "rack" if self.steered else None
+
+    def refuse_motion(self, motion: str) -> None:
+        """Refuse steering without a rack."""
+        if motion in ("rack", "steer"):
+            self.subject.refuse_without_rack(f"the motion {motion!r}")
+
+    def refuse_of_steering(self, names: Iterable[str]) -> None:
+        """Refuse characteristics that have no meaning for a wheel that nothing steers."""
+        for name in names:
+            if name in OF_STEERING:
+                self.subject.refuse_without_rack(name)
+
+    def coordinates_of(self, suffix: str) -> dict[str, str]:
+        """Return what the arm's angle is called."""
+        del suffix
+        return {self.model.names.arm: "arm_angle"}
+
+    def joints(self, suffix: str) -> tuple[str, ...]:
+        """Return the moving hardpoints."""
+        del suffix
+        return self.subject.hardpoints.JOINTS
+
+    def measures(self, motion: str) -> tuple[Measure, ...]:
+        """Return its characteristics over a motion."""
+        return OVER_RACK if motion == "rack" else OVER_TRAVEL
+
+    def kinematics(self, position: RigPosition) -> Single:
+        """Return how the wheel is and how it moves first."""
+        travel, rack = position.travels[self.wheels[0]], position.rack
+
+        def straight() -> Corner | None:
+            try:
+                return corner_at(self.model, travel[:1], np.zeros(1))
+            except PositionError:
+                return None
+
+        return Single(
+            corner_at(self.model, travel, rack),
+            lambda: corner_at(self.model.mirror_image, travel, rack),
+            straight,
+        )
+
+    def poses(self, position: RigPosition) -> dict[str, Assembled]:
+        """Return its parts with rigid joints."""
+        return {"": poses_of(self.model, position.travels[self.wheels[0]], position.rack)}
+
+    def soft_lines(self, poses: Mapping[str, Assembled]) -> dict[str, SoftLines]:
+        """Return how spring and stops give way."""
+        return {suffix: lines_of(each) for suffix, each in poses.items()}
+
+    @cached_property
+    def _sense(self) -> float:
+        """How the arm angle changes as the wheel rises, +1 or -1."""
+        _, slope = height_and_slope(self.model, self.model.design_state[0])
+        return float(np.sign(slope))
+
+    @property
+    def design_wheel_coordinates(self) -> Array:
+        """The arm angle at design, with the sign of the coordinate [rad]."""
+        return self._sense * self.model.design_state[:1]
+
+    def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
+        """Return the coordinate where the wheel is at a height above design."""
+        (travel,) = travels
+        if travel is None:
+            return self.design_wheel_coordinates
+        return self._sense * arm_angles(self.model, [design_height(self.model) + travel], rack)
+
+    def wheel_reach(self, rack: float) -> list[WheelReach]:
+        """Return how far the wheel goes."""
+        found = travel_range(self.model, rack)
+        low, high = (self._sense * angle for angle in found.arm_angle)
+        return [WheelReach((low, high), found.height)]
+
+    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, Assembled]:
+        """Return its parts at rest; the coordinate is the arm angle, of either sign [rad]."""
+        return {"": self.at_angles(coordinates[:, 0], racks)}
+
+    def at_angles(self, coordinates: Array, racks: Array) -> Poses:
+        """Return its parts at rest, (n,)."""
+        return Poses.of(self.model, *at_rest(self.model, self._sense * coordinates, racks))
+
+    def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
+        """Tell whether its wheel has a stop."""
+        del wheel
+        return getattr(self.subject, which) is not None
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """What decides where statics alone does not."""
+        return rules_of(self.subject)
+
+    def between(
+        self, poses: Mapping[str, Assembled], loads: Sequence[Load]
+    ) -> tuple[list[Load], dict[str, BodyPose]]:
+        """Return what holds the rack."""
+        axis = poses[""].rack_axis
+        return ([], {}) if axis is None else on_the_rack(axis, loads, "rack_guide")
+
+    def in_motion(
+        self, states: Array, inputs: Array
+    ) -> tuple[dict[str, Assembled], dict[str, Array]]:
+        """Return its parts in some states, and the rates of these."""
+        poses = Poses.of(self.model, states, inputs)
+        return {"": poses}, {"": self.model.evaluate("rhs", states, inputs)}
+
+    def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
+        """Return bushes as a caller describes them, or those of the file."""
+        described = described_bushings(given, bushings, self.subject.bushings)
+        found = self.subject.bushes(given, described)
+        return Bushings({"": found}, softness_of_rack(given, described))
+
+    @property
+    def heading(self) -> str:
+        """What it is called."""
+        return self.subject.TITLE
+
+    @property
+    def corners(self) -> Mapping[str, Model]:
+        """Itself."""
+        return {self.wheels[0]: self.model}
+
+    def without_friction(self) -> "CornerAssembly":
+        """Return the same without friction."""
+        return CornerAssembly(self.model.of_another(self.subject.without_friction()))
+
+
+def corner_at(model: Model, travels: Array, rack: Array) -> Corner:
+    """Return the corner at wheel travels and displacements of the rack [m].
+
+    Raises
+    ------
+    PositionError
+        If the wheel cannot be there.
+    """
+    return corner(model, arm_angles(model, design_height(model) + travels, rack), rack)
+
+
+def poses_of(model: Model, travels: Array, rack: Array) -> Poses:
+    """Return the parts of a corner with rigid joints at wheel travels and places of the rack [m].
+
+    Raises
+    ------
+    PositionError
+        If the wheel cannot be there.
+    """
+    angles = arm_angles(model, design_height(model) + travels, rack)
+    return Poses.of(model, *at_rest(model, angles, rack))
+
+
+def lines_of(poses: Assembled) -> SoftLines:
+    """Return how spring and stops of a corner give way."""
+    model: Model = poses.model
+    angles = poses.states[..., model.state_names.index(model.names.arm)]
+    if model.free_rack:
+        racks = poses.states[..., model.state_names.index(model.names.rack)]
+    elif model.suspension.steered():
+        racks = poses.inputs[..., model.input_names.index("rack_position")]
+    else:
+        racks = np.zeros_like(angles)
+    return soft_lines(corner(model, angles, racks))

@@ -1,0 +1,91 @@
+"""What is between the parts of a suspension, or of both of an axle, and the chassis: a rack."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..kinds import Suspension
+from .load import RACK, Load
+from .poses import wrench_about
+
+Array = NDArray[np.float64]
+
+STEERING = "steering"
+"""What holds a rack along its axis."""
+
+_OF_GUIDE = "the moment of the rack's guide is about the inner end of the tie rod"
+
+STILL = np.zeros(3)
+
+
+@dataclass(frozen=True)
+class BodyPose:
+    """Where a part in equilibrium is, in n positions.
+
+    Attributes
+    ----------
+    center : ndarray, shape (n, 3)
+        About which its moments are summed [m].
+    turned : ndarray, shape (n, 3, 3)
+        Its rotation from design.
+    """
+
+    center: Array
+    turned: Array
+
+    @classmethod
+    def unturned(cls, center: Array) -> "BodyPose":
+        """Return a part whose own axes are those of the chassis."""
+        return cls(center, np.broadcast_to(np.eye(3), (*center.shape, 3)))
+
+
+def rules_of(suspension: Suspension) -> tuple[str, ...]:
+    """Return what decides where statics alone does not, of one suspension."""
+    of_guide = (_OF_GUIDE,) if suspension.steered() else ()
+    return (*suspension.structure().rules, *of_guide)
+
+
+def on_the_rack(
+    axis: Array, loads: Sequence[Load], point: str
+) -> tuple[list[Load], dict[str, BodyPose]]:
+    """Return what holds a rack: along its axis the steering, in all else its guide.
+
+    Parameters
+    ----------
+    axis : ndarray, shape (3,)
+        A unit vector.
+    loads : sequence of Load
+        All others; those of tie rods on the rack say where it is.
+    point : str
+        Name of the middle between the tie rods, about which the moments are taken.
+
+    Returns
+    -------
+    loads : list of Load
+        On the rack and on the chassis.
+    places : dict of str to BodyPose
+    """
+    rods = [o.at for o in loads if o.part == RACK and o.by not in ("gravity", "inertia")]
+    middle = np.mean(rods, axis=0)
+    wrench = sum_of(loads, RACK, middle)
+    along = (wrench[:, :3] @ axis)[:, None] * axis
+    steering = Load(RACK, point, STEERING, -along, STILL, middle)
+    guide = Load(RACK, point, "chassis", along - wrench[:, :3], -wrench[:, 3:], middle)
+    reaction = replace(steering, part="chassis", force=along)
+    held = [steering, reaction, *on_both(RACK, "chassis", guide)]
+    return held, {RACK: BodyPose.unturned(middle)}
+
+
+def on_both(one: str, other: str, load: Load) -> list[Load]:
+    """Return a load of one part by another, and its opposite."""
+    back = replace(load, part=other, by=one, force=-load.force, moment=-load.moment)
+    return [load, back]
+
+
+def sum_of(loads: Sequence[Load], part: str, about: Array) -> Array:
+    """Return force and moment of the loads on a part about a point, (n, 6)."""
+    own = [wrench_about(about, o.at, o.force, o.moment) for o in loads if o.part == part]
+    total: Array = np.sum(np.broadcast_arrays(*own, np.zeros((len(about), 6))), axis=0)
+    return total

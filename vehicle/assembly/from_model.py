@@ -1,0 +1,220 @@
+"""The corner of a suspension, from its compiled model.
+
+It is exact: nothing is differenced but, where a steering axis is that of the motion, its rate.
+"""
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ...core.columns import Column, spread
+from ...core.named_types import ArrayLike
+from ...core.vectors import cross, turned
+from ...systems.inputs import rates_of
+from ..corner.corner import Array, Corner, Motion, SteeringAxis, Vehicle
+from ..corner.strokes import Strokes
+from ..input.units import in_metres
+from ..kinds import Suspension
+from ..models.model import Model
+from ..models.points import hardpoints
+from ..models.reach import at_rest
+from .steering_axis import AxisOfPoints, AxisOfTheScrew, of_the_screw
+
+# Of a spring that can be said to hold the wheel when it is locked.
+_LEAST_RATIO = 0.05
+
+
+def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> Corner:
+    """Return the corner at arm angles and rack positions.
+
+    Parameters
+    ----------
+    model : Model
+    arm_angle, rack_position : array_like
+        Angle of the lower arm as in the state [rad], and displacement of the rack [m]; they are
+        broadcast.
+
+    Returns
+    -------
+    Corner
+    """
+    kind = model.suspension
+    states, inputs = at_rest(model, arm_angle, rack_position)
+    pose = _Pose(model, states, inputs)
+    points, travel = pose.points, pose.travel
+    rotation = pose.rotations[..., pose.carrier, :, :]
+    at_design = spread(design_axis(model.suspension))
+    strokes = _strokes(model, states, inputs)
+    return Corner(
+        vehicle=vehicle(model.suspension),
+        center=points["wheel_center"],
+        design_center=spread(model.suspension.hardpoints.metres("wheel_center")),
+        axis=turned(rotation, at_design),
+        design_axis=at_design,
+        steering_axis=_steering_axis(pose) if kind.steered() else None,
+        travel=travel,
+        steering=pose.steering if kind.steered() else None,
+        links=kind.links_at(points, travel),
+        spring=kind.spring_at(strokes),
+        stops=kind.stops_at(strokes),
+        damper=kind.damper_at(strokes),
+        arm_rotation=model.design_state[..., 0] - np.broadcast_to(arm_angle, states.shape[:-1]),
+    )
+
+
+def gaps(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> tuple[Array, ...]:
+    """Return what is open of each stop at arm angles and rack positions.
+
+    Parameters
+    ----------
+    model : Model
+    arm_angle, rack_position : array_like
+        Angle of the lower arm as in the state [rad], and displacement of the rack [m]; they are
+        broadcast.
+
+    Returns
+    -------
+    tuple of ndarray
+        For each stop that the model has: positive where it is free, negative where it is compressed
+        [m]. What `catalogue.AT_STOPS` names jumps where a gap closes.
+    """
+    return model.suspension.gaps_at(_strokes(model, *at_rest(model, arm_angle, rack_position)))
+
+
+def vehicle(suspension: Suspension) -> Vehicle:
+    """Return what the input says about the vehicle, in SI units.
+
+    Parameters
+    ----------
+    suspension : Suspension
+
+    Returns
+    -------
+    Vehicle
+    """
+    given, steered = suspension.vehicle, suspension.steered()
+    rear = given.end == "rear"
+    return Vehicle(
+        side=given.sign,
+        tyre_radius=_spread(suspension.tyre_radius()),
+        tyre_rate=_spread(suspension.tyre.rate_N_per_m),
+        tyre_lateral_rate=_spread(suspension.tyre.lateral_rate_N_per_m),
+        tyre_longitudinal_rate=_spread(suspension.tyre.longitudinal_rate_N_per_m),
+        wheelbase=_metres(given.wheelbase_mm),
+        center_of_gravity_height=_metres(given.center_of_gravity_height_mm),
+        front_brake_share=_spread(given.front_brake_share),
+        front=None if rear else True,
+        rear=True if rear else None,
+        travel_per_turn=_metres(suspension.rack.travel_per_turn_mm) if steered else None,
+        steered=True if steered else None,
+    )
+
+
+def _strokes(model: Model, states: Array, inputs: Array) -> Strokes:
+    return Strokes(model, states, inputs, model.names.arm)
+
+
+def _metres(length: float | None) -> float | None:
+    return None if length is None else _spread(in_metres(length, "mm"))
+
+
+def _spread(value: Any) -> Any:
+    """Return a number as it is, and those of many over their positions."""
+    return spread(value) if isinstance(value, Column) else value
+
+
+def design_axis(suspension: Suspension) -> Array:
+    """Return the spin axis at design, pointing outboard."""
+    side = suspension.vehicle.sign
+    return side * suspension.wheel.spin_axis(side)
+
+
+class _Pose:
+    """A model at many positions at rest, and the first motions of its wheel carrier there."""
+
+    def __init__(self, model: Model, states: Array, inputs: Array) -> None:
+        self.model, self.states, self.inputs = model, states, inputs
+        self.centers = model.evaluate("positions", states, inputs)
+        self.rotations = model.evaluate("orientations", states, inputs)
+        poses = self.centers, self.rotations
+        self.points = hardpoints(model, states, inputs, poses=poses)
+        self.carrier: int = model.equations.BODIES.index(model.suspension.carrier)
+        self.by_arm = self._motion("arm")
+        self.travel = self.by_arm.per(self.by_arm.velocity[..., 2])
+
+    @cached_property
+    def by_rack(self) -> Motion:
+        """The motion for a unit rate of the rack, the arm held."""
+        return self._motion("rack")
+
+    @property
+    def steering(self) -> Motion:
+        """The motion per unit of rack travel, the wheel centre held at its height."""
+        return self.by_rack.minus(self.travel, self.by_rack.velocity[..., 2])
+
+    def steering_with_spring_locked(self) -> Motion:
+        """Return the motion per unit of rack travel with the spring's length held.
+
+        No numbers where the spring hardly moves with the wheel: it would lock nothing.
+        """
+        by_arm, by_rack = (
+            self.model.signal("spring_velocity", *self._at_unit_rate(what))
+            for what in ("arm", "rack")
+        )
+        locks = np.abs(by_arm) >= _LEAST_RATIO * np.abs(self.by_arm.velocity[..., 2])
+        by_arm = np.where(locks, by_arm, np.nan)
+        return self.by_rack.minus(self.by_arm, by_rack / by_arm)
+
+    def _motion(self, what: str) -> Motion:
+        """Return the motion for a unit rate of the arm angle, or of the rack, the other held."""
+        model = self.model
+        states, inputs = self._at_unit_rate(what)
+        twist = model.evaluate("velocities", states, inputs)[..., self.carrier, :]
+        turning, velocity = twist[..., :3], twist[..., 3:]
+        arm = self.points["wheel_center"] - self.centers[..., self.carrier, :]
+        return Motion(velocity + cross(turning, arm), turning)
+
+    def _at_unit_rate(self, what: str) -> tuple[Array, Array]:
+        """Return states and inputs with a unit rate of the arm angle, or of the rack.
+
+        Velocities are linear in the rates, so that those at unit rate are the derivatives.
+        """
+        model, states, inputs = self.model, self.states.copy(), self.inputs.copy()
+        if what == "arm":
+            states[..., model.state_names.index(f"{model.names.arm}_rate")] = 1.0
+        elif model.free_rack:
+            states[..., model.state_names.index(f"{model.names.rack}_rate")] = 1.0
+        else:
+            velocity_input, *_ = rates_of("rack_position", model.equations.INPUTS)
+            inputs[..., model.input_names.index(velocity_input)] = 1.0
+        return states, inputs
+
+
+def _steering_axis(pose: _Pose) -> SteeringAxis:
+    """Return the axis about which the wheel is steered; see `SteeringAxis`."""
+    given, points, travel = pose.model.suspension.hardpoints, pose.points, pose.travel
+    if given.STEERING_AXIS is None:
+        return _axis_of_the_motion(pose)
+
+    def rate(point: str) -> Array:
+        # a strut turns about its mount on the chassis
+        if point not in given.CARRIERS:
+            return np.zeros_like(travel.velocity)
+        return travel.velocity + cross(travel.turning, points[point] - points["wheel_center"])
+
+    low, high = given.STEERING_AXIS
+    return AxisOfPoints(points[low], points[high], rate(high) - rate(low))
+
+
+def _axis_of_the_motion(pose: _Pose) -> AxisOfTheScrew:
+    """Return the axis of the carrier's first motion when it is steered."""
+    place = pose.model.state_names.index(pose.model.names.arm)
+
+    def ends(turn: float) -> tuple[Array, Array]:
+        states = pose.states.copy()
+        states[..., place] += turn
+        moved = _Pose(pose.model, states, pose.inputs)
+        return of_the_screw(moved.points["wheel_center"], moved.steering_with_spring_locked())
+
+    return AxisOfTheScrew(ends, pose.by_arm.velocity[..., 2])

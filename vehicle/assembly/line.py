@@ -1,0 +1,94 @@
+"""The line through the wheel centres of an axle: how far it is inclined, and how fast that changes.
+
+A roll of the body is an inclination of this line to the plane of the body's x and y axes, from that
+at design.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core.named_types import ArrayLike
+from ...core.vectors import cross
+from ..corner.corner import Array
+from ..models.axle import Axle
+from ..models.axle.axle import LEFT, RIGHT
+from ..models.model import Model
+from ..models.points import carried
+from ..models.positions import arm_angles, design_height
+from ..models.reach import at_rest
+
+_CENTER = "wheel_center"
+
+
+@dataclass(frozen=True)
+class Line:
+    """The line in n positions of both wheels.
+
+    Attributes
+    ----------
+    across : ndarray, shape (n, 3)
+        From the right wheel centre to the left one [m].
+    rate : ndarray, shape (n, 3)
+        Its derivative by opposite travel of the wheels, the right one upward [1].
+    design : ndarray, shape (3,)
+        The line at design [m].
+    """
+
+    across: Array
+    rate: Array
+    design: Array
+
+    @classmethod
+    def at(cls, axle: Axle, left: ArrayLike, right: ArrayLike, rack: float = 0.0) -> "Line":
+        """Return it at travels of both wheels and a displacement of the rack [m].
+
+        Raises
+        ------
+        PositionError
+            If a wheel cannot be there.
+        """
+        (one, fast), (other, also) = (
+            _center(axle.models[side], np.asarray(travel, float), rack)
+            for side, travel in ((LEFT, left), (RIGHT, right))
+        )
+        design = [axle.sides[side].hardpoints.metres(_CENTER) for side in (LEFT, RIGHT)]
+        return cls(one - other, -fast - also, design[0] - design[1])
+
+    @property
+    def roll(self) -> Array:
+        """The roll angle of the body, positive with its right side down, (n,) [rad]."""
+        roll: Array = _inclination(self.design) - _inclination(self.across)
+        return roll
+
+    @property
+    def roll_rate(self) -> Array:
+        """Its derivative by opposite travel, (n,) [rad/m]."""
+        return -inclination_rate(self.across, self.rate)
+
+
+def inclination_rate(along: Array, rate: Array) -> Array:
+    """Return how fast a vector that changes at a rate is inclined to the x-y plane [rad]."""
+    level = np.hypot(along[..., 0], along[..., 1])
+    spread = (along[..., :2] * rate[..., :2]).sum(-1) / level
+    fast: Array = (level * rate[..., 2] - along[..., 2] * spread) / (level**2 + along[..., 2] ** 2)
+    return fast
+
+
+def _inclination(along: Array) -> Array:
+    return np.arctan2(along[..., 2], np.hypot(along[..., 0], along[..., 1]))
+
+
+def _center(model: Model, travel: Array, rack: float) -> tuple[Array, Array]:
+    """Return where a wheel centre is at some travels [m], and its derivative by them, (n, 3)."""
+    angles = arm_angles(model, design_height(model) + travel, rack)
+    states, inputs = at_rest(model, angles, rack, arm_rate=1.0)
+    body = model.suspension.carrier
+    at_design = model.suspension.hardpoints.metres(_CENTER)
+    place = carried(model, {_CENTER: (body, at_design)}, states, inputs)[_CENTER]
+    which = model.equations.BODIES.index(body)
+    # velocities are linear in the rates: those at unit rate are the derivatives
+    twist = model.evaluate("velocities", states, inputs)[..., which, :]
+    arm = place - model.evaluate("positions", states, inputs)[..., which, :]
+    velocity = twist[..., 3:] + cross(twist[..., :3], arm)
+    return place, velocity / velocity[..., 2:]

@@ -1,0 +1,59 @@
+"""A force and a moment on a part, and what acts without anybody's doing."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..corner.structure import Line
+from .poses import Assembled
+
+Array = NDArray[np.float64]
+
+RACK = "rack"
+
+
+@dataclass(frozen=True)
+class Load:
+    """A force and a moment on a part.
+
+    Attributes
+    ----------
+    part, point : str
+        On which part, and where: a hardpoint, ``contact``, or ``mass`` for its centre of mass.
+    by : str
+        What exerts it: another part, or ``spring``, ``damper``, ``road``, ``gravity``.
+    force, moment, at : ndarray, shape (..., 3)
+        Chassis axes, the moment about the point [N], [N m], [m].
+    """
+
+    part: str
+    point: str
+    by: str
+    force: Array
+    moment: Array
+    at: Array
+
+
+def known(poses: Assembled) -> list[Load]:
+    """Return what acts without anybody's doing: weights, spring, damper and stops."""
+    structure, still = poses.structure, np.zeros(3)
+    weights, forces = poses.weights(), poses.forces_along_lines()
+    loads = [
+        Load(part, "mass", "gravity", weights[part], still, poses.centers[part])
+        for part in (*structure.parts, RACK)
+        if part in weights and weights[part].any()
+    ]
+    for line in structure.lines:
+        loads += along_line(poses, line, forces[line.name])
+    return loads
+
+
+def along_line(poses: Assembled, line: Line, force: Array) -> list[Load]:
+    """Return forces along a line on both of its parts, positive when they push."""
+    points = poses.points
+    push = force[..., None] * line.direction(points)
+    ends = ((line.first, line.at[0], -push), (line.second, line.at[1], push))
+    return [
+        Load(part, point, line.name, end, np.zeros(3), points[point]) for part, point, end in ends
+    ]

@@ -1,0 +1,75 @@
+"""Roll centre, jacking and motion ratios of a rigid axle: the formulas.
+
+Each takes a `Beam` and returns an array over its positions, SI units, chassis axes.
+"""
+
+import numpy as np
+
+from ...corner.corner import Array
+from ...models.axle.axle import LEFT, RIGHT
+from ...models.rigid.model import HEAVE, ROLL
+from ..beam import SENSE, SIDES, Beam
+
+
+def roll_center_height(beam: Beam) -> Array:
+    """Return the height of the roll centre above the line through the contacts [m].
+
+    Of the points midway between the contacts, across the line through them as it is seen from the
+    front, the one that does not move along this line when the axle rolls and the middle of the
+    contacts does not move across it. A force there is along no motion of roll.
+    """
+    left, right = (beam.contact(side) for side in SIDES)
+    middle, line = 0.5 * (left + right), (left - right)[:, 1:]
+    line = line / np.linalg.norm(line, axis=-1, keepdims=True)
+    across = np.stack([-line[:, 1], line[:, 0]], -1)
+    roll, heave = (beam.velocity(middle, by)[:, 1:] for by in (ROLL, HEAVE))
+    times = -_dot(across, roll) / _dot(across, heave)
+    velocity = roll + times[:, None] * heave
+    turning = beam.turning(ROLL)[:, 0] + times * beam.turning(HEAVE)[:, 0]
+    height: Array = _dot(line, velocity) / turning
+    return height
+
+
+def jacking(beam: Beam) -> Array:
+    """Return the lift of the body by a force on the tyres to the left, over that force [1].
+
+    By virtual work the force pushes the axle up, so the body down, where the axle goes to the left
+    as it rises.
+    """
+    middle = 0.5 * (beam.contact(LEFT) + beam.contact(RIGHT))
+    velocity = beam.velocity(middle, HEAVE)
+    lift: Array = -velocity[:, 1] / velocity[:, 2]
+    return lift
+
+
+def motion_ratio(beam: Beam, part: str, side: str) -> Array:
+    """Return the compression of a spring or damper per travel of both wheels [1]."""
+    return beam.compression(f"{side}_{part}", HEAVE)
+
+
+def roll_motion_ratio(beam: Beam, part: str, side: str) -> Array:
+    """Return the same per travel of the side's wheel, the other one moving oppositely [1]."""
+    return SENSE[side] * beam.compression(f"{side}_{part}", ROLL) / beam.lever
+
+
+def wheel_rate(beam: Beam, side: str) -> Array:
+    """Return the derivative of a wheel's force by the travel of both wheels [N/m]."""
+    rates: Array = _of_all(beam)[:, SIDES.index(side), :].sum(-1)
+    return rates
+
+
+def wheel_rate_alone(beam: Beam, side: str) -> Array:
+    """Return the derivative of a wheel's force by its own travel, the other one at rest [N/m]."""
+    place = SIDES.index(side)
+    rates: Array = _of_all(beam)[:, place, place]
+    return rates
+
+
+def _of_all(beam: Beam) -> Array:
+    """Return the stiffness of springs, stops and bar at both wheels [N/m]."""
+    return beam.springs + beam.bar
+
+
+def _dot(one: Array, other: Array) -> Array:
+    product: Array = (one * other).sum(-1)
+    return product

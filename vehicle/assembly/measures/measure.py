@@ -1,0 +1,167 @@
+"""A measure: a characteristic of a wheel or of an axle, with its formula and the data it needs."""
+
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+from ...corner.corner import Array, Corner
+from ..quantity import Quantity
+from .quantities import QUANTITIES
+
+Scope = Literal["wheel", "axle"]
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A characteristic of an assembly.
+
+    Attributes
+    ----------
+    quantity : Quantity
+        Its name, unit, definition and sign.
+    formula : callable
+        Takes the kinematics of the assembly (`Single`, `Pair` or `Beam`), of a wheel also its name,
+        and returns an array over the positions.
+    scope : {'wheel', 'axle'}
+        Whether each wheel has it, or the axle.
+    needs : tuple of str
+        Attributes of `Vehicle` without which it is not defined.
+    known_to : callable
+        Takes the kinematics, returns whether they have what else it needs.
+    """
+
+    quantity: Quantity
+    formula: Callable[..., Array]
+    scope: Scope
+    needs: tuple[str, ...] = ()
+    known_to: Callable[[Any], bool] = lambda _: True
+
+    @property
+    def name(self) -> str:
+        """The name of its variable."""
+        return self.quantity.name
+
+    def defined_for(self, of: Any) -> bool:
+        """Return whether everything that it needs is given."""
+        given = (getattr(v, need) is not None for need in self.needs for v in of.vehicles)
+        return all(given) and self.known_to(of)
+
+    def at(self, of: Any, wheel: str) -> Array:
+        """Return the values of a wheel, or of the axle whatever the wheel."""
+        return self.formula(of, wheel) if self.scope == "wheel" else self.formula(of)
+
+    def columns(self, wheels: Sequence[str]) -> dict[str, str]:
+        """Return the wheels by the names of their columns in a flat table; '' for the axle."""
+        if self.scope == "axle":
+            return {self.name: ""}
+        if len(wheels) == 1:
+            return {self.name: wheels[0]}
+        return {f"{self.name}_{wheel}": wheel for wheel in wheels}
+
+
+def of_wheel(
+    name: str,
+    formula: Callable[[Any, str], Array],
+    needs: tuple[str, ...] = (),
+    known_to: Callable[[Any], bool] = lambda _: True,
+    definition: str = "",
+) -> Measure:
+    """Return a measure that each wheel has, with another definition than the usual if it has one.
+
+    Parameters
+    ----------
+    name : str
+        Of `QUANTITIES`.
+    formula : callable
+        Takes the kinematics and the name of a wheel.
+    needs, known_to : optional
+        As of `Measure`.
+    definition : str, optional
+        Instead of that of the quantity.
+    """
+    return Measure(_quantity(name, definition), formula, "wheel", needs, known_to)
+
+
+def of_axle(
+    name: str,
+    formula: Callable[[Any], Array],
+    needs: tuple[str, ...] = (),
+    known_to: Callable[[Any], bool] = lambda _: True,
+    definition: str = "",
+) -> Measure:
+    """Return a measure that an axle has; as `of_wheel`, but the formula takes the kinematics."""
+    return Measure(_quantity(name, definition), formula, "axle", needs, known_to)
+
+
+def of_corner(
+    name: str, formula: Callable[[Corner], Array], needs: tuple[str, ...] = ()
+) -> Measure:
+    """Return a measure that each wheel has by itself; the formula takes its `Corner`."""
+    return of_wheel(name, lambda of, wheel: formula(of.corners[wheel]), needs)
+
+
+def _quantity(name: str, definition: str) -> Quantity:
+    found = QUANTITIES[name]
+    return replace(found, definition=definition) if definition else found
+
+
+def values(
+    measures: Iterable[Measure],
+    of: Any,
+    wheels: Sequence[str],
+    names: Container[str] | None = None,
+) -> dict[str, Array]:
+    """Return measures by the names of their columns, all that are defined or some.
+
+    Parameters
+    ----------
+    measures : iterable of Measure
+    of : Single, Pair or Beam
+        The kinematics in n positions.
+    wheels : sequence of str
+        Their names.
+    names : container of str, optional
+        Which columns; those that are not defined are left out.
+
+    Returns
+    -------
+    dict of str to ndarray, each of shape (n,)
+        SI units.
+    """
+    return {
+        name: measure.at(of, wheel)
+        for measure, columns in _wanted(measures, wheels, names)
+        if measure.defined_for(of)
+        for name, wheel in columns.items()
+    }
+
+
+def columns(measures: Iterable[Measure], wheels: Sequence[str]) -> dict[str, Quantity]:
+    """Return the quantities of measures by the names of their columns in a flat table."""
+    return {
+        name: measure.quantity if name == measure.name else of_side(measure.quantity, wheel)
+        for measure in measures
+        for name, wheel in measure.columns(wheels).items()
+    }
+
+
+def of_side(quantity: Quantity, wheel: str) -> Quantity:
+    """Return a quantity of each wheel as the column of one of them."""
+    name, words = f"{quantity.name}_{wheel}", f"{quantity.long_name}, {wheel}"
+    return replace(quantity, name=name, long_name=words)
+
+
+def some_of_axle(measures: Iterable[Measure], names: Container[str] | None) -> bool:
+    """Return whether some measures are those of an axle."""
+    return any(m.scope == "axle" and (names is None or m.name in names) for m in measures)
+
+
+def _wanted(
+    measures: Iterable[Measure], wheels: Sequence[str], names: Container[str] | None
+) -> Iterator[tuple[Measure, Mapping[str, str]]]:
+    """Yield the measures that have a column of these names, with those columns."""
+    for measure in measures:
+        every = measure.columns(wheels)
+        chosen = {n: w for n, w in every.items() if names is None or n in names}
+        if chosen:
+            yield measure, chosen

@@ -1,0 +1,128 @@
+"""The measures of a rigid axle."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from ...corner.corner import Array
+from ...models.rigid.model import HEAVE, ROLL
+from ..beam import Beam
+from . import beam_rolling, pitching, rolling
+from .corner import GROUND, PITCH
+from .measure import Measure, of_axle, of_wheel
+from .quantities import QUANTITIES
+
+_ON_AXLE = "contacts with brakes on the axle, wheel centres with inboard ones"
+_IN_AXLE = "contacts with the final drive in the axle, wheel centres with it on the body"
+
+_JACKING = replace(
+    QUANTITIES["jacking"],
+    definition="lift of the body by a lateral force at the contacts, over the force, -v_y / v_z in "
+    "heave",
+    sign="positive when a force to the left lifts the body",
+)
+
+
+def _is(end: str, *, driven: bool = False) -> Callable[[Beam], bool]:
+    return lambda beam: beam.end == end and (beam.axle.drive is not None or not driven)
+
+
+def _signal(name: str) -> Callable[[Beam, str], Array]:
+    return lambda beam, side: beam.signal(f"{side}_{name}")
+
+
+GUIDANCE = (
+    of_axle("axle_steer", lambda beam: beam.coordinate("yaw")),
+    of_axle(
+        "roll_steer", lambda beam: -beam.slope("yaw", ROLL),
+        definition="derivative of the axle's steer angle by the roll angle, the wheels moving "
+        "oppositely",
+    ),
+    of_axle("heave_steer", lambda beam: beam.slope("yaw", HEAVE)),
+    of_axle("axle_lateral", lambda beam: beam.coordinate("sway")),
+    of_axle("axle_longitudinal", lambda beam: beam.coordinate("shift")),
+    # it points to the middle of the car
+    of_axle(
+        "pinion_angle",
+        lambda beam: (1.0 if beam.end == "front" else -1.0) * beam.coordinate("pitch"),
+    ),
+    of_wheel("camber", _signal("axle_camber")),
+    of_wheel("toe", _signal("axle_toe")),
+    of_wheel("steer", _signal("axle_steer")),
+)  # fmt: skip
+"""Where the axle goes."""
+
+ON_THE_ROAD = (
+    of_axle(
+        "roll_center_height", beam_rolling.roll_center_height, GROUND,
+        definition="point midway between the contacts that does not move along the line through "
+        "them as the axle rolls and the middle between the contacts stays on that line",
+    ),
+    Measure(_JACKING, beam_rolling.jacking, "axle", GROUND),
+    of_axle(
+        "anti_dive", pitching.braking, (*PITCH, "front_brake_share"), _is("front"),
+        "b (L / h) v_x / v_z under braking: brake share b, wheelbase L, height h of the gravity "
+        f"centre; {_ON_AXLE}",
+    ),
+    of_axle(
+        "anti_lift_driven", pitching.driving, PITCH, _is("front", driven=True),
+        f"d (L / h) v_x / v_z under drive: drive share d; {_IN_AXLE}",
+    ),
+    of_axle(
+        "anti_lift_braked", pitching.braking, (*PITCH, "front_brake_share"), _is("rear"),
+        f"-(1 - b) (L / h) v_x / v_z under braking: front brake share b; {_ON_AXLE}",
+    ),
+    of_axle(
+        "anti_squat", pitching.driving, PITCH, _is("rear", driven=True),
+        f"-d (L / h) v_x / v_z under drive: drive share d; {_IN_AXLE}",
+    ),
+)  # fmt: skip
+"""What forces of the road do by the axle's paths."""
+
+SPRINGS = (
+    of_wheel(
+        "spring_length", _signal("spring_length"), definition="distance of the spring's seats"
+    ),
+    of_wheel(
+        "damper_length", _signal("damper_length"), definition="distance of the damper's ends"
+    ),
+    of_wheel(
+        "motion_ratio", lambda beam, side: beam_rolling.motion_ratio(beam, "spring", side),
+        definition="compression of the spring per travel of both wheels",
+    ),
+    of_wheel(
+        "roll_motion_ratio",
+        lambda beam, side: beam_rolling.roll_motion_ratio(beam, "spring", side),
+    ),
+    of_wheel(
+        "damper_motion_ratio", lambda beam, side: beam_rolling.motion_ratio(beam, "damper", side),
+        definition="compression of the damper per travel of both wheels",
+    ),
+    of_wheel(
+        "damper_roll_motion_ratio",
+        lambda beam, side: beam_rolling.roll_motion_ratio(beam, "damper", side),
+    ),
+    of_wheel(
+        "wheel_force", lambda beam, side: beam.wheel_force(side),
+        definition="vertical force at the wheel that springs, stops and bar take; no unsprung "
+        "weight",
+    ),
+    of_wheel(
+        "wheel_rate", beam_rolling.wheel_rate,
+        definition="derivative of the wheel force by the travel of both wheels, without tyres",
+    ),
+    of_wheel("wheel_rate_alone", beam_rolling.wheel_rate_alone),
+    of_axle("roll_moment", rolling.moment, GROUND),
+    of_axle("roll_moment_gradient", rolling.moment_gradient, GROUND),
+    of_axle("roll_stiffness", rolling.stiffness, GROUND),
+    of_axle(
+        "roll_stiffness_bar", rolling.of_bar, GROUND,
+        lambda beam: beam.axle.anti_roll_bar is not None,
+    ),
+    of_axle(
+        "roll_stiffness_with_tyres", rolling.with_tyres, (*GROUND, "tyre_rate"), rolling.has_tyres
+    ),
+)  # fmt: skip
+"""What springs, dampers, stops and the anti-roll bar do."""
+
+MEASURES = (*GUIDANCE, *ON_THE_ROAD, *SPRINGS)
+"""All of them."""

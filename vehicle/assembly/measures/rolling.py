@@ -1,0 +1,118 @@
+"""Track, roll moment and roll stiffness of two wheels: the formulas.
+
+Each takes a `Pair` or a `Beam` and returns an array over its positions, SI units, chassis axes.
+Forces of the road are vertical and act on the wheels; unsprung weights are left out. The stiffness
+of both wheels is a matrix K of two rows, the left wheel first: the derivative of the wheels' forces
+by their travels. A roll of the body by phi (positive about the x axis: right side down) moves the
+wheels by -y phi, with y the lateral position of each contact, so that the stiffness in roll is
+y' K y.
+"""
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+
+from ...corner.corner import Array, Vehicle
+from ...models.axle.axle import LEFT, RIGHT
+
+SIDES = (LEFT, RIGHT)
+
+
+class TwoWheels(Protocol):
+    """Two wheels in n positions: a `Pair` or a `Beam`."""
+
+    @property
+    def vehicles(self) -> Sequence[Vehicle]:
+        """What the vehicle adds, of each wheel."""
+
+    def contact(self, side: str) -> Array:
+        """Return the lowest point of a wheel, (n, 3) [m]."""
+
+    def wheel_force(self, side: str) -> Array:
+        """Return the vertical force that springs, stops and bar take at a wheel, (n,) [N]."""
+
+    @property
+    def springs(self) -> Array:
+        """The stiffness of springs and stops at both wheels, (n, 2, 2) [N/m]."""
+
+    @property
+    def bar(self) -> Array:
+        """The stiffness of the anti-roll bar at both wheels, (n, 2, 2) [N/m]."""
+
+    @property
+    def rolled(self) -> tuple[Array, Array]:
+        """Travels of both wheels, and lateral motion of both contacts, by a roll, (n, 2) each."""
+
+
+def track(of: TwoWheels) -> Array:
+    """Return the lateral distance of the contacts [m]."""
+    return np.asarray(of.contact(LEFT)[..., 1] - of.contact(RIGHT)[..., 1])
+
+
+def moment(of: TwoWheels) -> Array:
+    """Return the moment that the wheels' forces make against a roll of the body [N m]."""
+    levers, forces = _levers(of), _forces(of)
+    total: Array = -(levers * forces).sum(-1)
+    return total
+
+
+def moment_gradient(of: TwoWheels) -> Array:
+    """Return the derivative of the moment by the roll angle, wheels moving oppositely [N m/rad].
+
+    By the product rule: forces change, and so do their levers.
+    """
+    travels, moved = of.rolled
+    changes = np.einsum("...ij,...j->...i", of.springs + of.bar, travels)
+    gradient: Array = -(moved * _forces(of) + _levers(of) * changes).sum(-1)
+    return gradient
+
+
+def stiffness(of: TwoWheels) -> Array:
+    """Return the roll stiffness, without tyres [N m/rad]."""
+    return in_roll(of, of.springs + of.bar)
+
+
+def of_springs(of: TwoWheels) -> Array:
+    """Return the part of springs and stops in the roll stiffness [N m/rad]."""
+    return in_roll(of, of.springs)
+
+
+def of_bar(of: TwoWheels) -> Array:
+    """Return the part of the anti-roll bar in the roll stiffness [N m/rad]."""
+    return in_roll(of, of.bar)
+
+
+def bar_share(of: TwoWheels) -> Array:
+    """Return the part of the anti-roll bar in the roll stiffness [1]."""
+    bar = of_bar(of)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share: Array = bar / (bar + of_springs(of))
+    return share
+
+
+def has_tyres(of: TwoWheels) -> bool:
+    """Return whether the tyres of both wheels have a vertical rate."""
+    return all((vehicle.tyre_rate or 0.0) > 0.0 for vehicle in of.vehicles)
+
+
+def with_tyres(of: TwoWheels) -> Array:
+    """Return the roll stiffness in series with the tyres [N m/rad]."""
+    rates = of.springs + of.bar
+    tyres = np.diag([vehicle.tyre_rate or 0.0 for vehicle in of.vehicles])
+    return in_roll(of, np.asarray(tyres @ np.linalg.solve(tyres + rates, rates)))
+
+
+def in_roll(of: TwoWheels, rates: Array) -> Array:
+    """Return the stiffness in roll of one of both wheels [N m/rad]."""
+    levers = _levers(of)
+    by_roll: Array = np.einsum("...i,...ij,...j->...", levers, rates, levers)
+    return by_roll
+
+
+def _levers(of: TwoWheels) -> Array:
+    return np.stack([of.contact(side)[..., 1] for side in SIDES], -1)
+
+
+def _forces(of: TwoWheels) -> Array:
+    return np.stack([of.wheel_force(side) for side in SIDES], -1)

@@ -1,0 +1,195 @@
+"""Where a rig puts the wheels of an axle: the usual positions of each motion."""
+
+import numpy as np
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ..corner.corner import Array
+from ..models.axle import Axle
+from ..models.axle.axle import LEFT, RIGHT
+from ..models.positions import PositionError, design_height, travel_range
+from .line import Line
+from .rig import Extent
+from .usual import grid, usual_rack, usual_travel
+
+MOTIONS = {
+    "bump": "both wheels rise and fall together",
+    "roll": "the wheels move oppositely, as when the body rolls",
+    "left": "the left wheel moves, the right one stays at design",
+    "right": "the right wheel moves, the left one stays at design",
+    "steer": "the steering wheel turns, both wheels at one height",
+}
+"""The motions of a rig, by name."""
+
+USUAL_ROLL = np.deg2rad(4.0)
+USUAL_ROLL_STEP = np.deg2rad(0.25)
+USUAL_ANGLE_STEP = np.deg2rad(10.0)  # of the steering wheel
+_MOST_TURNS = 40.0 * np.pi  # twenty turns of it
+_MOST_ROLL = np.pi / 4.0
+# A sweep that is not told otherwise keeps clear of the ends of the motion by this part of them.
+_CLEARANCE = 0.02
+# Heights of wheels are met to their rounding, 1e-16 m of a metre: a step as small changes nothing.
+_CLOSE = 1e-15
+_MOST_STEPS = 100
+
+
+def track(axle: Axle) -> float:
+    """Return the distance of the wheel centres at design [m]."""
+    left, right = (side.hardpoints.metres("wheel_center") for side in axle.sides.values())
+    return float(left[1] - right[1])
+
+
+def travels(axle: Axle, extent: Extent, sides: tuple[str, ...] = (LEFT, RIGHT)) -> Array:
+    """Return usual wheel travels that some wheels reach [m], zero included."""
+    found = [
+        usual_travel(axle.models[side], rebound=extent.rebound, bump=extent.bump, step=extent.step)
+        for side in sides
+    ]
+    low, high = max(f[0] for f in found), min(f[-1] for f in found)
+    return grid(low, high, extent.step)
+
+
+def rolls(axle: Axle, extent: Extent) -> Array:
+    """Return usual roll angles that both wheels reach [rad], zero included."""
+    most = extent.roll
+    if most is None:
+        ends = (1.0 - _CLEARANCE) * _most_opposite(axle) * np.array([-1.0, 1.0])
+        most = min(USUAL_ROLL, *np.abs(Line.at(axle, -ends, ends).roll))
+    with Arguments("roll") as given:
+        most = given.number("roll", most, "rad", least=0.0, below=_MOST_ROLL)
+    return grid(-most, most, USUAL_ROLL_STEP)
+
+
+def racks(axle: Axle, extent: Extent) -> Array:
+    """Return usual displacements of the rack that both wheels reach [m], zero included."""
+    found = [
+        usual_rack(model, extent=extent.rack, step=extent.step) for model in axle.models.values()
+    ]
+    most = min(f[-1] for f in found)
+    return grid(-most, most, extent.step)
+
+
+def steering_angles(axle: Axle, extent: Extent) -> Array | None:
+    """Return angles of the steering wheel for the usual displacements of the rack [rad].
+
+    Returns
+    -------
+    ndarray or None
+        None where nothing says how the steering wheel moves the rack.
+    """
+    most = float(racks(axle, extent)[-1])
+    if axle.steering is not None:
+        low, high = axle.steering.limits()
+        dense = np.linspace(low, high, 2001)
+        inside = dense[np.abs(axle.steering.rack(dense)) <= most * (1.0 + 1e-9)]
+        ends = (float(inside[0]), float(inside[-1])) if inside.size else (1.0, 1.0)
+    else:
+        per_turn = travel_per_turn(axle)
+        if per_turn is None:
+            return None
+        ends = -2.0 * np.pi * most / per_turn, 2.0 * np.pi * most / per_turn
+    if not -_MOST_TURNS < ends[0] <= 0.0 <= ends[1] < _MOST_TURNS:
+        problem = (
+            f"the steering wheel turns from {np.degrees(ends[0]):.4g} deg to "
+            f"{np.degrees(ends[1]):.4g} deg for the {1e3 * most:.4g} mm to either side that the "
+            "rack goes; that must have 0 deg within, and 20 turns at most. Correct [steering] "
+            "angle_deg and rack_mm (0 mm in the middle), or [rack] travel_per_turn_mm."
+            if axle.steering is None or inside.size
+            else f"[steering] rack_mm has nothing within the {1e3 * most:.4g} mm to either side "
+            "that the rack goes. Count it from the middle position."
+        )
+        raise InputError([problem], "axle")
+    return grid(*ends, USUAL_ANGLE_STEP)
+
+
+def turns_the_rack(axle: Axle) -> bool:
+    """Return whether its files say how the steering wheel moves the rack."""
+    return axle.steered() and (axle.steering is not None or travel_per_turn(axle) is not None)
+
+
+def travel_per_turn(axle: Axle) -> float | None:
+    """Return the rack travel for one turn of the steering wheel that the files give [m]."""
+    given = axle.right.rack.travel_per_turn_mm
+    return None if given is None else given / 1e3
+
+
+def opposite(axle: Axle, angles: Array, rack: float = 0.0) -> tuple[Array, Array]:
+    """Return the travels of the left and the right wheel for roll angles of the body [m].
+
+    The wheel centres move oppositely, by as much as turns the line between them by the angle.
+
+    Parameters
+    ----------
+    axle : Axle
+    angles : ndarray, shape (n,)
+        [rad].
+    rack : float, optional
+        Displacement of the rack [m].
+
+    Raises
+    ------
+    PositionError
+        If a wheel does not get there.
+    """
+    if np.abs(angles).max(initial=0.0) >= _MOST_ROLL:
+        worst = np.degrees(np.abs(angles).max())
+        problem = f"roll of {worst:.4g} deg: less than 45 deg is needed; Python's unit is rad."
+        raise InputError([problem], "axle")
+    most = _most_opposite(axle, rack)
+    ends = most * np.array([-1.0, 1.0])
+    low, high = Line.at(axle, -ends, ends, rack).roll
+    beyond = (angles < low) | (angles > high)
+    if beyond.any():
+        worst = float(angles[beyond][np.abs(angles[beyond]).argmax()])
+        inside = np.ceil(1e3 * np.degrees(low)) / 1e3, np.floor(1e3 * np.degrees(high)) / 1e3
+        side, travels = _nearest_end(axle, rack)
+        message = (
+            f"roll of {np.degrees(worst):.6g} deg is out of reach: the {side} wheel travels from "
+            f"{1e3 * travels[0]:+.2f} mm to {1e3 * travels[1]:+.2f} mm from design, which is "
+            f"{inside[0]:g} deg to {inside[1]:g} deg. Choose less roll."
+        )
+        raise PositionError(message)
+    half = _half_travels(axle, angles, rack, most)
+    return -half, half
+
+
+def _reaches(axle: Axle, rack: float) -> dict[str, tuple[float, float]]:
+    """Return the lowest and the highest travel of each wheel [m]."""
+    return {
+        side: (low - design_height(model), high - design_height(model))
+        for side, model in axle.models.items()
+        for low, high in [travel_range(model, rack).height]
+    }
+
+
+def _nearest_end(axle: Axle, rack: float) -> tuple[str, tuple[float, float]]:
+    """Return the side that ends opposite travels of both wheels, and how far it travels [m]."""
+    reaches = _reaches(axle, rack)
+    side = min(reaches, key=lambda side: min(-reaches[side][0], reaches[side][1]))
+    return side, reaches[side]
+
+
+def _most_opposite(axle: Axle, rack: float = 0.0) -> float:
+    """Return how far both wheels go either way [m]."""
+    low, high = _nearest_end(axle, rack)[1]
+    return min(-low, high)
+
+
+def _half_travels(axle: Axle, angles: Array, rack: float, most: float) -> Array:
+    """Return the travels of the right wheel that turn the line by the angles [m].
+
+    Newton's method with the exact slope. Beside a dead point, where its step may lead out of the
+    bracket, the bracket is halved.
+    """
+    half = np.clip(0.5 * track(axle) * np.sin(angles), -most, most)
+    low, high = np.full_like(half, -most), np.full_like(half, most)
+    for _ in range(_MOST_STEPS):
+        line = Line.at(axle, -half, half, rack)
+        excess = line.roll - angles
+        low, high = np.where(excess <= 0.0, half, low), np.where(excess >= 0.0, half, high)
+        before, newton = half, half - excess / line.roll_rate
+        inside = (newton >= low) & (newton <= high)
+        half = np.where(inside, newton, 0.5 * (low + high))
+        if (np.abs(half - before) <= _CLOSE).all():
+            break
+    return half

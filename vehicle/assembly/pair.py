@@ -1,0 +1,271 @@
+"""Both wheels of an axle and its anti-roll bar, in many positions."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ...core.errors import InputError
+from ...core.named_types import ArrayLike
+from ...core.vectors import cross
+from ..corner.corner import Array, Corner, Vehicle
+from ..models.axle import Axle
+from ..models.axle.axle import LEFT, RIGHT
+from ..models.axle.bar import HalfBar
+from ..models.model import Model
+from ..models.points import carried
+from ..models.positions import PositionError, arm_angles, design_height
+from ..models.reach import at_rest, height_and_slope
+from . import motions, wheel
+from .from_model import corner
+from .line import inclination_rate
+
+SENSE = {LEFT: 1.0, RIGHT: -1.0}
+"""In which direction each side's angle twists the bar."""
+
+# The slope of a half's angle over travel is exact; its change is a difference of fourth order over
+# this step of the arm's angle [rad]: an error of the fourth power of that, and rounding over it.
+_STEP = 1e-3
+_WEIGHTS = {-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12}
+
+
+@dataclass(frozen=True)
+class Half:
+    """Half an anti-roll bar over wheel travel.
+
+    Attributes
+    ----------
+    turn : ndarray
+        Angle from design, right-handed about the axis to the left [rad].
+    slope, curvature : ndarray
+        First and second derivative by wheel travel [rad/m], [rad/m^2].
+    lever : ndarray
+        Of the drop link's pull about the bar's axis [m]; signed.
+    """
+
+    turn: Array
+    slope: Array
+    curvature: Array
+    lever: Array
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Both wheels of an axle; every array has one leading dimension, that of the positions.
+
+    Attributes
+    ----------
+    axle : Axle
+    corners : dict of str to Corner
+        By side, the left one first.
+    travel : dict of str to ndarray
+        Wheel travel of each side [m].
+    halves : dict of str to Half
+        By side; empty without an anti-roll bar.
+    rack : ndarray
+        Displacement of the rack [m].
+    per_turn : ndarray or None
+        Rack travel for one turn of the steering wheel there, with its sign [m]; None where no
+        steering wheel turns.
+    """
+
+    axle: Axle
+    corners: dict[str, Corner]
+    travel: dict[str, Array]
+    halves: dict[str, Half]
+    rack: Array
+    per_turn: Array | None = None
+
+    @classmethod
+    def at(
+        cls,
+        axle: Axle,
+        left: ArrayLike,
+        right: ArrayLike,
+        rack: ArrayLike,
+        per_turn: Array | None = None,
+    ) -> "Pair":
+        """Return an axle at wheel travels and displacements of the rack [m].
+
+        Raises
+        ------
+        PositionError
+            If a wheel cannot be there; the message states the range.
+        InputError
+            If a drop link does not reach, or is at its dead centre.
+        """
+        one, two, racks = np.broadcast_arrays(*(np.asarray(v, float) for v in (left, right, rack)))
+        travels = {LEFT: np.array(one), RIGHT: np.array(two)}
+        angles = {
+            side: arm_angles(model, design_height(model) + travels[side], racks)
+            for side, model in axle.models.items()
+        }
+        return cls(
+            axle=axle,
+            corners={s: corner(m, angles[s], racks) for s, m in axle.models.items()},
+            travel=travels,
+            halves={
+                side: _half(axle.models[side], half, angles[side], racks, travels[side], side)
+                for side, half in axle.halves.items()
+            },
+            rack=racks,
+            per_turn=per_turn,
+        )
+
+    @property
+    def end(self) -> str:
+        """At which end of the vehicle it is."""
+        return self.axle.end
+
+    @property
+    def vehicles(self) -> tuple[Vehicle, ...]:
+        """What the vehicle adds, the left wheel first."""
+        return tuple(corner.vehicle for corner in self.corners.values())
+
+    @property
+    def left(self) -> Corner:
+        """The left wheel."""
+        return self.corners[LEFT]
+
+    @property
+    def right(self) -> Corner:
+        """The right wheel."""
+        return self.corners[RIGHT]
+
+    # -- its anti-roll bar ------------------------------------------------------------------------
+
+    @property
+    def twist(self) -> Array:
+        """Twist of the bar, left half less right half [rad]; zero without one."""
+        if not self.halves:
+            return np.zeros_like(self.travel[LEFT])
+        return self.halves[LEFT].turn - self.halves[RIGHT].turn
+
+    @property
+    def torque(self) -> Array:
+        """Torque of the bar, positive with the left half turned the farther [N m]."""
+        bar = self.axle.bar
+        if bar is None:
+            return np.zeros_like(self.travel[LEFT])
+        return bar.rate() * (self.twist - bar.free_twist())
+
+    # -- forces and rates -------------------------------------------------------------------------
+
+    def contact(self, side: str) -> Array:
+        """Return the lowest point of a wheel as a thin disc, (n, 3) [m]."""
+        return wheel.contact(self.corners[side])
+
+    def wheel_force(self, side: str) -> Array:
+        """Return the vertical force that spring, stops and bar take at the wheel [N]."""
+        force = wheel.wheel_force(self.corners[side])
+        if side in self.halves:
+            force = force + SENSE[side] * self.torque * self.halves[side].slope
+        return force
+
+    @property
+    def springs(self) -> Array:
+        """The stiffness of springs and stops at both wheels, (n, 2, 2) [N/m]."""
+        return _diagonal(*(wheel.wheel_rate(corner) for corner in self.corners.values()))
+
+    @property
+    def bar(self) -> Array:
+        """The stiffness of the anti-roll bar at both wheels, (n, 2, 2) [N/m]."""
+        given = self.axle.bar
+        if given is None:
+            return np.zeros((*self.twist.shape, 2, 2))
+        slopes = np.stack([SENSE[side] * self.halves[side].slope for side in (LEFT, RIGHT)], -1)
+        bent = (SENSE[s] * self.torque * self.halves[s].curvature for s in (LEFT, RIGHT))
+        stiffness: Array = given.rate() * slopes[..., :, None] * slopes[..., None, :]
+        return stiffness + _diagonal(*bent)
+
+    @property
+    def rolled(self) -> tuple[Array, Array]:
+        """Travels of both wheels, and lateral motion of both contacts, by a roll of the body.
+
+        The wheel centres move oppositely; (n, 2) each, the left wheel first [m/rad].
+        """
+        line = self.left.center - self.right.center
+        # of the roll angle by travel of the right wheel up and the left one down
+        rate = self.left.travel.velocity + self.right.travel.velocity
+        by_travel = inclination_rate(line, rate)
+        opposite = np.stack([-np.ones_like(by_travel), np.ones_like(by_travel)], -1)
+        travels = opposite / by_travel[:, None]
+        moved = [wheel.contact_rate(corner)[..., 1] for corner in self.corners.values()]
+        return travels, np.stack(moved, -1) * travels
+
+    def path_slope(self, torque_on: str, side: str) -> Array:
+        """Return how far forward goes per rise where a longitudinal force acts, v_x / v_z [1].
+
+        That is the contact, fixed to the carrier; the wheel centre if the body holds the torque.
+        """
+        corner = self.corners[side]
+        on_body = torque_on == "body"
+        velocity = corner.travel.velocity if on_body else wheel.contact_velocity(corner)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            slope: Array = velocity[..., 0] / velocity[..., 2]
+        return slope
+
+    # -- steered ----------------------------------------------------------------------------------
+
+    @property
+    def wheelbase(self) -> float:
+        """The wheelbase [m]."""
+        found = self.left.vehicle.wheelbase
+        assert found is not None  # what needs it is left out where it is not known
+        return found
+
+    @property
+    def design_track(self) -> float:
+        """The distance of the wheel centres at design [m]."""
+        return motions.track(self.axle)
+
+    @cached_property
+    def turned(self) -> tuple[Array, Array]:
+        """Steer angles without static toe, the left wheel first [rad].
+
+        No numbers where the wheels cannot be straight ahead at these heights.
+        """
+        try:
+            middle = Pair.at(self.axle, self.travel[LEFT][:1], self.travel[RIGHT][:1], 0.0)
+            static = [wheel.steer(corner) for corner in middle.corners.values()]
+        except PositionError:
+            static = [np.array([np.nan])] * 2
+        return wheel.steer(self.left) - static[0], wheel.steer(self.right) - static[1]
+
+
+def _diagonal(left: Array, right: Array) -> Array:
+    nothing = np.zeros_like(left)
+    return np.stack([np.stack([left, nothing], -1), np.stack([nothing, right], -1)], -2)
+
+
+def _half(model: Model, half: HalfBar, angle: Array, rack: Array, travel: Array, side: str) -> Half:
+    turn, slope, lever = _turned(model, half, angle, rack)
+    lost = ~np.isfinite(turn)
+    if lost.any():
+        first = 1e3 * float(travel[lost][np.abs(travel[lost]).argmin()])
+        problem = (
+            f"[anti_roll_bar] the {side} drop link does not reach its lever at {first:+.4g} mm of "
+            "wheel travel. Choose less travel, or move link_top, link_foot or bush."
+        )
+        raise InputError([problem], "axle")
+    changes = (
+        weight / _STEP * _turned(model, half, angle + by * _STEP, rack)[1]
+        for by, weight in _WEIGHTS.items()
+    )
+    _, rise = height_and_slope(model, angle, rack)
+    return Half(turn, slope, np.sum(list(changes), axis=0) / rise, lever)
+
+
+def _turned(model: Model, half: HalfBar, angle: Array, rack: Array) -> tuple[Array, Array, Array]:
+    """Return the angle of a half, its derivative by wheel travel, and the link's lever."""
+    states, inputs = at_rest(model, angle, rack)
+    foot = carried(model, {"foot": (half.body, half.foot)}, states, inputs)["foot"]
+    states, inputs = at_rest(model, angle, rack, arm_rate=1.0)
+    which = model.equations.BODIES.index(half.body)
+    twist = model.evaluate("velocities", states, inputs)[..., which, :]
+    center = model.evaluate("positions", states, inputs)[..., which, :]
+    velocity = twist[..., 3:] + cross(twist[..., :3], foot - center)
+    turn = half.turn(foot)
+    rise = model.signal("wheel_velocity", states, inputs)
+    _, lever = half.lever(foot, turn)
+    return turn, half.rate_of_turn(foot, turn, velocity) / rise, lever

@@ -1,0 +1,79 @@
+"""What a number is called, its unit, its definition and its sign."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from ...core.quantities import Display, display_of
+
+_DEG_PER_MM = display_of({"units": "rad"}).factor * 1e-3
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """What a characteristic is called and means.
+
+    Attributes
+    ----------
+    name : str
+        Name of the variable.
+    units : str
+        SI unit; "1" for a pure number.
+    long_name, definition, sign : str
+        In words; the definition in one line.
+    display : Display or None
+        Unit for a person, where it is not the usual one.
+    """
+
+    name: str
+    units: str
+    long_name: str
+    definition: str
+    sign: str
+    display: Display | None = None
+
+    def attributes(self) -> dict[str, Any]:
+        """Return the attributes of the variable in a dataset."""
+        shown = self.display or _display(self.units)
+        return {
+            "units": self.units,
+            "long_name": self.long_name,
+            "definition": self.definition,
+            "sign": self.sign,
+            "display_units": shown.units,
+            "display_factor": shown.factor,
+        }
+
+
+def _display(units: str) -> Display:
+    return Display("deg/mm", _DEG_PER_MM) if units == "rad/m" else display_of({"units": units})
+
+
+TRAVEL = Quantity(
+    "wheel_travel",
+    "m",
+    "wheel travel",
+    "height of the wheel centre above its design height",
+    "positive in bump",
+)
+RACK = Quantity(
+    "rack_position",
+    "m",
+    "rack displacement",
+    "displacement of the rack along its axis from its middle position",
+    "positive along the rack's axis",
+)
+ROLL = Quantity(
+    "roll_angle",
+    "rad",
+    "roll angle",
+    "inclination of the line through the wheel centres, which move oppositely, to the plane of the "
+    "body's x and y axes, from that at design",
+    "positive with the right side down",
+)
+STEERING_WHEEL = Quantity(
+    "steering_wheel_angle",
+    "rad",
+    "steering-wheel angle",
+    "angle of the steering wheel from its middle position",
+    "positive to the left",
+)

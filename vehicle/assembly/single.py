@@ -1,0 +1,83 @@
+"""The wheel of a corner, and its mirror image where both wheels of a car are looked at."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..corner.corner import Array, Corner, Vehicle
+from .wheel import steer, toe
+
+
+@dataclass(frozen=True)
+class Single:
+    """A corner in many positions.
+
+    Attributes
+    ----------
+    corner : Corner
+    mirrored : callable
+        Returns the other wheel over the rack: the mirror image of the corner.
+    straight : callable
+        Returns the corner with the rack in its middle, at the same height; None where it cannot be
+        there.
+    """
+
+    corner: Corner
+    mirrored: Callable[[], Corner]
+    straight: Callable[[], Corner | None]
+
+    @property
+    def corners(self) -> dict[str, Corner]:
+        """The corner, by the name of its wheel."""
+        return {"left" if self.corner.vehicle.side > 0.0 else "right": self.corner}
+
+    @property
+    def vehicles(self) -> tuple[Vehicle, ...]:
+        """What the vehicle adds."""
+        return (self.corner.vehicle,)
+
+    @cached_property
+    def _both(self) -> tuple[Corner, Corner]:
+        other = self.mirrored()
+        return (self.corner, other) if self.corner.vehicle.side > 0.0 else (other, self.corner)
+
+    @property
+    def left(self) -> Corner:
+        """The left wheel."""
+        return self._both[0]
+
+    @property
+    def right(self) -> Corner:
+        """The right wheel."""
+        return self._both[1]
+
+    @property
+    def wheelbase(self) -> float:
+        """The wheelbase [m]."""
+        found = self.corner.vehicle.wheelbase
+        assert found is not None  # what needs it is left out where it is not known
+        return found
+
+    @property
+    def design_track(self) -> Array:
+        """The distance of the wheel centres at design [m]."""
+        track: Array = 2.0 * abs(self.corner.design_center[..., 1])
+        return track
+
+    @property
+    def per_turn(self) -> float | None:
+        """Rack travel for one turn of the steering wheel [m]."""
+        return self.corner.vehicle.travel_per_turn
+
+    @cached_property
+    def turned(self) -> tuple[Array, Array]:
+        """Steer angles without static toe, the left wheel first [rad].
+
+        No numbers where the wheel cannot be straight ahead at this height.
+        """
+        straight = self.straight()
+        # toe-in steers the left wheel to the right, and the right one to the left
+        static = np.nan if straight is None else toe(straight)
+        return steer(self.left) + static, steer(self.right) - static

@@ -1,0 +1,85 @@
+"""How springs and stops give way along their lines, for a unit force along each."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...core.errors import InputError
+from ..corner.corner import Array, Corner
+from . import wheel
+from .beam import SIDES, Beam
+
+
+@dataclass(frozen=True)
+class SoftLines:
+    """How springs and stops give way along their lines; arrays over n positions.
+
+    Attributes
+    ----------
+    springs : ndarray, shape (n, springs, springs)
+        By how much each spring becomes shorter by a unit force along each [m/N].
+    stops : ndarray, shape (n, dampers)
+        The same of the stops beside each damper by themselves; infinite where none acts. None of
+        them, where a file has no stops.
+    """
+
+    springs: Array
+    stops: Array
+
+
+def soft_lines(there: Corner) -> SoftLines:
+    """Return how spring and stops of a suspension give way for a unit force along each.
+
+    With what their own force does as their direction changes.
+    """
+    rates = wheel.wheel_rate(replace(there, stops=()))
+    if not (rates > 0.0).all():
+        at = 1e3 * (there.center - there.design_center)[rates.argmin(), 2]
+        problem = (
+            f"at a wheel travel of {at:.1f} mm the spring has a rate of {rates.min():.4g} N/m at "
+            "the wheel: nothing holds it. Enter a rate, or another travel."
+        )
+        raise InputError([problem], "compliance")
+    spring = (there.spring.stroke.slope**2 / rates)[:, None, None]
+    if not there.stops:
+        return SoftLines(spring, np.zeros((len(rates), 0)))
+    with np.errstate(divide="ignore"):
+        stops = there.damper.slope**2 / (wheel.wheel_rate(there) - rates)
+    return SoftLines(spring, stops[:, None])
+
+
+def lines_by_rates(beam: Beam) -> SoftLines:
+    """Return how springs and stops give way by their rates alone.
+
+    Five rods have no motion with which the directions of forces would change.
+    """
+    rates = np.stack([beam.rate_of_spring(side) for side in SIDES], axis=1)
+    if not (rates > 0.0).all():
+        problem = (
+            "[spring] has a rate of 0 N/m there: nothing holds the axle. Enter a rate, or a curve "
+            "that rises."
+        )
+        raise InputError([problem], "compliance")
+    stops = np.stack([beam.rate_of_stops(side) for side in SIDES], axis=1)
+    with np.errstate(divide="ignore"):
+        return SoftLines(np.eye(2) / rates[:, None, :], 1.0 / np.abs(stops))
+
+
+def lines_of_beam(beam: Beam) -> SoftLines:
+    """Return how springs and stops give way along their lines, for a unit force along each."""
+    growth = np.stack([beam.growth(f"{side}_spring") for side in SIDES], axis=1)
+    rates = np.stack([beam.rate_of_stops(side) for side in SIDES], axis=1)
+    by_stops = np.stack([beam.growth(f"{side}_damper") for side in SIDES], axis=1)
+    # in heave and roll; what remains without the stops is of the springs
+    stiffness = -beam.of_springs[1] - by_stops.mT @ (rates[..., None] * by_stops)
+    least = np.linalg.eigvalsh(0.5 * (stiffness + stiffness.mT))[:, 0]
+    if not (least > 0.0).all():
+        at = 1e3 * float(beam.coordinate("heave")[least.argmin()])
+        problem = (
+            f"at a wheel travel of {at:.1f} mm the springs do not hold the axle: in heave or in "
+            "roll they give way by themselves. Enter a rate, or another travel."
+        )
+        raise InputError([problem], "compliance")
+    with np.errstate(divide="ignore"):
+        stops = 1.0 / np.abs(rates)
+    return SoftLines(growth @ np.linalg.solve(stiffness, growth.mT), stops)

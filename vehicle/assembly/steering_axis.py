@@ -1,0 +1,99 @@
+"""The axis about which the wheel is steered: that of two hardpoints, or that of the motion itself.
+
+Where the knuckle turns about two points (a wishbone's ball joints, a strut's mount), the axis is
+the line through them. Links of which no two meet have no such points: the knuckle then turns about
+the axis of its first motion when the rack moves and the spring keeps its length, the axis of that
+screw. Of links that meet in ball joints that is the line through them, if the spring stands on one
+of the links.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..corner.corner import Array, Motion
+
+# Half the distance of the two points that stand for an axis without points of its own [m].
+_HALF = 0.1
+# Step of the arm's angle in differences of fourth order [rad]: their error is some 1e-4^4 of the
+# axis, and that of rounding 1e-16 / 1e-4.
+_STEP = 1e-3
+_WEIGHTS = {-2: 1.0 / 12.0, -1: -8.0 / 12.0, 1: 8.0 / 12.0, 2: -1.0 / 12.0}
+
+
+@dataclass(frozen=True)
+class AxisOfPoints:
+    """A line through two points.
+
+    Attributes
+    ----------
+    lower, upper : ndarray, shape (..., 3)
+        The points, the upper one above the lower [m].
+    rate : ndarray, shape (..., 3)
+        Derivative of the vector from the lower to the upper one by wheel travel [1].
+    """
+
+    lower: Array
+    upper: Array
+    rate: Array
+
+
+class AxisOfTheScrew:
+    """The axis of a motion; what nobody asks for is not computed.
+
+    Parameters
+    ----------
+    ends : callable
+        Takes by how much the arm is turned further [rad], returns the lower and the upper point.
+    rise : ndarray
+        Derivative of wheel travel by the arm's angle [m/rad].
+    """
+
+    def __init__(self, ends: Callable[[float], tuple[Array, Array]], rise: Array) -> None:
+        self._ends, self._rise = ends, rise
+
+    @cached_property
+    def _both(self) -> tuple[Array, Array]:
+        return self._ends(0.0)
+
+    @property
+    def lower(self) -> Array:
+        """The lower point, (..., 3) [m]."""
+        return self._both[0]
+
+    @property
+    def upper(self) -> Array:
+        """The upper point, (..., 3) [m]."""
+        return self._both[1]
+
+    @cached_property
+    def rate(self) -> Array:
+        """Derivative of the vector from the lower to the upper one by wheel travel, (..., 3)."""
+        rate = np.zeros_like(self.lower)
+        for by, weight in _WEIGHTS.items():
+            low, high = self._ends(by * _STEP)
+            rate += weight / _STEP * (high - low)
+        return rate / self._rise[..., None]
+
+
+def of_the_screw(center: Array, steering: Motion) -> tuple[Array, Array]:
+    """Return two points on the axis of a motion.
+
+    Parameters
+    ----------
+    center : ndarray, shape (..., 3)
+        The wheel centre [m].
+    steering : Motion
+        Of the wheel carrier, the spring locked.
+
+    Returns
+    -------
+    lower, upper : ndarray, shape (..., 3)
+        [m].
+    """
+    nearest = steering.axis_nearest(center)
+    along = steering.turning / np.linalg.norm(steering.turning, axis=-1, keepdims=True)
+    upward = np.where(along[..., 2:] < 0.0, -along, along)
+    return nearest - _HALF * upward, nearest + _HALF * upward

@@ -1,0 +1,35 @@
+"""How the steering wheel moves the rack, and to which side that steers."""
+
+import numpy as np
+
+from ...core.errors import InputError
+from ..corner.corner import Array
+from ..models.axle import Axle
+from . import motions
+from .pair import Pair
+from .wheel import steer_gradient
+
+
+def rack_of(axle: Axle, angles: Array) -> tuple[Array, Array]:
+    """Return rack displacements at angles, and the travel for a turn there, with its sign [m]."""
+    if axle.steering is not None:
+        rises = axle.steering.rack_mm[-1] > axle.steering.rack_mm[0]
+        if (1.0 if rises else -1.0) * _sense_of_rack(axle) < 0.0:
+            problem = (
+                f"[steering] rack_mm {'rises' if rises else 'falls'} with the angle, and that "
+                "steers to the right: angles of the steering wheel are positive to the left. "
+                "Change the sign of angle_deg or of rack_mm."
+            )
+            raise InputError([problem], "axle")
+        return axle.steering.rack(angles), axle.steering.travel_per_turn(angles)
+    amount = motions.travel_per_turn(axle)
+    assert amount is not None
+    # the files give it without sign: the wheel turned to the left steers to the left
+    per_turn = amount * _sense_of_rack(axle)
+    return angles * per_turn / (2.0 * np.pi), np.full_like(angles, per_turn)
+
+
+def _sense_of_rack(axle: Axle) -> float:
+    """Return +1 where a positive displacement of the rack steers to the left, or -1."""
+    design = Pair.at(axle, 0.0, 0.0, 0.0)
+    return float(np.sign(sum(steer_gradient(corner) for corner in design.corners.values())))

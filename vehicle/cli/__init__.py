@@ -1,0 +1,149 @@
+"""The command line: ``kintrafo``. One file a command; each is a thin door to a Python function."""
+
+from typing import Annotated, Any
+
+import typer
+from rich.markup import escape
+from typer.core import TyperCommand
+
+from ...terminal.exits import guarded, standing_streams
+from . import (
+    animate,
+    characteristics,
+    check,
+    compare,
+    compliance,
+    derivation,
+    export,
+    export_points,
+    fit,
+    generate,
+    import_adams,
+    import_chrono,
+    import_points,
+    kinematics,
+    loads,
+    new,
+    optimise,
+    paper,
+    pareto,
+    report,
+    schema,
+    sensitivity,
+    sheet,
+    simulate,
+    sweep,
+    tolerance,
+    topology,
+)
+from .numbers import explained
+
+__all__ = ["app", "run"]
+
+_EXIT_CODES = (
+    "Exit codes: 0 done; 1 the suspension cannot do what was asked, or [bold]check[/bold] found a "
+    "problem; 2 a mistake in the arguments or in a file; 3 a package that is needed is not "
+    "installed."
+)
+
+app = typer.Typer(
+    help="Suspensions with kinematic loops, in closed form: checked, moved, simulated, compared.",
+    epilog=_EXIT_CODES,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="rich",
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _flowing(docstring: str) -> str:
+    """Return the paragraphs of a docstring in a line each; what is in brackets is no markup."""
+    paragraphs = (" ".join(paragraph.split()) for paragraph in docstring.split("\n\n"))
+    return escape("\n\n".join(paragraphs))
+
+
+class _Command(TyperCommand):
+    """A command in whose arguments and options, too, what is in brackets is no markup."""
+
+    def __init__(self, *args: Any, **options: Any) -> None:
+        super().__init__(*args, **options)
+        for parameter in self.params:
+            told = getattr(parameter, "help", None)
+            if told:
+                parameter.help = escape(told)  # type: ignore[attr-defined]
+
+    def parse_args(self, *given: Any) -> Any:
+        """Say what is wrong with an argument without the words of what checks it."""
+        try:
+            return super().parse_args(*given)
+        except typer.BadParameter as error:
+            error.message = error.message.removeprefix("Value error, ")
+            raise
+
+
+# In the order in which an engineer needs them.
+_PANELS = {
+    "Begin": (
+        new,
+        import_points,
+        export_points,
+        import_chrono,
+        import_adams,
+        schema,
+        check,
+        topology,
+    ),
+    "Compute": (
+        kinematics,
+        characteristics,
+        simulate,
+        loads,
+        compliance,
+        sheet,
+        compare,
+    ),
+    "Design": (sensitivity, tolerance, optimise, pareto, fit, sweep),
+    "Hand over": (report, animate, derivation, paper, generate, export),
+}
+for panel, modules in _PANELS.items():
+    for module in modules:
+        name = module.__name__.rpartition(".")[2].replace("_", "-")
+        examples = "\n\n".join(("Examples:", *module.EXAMPLES))
+        words = _flowing(module.command.__doc__ or "")
+        made = app.command(
+            name, cls=_Command, help=words, epilog=escape(examples), rich_help_panel=panel
+        )
+        made(explained(module.command))
+
+
+def _show_version(*, wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        from ...simulation.solvers import native_version
+
+        typer.echo(f"kintrafo {version('kintrafo')}, SUNDIALS {native_version()}")
+        raise typer.Exit
+
+
+@app.callback()
+def main(
+    *,
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version",
+            callback=lambda v: _show_version(wanted=v),
+            is_eager=True,
+            help="Show the versions of kintrafo and of its solver.",
+        ),
+    ] = False,
+) -> None:
+    """Suspensions with kinematic loops, in closed form: checked, moved, simulated, compared."""
+    del version
+
+
+def run() -> None:
+    """Run the command line; a user's mistake ends with a message, not with a traceback."""
+    with standing_streams(), guarded():
+        app()

@@ -1,0 +1,85 @@
+"""``kintrafo animate``: a motion as a GIF, or as a page to play."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ...terminal.console import problems, say
+from .options import File, Force, Which, load, refuse_which, system_of
+
+if TYPE_CHECKING:
+    from ...simulation.result import Simulation
+
+EXAMPLES = (
+    "kintrafo animate my_mechanism.py motion.gif",
+    "kintrafo animate my_mechanism.py motion.html --start crank_angle_rate=6 --duration 2",
+    "kintrafo animate reference_car bounce.gif --slower 5",
+)
+
+
+def command(
+    file: File,
+    path: Annotated[Path, typer.Argument(metavar="PATH", help="Ends in .gif or .html.")],
+    *,
+    start: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME=VALUE", help="Where it starts (SI units). May be repeated."),
+    ] = None,
+    duration: Annotated[float, typer.Option(metavar="S", help="Length of the motion.")] = 1.0,
+    slower: Annotated[
+        float, typer.Option(metavar="TIMES", help="A GIF plays so many times slower.")
+    ] = 1.0,
+    fps: Annotated[float, typer.Option(metavar="1/S", help="Frames per second of a GIF.")] = 25.0,
+    title: Annotated[str | None, typer.Option(help="Heading of a page.")] = None,
+    model: Which = None,
+    force: Force = False,
+) -> None:
+    """Show how a mechanism of your own, or a suspension, moves when it is let go.
+
+    It starts at rest at the design position, but for what --start says. In Python any motion can be
+    shown, over a road or with inputs: kintrafo.animate(result, "motion.gif").
+    """
+    from ...core.files import refuse
+    from ...pages.animation import ENDINGS, animate
+
+    refuse_which(file, model)
+    refuse([path], force=force, inputs=[file], endings=ENDINGS)
+    with problems.status("motion"):
+        result = _motion(file, model, _values(start or []), duration)
+        options = {"fps": fps, "slower": slower, "title": title}
+        written = animate(result, path, force=force, inputs=[file], **options)  # type: ignore[arg-type]
+    say(f"  {written}")
+
+
+def _values(given: list[str]) -> dict[str, float]:
+    """Return the values of --start by name."""
+    from ...core.errors import InputError
+
+    found: dict[str, float] = {}
+    for text in given:
+        name, _, value = (part.strip() for part in text.partition("="))
+        if name in found:
+            raise InputError([f"{name} is given twice: keep one of them."], "--start")
+        try:
+            found[name] = float(value)
+        except ValueError:
+            problem = (
+                f"{text!r}: NAME=VALUE is needed, such as crank_angle_rate=6: a number in SI "
+                "units, without the unit."
+            )
+            raise InputError([problem], "--start") from None
+    return found
+
+
+def _motion(file: str, name: str | None, values: dict[str, float], duration: float) -> "Simulation":
+    import numpy as np
+
+    from ...core.arguments import Arguments
+    from ...simulation.simulate import simulate
+
+    with Arguments("animate") as given:
+        seconds = given.number("--duration", duration, "s", above=0.0, below=3600.0)
+    system = system_of(file, name) if file.endswith(".py") else load(file)
+    times = np.linspace(0.0, seconds, max(201, round(500 * min(seconds, 20.0)) + 1))
+    return simulate(system, (0.0, seconds), system.state(**values), t_eval=times)

@@ -1,0 +1,215 @@
+"""``kintrafo compare``: curves of several suspensions over each other, and what differs."""
+
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from ...core.tabulated import significant
+from ...terminal.console import console, print_json, progress_bar, say
+from . import goals as wanted
+from .compliance import Held
+from .options import Files, Force, Json, Of, among
+from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, title_of
+from .subject import assembly_of_file
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from xarray import Dataset
+
+    from ..analysis.compare import Difference
+    from ..assembly.assembly import Assembly
+    from ..models.axle import Axle
+    from ..studies.evaluation import Subject
+
+EXAMPLES = (
+    "kintrafo compare reference_car my_car.toml",
+    "kintrafo compare before.toml after.toml --over rack --plot difference.png -o both.csv",
+    "kintrafo compare before.toml after.toml --goals goals.toml --plot goals.png",
+    "kintrafo compare rig.csv my_car.toml --plot measured.png",
+    "kintrafo compare before.toml after.toml --of toe --of bump_steer --plot steer.png",
+    "kintrafo compare before.toml after.toml --held height --plot compliance.png",
+)
+
+
+def command(
+    files: Files,
+    *,
+    over: Annotated[
+        Literal["travel", "rack", "bump", "roll", "left", "right", "steer"] | None,
+        typer.Option(
+            help="What varies: travel or rack, of axles the motion of the rig. Default: travel, "
+            "bump, or that of the measured curves."
+        ),
+    ] = None,
+    of: Of = None,
+    held: Annotated[
+        Held | None,
+        typer.Option(
+            help="Compare compliance, too, on the bushes of the files: what holds the wheel, or "
+            "held it on the rig, where it is height by default."
+        ),
+    ] = None,
+    goals: wanted.Goals = None,
+    out: Out = None,
+    plot: Plot = None,
+    figures: Figures = None,
+    formats: Formats = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Compare the characteristics of two or more files, or with curves that were measured.
+
+    Differences are those from the first file: at design, and where they are largest. Data files
+    have all characteristics. A file .csv has measured curves, wheel_travel [mm], rack_position
+    [mm] or roll_angle [deg], and toe [deg] (of an axle toe_left [deg]) and so on in its first line:
+    the others are compared with it.
+    """
+    from ..analysis import compare
+    from ..assembly.by_wheel import flat
+    from ..studies.sweep_axes import compliances_over, sweep_axes_of
+
+    outputs = Outputs.of(
+        out, plot, figures, formats, force=force, inputs=[*files, *([goals] if goals else [])]
+    )
+    dataset, way, subjects = _compared(files, over, held)
+    known = sweep_axes_of(next(iter(subjects.values())))
+    table = flat(dataset)
+    looked_at = [way, held or "height"] if {*table} & {*compliances_over(way)} else [way]
+    aims = wanted.read(goals, looked_at, known)
+    if aims:
+        wanted.refuse_elsewhere(dataset)
+    if outputs.drawn:
+        wanted.refuse_beyond(aims, dict.fromkeys(looked_at, dataset))
+    judged = wanted.judged(subjects, aims)
+    both = [f"{name}_{side}" for name in of or () for side in ("left", "right")]
+    of = [n for n in of or () if n in table or f"{n}_left" not in table] + [
+        name for name in both if name in table
+    ]
+    shown = among(of, map(str, table.data_vars)) if of else [str(n) for n in table.data_vars]
+    found = [difference for difference in compare.differences(dataset) if difference.name in shown]
+    first, *others = (str(name) for name in dataset["data_set"].values)
+    drawn = table.assign_coords(data_set=_titles(dataset["data_set"].values))
+    title = " and ".join(map(str, drawn["data_set"].values))
+    written = outputs.write(
+        dataset, title=title, names=shown if of else (), drawn=drawn, goals=aims
+    )
+    if json:
+        told = [vars(difference) | {"units": _units(table, difference)} for difference in found]
+        print_json({"differences": told, "goals": judged} if aims else told)
+        return
+    for name in others:
+        chosen = [difference for difference in found if difference.data_set == name]
+        console.print(_table(table, chosen, first, name))
+    if aims:
+        console.print(wanted.table(judged, f"targets and limits of {goals}"))
+    if dataset.attrs.get("left_out"):
+        say(f"columns that were not read: {dataset.attrs['left_out']}.")
+    name_files(written)
+
+
+class _Compared(NamedTuple):
+    """Curves beside each other.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+    way : str
+        What they are over, as goals have it.
+    subjects : dict of str to Suspension, Axle or RigidAxle
+        What has them, but for a measurement.
+    """
+
+    dataset: "Dataset"
+    way: str
+    subjects: "Mapping[str, Subject | Axle]"
+
+
+def _compared(files: list[str], over: str | None, held: Held | None) -> _Compared:
+    from ..analysis import compare
+    from ..analysis.characteristics.datasets import given_motion
+
+    measured = [file for file in files if file.lower().endswith(".csv")]
+    assemblies = _assemblies([file for file in files if file not in measured])
+    subjects = {name: assembly.subject for name, assembly in assemblies.items()}
+    if measured:
+        dataset, way = _beside(assemblies, measured, over, held or "height")
+        return _Compared(dataset, way, subjects)
+    for file, assembly in assemblies.items():
+        if over is not None and over not in assembly.motions:
+            assembly.refuse_motion(over)
+            there = ", ".join(assembly.motions)
+            raise typer.BadParameter(f"--over {over}: the motions of a rig with {file} are {there}")
+    first = next(iter(assemblies.values()))
+    with progress_bar("characteristics") as progress:
+        dataset = compare.compare(assemblies, over=over, held=held, progress=progress)
+    return _Compared(dataset, given_motion(first, over), subjects)
+
+
+def _assemblies(files: list[str]) -> "dict[str, Assembly]":
+    """Return what files describe; refuse suspensions beside axles."""
+    from ...core.quantities import distinct
+
+    found = dict(zip(distinct(files), map(assembly_of_file, files), strict=True))
+    motions = [assembly.usual_motion for assembly in found.values()]
+    if len({*motions}) > 1:
+        other = next(i for i, motion in enumerate(motions) if motion != motions[0])
+        raise typer.BadParameter(
+            f"{files[0]} and {files[other]}: one is a suspension and the other an axle. Compare "
+            "files of one sort."
+        )
+    return found
+
+
+def _beside(
+    assemblies: "dict[str, Assembly]", measured: list[str], over: str | None, held: Held
+) -> "tuple[Dataset, str]":
+    """Return curves beside those of a measurement, and the motion that they are over."""
+    from ..analysis import rig
+
+    if len(measured) > 1:
+        raise typer.BadParameter(f"one file of measured curves, not {len(measured)}")
+    curves = rig.measured_curves(measured[0])
+    if not assemblies:
+        raise typer.BadParameter("a hardpoint file is needed besides the measured curves")
+    first = next(iter(assemblies.values()))
+    way = rig.motion_of(first, curves) or first.usual_motion
+    if over is not None and (
+        over not in first.motions or first.motions[over].along.name not in curves.dims
+    ):
+        raise typer.BadParameter(f"--over {over}: the measured curves are not over that")
+    return rig.beside(curves, assemblies, measured[0], held=held), way
+
+
+def _titles(files: "Iterable[Any]") -> list[str]:
+    """Return what the figures call some files: their names alone, where these differ."""
+    given = [str(file) for file in files]
+    titles = [title_of(file) for file in given]
+    return titles if len(set(titles)) == len(titles) else given
+
+
+def _units(dataset: "Dataset", difference: "Difference") -> str:
+    return str(dataset[difference.name].attrs.get("units", ""))
+
+
+def _table(dataset: "Dataset", found: list["Difference"], first: str, other: str) -> Table:
+    from ...core.quantities import bracketed, display_of, long_name
+
+    along = next(str(name) for name in dataset.sizes if name != "data_set")
+    where = bracketed(long_name(dataset[along]), dataset[along].attrs)
+    table = Table(title=escape(f"{other} compared with {first}"))
+    table.add_column("characteristic")
+    for column in (first, other, "difference", "largest", f"at {where}"):
+        table.add_column(escape(column), justify="right")
+    for difference in found:
+        data = dataset[difference.name]
+        factor = display_of(data.attrs).factor
+        values = difference.first, difference.other, difference.at_design, difference.largest
+        table.add_row(
+            escape(bracketed(long_name(data), data.attrs)),
+            *(significant(value * factor) for value in values),
+            f"{difference.where * display_of(dataset[along].attrs).factor + 0.0:g}",
+        )
+    return table

@@ -1,0 +1,272 @@
+"""``kintrafo compliance``: what bushes do to the wheels, to first order or by any amount."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
+
+import typer
+
+from ...terminal.console import console, note, print_json, print_table, say
+from . import goals as wanted
+from .options import Bump, File, Force, Json, Of, Rebound, metres, refuse_options
+from .outputs import Out, Outputs, Plot, name_files, named, of_both, only, title_of
+from .subject import described_by
+from .variation_options import At, with_position
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+    from xarray import Dataset
+
+    from ..assembly.assembly import Assembly
+    from ..assembly.rig import Extent
+
+EXAMPLES = (
+    "kintrafo compliance my_car.toml bushes.toml",
+    "kintrafo compliance my_car.toml bushes.toml --held spring --plot curves.png -o curves.csv",
+    "kintrafo compliance my_car.toml bushes.toml --goals goals.toml --plot goals.png",
+    "kintrafo compliance my_car.toml bushes.toml --of toe_by_lateral --plot lateral.png",
+    "kintrafo compliance reference_axle bushes.toml",
+    "kintrafo compliance my_car.toml bushes.toml --nonlinear --plot curves.png",
+    "kintrafo compliance my_car.toml bushes.toml --nonlinear --under lateral --most 6000",
+    "kintrafo compliance rigid_axle axle_bushes.toml --nonlinear --motion roll --plot roll.png",
+    "kintrafo compliance reference_axle bushes.toml --nonlinear --under braking --wheels opposed",
+)
+
+Held = Literal["height", "tyre", "spring", "locked"]
+Bushes = Annotated[
+    Path | None,
+    typer.Argument(
+        metavar="[BUSHES]",
+        help="TOML: [bushings.POINT] with stiffnesses. Default: those of FILE.",
+        show_default=False,
+    ),
+]
+# Loads that a suspension meets, N and N m.
+_USUAL, _USUAL_TORQUE = 5000.0, 250.0
+_STEPS = 41
+
+
+def command(
+    file: File,
+    bushes: Bushes = None,
+    *,
+    nonlinear: Annotated[
+        bool,
+        typer.Option(
+            "--nonlinear",
+            help="By equilibrium, by any amount: over a motion, or --under a load.",
+        ),
+    ] = False,
+    under: Annotated[
+        Literal["lateral", "braking", "recession", "aligning"] | None,
+        typer.Option(help="With --nonlinear: under which load."),
+    ] = None,
+    most: Annotated[
+        float | None,
+        typer.Option(metavar="N", help="Greatest load, N or N m. Default: 5000, aligning 250."),
+    ] = None,
+    wheels: Annotated[
+        Literal["parallel", "opposed", "left", "right"] | None,
+        typer.Option(help="Of an axle, which wheels have the load. Default: parallel."),
+    ] = None,
+    motion: Annotated[
+        Literal["bump", "roll", "left", "right", "steer"] | None,
+        typer.Option(help="With --nonlinear, of an axle: over which motion. Default: bump."),
+    ] = None,
+    hardpoints: Annotated[
+        Literal["loaded", "relaxed"] | None,
+        typer.Option(
+            help="With --nonlinear: whether the joints are at the hardpoints under the static load "
+            "at design, the default, or with relaxed bushes."
+        ),
+    ] = None,
+    held: Annotated[
+        Held | None,
+        typer.Option(help="What holds the wheel: see docs/loads.md. Default: height."),
+    ] = None,
+    at: At = 0.0,
+    rack: Annotated[float, typer.Option(metavar="MM", help="Rack held there.")] = 0.0,
+    rebound: Rebound = None,
+    bump: Bump = None,
+    of: Of = None,
+    goals: wanted.Goals = None,
+    out: Out = None,
+    plot: Plot = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Print toe, camber and displacement of the wheels per kN and per 100 N m, on their bushes.
+
+    The table is about one position; data files and curves go over wheel travel. Of an axle both
+    wheels are loaded, in one direction and oppositely. With --nonlinear the equilibrium of all
+    parts, however far bushes deflect: over wheel travel, or over roll and steering of an axle, with
+    rigid joints and on the bushes; or under a load, beside what is in proportion to it.
+    """
+    if goals and rack:
+        raise typer.BadParameter(wanted.ELSEWHERE)
+    inputs: list[str | Path] = [file, *(read for read in (bushes, goals) if read is not None)]
+    outputs = Outputs.of(out, plot, force=force, inputs=inputs)
+    rig = _Rig.of(file, bushes, (at, rack), (rebound, bump))
+    loads = {"--most": most, "--wheels": wheels}
+    motions = {"--motion": motion}
+    if not nonlinear:
+        refuse_options(
+            "--nonlinear", {"--under": under, "--hardpoints": hardpoints} | loads | motions
+        )
+        _linear(rig, held or "height", outputs, of=of, goals=goals, json=json)
+        return
+    refuse_options("linear compliance", {"--of": of, "--goals": goals})
+    if len(rig.assembly.wheels) == 1:
+        refuse_options("the file of an axle", {"--wheels": wheels} | motions)
+    if under is None:
+        refuse_options("--under", loads | {"--held": held})
+        found = _over_motion(rig, motion, hardpoints or "loaded")
+    else:
+        refuse_options("curves over a motion", {"--rebound": rebound, "--bump": bump} | motions)
+        how = {"held": held or "height", "wheels": wheels, "hardpoints": hardpoints or "loaded"}
+        found = _under(rig, under, most, how)
+    _show_nonlinear(rig, found, outputs, json=json)
+
+
+class _Rig(NamedTuple):
+    """What is on the rig, and where: a file, its bushes, lengths in m."""
+
+    file: str
+    assembly: "Assembly"
+    bushings: Mapping[str, Any] | None
+    at: float
+    rack: float
+    extent: "Extent"
+
+    @classmethod
+    def of(
+        cls,
+        file: str,
+        bushes: Path | None,
+        where: tuple[float, float],
+        ends: tuple[float | None, float | None],
+    ) -> "_Rig":
+        """Return what is on the rig at a travel and a place of the rack, and its ends [mm]."""
+        from ..assembly.of import assembly_of
+        from ..assembly.rig import Extent
+
+        assembly: Any = assembly_of(described_by(file))
+        at, rack = where
+        if not assembly.steered:
+            refuse_options("files with a rack", {"--rack": rack or None})
+        rebound, bump = map(metres, ends)
+        extent = Extent(rebound=rebound, bump=bump)
+        return cls(file, assembly, described(file, bushes), at / 1e3, rack / 1e3, extent)
+
+    def on_bushes(self) -> Any:
+        """Return what the file describes, on these bushes."""
+        if self.bushings is None:
+            return self.assembly.subject
+        return self.assembly.with_bushings(self.bushings)
+
+    def travels(self) -> "NDArray[np.float64]":
+        """Return the wheel travels of curves, with that of the table [m]."""
+        usual = self.assembly.usual(self.assembly.usual_motion, self.extent, rack=self.rack)
+        return with_position(usual, 1e3 * self.at)
+
+
+def described(file: str, bushes: Path | None) -> dict[str, Any] | None:
+    """Return the bushes of a file of their own, where one is given in place of those of the car."""
+    from ..analysis.compliance import read_bushes
+
+    if bushes is None:
+        return None
+    note(f"bushes: those of {bushes}, in place of any that {file} has.")
+    return read_bushes(bushes)
+
+
+def _linear(
+    rig: _Rig, held: Held, outputs: Outputs, *, of: list[str] | None, goals: Path | None, json: bool
+) -> None:
+    """Write and print compliance to first order."""
+    from ...datasets import export
+    from ..analysis import compliance
+    from ..analysis.compliance.tables import compliances, compliances_of_beam
+    from ..assembly.by_wheel import flat
+    from ..studies.sweep_axes import sweep_axes_of
+
+    subject = rig.assembly.subject
+    found = compliance.linear(
+        rig.assembly, rig.bushings, rig.travels(), rack_position=rig.rack, held=held
+    )
+    curves = found.drop_dims(["moved", "by"])
+    columns = flat(curves)
+    names = named(of_both(of), {held: curves})[held]
+    aims = wanted.read(goals, [held], sweep_axes_of(subject))
+    judged = wanted.judged({rig.file: rig.on_bushes()}, aims) if aims else []
+    if outputs.drawn:
+        wanted.refuse_beyond(aims, {held: columns})
+    title = f"{title_of(rig.file)}: compliance, {found.attrs['held']}"
+    written = outputs.write(found, title=title, names=names, rows=columns, drawn=curves, goals=aims)
+    if json:
+        print_json(export.as_dict(flat(found)) | ({"goals": judged} if aims else {}))
+        return
+    title = f"{rig.file}: compliance, at {1e3 * rig.at:g} mm of wheel travel"
+    shown = only(of, columns)
+    of_wheels = compliances(shown, title, rig.at)
+    for table in (of_wheels, *compliances_of_beam(shown, f"{title}, the axle", rig.at)):
+        if table.rows:
+            print_table(table)
+    if aims:
+        console.print(wanted.table(judged, f"{rig.file}: targets and limits of {goals}"))
+    without = found.attrs["left_out"]
+    say(f"{found.attrs['held']}; relaxed bushes, linear{without and f'; without {without}'}.")
+    name_files(written)
+
+
+def _over_motion(rig: _Rig, motion: str | None, hardpoints: Any) -> "Dataset":
+    """Return what bushes do over a motion."""
+    from ..analysis import compliance
+
+    if motion in ("roll", "steer"):
+        far = {"--rebound": rig.extent.rebound, "--bump": rig.extent.bump}
+        refuse_options("curves over wheel travel", far)
+    along = None
+    if len(rig.assembly.wheels) == 1:
+        along = rig.travels()
+    elif motion != "steer":
+        refuse_options("the file of one suspension, or a load", {"--at": rig.at or None})
+    return compliance.elastokinematics(
+        rig.assembly, rig.bushings, motion, along, extent=rig.extent,
+        travel=rig.at if motion == "steer" else 0.0, rack_position=rig.rack, hardpoints=hardpoints,
+    )  # fmt: skip
+
+
+def _under(rig: _Rig, under: str, most: float | None, how: Mapping[str, Any]) -> "Dataset":
+    """Return how far loads move the wheels."""
+    import numpy as np
+
+    from ...core.errors import InputError
+    from ..analysis import compliance
+
+    usual = _USUAL_TORQUE if under == "aligning" else _USUAL
+    greatest = usual if most is None else most
+    if not 0.0 < greatest < np.inf:
+        raise InputError([f"--most {greatest}: a load of more than 0 is needed."], "compliance")
+    amounts = np.linspace(-greatest, greatest, _STEPS)
+    where: Any = {"travel": rig.at, "rack_position": rig.rack}
+    return compliance.nonlinear(rig.assembly, rig.bushings, under, amounts, **where, **how)
+
+
+def _show_nonlinear(rig: _Rig, found: "Dataset", outputs: Outputs, *, json: bool) -> None:
+    """Write and print what bushes do by any amount."""
+    from ...datasets import export
+    from ..analysis.compliance.tables import deflections
+    from ..assembly.by_wheel import flat
+
+    columns = flat(found)
+    title = f"{title_of(rig.file)}: {found.attrs['title']}"
+    written = outputs.write(found, title=title, rows=columns, drawn=columns)
+    if json:
+        print_json(export.as_dict(columns))
+        return
+    for sheet in deflections(found, f"{rig.file}: {found.attrs['title']}"):
+        print_table(sheet)
+    say(f"{'; '.join(found.attrs[key] for key in ('held', 'hardpoints') if key in found.attrs)}.")
+    name_files(written)

@@ -1,0 +1,71 @@
+"""``kintrafo derivation``: how the equations were derived, as a chapter to print."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ...terminal.console import problems
+from .options import Force, Which, complete_file, load, refuse_which
+from .outputs import name_files
+
+if TYPE_CHECKING:
+    from ...generator import Formulation
+
+EXAMPLES = (
+    "kintrafo derivation four_bar --out derivation.tex",
+    "kintrafo derivation my_car.toml --out derivation.md",
+    "kintrafo derivation my_mechanism.py --model crane --out crane.tex",
+)
+
+
+def command(
+    file: Annotated[
+        str,
+        typer.Argument(
+            metavar="FILE",
+            help="Hardpoint file, Python file with a mechanism of your own, or the name of a model "
+            "that comes with kintrafo: macpherson, four_bar, andrews, excavator.",
+            autocompletion=complete_file,
+        ),
+    ],
+    *,
+    out: Annotated[
+        Path,
+        typer.Option(
+            "--out", "-o", metavar="PATH", help="What to write: .tex, with its figures, or .md."
+        ),
+    ],
+    model: Which = None,
+    force: Force = False,
+) -> None:
+    """Write how the equations of motion are derived: from the joints to M, B and Q.
+
+    A chapter with the figures of the mechanism and numbered equations, for LaTeX (pdflatex, twice)
+    or as Markdown. Needs the packages of the extra "generator": pip install "kintrafo[generator]".
+    """
+    from ...systems.compile.build import require_generator
+    from ...systems.compile.derivation import write_derivation
+
+    require_generator()
+    refuse_which(file, model)
+    declared = file if file.endswith(".py") else _shipped(file)
+    with problems.status("deriving the equations"):
+        written = write_derivation(declared, out, name=model, force=force)
+    name_files(written)
+
+
+def _shipped(file: str) -> "Formulation":
+    """Return the model of a name, or that of the suspension in a file."""
+    from ...core.errors import InputError
+    from ...core.suggestions import suggestion
+    from ...generator.mechanisms import MODELS, model_named
+    from ..data.starter import packaged
+
+    known = {model.name: model for model in MODELS}
+    if file in known:
+        return known[file]
+    if not Path(file).suffix and file not in packaged() and not Path(file).exists():
+        problem = f"is no file and no name. {suggestion(file, [*known, *packaged()])}"
+        raise InputError([problem], file)
+    return model_named(load(file).equations.NAME)

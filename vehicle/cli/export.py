@@ -1,0 +1,107 @@
+"""``kintrafo export``: a model for other programs."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ...terminal.console import print_json, problems, say
+from .options import Force, Json, Which, complete_file, refuse_which, system_of
+from .subject import model_of
+
+if TYPE_CHECKING:
+    from ...systems.system import System
+
+EXAMPLES = (
+    "kintrafo export my_car.toml --to c -o my_car_c",
+    "kintrafo export my_axle.toml --to fmu",
+    "kintrafo export my_car.toml --to fmu --fmi 3 -o my_car_3.fmu",
+    "kintrafo export my_mechanism.py --model crane --to c",
+)
+
+
+def command(
+    file: Annotated[
+        str,
+        typer.Argument(
+            metavar="FILE",
+            help="Hardpoint file, file of an axle, Python file with a mechanism of your own, or a "
+            "name that comes with kintrafo: reference_car, rigid_axle, four_bar.",
+            autocompletion=complete_file,
+        ),
+    ],
+    *,
+    to: Annotated[
+        str,
+        typer.Option(
+            metavar="KIND", help="c: a folder with plain C. fmu: a functional mock-up unit."
+        ),
+    ],
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="PATH",
+            help="Path of what is written. Default: from the name of FILE.",
+        ),
+    ] = None,
+    fmi: Annotated[
+        int | None, typer.Option(metavar="VERSION", help="Of FMI, for a unit: 2 or 3. Default: 2.")
+    ] = None,
+    platform: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME",
+            help="With a library for linux or windows. May be repeated. Default: this one.",
+        ),
+    ] = None,
+    model: Which = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Write a model for other programs, with the numbers of this file, starting at design.
+
+    c: the emitted C99, which needs nothing else, with constants, a CMake file and an example. fmu:
+    Model Exchange and Co-Simulation of FMI 2.0 or 3.0 in one file. In Python any state can be the
+    start: kintrafo.export_model(model, "car.fmu", "fmu", state=rest).
+    """
+    from ...core.arguments import Arguments
+    from ...targets.export import ENDINGS, export_model
+
+    with Arguments("export") as given:
+        given.among("--to", to, ENDINGS)
+    refuse_which(file, model)
+    stem = Path(file).stem if Path(file).suffix else file
+    path = Path(f"{stem}{ENDINGS[to]}") if out is None else out
+    with problems.status("export"):
+        system = _described_by(file, model)
+        given_options = {"fmi": fmi, "platforms": platform}
+        options: dict[str, Any] = {n: v for n, v in given_options.items() if v is not None}
+        written = export_model(system, path, to, force=force, read=[file], **options)
+    if json:
+        print_json({"path": str(written), "to": to, "equations": system.equations.NAME})
+    else:
+        say(f"  {written}")
+
+
+def _described_by(file: str, model: str | None) -> "System":
+    """Return the equations of what a file describes, or a name."""
+    from importlib import import_module
+
+    from ...systems.system import System
+    from ..data.starter import packaged, packaged_axles
+
+    if file.endswith(".py"):
+        return system_of(file, model)
+    if file in _shipped() and file not in (*packaged(), *packaged_axles()):
+        return System(import_module(f"kintrafo.generated.{file}"))
+    return model_of(file)
+
+
+def _shipped() -> list[str]:
+    """Return the names of the equations that come with kintrafo."""
+    from importlib.resources import files
+
+    entries = files("kintrafo.generated").iterdir()
+    return sorted(e.name.removesuffix(".json") for e in entries if e.name.endswith(".json"))

@@ -1,0 +1,150 @@
+"""``kintrafo fit``: errors of a file that explain curves which were measured on a rig."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from ...core.tabulated import significant
+from ...terminal.console import console, print_json, progress_bar, say
+from ...terminal.exits import Exit
+from .compliance import Held
+from .options import File, Force, Json, Of, among
+from .outputs import Outputs, Plot, name_files
+from .subject import subject_of_file
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from ..studies import Fit
+
+EXAMPLES = (
+    "kintrafo fit my_car.toml rig.csv tolerances.toml",
+    "kintrafo fit my_car.toml rig.csv tolerances.toml --of toe -o as_built.toml --plot fitted.png",
+)
+
+
+def command(
+    file: File,
+    measured: Annotated[
+        Path,
+        typer.Argument(
+            metavar="MEASURED",
+            help="CSV: wheel_travel [mm] or rack_position [mm], toe [deg], ...; of a rigid axle "
+            "also over roll_angle [deg].",
+        ),
+    ],
+    tolerances: Annotated[
+        Path,
+        typer.Argument(
+            metavar="TOLERANCES",
+            help="TOML: [tolerances] of values that may be off, and [accuracy] of curves.",
+        ),
+    ],
+    *,
+    of: Of = None,
+    held: Annotated[
+        Held, typer.Option(help="What held the wheel when compliance was measured.")
+    ] = "height",
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="PATH",
+            help="Write the hardpoint file that explains the curves: .toml.",
+            rich_help_panel="Output",
+        ),
+    ] = None,
+    plot: Plot = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Find which values of the file are off, so that the curves are as they were measured.
+
+    Each stays within its tolerance; of several ways to explain a curve the most probable one is
+    told, and how sure that is. The exit code is 1 where a curve is not explained.
+    """
+    from ...core.files import refuse
+    from .. import studies as variation
+    from ..analysis import rig
+    from ..input.toml_writer import write_toml
+
+    inputs: list[str | Path] = [file, measured, tolerances]
+    outputs = Outputs.of(None, plot, force=force, inputs=inputs)
+    if out is not None:
+        refuse([out], force=force, inputs=inputs, endings=[".toml"])
+    suspension = subject_of_file(file)
+    curves = rig.measured_curves(measured)
+    asked = variation.read(tolerances)
+    names = among(of, map(str, curves)) if of else None
+    with progress_bar("fit") as progress:
+        found = variation.fit(
+            suspension,
+            curves,
+            asked.get("tolerances", {}),
+            accuracy=asked.get("accuracy"),
+            names=names,
+            held=held,
+            progress=lambda left: progress(1.0 - left),
+        )
+    written: list[Path] = []
+    if outputs.pages:
+        from ..assembly.of import assembly_of
+        from ..plots import curves as plots
+
+        models = {"file": assembly_of(found.start), "fitted": assembly_of(found.suspension)}
+        shown = rig.beside(curves, models, held=held)[[curve.name for curve in found.curves]]
+        written += [
+            plots.write_overview(
+                shown, path, (), f"{file}: {measured.name}", force=force, inputs=inputs
+            )
+            for path in outputs.pages
+        ]
+    if out is not None:
+        head = [f"{file}, with values that kintrafo fit found to explain {measured.name}."]
+        written.append(write_toml(found.suspension, out, head=head, force=force, inputs=inputs))
+    if json:
+        print_json(_facts(found))
+    else:
+        _print(found, curves, file)
+        if curves.attrs.get("left_out"):
+            say(f"columns that were not read: {curves.attrs['left_out']}.")
+        name_files(written)
+    if not found.success:
+        raise typer.Exit(Exit.REFUSED)
+
+
+def _facts(found: "Fit") -> dict[str, Any]:
+    names = ("moved", "uncertainty", "told", "success", "message")
+    facts: dict[str, Any] = {name: getattr(found, name) for name in names}
+    facts["curves"] = [vars(curve) for curve in found.curves]
+    return facts | {"suspension": found.suspension.to_dict()}
+
+
+def _print(found: "Fit", measured: "Dataset", file: str) -> None:
+    from ...core.quantities import bracketed, display_of, long_name
+
+    values = Table(title=escape(f"{file}: what may be off"))
+    values.add_column("value")
+    for column in ("file", "fitted", "off by", "+/-", "unit", "determined by the curves"):
+        values.add_column(column, justify="left" if column == "unit" else "right")
+    for place in found.places:
+        by, deviation = found.moved[place.name], found.uncertainty[place.name]
+        numbers = [f"{value:.3f}" for value in (place.value, place.value + by, by, deviation)]
+        part = f"{100.0 * found.told[place.name]:.0f} %"
+        values.add_row(escape(place.name), *numbers, place.unit or "-", part)
+    console.print(values)
+    curves = Table(title="deviations of the curves, root mean square")
+    curves.add_column("characteristic")
+    for column in ("file", "fitted", "accuracy"):
+        curves.add_column(column, justify="right")
+    for curve in found.curves:
+        data = measured[curve.name]
+        factor = display_of(data.attrs).factor
+        numbers = [significant(v * factor) for v in (curve.before, curve.after, curve.within)]
+        curves.add_row(escape(bracketed(long_name(data), data.attrs)), *numbers)
+    console.print(curves)
+    say(f"{found.message}; {found.evaluations} suspensions were looked at.")

@@ -1,0 +1,178 @@
+"""Targets and limits of a file beside curves: the option, and the table that says which are met."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from ...core.tabulated import significant
+from ...terminal.console import note
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from ..models.axle import Axle
+    from ..models.model import Model
+    from ..models.rigid import RigidAxle
+    from ..studies.evaluation import Subject
+    from ..studies.goals import Goal
+
+ELSEWHERE = "--goals are about the rack in its middle and the wheel at design"
+
+# Positions that are nearer to the end of a curve are at its end [m] or [rad].
+_ROUNDING = 1e-9
+# What stands still on a rig is held so well [m].
+_HELD = 1e-4
+
+Goals = Annotated[
+    Path | None,
+    typer.Option(
+        "--goals",
+        metavar="FILE",
+        help="TOML with [targets] and [limits] of characteristics or compliance, as of kintrafo "
+        "optimise: they are drawn into the curves, and it is told which are met.",
+    ),
+]
+
+
+def read(
+    path: Path | None, ways: Sequence[str], known: Sequence[str] = ("travel", "rack")
+) -> "list[Goal]":
+    """Return the goals of a file about curves over some ways, or compliance; none without a file.
+
+    Parameters
+    ----------
+    path : Path or None
+    ways : sequence of str
+        Those that are looked at, and what holds the wheels of what is looked at under loads.
+    known : sequence of str, optional
+        Those that the file may have, the usual first.
+    """
+    if path is None:
+        return []
+    from ...core.errors import InputError
+    from .. import studies as variation
+    from ..analysis.compliance.flexibility import HELD
+    from ..studies.sweep_axes import sweep_axis
+
+    looked_at = [over for over in ways if over in known or over in HELD]
+    if not looked_at:
+        problem = f"goals are about curves over {_or(known)}, and these are over {_or(ways)}."
+        raise InputError([problem], str(path))
+    every = variation.goals(variation.read(path), known)
+    found = [goal for goal in every if goal.over in ways]
+    if not found:
+        kinematic = "toe" if known[0] == "travel" else "camber_left"
+        soft = "toe_by_lateral" if known[0] == "travel" else "toe_by_lateral_opposed_left"
+        example = soft if looked_at[0] in HELD else kinematic
+        problem = (
+            f"it has no [targets.NAME] and no [limits.NAME] {_or(list(map(_over, looked_at)))}: "
+            f"one is needed, such as [limits.{example}] with "
+            f"at_{sweep_axis(looked_at[0]).unit}, least and most."
+        )
+        raise InputError([problem], str(path))
+    others = dict.fromkeys(_said(goal) for goal in every if goal.over not in ways)
+    if others:
+        note(f"{path}: not about these curves: {', '.join(others)}.")
+    return found
+
+
+def subject_of(of: "Model | Axle | RigidAxle") -> "Subject | Axle":
+    """Return what is judged of what a file describes."""
+    from ..models.model import Model
+
+    return of.suspension if isinstance(of, Model) else of
+
+
+def _said(goal: "Goal") -> str:
+    """Return what a goal is about, in the words of its file."""
+    return f"{goal.name} {_over(goal.over)}"
+
+
+def _over(over: str) -> str:
+    from ..analysis.compliance.flexibility import HELD
+
+    return f'with held = "{over}"' if over in HELD else f"over {over}"
+
+
+def _or(names: Sequence[str]) -> str:
+    return " or ".join(part for part in (", ".join(names[:-1]), names[-1]) if part)
+
+
+def refuse_elsewhere(curves: "Dataset") -> None:
+    """Refuse goals for curves with the rack, or the wheel, held elsewhere than at design."""
+    held = [curve for curve in curves.coords.values() if not curve.ndim and curve.dtype.kind == "f"]
+    if any(abs(float(curve)) > _HELD for curve in held):
+        raise typer.BadParameter(ELSEWHERE)
+
+
+def refuse_beyond(goals: "Sequence[Goal]", curves: "Mapping[str, Dataset]") -> None:
+    """Refuse goals beyond the ends of the curves into which they are to be drawn.
+
+    Parameters
+    ----------
+    goals : sequence of Goal
+    curves : mapping of str to Dataset
+        By what they are over.
+    """
+    from ...core.arguments import Arguments
+    from ..studies.sweep_axes import sweep_axis
+
+    with Arguments("goals") as given:
+        for goal in goals:
+            over = sweep_axis(goal.over)
+            along = curves[goal.over][over.along.name].values
+            ends = float(along.min()), float(along.max())
+            beyond = goal.at[(goal.at < ends[0] - _ROUNDING) | (goal.at > ends[1] + _ROUNDING)]
+            if beyond.size:
+                places, (low, high) = (
+                    [f"{over.factor * at + 0.0:g}" for at in values] for values in (beyond, ends)
+                )
+                given.refuse(
+                    f"{goal.name}: {', '.join(places)} {over.unit} of {over.words} is beyond its "
+                    f"curve, which goes from {low} to {high} {over.unit}. Let the curve go as far, "
+                    "or leave that position out."
+                )
+
+
+def judged(
+    subjects: "Mapping[str, Subject | Axle]", goals: "Sequence[Goal]"
+) -> list[dict[str, Any]]:
+    """Return what comes of each goal with each suspension or axle, as printed and as JSON."""
+    from .. import studies as variation
+
+    return [
+        {"file": name, **vars(verdict)}
+        for name, subject in subjects.items()
+        for verdict in variation.judge(subject, goals)
+    ]
+
+
+def table(found: Sequence[Mapping[str, Any]], title: str) -> Table:
+    """Return the table of what `judged` returns."""
+    from ...core.quantities import display_of
+    from ..studies.goals import words_of
+    from ..studies.sweep_axes import sweep_axis
+
+    files = list(dict.fromkeys(row["file"] for row in found))
+    result = Table(title=escape(title))
+    for column in ("goal", *files):
+        result.add_column(escape(column))
+    rows = [[row for row in found if row["file"] == file] for file in files]
+    for same in zip(*rows, strict=True):
+        first = same[0]
+        over = sweep_axis(first["over"])
+        shown = display_of(over.known[first["name"]].attributes())
+        cells = [
+            "met"
+            if row["met"]
+            else f"missed by {significant(row['beyond'] * shown.factor)} at "
+            f"{over.factor * row['at']:g} {over.unit}"
+            for row in same
+        ]
+        words = words_of(first["kind"], first["name"], first["over"])
+        result.add_row(escape(words), *cells)
+    return result

@@ -1,0 +1,180 @@
+"""``kintrafo loads``: the forces on every part in load cases."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from ...core.errors import InputError
+from ...core.tabulated import whole
+from ...terminal.console import console, print_json, print_table, say
+from ...terminal.exits import Exit
+from .options import File, Force, Json, among
+from .outputs import Out, Outputs, name_files, title_of
+from .subject import described_by
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+EXAMPLES = (
+    "kintrafo loads reference_car",
+    "kintrafo loads my_car.toml --cases cases.toml -o loads.csv",
+    "kintrafo loads my_car.toml --out loads.xlsx",
+    "kintrafo loads my_car.toml --case brake --part knuckle --plot knuckle.pdf",
+    "kintrafo loads reference_axle --case corner",
+    "kintrafo loads rigid_axle --case brake --part beam --plot beam.png",
+)
+
+
+def command(
+    file: File,
+    *,
+    cases: Annotated[
+        Path | None,
+        typer.Option(metavar="PATH", help="TOML of load cases. Default: usual ones."),
+    ] = None,
+    case: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME", help="Show these cases by components. May be repeated."),
+    ] = None,
+    part: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME",
+            help="Show loads on these parts: knuckle, chassis, knuckle_left of an axle, "
+            "beam of a rigid one; total has the sums at the mounts. May be repeated.",
+        ),
+    ] = None,
+    envelope: Annotated[
+        bool,
+        typer.Option("--envelope", help="Show the extremes of every component, and their cases."),
+    ] = False,
+    out: Out = None,
+    plot: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--plot",
+            metavar="PATH",
+            help="Write the free bodies of the parts in each case: .pdf, .png or .svg, a file for "
+            "each case. May be repeated.",
+            rich_help_panel="Output",
+        ),
+    ] = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Tell forces and moments on every part at its hardpoints, in load cases at rest.
+
+    Of an axle both sides are told, with the anti-roll bar and the rack between them; of a rigid
+    axle its rods, springs and dampers, and both wheels.
+    The table has the size of each force; --case shows components. Data files have everything. The
+    exit code is 1 where a case cannot be carried that is in --cases or, of the usual ones, that
+    --case names; without either, where none can.
+    """
+    from ...datasets import export
+    from ..analysis import loads as study
+    from ..analysis.loads.mounts import ALL, with_totals
+    from ..analysis.loads.sheets import overview
+    from ..assembly.by_wheel import flat
+
+    inputs: list[str | Path] = [file, *([] if cases is None else [cases])]
+    subject = described_by(file)
+    described = {} if cases is None else study.read(cases)
+    named = described["cases"] if "cases" in described else study.standard_cases(subject)
+    shown = among(case, [*named], "--case") if case else None
+    suffixes = [f"_{name}" for name in shown or named]
+    outputs = Outputs.of(out, None, force=force, inputs=inputs)
+    pages = Outputs.of(None, plot, force=force, inputs=inputs, suffixes=suffixes)
+    found = study.static(subject, named, static_load=described.get("static_load_N"))
+    parts = among(part, dict.fromkeys(with_totals(found)["part"].values), "--part") if part else []
+    bodies = [name for name in parts if name != ALL]
+    if pages.pages and parts and not bodies:
+        problem = f"{ALL} is no part that can be drawn. Name one, or leave --plot out."
+        raise InputError([problem], "--part")
+    written = outputs.write_data(found, rows=study.table(found), sheets=study.workbook(found))
+    if pages.pages:
+        from ..plots import loads as plots
+
+        for name in shown or [str(name) for name in found["case"].values]:
+            if not str(found["reason"].sel(case=name).values):
+                written += plots.write_free_bodies(
+                    found,
+                    pages.pages,
+                    name,
+                    bodies,
+                    title=title_of(file),
+                    force=force,
+                    inputs=inputs,
+                )
+    if json:
+        print_json(export.as_dict(flat(found)))
+    else:
+        told = with_totals(found, several=ALL not in parts)
+        for name in shown or ():
+            console.print(_components(told, name, parts, file))
+        if envelope:
+            console.print(_extremes(told, study.envelope(told), parts, file))
+        elif not shown:
+            print_table(overview(found, f"{file}: sizes of the forces [N]", parts))
+        _tell(found)
+        name_files(written)
+    if not _did_what_was_asked(found, [*described.get("cases", shown or ())]):
+        raise typer.Exit(Exit.REFUSED)
+
+
+def _did_what_was_asked(found: "Dataset", asked: list[str]) -> bool:
+    """Tell whether all cases are carried that somebody asked for; of the usual ones, any at all."""
+    if asked:
+        return not found["reason"].sel(case=asked).values.any()
+    return not all(found["reason"].values)
+
+
+def _tell(found: "Dataset") -> None:
+    """Say what decided, and what could not be carried."""
+    for name, reason in zip(found["case"].values, found["reason"].values, strict=True):
+        if reason:
+            say(f"{name}: {reason}")
+    say("; ".join(filter(None, (found.attrs["message"], found.attrs["rules"]))) + ".")
+
+
+def _components(found: "Dataset", case: str, parts: list[str], file: str) -> Table:
+    """Return forces and moments of one case."""
+    from ..analysis.loads.sheets import shown_rows
+
+    here = found.sel(case=case)
+    table = Table(title=escape(f"{file}: loads in {case}, chassis axes"))
+    table.add_column("on the part, at, by")
+    for column in ("Fx [N]", "Fy", "Fz", "Mx [N m]", "My", "Mz"):
+        table.add_column(escape(column), justify="right")
+    for i in shown_rows(found, parts):
+        numbers = (*here["force"].values[i], *here["moment"].values[i])
+        table.add_row(escape(_label(found, i)), *(whole(float(number)) for number in numbers))
+    return table
+
+
+def _extremes(found: "Dataset", ends: "Dataset", parts: list[str], file: str) -> Table:
+    """Return the least and the greatest of each component, with the cases in which they are."""
+    from ..analysis.loads.sheets import shown_rows
+
+    table = Table(title=escape(f"{file}: extremes of the forces [N], chassis axes"))
+    table.add_column("on the part, at, by")
+    for column in ("Fx", "Fy", "Fz"):
+        table.add_column(column, justify="right")
+    for i in shown_rows(found, parts):
+        cells = [
+            "\n".join(
+                f"{ends[f'force_{end}_case'].values[i, axis]} "
+                f"{whole(float(ends[f'force_{end}'].values[i, axis])):>7}"
+                for end in ("min", "max")
+            )
+            for axis in range(3)
+        ]
+        table.add_row(escape(_label(found, i)), *map(escape, cells))
+    return table
+
+
+def _label(found: "Dataset", row: int) -> str:
+    part, point, by = (str(found[name].values[row]) for name in ("part", "point", "by"))
+    return f"{part}, {point}, {by}"

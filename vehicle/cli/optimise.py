@@ -1,0 +1,120 @@
+"""``kintrafo optimise``: values of a file that bring characteristics to targets."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from ...core.tabulated import significant
+from ...terminal.console import console, print_json, progress_bar, say
+from ...terminal.exits import Exit
+from .moved_values import moved_table
+from .options import File, Force, Json
+from .outputs import Outputs, name_files, title_of
+from .subject import subject_of_file
+from .variation_options import Bars
+
+if TYPE_CHECKING:
+    from ..studies import Optimum
+
+EXAMPLES = (
+    "kintrafo optimise my_car.toml goals.toml",
+    "kintrafo optimise my_car.toml goals.toml -o better_car.toml --plot before_and_after.png",
+)
+
+
+def command(
+    file: File,
+    goals: Annotated[
+        Path,
+        typer.Argument(
+            metavar="GOALS",
+            help="TOML: values that are [free], and [targets] and [limits] of characteristics.",
+        ),
+    ],
+    *,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="PATH",
+            help="Write the hardpoint file that was found: .toml.",
+            rich_help_panel="Output",
+        ),
+    ] = None,
+    plot: Bars = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Move values of the file until characteristics come to their targets, within limits.
+
+    The exit code is 1 where limits cannot be kept, or the search does not come to its end.
+    """
+    from ...core.files import refuse
+    from .. import studies as variation
+    from ..input.toml_writer import write_toml
+
+    inputs: list[str | Path] = [file, goals]
+    outputs = Outputs.of(None, plot, force=force, inputs=inputs)
+    if out is not None:
+        refuse([out], force=force, inputs=inputs, endings=[".toml"])
+    suspension = subject_of_file(file)
+    asked = variation.read(goals)
+    with progress_bar("optimisation") as progress:
+        found = variation.optimise(
+            suspension,
+            asked.get("free", {}),
+            asked.get("targets", {}),
+            asked.get("limits"),
+            progress=lambda left: progress(1.0 - left),
+        )
+    written: list[Path] = []
+    for path in outputs.pages:
+        from ..plots import variation as plots
+
+        written.append(
+            plots.write_optimum(
+                found, path, title=f"{title_of(file)}: {goals.stem}", force=force, inputs=inputs
+            )
+        )
+    if out is not None:
+        head = [f"{file}, with values that kintrafo optimise found for {goals.name}."]
+        written.append(write_toml(found.suspension, out, head=head, force=force, inputs=inputs))
+    if json:
+        facts = {"moved": found.moved, "success": found.success, "message": found.message}
+        print_json(facts | {"suspension": found.suspension.to_dict()})
+    else:
+        _print(found, file)
+        name_files(written)
+    if not found.success:
+        raise typer.Exit(Exit.REFUSED)
+
+
+def _print(found: "Optimum", file: str) -> None:
+    console.print(moved_table(found.places, found.moved, f"{file}: values that moved"))
+    console.print(_goals(found))
+    say(f"{found.message}; {found.evaluations} suspensions were looked at.")
+
+
+def _goals(found: "Optimum") -> Table:
+    from ...core.quantities import bracketed, display_of
+    from ..assembly.of import assembly_of
+
+    table = Table(title="largest deviations from the targets")
+    table.add_column("characteristic")
+    for column in ("before", "after", "what matters"):
+        table.add_column(column, justify="right")
+    for target in found.targets:
+        attributes = target.quantity.attributes()
+        factor = display_of(attributes).factor
+        missed = [
+            abs(target.curves.of(assembly_of(suspension))[0] - target.value).max()
+            for suspension in (found.start, found.suspension)
+        ]
+        name = bracketed(f"{target.quantity.long_name}{target.over_words}", attributes)
+        cells = (significant(float(v) * factor) for v in (*missed, target.within))
+        table.add_row(escape(name), *cells)
+    return table

@@ -1,0 +1,200 @@
+"""``kintrafo pareto``: values of a file that are as good as can be in several objectives."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from ...core.tabulated import significant
+from ...terminal.console import console, print_json, progress_bar, say
+from ...terminal.exits import Exit
+from .moved_values import moved_table
+from .options import File, Force, Json
+from .outputs import Out, Outputs, name_files, title_of
+from .subject import subject_of_file
+from .variation_options import Bars
+
+if TYPE_CHECKING:
+    from ..studies import Front
+
+EXAMPLES = (
+    "kintrafo pareto my_car.toml objectives.toml -o front.csv --plot front.png",
+    "kintrafo pareto my_car.toml objectives.toml --member 7 --car chosen_car.toml",
+)
+
+# So many members are a table that is read; the data file has all.
+_ROWS = 20
+
+
+def command(
+    file: File,
+    study: Annotated[
+        Path,
+        typer.Argument(
+            metavar="STUDY",
+            help="TOML: values that are [free]; [targets], [minimise] and [maximise], each an "
+            "objective; and [limits] if there are some.",
+        ),
+    ],
+    *,
+    population: Annotated[
+        int, typer.Option(metavar="N", help="Suspensions of a generation, and members at most.")
+    ] = 48,
+    generations: Annotated[int, typer.Option(metavar="N", help="How many there are.")] = 40,
+    seed: Annotated[int, typer.Option(metavar="N", help="Another search for another seed.")] = 1,
+    member: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            help="The member that is chosen. Default: the compromise, nearest to the best of all "
+            "objectives.",
+        ),
+    ] = None,
+    out: Out = None,
+    car: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="PATH",
+            help="Write the hardpoint file of the chosen member: .toml.",
+            rich_help_panel="Output",
+        ),
+    ] = None,
+    plot: Bars = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Find suspensions of which none is better than another in every objective.
+
+    It is the Pareto front of objectives that contradict each other, to choose from. The exit code
+    is 1 where no suspension keeps the limits.
+    """
+    from ...core.files import refuse
+    from ...datasets import export
+    from .. import studies as variation
+
+    inputs: list[str | Path] = [file, study]
+    outputs = Outputs.of(out, plot, force=force, inputs=inputs)
+    if car is not None:
+        refuse([car], force=force, inputs=inputs, endings=[".toml"])
+    _refuse_member(member, population)
+    suspension = subject_of_file(file)
+    asked = variation.read(study)
+    with progress_bar("suspensions") as progress:
+        found = variation.pareto(
+            suspension,
+            asked.get("free", {}),
+            asked.get("targets"),
+            minimise=asked.get("minimise"),
+            maximise=asked.get("maximise"),
+            limits=asked.get("limits"),
+            population=population,
+            generations=generations,
+            seed=seed,
+            progress=progress,
+        )
+    chosen = 0
+    written: list[Path] = []
+    if found.success:
+        chosen = found.compromise if member is None else member
+        written = _write(found, chosen, outputs, car, title=f"{title_of(file)}: {study.stem}")
+    if json:
+        print_json(_facts(found, chosen) | export.as_dict(found.dataset))
+    else:
+        _print(found, chosen, file)
+        name_files(written)
+    if not found.success:
+        raise typer.Exit(Exit.REFUSED)
+
+
+def _refuse_member(member: int | None, population: int) -> None:
+    """Refuse a number that no front can have before it is computed."""
+    from ...core.arguments import Arguments
+
+    with Arguments("pareto") as given:
+        if member is not None:
+            given.whole("--member", member, most=max(population, 1))
+
+
+def _write(
+    found: "Front", chosen: int, outputs: Outputs, car: Path | None, *, title: str
+) -> list[Path]:
+    """Write what was asked for, once the chosen member is known to be there."""
+    from ..input.toml_writer import write_toml
+
+    suspension = found.suspension(chosen)
+    written = outputs.write_data(found.dataset)
+    for path in outputs.pages:
+        from ..plots import pareto as plots
+
+        written.append(
+            plots.write_front(
+                found, path, chosen=chosen, title=title, force=outputs.force, inputs=outputs.inputs
+            )
+        )
+    if car is not None:
+        head = [f"{title}, member {chosen} of the front that kintrafo pareto found."]
+        written.append(
+            write_toml(suspension, car, head=head, force=outputs.force, inputs=outputs.inputs)
+        )
+    return written
+
+
+def _facts(found: "Front", chosen: int) -> dict[str, Any]:
+    names = ("before", "keeps_limits", "compromise", "success", "message")
+    facts: dict[str, Any] = {name: getattr(found, name) for name in names}
+    return facts | {"chosen": chosen}
+
+
+def _print(found: "Front", chosen: int, file: str) -> None:
+    console.print(_table(found, chosen, file))
+    if chosen:
+        title = f"{file}: values of member {chosen}"
+        console.print(moved_table(found.places, found.moved[chosen - 1], title))
+    say(f"{found.message}; {found.evaluations} were looked at.")
+
+
+def _table(found: "Front", chosen: int, file: str) -> Table:
+    """Return a row for the suspension as it is and for each member, or for some of many."""
+    from ...core.quantities import bracketed, display_of
+
+    count = len(found.moved)
+    table = Table(title=escape(f"{file}: {count} on the front"))
+    table.add_column("member", justify="right")
+    described = [objective.attributes() for objective in found.objectives]
+    for attrs in described:
+        heading = f"{bracketed(str(attrs['long_name']), attrs)}\nwanted {attrs['wanted']}"
+        table.add_column(escape(heading), justify="right")
+    table.add_column("")
+    factors = [display_of(attrs).factor for attrs in described]
+
+    def add(member: str, numbers: Sequence[float], remark: str) -> None:
+        cells = (significant(v * factor) for v, factor in zip(numbers, factors, strict=True))
+        table.add_row(member, *cells, remark)
+
+    add("", [*found.before.values()], _of_start(found))
+    rows = _rows(count, chosen, found.compromise)
+    if len(rows) < count:
+        table.caption = "some of them; data files have all"
+    values = [found.dataset[objective.name].values for objective in found.objectives]
+    for member in rows:
+        add(str(member), [float(v[member - 1]) for v in values], _remark(found, member, chosen))
+    return table
+
+
+def _of_start(found: "Front") -> str:
+    return "as it is" if found.keeps_limits else "as it is, beyond limits"
+
+
+def _remark(found: "Front", member: int, chosen: int) -> str:
+    remarks = ["compromise"] if member == found.compromise else []
+    return ", ".join(remarks + (["chosen"] if member == chosen != found.compromise else []))
+
+
+def _rows(count: int, *always: int) -> list[int]:
+    """Return the numbers of the members that are shown, the first and the last among them."""
+    some = {round(1 + step * (count - 1) / (_ROWS - 1)) for step in range(_ROWS)}
+    shown = some | {*always} if count > _ROWS else {*range(1, count + 1)}
+    return sorted(shown - {0}) if count else []

@@ -1,0 +1,36 @@
+"""``kintrafo schema``: the JSON Schema of hardpoint files, for editors."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ...terminal.console import say
+from .options import Force
+
+EXAMPLES = ("kintrafo schema", "kintrafo schema kintrafo.schema.json")
+
+
+def command(
+    path: Annotated[
+        Path | None,
+        typer.Argument(metavar="PATH", help="File to write; ends in .json."),
+    ] = None,
+    *,
+    force: Force = False,
+) -> None:
+    """Print or write the JSON Schema of the files of suspensions and axles: keys, units, ranges.
+
+    Editors complete and check hardpoint files with it. Write it beside them, and let their first
+    line be `#:schema ./kintrafo.schema.json`, which TOML language servers understand.
+    """
+    from ...core.files import refuse, replacing
+    from ..files.schema import schema_text
+
+    if path is None:
+        typer.echo(schema_text(), nl=False)
+        return
+    refuse([path], force=force, endings=[".json"])
+    with replacing(path, force=force) as temporary:
+        temporary.write_text(schema_text(), encoding="utf-8", newline="\n")
+    say(f"  {path}")

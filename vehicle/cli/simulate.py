@@ -1,0 +1,325 @@
+"""``kintrafo simulate``: the motion over a road."""
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from ...core.tabulated import number
+from ...terminal.console import console, print_json, problems, say
+from ...terminal.exits import Exit
+from .options import File, Force, Json
+from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, title_of
+from .scenarios import scenario_of
+from .simulation_options import (
+    Atol,
+    Duration,
+    Height,
+    MaxStep,
+    MaxSteps,
+    Measured,
+    Method,
+    OutputStep,
+    Rack,
+    RackFrequency,
+    RackSine,
+    RoadFrequency,
+    RoadSine,
+    RoadStep,
+    RoadStepAt,
+    Rtol,
+    Speed,
+    Spin,
+    Step,
+    Wheels,
+)
+from .subject import model_of
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from ...simulation.result import Simulation
+    from ..analysis.scenario import Scenario
+
+EXAMPLES = (
+    "kintrafo simulate reference_car --height 305",
+    "kintrafo simulate my_car.toml --road-step 20 --road-step-at 0.1 -o bump.csv --plot bump.png",
+    "kintrafo simulate my_car.toml --road-sine 10 --road-frequency 2 --duration 5",
+    "kintrafo simulate my_car.toml --road-step 60 --loads loads.csv",
+    "kintrafo simulate my_car.toml --measured road.csv --speed 60 -o ride.nc",
+    "kintrafo simulate reference_axle --road-step 20 --wheels left",
+    "kintrafo simulate rigid_axle --road-step 20 --wheels left",
+)
+
+# On the page of curves, of each wheel and of what couples them, in this order; what stands still is
+# left out.
+_DRAWN = (
+    "road_height",
+    "rack_position",
+    "wheel_center_z",
+    "wheel_acceleration",
+    "tyre_force",
+    "spring_force",
+    "spring_spring_force",
+    "damper_force",
+    "damper_damper_force",
+    "strut_length",
+    "spring_length",
+    "camber",
+    "toe",
+    "axle_steer",
+    "heave",
+    "roll",
+    "bar_angle",
+    "bar_spring_moment",
+)
+
+
+def command(
+    file: File,
+    *,
+    height: Height = None,
+    spin: Spin = 0.0,
+    road_step: RoadStep = None,
+    road_step_at: RoadStepAt = 0.1,
+    road_sine: RoadSine = None,
+    road_frequency: RoadFrequency = 1.0,
+    measured: Measured = None,
+    speed: Speed = None,
+    wheels: Wheels = None,
+    rack: Rack = None,
+    rack_sine: RackSine = None,
+    rack_frequency: RackFrequency = 1.0,
+    duration: Duration = None,
+    output_step: OutputStep = 1.0,
+    method: Method = "BDF",
+    step: Step = None,
+    rtol: Rtol = None,
+    atol: Atol = None,
+    max_step: MaxStep = None,
+    max_steps: MaxSteps = 10_000_000,
+    out: Out = None,
+    plot: Plot = None,
+    figures: Figures = None,
+    formats: Formats = None,
+    loads: Annotated[
+        list[Path] | None,
+        typer.Option(
+            metavar="PATH",
+            help="Write the loads on every part: .csv or .xlsx (mm), .nc or .parquet. "
+            "May be repeated.",
+            rich_help_panel="Output",
+        ),
+    ] = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Simulate the suspension over a step, a sine or a measured road, with its rack moving.
+
+    Without --height it starts from rest on the road as it is at the beginning. The equations of an
+    axle are derived and compiled when they are first needed, which takes some seconds.
+    """
+    from ...core.files import refuse
+    from ..corner.wheel_loads import UNITS
+
+    read_here = [Path(file), *([] if measured is None else [measured])]
+    outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=read_here)
+    on_parts = Outputs.of(loads, None, force=force, inputs=read_here)
+    refuse([*outputs.data, *outputs.pages, *on_parts.data], force=force, inputs=read_here)
+    scenario = scenario_of(
+        height=height,
+        spin=spin,
+        road_step=road_step,
+        road_step_at=road_step_at,
+        road_sine=road_sine,
+        road_frequency=road_frequency,
+        measured=measured,
+        speed=speed,
+        rack=rack,
+        rack_sine=rack_sine,
+        rack_frequency=rack_frequency,
+        duration=duration,
+        output_step=output_step,
+    )
+    model = model_of(file, wheel_loads=not UNITS.keys().isdisjoint(scenario.inputs))
+    run = _Run(model, file, scenario, wheels)
+    options = {
+        "method": method,
+        "step": None if step is None else step / 1e3,
+        "rtol": rtol,
+        "atol": atol,
+        "max_step": math.inf if max_step is None else max_step / 1e3,
+        "max_steps": max_steps,
+    }
+    result, motion = _played(run, options, outputs, silent=json)
+    written = _written(run, motion, outputs, title_of(file))
+    if loads:
+        from ..analysis import loads as study
+
+        found = study.along(model, result)
+        written += on_parts.write_data(found, rows=study.table(found), sheets=study.workbook(found))
+    left = result.validity
+    if json:
+        print_json(_summary(result, motion, run))
+    else:
+        console.print(_table(motion, run))
+        for line in _told(result, run):
+            say(line)
+        name_files(written)
+    for excursion in left:
+        head, style = ("note", "yellow") if excursion.bound.possible else ("not valid", "red")
+        problems.print(f"{head}: {excursion}", style=style, highlight=False, markup=False)
+    if not all(excursion.bound.possible for excursion in left):
+        raise typer.Exit(Exit.REFUSED)
+
+
+class _Run:
+    """What is simulated, checked against the options that not every file has."""
+
+    def __init__(self, model: Any, file: str, scenario: "Scenario", wheels: str | None) -> None:
+        from ..assembly.of import assembly_of
+
+        self.model, self.file, self.scenario = model, file, scenario
+        assembly = assembly_of(model)
+        self.names = {wheel: assembly.names_of(wheel) for wheel in assembly.wheels}
+        if len(self.names) > 1 and scenario.height is not None:
+            raise typer.BadParameter("--height is only for the file of one suspension")
+        if len(self.names) == 1 and wheels is not None:
+            raise typer.BadParameter("--wheels is only for the file of an axle")
+        self.wheels = wheels or "both"
+        if getattr(model, "free_rack", False):
+            _tell_of_the_free_rack(file, scenario.inputs)
+
+    def curves(self, motion: "Dataset") -> list[str]:
+        """Return the names of what is shown of a motion, in order."""
+        starts = ("", *(s for n in self.names.values() for s in (n.prefix, n.signals)))
+        names = dict.fromkeys(f"{start}{stem}" for stem in _DRAWN for start in starts)
+        return [name for name in names if name in motion]
+
+    def drawn(self, motion: "Dataset") -> "Dataset":
+        """Return a motion as it is drawn: both wheels beside each other."""
+        from ..analysis.scenario import by_wheel
+
+        return by_wheel(self.model, motion)
+
+
+def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:
+    """Say that nothing holds the rack; refuse to prescribe its motion."""
+    from ...core.errors import InputError
+
+    reason = "tie rod, rack or upper strut have mass, so the rack moves freely"
+    if "rack_position" in inputs:
+        problem = f"{reason}: its motion cannot be prescribed. Set their mass_kg to 0 to do so."
+        raise InputError([problem], file)
+    problems.print(f"note: {reason}, without a force on it.", style="yellow", markup=False)
+
+
+def _played(
+    run: _Run, options: dict[str, Any], outputs: Outputs, *, silent: bool
+) -> "tuple[Simulation, Dataset]":
+    """Simulate; where that cannot be finished, write the motion up to there."""
+    from ...simulation.result import SimulationError
+    from ..analysis import scenario
+
+    try:
+        with problems.status("integrating"):
+            return scenario.run(run.model, run.scenario, wheels=run.wheels, **options)
+    except SimulationError as error:
+        if error.partial is not None and error.partial.t.size > 1:
+            motion = scenario.motion_of(run.model, error.partial)
+            written = _written(run, motion, outputs, f"{title_of(run.file)}, unfinished")
+            name_files(() if silent else written)
+        reason = error.reason.replace("max_steps", "--max-steps").replace("rtol", "--rtol")
+        raise SimulationError(reason, error.time, error.state, error.partial) from error
+
+
+def _written(run: _Run, motion: "Dataset", outputs: Outputs, title: str) -> list[Path]:
+    """Write the motion; its page has the curves that are not constant."""
+    drawn, first = run.drawn(motion), f"{next(iter(run.names))}_"
+    names = dict.fromkeys(n for c in run.curves(motion) for n in (c, c.removeprefix(first)))
+    known = [name for name in names if name in drawn]
+    varying = [n for n in known if float(drawn[n].max() - drawn[n].min()) > 0.0]
+    return outputs.write(motion, title=title, names=varying, drawn=drawn)
+
+
+def _crossings(result: "Simulation", run: _Run) -> dict[str, list[float]]:
+    """Return the times at which each wheel left the ground, and at which it came back."""
+    names = [
+        f"{own.prefix}wheel_{what}_ground"
+        for own in run.names.values()
+        for what in ("leaves", "touches")
+    ]
+    if not result.t_events:
+        return {name: [] for name in names}
+    return {n: [float(t) for t in at] for n, at in zip(names, result.t_events, strict=True)}
+
+
+def _counts(result: "Simulation") -> dict[str, int]:
+    names = ("steps", "nfev", "njev", "nlu", "error_test_failures", "order")
+    return {name: int(result[name]) for name in names if name in result}
+
+
+def _summary(result: "Simulation", motion: "Dataset", run: _Run) -> dict[str, Any]:
+    from ...datasets.recording import statistics
+
+    return {
+        "duration": float(result.t[-1]),
+        "message": result.message,
+        "solver": {"name": result.solver, **_counts(result)},
+        **_crossings(result, run),
+        "validity": [
+            vars(found) | {"bound": vars(found.bound), "text": str(found)}
+            for found in result.validity
+        ],
+        "statistics": {
+            name: {"units": motion[name].attrs["units"], **vars(found)}
+            for name, found in statistics(motion).items()
+        },
+    }
+
+
+def _table(motion: "Dataset", run: _Run) -> Table:
+    from ...core.quantities import bracketed, display_of, long_name
+    from ...datasets.recording import statistics
+
+    table = Table(title=f"{escape(run.file)}: motion from 0 s to {float(motion['time'][-1]):g} s")
+    table.add_column("signal")
+    for column in ("smallest", "largest", "mean", "rms about it", "last"):
+        table.add_column(column, justify="right")
+    found = statistics(motion)
+    for name in run.curves(motion):
+        data = motion[name]
+        factor = display_of(data.attrs).factor
+        values = vars(found[name]).values()
+        label = escape(bracketed(long_name(data), data.attrs))
+        table.add_row(label, *(number(value * factor) for value in values))
+    return table
+
+
+def _told(result: "Simulation", run: _Run) -> list[str]:
+    """Return what happened, and what it took."""
+    crossings, counts = _crossings(result, run), _counts(result)
+    lines = [f"{result.solver}: " + ", ".join(f"{v} {_WORDS[n]}" for n, v in counts.items())]
+    for prefix in (own.prefix for own in run.names.values()):
+        left = crossings[f"{prefix}wheel_leaves_ground"]
+        if not left:
+            continue
+        times = ", ".join(f"{time:.4g} s" for time in left[:5])
+        more = ", ..." if len(left) > 5 else ""
+        often = "once" if len(left) == 1 else f"{len(left)} times"
+        which = f"The {prefix.replace('_', ' ')}wheel"
+        lines.append(f"{which} leaves the ground {often}: {times}{more}")
+    return lines
+
+
+_WORDS = {
+    "steps": "steps",
+    "nfev": "evaluations",
+    "njev": "Jacobians",
+    "nlu": "factorisations",
+    "error_test_failures": "failed error tests",
+    "order": "the last order",
+}

@@ -1,0 +1,206 @@
+"""``kintrafo sweep``: the motion over a grid of values of a file."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from ...core.tabulated import significant
+from ...terminal.console import console, print_json, progress_bar, say
+from ...terminal.exits import Exit
+from .options import File, Force, Json
+from .outputs import Out, Outputs, Plot, name_files, title_of
+from .scenarios import scenario_of
+from .simulation_options import (
+    Duration,
+    Height,
+    Measured,
+    OutputStep,
+    Rack,
+    RackFrequency,
+    RackSine,
+    RoadFrequency,
+    RoadSine,
+    RoadStep,
+    RoadStepAt,
+    Speed,
+    Spin,
+)
+from .subject import subject_of_file
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from ...systems.system import System
+
+# More values of one place than anybody looks at.
+_MOST_VALUES = 100_000
+
+EXAMPLES = (
+    "kintrafo sweep my_car.toml strut.damper_rate_N_s_per_m=500:3000:11 --road-step 20",
+    "kintrafo sweep my_car.toml hardpoints.tie_rod_inner.z=270,280,290 --keep toe:max -o toe.csv",
+)
+
+_USUAL = ("wheel_acceleration:rms", "tyre_force:min", "tyre_force:rms")
+# So many combinations are a table that is read.
+_ROWS = 40
+
+
+def command(
+    file: File,
+    values: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="PLACE=VALUES...",
+            help="Values of the file that vary: from:to:count, or a list with commas.",
+        ),
+    ],
+    *,
+    keep: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="SIGNAL:KIND",
+            help="Kept of each motion: max, min, mean, rms, above:LEVEL, percentile:NUMBER. May be "
+            f"repeated. Default: {', '.join(_USUAL)}.",
+        ),
+    ] = None,
+    height: Height = None,
+    spin: Spin = 0.0,
+    road_step: RoadStep = None,
+    road_step_at: RoadStepAt = 0.1,
+    road_sine: RoadSine = None,
+    road_frequency: RoadFrequency = 1.0,
+    measured: Measured = None,
+    speed: Speed = None,
+    rack: Rack = None,
+    rack_sine: RackSine = None,
+    rack_frequency: RackFrequency = 1.0,
+    duration: Duration = None,
+    output_step: OutputStep = 1.0,
+    out: Out = None,
+    plot: Plot = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Simulate the suspension with all combinations of some values, many at once.
+
+    Each starts at its own rest, unless --height says where. The exit code is 1 where one does not
+    reach the end.
+    """
+    from ...datasets import export
+    from .. import studies as variation
+    from ..assembly.of import model_of
+
+    inputs = [Path(file), *([] if measured is None else [measured])]
+    outputs = Outputs.of(out, plot, force=force, inputs=inputs)
+    suspension = subject_of_file(file)
+    scenario = scenario_of(
+        height=height,
+        spin=spin,
+        road_step=road_step,
+        road_step_at=road_step_at,
+        road_sine=road_sine,
+        road_frequency=road_frequency,
+        measured=measured,
+        speed=speed,
+        rack=rack,
+        rack_sine=rack_sine,
+        rack_frequency=rack_frequency,
+        duration=duration,
+        output_step=output_step,
+    )
+    grid = dict(map(_numbers, values))
+    if len(grid) < len(values):
+        raise typer.BadParameter("a place is named twice: write all of its values together")
+    if plot and len(grid) > 2:
+        raise typer.BadParameter("a figure shows one value or two; leave out --plot, or a value")
+    model = model_of(suspension)
+    reductions = _reductions(model, keep or _usual(model))
+    with progress_bar("suspensions") as progress:
+        found = variation.sweep(
+            suspension, grid, scenario, reductions=reductions, progress=progress
+        )
+    kept = found.drop_dims(["time", "state_element", "bound"])
+    names = [str(n) for n in kept.data_vars if kept[n].dtype.kind == "f" and n != "end_time"]
+    written = outputs.write(kept, title=title_of(file), names=names)
+    if json:
+        print_json(export.as_dict(kept))
+    else:
+        console.print(_table(kept, names, file))
+        say(str(found.attrs["message"]))
+        name_files(written)
+    if not found["success"].all():
+        raise typer.Exit(Exit.REFUSED)
+
+
+def _numbers(text: str) -> tuple[str, list[float]]:
+    """Read values: ``place=from:to:count``, or ``place=a,b,c``."""
+    import numpy as np
+
+    place, mark, given = text.partition("=")
+    parts = given.split(":")
+    try:
+        if len(parts) == 3 and 1 < int(parts[2]) <= _MOST_VALUES:
+            return place, np.linspace(float(parts[0]), float(parts[1]), int(parts[2])).tolist()
+        if mark and len(parts) == 1:
+            return place, [float(number) for number in given.split(",")]
+    except ValueError:
+        pass
+    raise typer.BadParameter(
+        f"{text!r}: write PLACE=FROM:TO:COUNT with 2 to {_MOST_VALUES} values, or "
+        "PLACE=VALUE,VALUE,...: numbers in the unit of the file, written without it"
+    )
+
+
+def _usual(model: "System") -> tuple[str, ...]:
+    """Return what is kept where nobody says: of a rigid axle that of both wheels."""
+    if _USUAL[0].partition(":")[0] in model.signal_names:
+        return _USUAL
+    return tuple(f"{side}_axle_{kept}" for kept in _USUAL for side in ("left", "right"))
+
+
+def _reductions(model: "System", kept: tuple[str, ...] | list[str]) -> dict[str, list[Any]]:
+    """Read what is kept of each motion; levels are in units for people."""
+    from ...core.quantities import attributes, display_of
+
+    found: dict[str, list[Any]] = {}
+    for text in kept:
+        signal, _, kind = text.partition(":")
+        word, mark, level = kind.partition(":")
+        entry: Any = word
+        if word == "psd":
+            raise typer.BadParameter(
+                f"{text!r}: a spectrum is no number for a table; kintrafo.ensemble keeps spectra"
+            )
+        if mark and signal in model.signal_names:
+            unit = model.equations.SIGNALS[signal]["unit"]
+            try:
+                factor = display_of(attributes("", unit)).factor if word == "above" else 1.0
+                entry = word, float(level) / factor
+            except ValueError:
+                raise typer.BadParameter(f"{text!r}: {level!r} is no number") from None
+        found.setdefault(signal, []).append(entry)
+    return found
+
+
+def _table(dataset: "Dataset", names: list[str], file: str) -> Table:
+    """Return a row for each combination, or of many the extremes."""
+    from ...core.quantities import bracketed, display_of, long_name
+
+    rows = dataset[names].to_dataframe().reset_index()
+    table = Table(title=escape(f"{file}: {len(rows)} suspensions"))
+    if len(rows) > _ROWS:
+        there = [rows[name].dropna() for name in names]
+        extremes = {i for some in there if some.size for i in (some.idxmin(), some.idxmax())}
+        rows = rows.loc[sorted(extremes)]
+        table.caption = "those with the smallest and the greatest numbers"
+    for name in rows.columns:
+        data = dataset[name]
+        table.add_column(escape(bracketed(long_name(data), data.attrs)), justify="right")
+    factors = [display_of(dataset[name].attrs).factor for name in rows.columns]
+    for row in rows.itertuples(index=False):
+        pairs = zip(row, factors, strict=True)
+        table.add_row(*(significant(float(value) * factor) for value, factor in pairs))
+    return table

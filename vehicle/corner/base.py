@@ -1,0 +1,635 @@
+"""A suspension as an engineer describes it: hardpoints, alignment, rates and masses.
+
+`Suspension` is what all have in common. Each kind has a file of its own in `kinds`, where all that
+differs between them stands; there `Suspension` is imported from, so that all kinds are known. It
+holds the values as they stand in the input file, in the units that the names of its keys carry.
+`Suspension.parameters` returns what the equations of motion take, in SI units.
+
+Axes are those of ISO 8855, fixed to the chassis: x forward, y left, z up. A right suspension lies
+at negative y, a left one at positive y.
+"""
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from pathlib import Path
+from types import ModuleType
+from typing import Any, ClassVar, Self, TypeVar, get_args
+
+from pydantic import Field, ValidationError
+
+from ...core.arguments import Arguments
+from ...core.columns import number
+from ...core.errors import InputError
+from ...core.suggestions import suggestion
+from ...core.vectors import components, unit_vector
+from ...systems.allowed import Allowed
+from ..data import data_sets, find
+from ..data.starter import DEFAULT, NOT_A_RIGID_AXLE, RIGID_AXLE, RIGID_AXLES, packaged_axles
+from ..input.bodies import Bodies
+from ..input.damper import NO_CURVE, Damper
+from ..input.hardpoints import Hardpoints
+from ..input.messages import messages_of
+from ..input.places import put, reverse
+from ..input.section import Section
+from ..input.spring import rate_key
+from ..input.stop import NO_STOP, Stop
+from ..input.toml_file import read_toml
+from ..input.toml_writer import write_toml
+from ..input.units import in_metres
+from ..input.vehicle import Gravity, Steering, Tyre, Vehicle, Wheel
+from .bushes import Bush, Bushings, bushes_of, mirrored_bushings, softness_of_rack
+from .corner import Array, Motion, Plane, Spring, Stroke
+from .drawing import Drawing
+from .facts import Extended, Names
+from .geometry import geometry_problems
+from .strokes import Strokes
+from .structure import Structure
+from .wheel_loads import needed_radius
+
+# The top-level key that says which suspension a file describes.
+KIND = "suspension"
+
+_AN_AXLE = (
+    "this is the file of an axle, and one suspension is needed here. Give the hardpoint file that "
+    "it names as `side`, `right` or `left`."
+)
+
+# A wheel centre lower than this above z = 0 says that z = 0 is not the ground, in m.
+_SMALLEST_WHEEL_RADIUS = 0.1
+
+
+class Suspension(Section):
+    """A suspension at its design position. Immutable.
+
+    Make one with `load`, `from_dict` or `with_changes`: they return the kind that the data name
+    with ``suspension``, a MacPherson suspension where they do not say. The attributes are the
+    sections of the input file, with the file's keys and units.
+
+    Parameters
+    ----------
+    **data : Any
+        The sections, as in an input file.
+
+    Raises
+    ------
+    InputError
+        With all problems, if a suspension cannot be like this.
+
+    Attributes
+    ----------
+    TITLE : str
+        What the suspension is called.
+    NAMES : Names
+        What its equations call that which every suspension has.
+    STARTER : str
+        The packaged data set that a new file is copied from.
+    PAGE : str
+        What the page of the input file says of the kind: the end of a sentence, and more of them.
+    STOPPED : str
+        The element of its equations whose length the stops limit.
+
+    Examples
+    --------
+    >>> from kintrafo import Suspension
+    >>> car = Suspension.load("reference_car")
+    >>> car.vehicle.side, car.strut.spring_rate_N_per_m
+    ('right', 25000.0)
+    >>> car.parameters()["ball_joint_y"]
+    -0.71
+    >>> Suspension.load("double_wishbone_car").TITLE
+    'double wishbone suspension'
+    """
+
+    TITLE: ClassVar[str]
+    NAMES: ClassVar[Names]
+    STARTER: ClassVar[str]
+    PAGE: ClassVar[str]
+    STOPPED: ClassVar[str]
+
+    suspension: str = Field(description="the kind of suspension")
+    vehicle: Vehicle = Field(description="where the suspension is mounted")
+    hardpoints: Hardpoints = Field(description="the points that define the geometry")
+    wheel: Wheel = Field(description="alignment of the wheel")
+    tyre: Tyre = Field(description="the tyre")
+    rack: Steering = Field(description="the steering rack, where the wheel is steered")
+    gravity: Gravity = Field(description="gravity")
+    bodies: Bodies = Field(description="masses and inertia")
+    bump_stop: Stop | None = Field(default=None, description="the stop in bump")
+    rebound_stop: Stop | None = Field(default=None, description="the stop in rebound")
+    bushings: Bushings | None = Field(
+        default=None, description="what gives way at hardpoints, for compliance: see Loads"
+    )
+
+    def __init__(self, /, **data: Any) -> None:
+        problems = []
+        try:
+            super().__init__(**data)
+        except ValidationError as error:
+            problems = messages_of(error, type(self), data)
+        problems += geometry_problems(type(self), data, self.further_problems)
+        if problems:
+            raise InputError(problems)
+        if self.bushings is not None:
+            with Arguments("bushings") as given:
+                self.bushes(given, self.bushings)
+                softness_of_rack(given, self.bushings)
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **_: Any) -> None:
+        """Make a kind known by the name that a file calls it."""
+        for name in get_args(cls.model_fields[KIND].annotation):
+            _known[name] = cls
+
+    @classmethod
+    def load(cls, path_or_name: str | Path) -> Self:
+        """Read a suspension from a TOML file.
+
+        Parameters
+        ----------
+        path_or_name : str or pathlib.Path
+            The file; or, as a string, the name of one that comes with kintrafo:
+            ``"reference_car"``.
+
+        Returns
+        -------
+        Suspension
+            The suspension, of the kind that the file names.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be read or no suspension can be like this; it lists everything that
+            is wrong.
+        """
+        with Arguments(cls.__name__) as given:
+            given.path("path_or_name", path_or_name)
+        if path_or_name in packaged_axles():
+            raise InputError([_AN_AXLE], str(path_or_name))
+        if path_or_name in data_sets(RIGID_AXLES):
+            raise InputError([NOT_A_RIGID_AXLE], str(path_or_name))
+        file = find(path_or_name)
+        # Printing the path inside the package would not help whoever asked for a name.
+        return cls.from_dict(read_toml(file), source=str(path_or_name))
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any], source: str = "input data") -> Self:
+        """Make a suspension from nested dictionaries with the keys of the input file.
+
+        Parameters
+        ----------
+        data : mapping
+            The sections, with their keys and units as in the file.
+        source : str, optional
+            Where the data come from, for error messages.
+
+        Returns
+        -------
+        Suspension
+            The suspension, of the kind that the data name.
+
+        Raises
+        ------
+        InputError
+            If no suspension can be like this; it lists everything that is wrong.
+        """
+        _check_keys("data", data, source)
+        try:
+            return _kind_of(data, cls)(**data)
+        except InputError as error:
+            raise InputError(error.problems, source) from None
+
+    def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
+        """Return the sections as nested dictionaries, which `from_dict` takes back unchanged.
+
+        Parameters
+        ----------
+        exclude_defaults : bool, optional
+            Whether values that are as by default are left out.
+
+        Returns
+        -------
+        dict
+            A copy of all values, with the keys and units of the input file; points are lists.
+        """
+        return self.model_dump(mode="json", exclude_none=True, exclude_defaults=exclude_defaults)
+
+    def save(self, path: str | Path, *, force: bool = False) -> Path:
+        """Write the input file that gives exactly this suspension.
+
+        Parameters
+        ----------
+        path : str or Path
+            A name that ends in ``.toml``.
+        force : bool, optional
+            Whether a file that somebody else wrote or changed is replaced.
+
+        Returns
+        -------
+        Path
+
+        Raises
+        ------
+        InputError
+            If there is a file already, or the name cannot be used.
+        """
+        with Arguments(type(self).__name__) as given:
+            given.path("path", path)
+            given.flag("force", force)
+        return write_toml(self, path, force=force)
+
+    def with_changes(self, changes: Mapping[str, Any]) -> Self:
+        """Return a suspension that differs in some values; all checks are made again.
+
+        Parameters
+        ----------
+        changes : mapping of str to Any
+            For each place in the file, section and key with dots between them, the new value in
+            the file's unit. A component of a point is a place too. None removes an optional key.
+
+        Returns
+        -------
+        Suspension
+            The changed suspension.
+
+        Raises
+        ------
+        InputError
+            If there is no such place, or no suspension can be like this.
+
+        Examples
+        --------
+        >>> from kintrafo import Suspension
+        >>> car = Suspension.load("reference_car")
+        >>> stiffer = car.with_changes(
+        ...     {"strut.spring_rate_N_per_m": 30e3, "hardpoints.ball_joint.z": 185.0}
+        ... )
+        >>> stiffer.hardpoints.ball_joint
+        (5.0, -710.0, 185.0)
+        """
+        _check_keys("changes", changes, "suspension")
+        data = self.to_dict()
+        source = f"suspension with changed {', '.join(changes)}"
+        problems = [problem for place in changes if (problem := put(data, place, changes[place]))]
+        if problems:
+            raise InputError(problems, source)
+        return self.from_dict(data, source)
+
+    @classmethod
+    def heading(cls) -> str:
+        """Return what the suspension is called, as the beginning of a heading."""
+        return cls.TITLE[:1].upper() + cls.TITLE[1:]
+
+    @classmethod
+    def steered(cls) -> bool:
+        """Tell whether the wheel can be steered: whether there is a rack."""
+        return bool(cls.NAMES.rack)
+
+    def refuse_without_rack(self, what: str) -> None:
+        """Refuse what has no meaning for a wheel that cannot be steered.
+
+        Parameters
+        ----------
+        what : str
+            What somebody asked for.
+
+        Raises
+        ------
+        InputError
+            If there is no rack.
+        """
+        if not self.steered():
+            problem = f"{what}: it has no rack, and nothing steers its wheel. Leave that out."
+            raise InputError([problem], self.TITLE)
+
+    @property
+    def carrier(self) -> str:
+        """The body that carries the wheel."""
+        return self.hardpoints.CARRIERS["wheel_center"]
+
+    def tyre_radius(self) -> float | None:
+        """Return the radius of the wheel as a thin disc.
+
+        Returns
+        -------
+        float or None
+            ``tyre.radius_mm`` in m where it is given. Otherwise the height of the wheel centre at
+            design above z = 0, which is the ground in files that follow the conventions; None where
+            that is less than 100 mm, as no car has such wheels.
+        """
+        if self.tyre.radius_mm is not None:
+            return in_metres(self.tyre.radius_mm, "mm")
+        height: float = number(self.hardpoints.metres("wheel_center")[2])
+        return height if height >= _SMALLEST_WHEEL_RADIUS else None
+
+    def wheel_load_parameters(self) -> dict[str, float]:
+        """Return what equations need besides that have the loads on the wheel as inputs [m].
+
+        Raises
+        ------
+        InputError
+            If the radius of the wheel is not known.
+        """
+        return {"tyre_radius": needed_radius(self.tyre_radius())}
+
+    def mirrored(self) -> Self:
+        """Return the same suspension on the other side of the vehicle.
+
+        The rack keeps its sense: what moved it to the left still does.
+
+        Returns
+        -------
+        Suspension
+            The mirror image in the plane y = 0.
+        """
+        data = self.to_dict()
+        data["vehicle"]["side"] = "left" if self.vehicle.side == "right" else "right"
+        points = [data["hardpoints"][name] for name in self.hardpoints.given()]
+        bodies = [data["bodies"][name] for name in self.bodies.rigid()]
+        for point in points + [body["com_mm"] for body in bodies if "com_mm" in body]:
+            reverse(point, 1)
+        for body in bodies:
+            reverse(body, "inertia_xy_kg_m2")
+            reverse(body, "inertia_yz_kg_m2")
+        # The mirror image of (x, y, z) is (x, -y, z), which with the sense kept is (-x, y, -z).
+        if self.steered():
+            reverse(data["rack"]["axis"], 0)
+            reverse(data["rack"]["axis"], 2)
+        if self.bushings is not None:
+            data["bushings"] = mirrored_bushings(self.bushings)
+        return self.from_dict(data, "mirrored suspension")
+
+    def bushes(self, given: Arguments, described: Mapping[str, Any]) -> list[Bush]:
+        """Return bushes as they are described by their hardpoints; see `docs/loads.md`.
+
+        Parameters
+        ----------
+        given : Arguments
+            Gets what is wrong.
+        described : mapping
+        """
+        sign = self.vehicle.sign
+        spin = sign * self.wheel.spin_axis(sign)
+        return bushes_of(given, described, self.structure(), self.hardpoints.at_design(), spin)
+
+    def allowed_lengths(self) -> tuple[Allowed, ...]:
+        """Return the lengths that positions must keep, besides closing the loops.
+
+        Returns
+        -------
+        tuple of Allowed
+            Of what can be drawn in or out; empty where the file gives no limit.
+        """
+        return ()
+
+    # -- what each kind says of itself ----------------------------------------------------------
+
+    @abstractmethod
+    def equations(self, *, free_rack: bool) -> ModuleType:
+        """Return the shortest equations that have everything that this suspension has.
+
+        Parameters
+        ----------
+        free_rack : bool
+            Whether the rack is a degree of freedom.
+
+        Raises
+        ------
+        InputError
+            If there are none.
+        """
+
+    @abstractmethod
+    def lengths(self) -> dict[str, float]:
+        """Return the lengths at design that only this kind has, by name [m]."""
+
+    @abstractmethod
+    def drawing(self) -> Drawing:
+        """Return how the suspension is drawn."""
+
+    @abstractmethod
+    def structure(self) -> Structure:
+        """Return the joints and the lines of force, for the loads on its parts."""
+
+    @abstractmethod
+    def links_at(self, points: Mapping[str, Array], travel: Motion) -> tuple[Plane, Plane]:
+        """Return the planes of the links that hold the wheel carrier; see `Corner`.
+
+        Parameters
+        ----------
+        points : mapping
+            The hardpoints by name, each of shape (..., 3) [m].
+        travel : Motion
+            How the wheel carrier moves first, per unit of wheel travel.
+        """
+
+    @abstractmethod
+    def spring_at(self, strokes: Strokes) -> Spring:
+        """Return the spring at many positions."""
+
+    @abstractmethod
+    def damper_at(self, strokes: Strokes) -> Stroke:
+        """Return the stroke of the damper at many positions."""
+
+    def stops_at(self, strokes: Strokes) -> tuple[Spring, ...]:
+        """Return what else pushes by its position, at many positions: the stops."""
+        return tuple(strokes.spring(f"{side}_stop_force", self.STOPPED) for side in _sides(strokes))
+
+    def gaps_at(self, strokes: Strokes) -> tuple[Array, ...]:
+        """Return what is open of each stop [m]: where it closes, the stop begins to act."""
+        sense = {"bump": 1.0, "rebound": -1.0}
+        length = strokes.stroke(self.STOPPED).length
+        return tuple(
+            sense[side] * (length - strokes.parameters[f"{side}_stop_length"])
+            for side in _sides(strokes)
+            if strokes.parameters[f"{side}_stop_rate"]
+        )
+
+    def extended(self) -> Extended | None:
+        """Return what the wheel hangs on drawn out; None where the equations have no such end."""
+        return None
+
+    def without_friction(self) -> Self:
+        """Return the same suspension without friction; this one if it has none."""
+        return self
+
+    def neglected_masses(self) -> dict[str, float]:
+        """Return the bodies whose mass counts only with a free rack.
+
+        Returns
+        -------
+        dict of str to float
+            Name to mass [kg], more than zero; empty where the rack may be prescribed.
+        """
+        return {}
+
+    def rate_key(self, part: str) -> str:
+        """Return where the rate of a part, "spring" or "damper", stands in the file."""
+        return rate_key(part, getattr(self, "spring", None))
+
+    @abstractmethod
+    def parameters(self) -> dict[str, float]:
+        """Return everything that the equations of motion need, in SI units.
+
+        Returns
+        -------
+        dict of str to float
+            At the design position, in chassis axes; names as in the table ``PARAMETERS`` of the
+            equations.
+        """
+
+    def shared_parameters(self, *, optional_points: bool = False) -> dict[str, float]:
+        """Return the parameters that any suspension has, in SI units.
+
+        Parameters
+        ----------
+        optional_points : bool, optional
+            Whether the equations take the hardpoints that a file may leave out.
+
+        Returns
+        -------
+        dict of str to float
+            - ``wheel_center_x`` and so on for every hardpoint and component, in m;
+            - ``rack_axis_*``, where there is a rack, and ``spin_axis_*``, unit vectors; the spin
+              axis points left at zero camber and toe on both sides, so that rolling forward is a
+              positive rate;
+            - ``tyre_rate`` in N/m and ``tyre_free_height`` in m, ``gravity`` in m/s^2;
+            - ``knuckle_mass`` in kg, ``knuckle_com_*`` in m and ``knuckle_inertia_*`` in kg m^2,
+              the latter the *elements* xx, yy, zz, xy, xz, yz of the tensor about the centre of
+              mass (xy is minus the product of inertia); so for every other body but the wheel;
+            - ``wheel_mass`` in kg, ``wheel_inertia_spin`` and ``wheel_inertia_diametral`` in
+              kg m^2 (its centre of mass is the hardpoint wheel_center).
+        """
+        return {
+            **self.hardpoints.parameters(optional=optional_points),
+            **(components("rack_axis", unit_vector(self.rack.axis)) if self.steered() else {}),
+            **components("spin_axis", self.wheel.spin_axis(self.vehicle.sign)),
+            **self.tyre.parameters(),
+            "gravity": self.gravity.acceleration_m_per_s2,
+            **self.bodies.parameters(self.hardpoints),
+        }
+
+    def extras(self) -> list[str]:
+        """Return what this suspension has that plain equations leave out: sections and keys."""
+        present = {
+            "[bump_stop]": self.bump_stop is not None,
+            "[rebound_stop]": self.rebound_stop is not None,
+            "[tyre] damper_rate_N_s_per_m": self.tyre.damper_rate_N_s_per_m > 0.0,
+            "[tyre] lifts_off": self.tyre.lifts_off,
+        }
+        return [name for name, is_present in present.items() if is_present]
+
+    def parameters_of_extras(self, length: float, curve: Damper | None) -> dict[str, float]:
+        """Return what only equations with everything take, but for the friction, in SI units.
+
+        Parameters
+        ----------
+        length : float
+            Of what the stops limit, at the design position [m].
+        curve : Damper or None
+            That of the damper, where it has one.
+        """
+        values = dict(NO_CURVE) if curve is None else curve.parameters()
+        for side, stop in (("bump", self.bump_stop), ("rebound", self.rebound_stop)):
+            values |= (stop or NO_STOP).parameters(side, length)
+        return values | {
+            "tyre_damper_rate": self.tyre.damper_rate_N_s_per_m,
+            "tyre_lifts_off": float(self.tyre.lifts_off),
+        }
+
+    @classmethod
+    def further_problems(cls, sections: Mapping[str, Any]) -> list[str]:
+        """Say what is wrong among sections of this kind of suspension.
+
+        Parameters
+        ----------
+        sections : mapping
+            The sections that are right in themselves, the hardpoints among them.
+
+        Returns
+        -------
+        list of str
+        """
+        del sections  # nothing that every kind has
+        return []
+
+
+def _sides(strokes: Strokes) -> tuple[str, ...]:
+    """Return the sides on which the equations can have a stop."""
+    return tuple(side for side in ("bump", "rebound") if f"{side}_stop_force" in strokes)
+
+
+SuspensionT = TypeVar("SuspensionT", bound=Suspension)
+
+_known: dict[str, type[Suspension]] = {}
+
+
+def known_kinds() -> dict[str, type[Suspension]]:
+    """Return the kinds that are loaded, by the names that a file calls them, the default first."""
+    return dict(sorted(_known.items(), key=lambda item: item[0] != DEFAULT))
+
+
+def _kind_of(data: Mapping[str, Any], wanted: type[SuspensionT]) -> type[SuspensionT]:
+    """Return the class that describes the suspension of a file.
+
+    Parameters
+    ----------
+    data : mapping
+        The file's content; not checked yet.
+    wanted : type of Suspension
+        `Suspension`, or the kind that it has to be.
+
+    Returns
+    -------
+    type of Suspension
+
+    Raises
+    ------
+    InputError
+        If there is no such kind, it is not the one that is wanted, or it is not said although the
+        hardpoints are not those of a MacPherson suspension.
+    """
+    if "axle" in data and "hardpoints" not in data:
+        raise InputError([_AN_AXLE])
+    if RIGID_AXLE in data:
+        raise InputError([NOT_A_RIGID_AXLE])
+    name = data.get(KIND, DEFAULT)
+    if not isinstance(name, str) or name not in _known:
+        meant = suggestion(str(name), known_kinds())
+        problem = f"{KIND} = {name!r} is not a known kind of suspension. {meant}"
+        raise InputError([problem.rstrip()])
+    if KIND not in data:
+        _refuse_hardpoints_of_another(data)
+    kind = _known[name]
+    if issubclass(kind, wanted):
+        return kind
+    problem = f'{KIND} = "{name}": a {wanted.TITLE} is needed here. Load it with Suspension.'
+    raise InputError([problem])
+
+
+def _refuse_hardpoints_of_another(data: Mapping[str, Any]) -> None:
+    """Refuse data that do not say their kind, where the hardpoints are those of another one."""
+    points = data.get("hardpoints")
+    if not isinstance(points, Mapping):
+        return
+    own = _points_of(DEFAULT)
+    for name, kind in _known.items():
+        strange = [point for point in points if point in _points_of(name) - own]
+        if strange:
+            problem = (
+                f"[hardpoints] {', '.join(map(str, strange))} are points of a {kind.TITLE}. Add a "
+                f'line `{KIND} = "{name}"` above the first section.'
+            )
+            raise InputError([problem])
+
+
+def _points_of(name: str) -> set[str]:
+    """Return the names of the hardpoints of a kind."""
+    hardpoints = _known[name].model_fields["hardpoints"].annotation
+    return set(getattr(hardpoints, "model_fields", ()))
+
+
+def _check_keys(name: str, given: Any, source: str) -> None:
+    """Refuse what is no dict with texts as keys."""
+    with Arguments(source) as checked:
+        for key in checked.mapping(name, given, "keys and values of the input file"):
+            checked.kind(f"key of {name}", key, str, "a text is needed")

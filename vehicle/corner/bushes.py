@@ -1,0 +1,426 @@
+"""Bushes: how far joints give way, as a file or a caller describes them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Annotated, Any, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BeforeValidator, WithJsonSchema
+
+from ...core.arguments import Arguments
+from ...core.suggestions import suggestion
+from ...core.vectors import cross, unit_vector
+from ..input.bush_curve import curve_of
+from ..input.curve import Curve, Interpolation
+from ..input.toml_file import read_sections
+from ..input.units import unit_of
+from .structure import Fixed, Joint, Points, Structure, Telescope
+
+Array = NDArray[np.float64]
+
+_STIFFNESSES = {
+    "axial_N_per_mm": "stiffness along its axis",
+    "radial_N_per_mm": "stiffness across its axis; or two, along `radial_axis` and across that",
+    "tilt_Nm_per_deg": "stiffness against tilting about axes across its own; or two, about "
+    "`radial_axis` and about the axis perpendicular to that",
+    "torsion_Nm_per_deg": "stiffness against turning about its axis",
+    "axial_curve": "in place of a stiffness, lists `mm` and `N`, both rising; see [spring] for "
+    "`interpolation`",
+    "radial_curve": "in place of a stiffness, lists `mm` and `N`, both rising from 0; see [spring] "
+    "for `interpolation`",
+}
+_DIRECTIONS = {
+    "axis": "its axis, chassis axes at design; by default that of the arm, the rod, the strut or "
+    "the wheel",
+    "radial_axis": "direction of the first of two radial stiffnesses, and the axis of the first of "
+    "two against tilting; by default upward",
+}
+_PAIRS = ("radial_N_per_mm", "tilt_Nm_per_deg")
+"""What can differ between the two directions across the axis."""
+_KEYS = (*_STIFFNESSES, *_DIRECTIONS)
+RACK = "rack"
+"""In the place of a hardpoint: how stiff the steering holds the rack along its axis."""
+_PER_MM, _PER_DEG = 1e3, 180.0 / np.pi
+# What is greater is left to the checks [any unit].
+_LARGEST = 1e300
+# No bush is softer or stiffer than this, in its units for people.
+_SOFTEST, _STIFFEST = 1e-3, 1e12
+_NO_DAMPING = (
+    "The damping of a bush does nothing here: loads and compliance are at rest, and motions have "
+    "rigid joints. Leave it out; enter the dynamic stiffnesses where you want those of a frequency."
+)
+# Two directions nearer to each other than this angle [rad] tell no plane.
+_LEAST_ANGLE = 1e-3
+
+
+@dataclass(frozen=True)
+class Bush:
+    """What gives way at a hardpoint.
+
+    Attributes
+    ----------
+    point : str
+    axes : ndarray, shape (3, 3)
+        Its own axis and two across it, as rows in the chassis axes at design.
+    soft : ndarray, shape (3,)
+        Displacement of the joint's second part along each by a unit force on it [m/N].
+    tilt : ndarray, shape (2,)
+        Of a bearing, its rotation about each of two axes across that of the wheel by a unit moment
+        [rad/(N m)].
+    tilts_about : ndarray, shape (2, 3)
+        These axes, as rows in the chassis axes at design.
+    turning : tuple of float
+        Of what turns freely without a bush: the moment by which it resists a unit of torsion about
+        its axis, and of tilting about each of the two across it [N m/rad].
+    curves : tuple of Curve or None
+        Along each axis the force over the displacement, where that is no straight line; its slope
+        at zero is then what is soft there.
+    """
+
+    point: str
+    axes: Array
+    soft: Array
+    tilt: Array
+    tilts_about: Array
+    turning: tuple[float, float, float]
+    curves: tuple[Curve | None, Curve | None, Curve | None]
+
+    @property
+    def gives_way(self) -> bool:
+        """Whether anything moves in it that a rigid joint holds."""
+        return bool(self.soft.any() or self.tilt.any())
+
+    def mirrored(self, point: str) -> "Bush":
+        """Return its image in the plane y = 0, at another hardpoint."""
+        image = np.array([1.0, -1.0, 1.0])
+        axes, tilts_about = self.axes * image, self.tilts_about * image
+        return replace(self, point=point, axes=axes, tilts_about=tilts_about)
+
+    @property
+    def compliance(self) -> Array:
+        """Displacement and rotation by force and moment, (6, 6), chassis axes at design."""
+        whole = np.zeros((6, 6))
+        whole[:3, :3] = self.axes.T @ np.diag(self.soft) @ self.axes
+        whole[3:, 3:] = self.tilts_about.T @ np.diag(self.tilt) @ self.tilts_about
+        return whole
+
+    def give(self, wrench: Array) -> tuple[Array, Array]:
+        """Return how far it gives way, however far that is; chassis axes at design.
+
+        Parameters
+        ----------
+        wrench : ndarray, shape (6,)
+            Force and moment on the joint's second part.
+
+        Returns
+        -------
+        moved : ndarray, shape (6,)
+            Displacement and rotation.
+        slopes : ndarray, shape (6, 6)
+            Their derivatives by force and moment.
+        """
+        slopes = self.compliance
+        moved: Array = slopes @ wrench
+        axial, radial, _ = self.curves
+        if axial is None and radial is None:
+            return moved, slopes
+        force = self.axes @ wrench[:3]
+        shift, by = self.soft * force, np.diag(self.soft)
+        if axial is not None:
+            shift[0] = axial.place(float(force[0]))
+            by[0, 0] = 1.0 / float(axial.rate(shift[:1])[0])
+        size = float(np.linalg.norm(force[1:]))
+        if radial is not None and size:
+            far, along = radial.place(size), force[1:] / size
+            outer = np.outer(along, along)
+            shift[1:] = far * along
+            rate = float(radial.rate(np.array([far]))[0])
+            by[1:, 1:] = outer / rate + far / size * (np.eye(2) - outer)
+        moved[:3], slopes[:3, :3] = self.axes.T @ shift, self.axes.T @ by @ self.axes
+        return moved, slopes
+
+
+def read_bushes(path: str | Path) -> dict[str, Any]:
+    """Read a TOML file of bushes.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+
+    Returns
+    -------
+    dict
+        The tables of ``bushings`` by hardpoint.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, or has something else.
+    """
+    bushings: dict[str, Any] = read_sections(path, ["bushings"], needed="bushings.POINT")[
+        "bushings"
+    ]
+    return bushings
+
+
+def described_bushings(
+    given: Arguments, bushings: Any, of_the_file: Mapping[str, Any] | None
+) -> dict[str, Any]:
+    """Return the bushes that are given, or those of the hardpoint file where none are."""
+    if bushings is None and of_the_file is None:
+        given.refuse(
+            "bushings: none are given, and the hardpoint file has none. Give them, or add its "
+            "[bushings.POINT]."
+        )
+    found = of_the_file or {} if bushings is None else bushings
+    return dict(given.mapping("bushings", found, "hardpoints and stiffnesses"))
+
+
+def mirrored_bushings(described: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the images of bushes in the plane y = 0; what is no table as it is."""
+    return {
+        point: {key: _image(key, value) for key, value in table.items()}
+        if isinstance(table, Mapping)
+        else table
+        for point, table in described.items()
+    }
+
+
+def _image(key: str, value: Any) -> Any:
+    return [value[0], 0.0 - value[1], value[2]] if key in _DIRECTIONS else value
+
+
+def _plain(value: Any) -> Any:
+    """Return tables, lists and numbers as a file has them; what is None is left out."""
+    if isinstance(value, Mapping):
+        return {key: _plain(inner) for key, inner in value.items() if inner is not None}
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        return [_plain(inner) for inner in value]
+    whole = isinstance(value, int) and not isinstance(value, bool)
+    return float(value) if whole and abs(value) < _LARGEST else value
+
+
+def _schema_of(key: str, words: str) -> dict[str, Any]:
+    """Return what an editor knows of a key."""
+    number = {"type": "number", "exclusiveMinimum": 0.0}
+    numbers = {"type": "array", "items": {"type": "number"}}
+    unit = unit_of(key)
+    found: dict[str, Any] = {"description": words} | ({"x-unit": unit} if unit else {})
+    if key in _DIRECTIONS:
+        return found | numbers | {"minItems": 3, "maxItems": 3}
+    if key.endswith("_curve"):
+        lists = {name: {**numbers, "minItems": 2} for name in ("mm", "N")}
+        properties = {**lists, "interpolation": {"enum": [*get_args(Interpolation)]}}
+        return found | {"type": "object", "properties": properties, "required": [*lists]}
+    if key in _PAIRS:
+        return found | {"anyOf": [number, {**numbers, "minItems": 2, "maxItems": 2}]}
+    return found | number
+
+
+BUSH_SCHEMA: dict[str, Any] = {
+    "type": "object",
+    "additionalProperties": False,
+    "properties": {k: _schema_of(k, words) for k, words in (_STIFFNESSES | _DIRECTIONS).items()},
+}
+"""JSON Schema of the section of a bush, ``Bushing``."""
+
+Bushings = Annotated[
+    dict[str, Any],
+    BeforeValidator(_plain),
+    WithJsonSchema({"type": "object", "additionalProperties": {"$ref": "#/$defs/Bushing"}}),
+]
+"""The section of a hardpoint file."""
+
+
+def bushes_of(
+    given: Arguments,
+    described: Mapping[str, Any],
+    structure: Structure,
+    design: Points,
+    spin: Array,
+) -> list[Bush]:
+    """Read bushes by their hardpoints; see `docs/loads.md`.
+
+    Parameters
+    ----------
+    given : Arguments
+        Gets what is wrong.
+    described : mapping
+        By hardpoint.
+    structure : Structure
+        Whose joints give way.
+    design : mapping
+        The hardpoints at design [m].
+    spin : ndarray, shape (3,)
+        The axis of the wheel at design, pointing outboard.
+    """
+    joints = {point: joint for joint in structure.joints for point in joint.at}
+    known = [*joints, *[RACK for joint in structure.joints if joint.first == RACK]]
+    found = []
+    for point, table in described.items():
+        title = f"[bushings.{point}]"
+        if given.among("bushings at", point, known) != point or point == RACK:
+            continue
+        if not isinstance(table, Mapping):
+            given.refuse(f"{title} must be a section, with {', '.join(_KEYS)}.")
+            continue
+        for key in (str(key) for key in table if key not in _KEYS):
+            damps = any(word in key for word in ("damp", "N_s", "loss"))
+            meant = _NO_DAMPING if damps else suggestion(key, _KEYS)
+            given.refuse(f"{title} {key} is not known. {meant}")
+        if not any(key in table for key in _STIFFNESSES):
+            given.refuse(f"{title}: one of {', '.join(_STIFFNESSES)} is needed, or it is rigid.")
+        is_bearing = isinstance(joints[point], Fixed)
+        if "torsion_Nm_per_deg" in table and is_bearing:
+            given.refuse(f"{title} torsion_Nm_per_deg: the brake holds the wheel about its axis.")
+        torsion, _ = _turning(given, title, table, "torsion_Nm_per_deg")
+        tilt = _turning(given, title, table, "tilt_Nm_per_deg")
+        soft = _translations(given, title, table)
+        axial, radial = (_curve(given, title, table, which) for which in ("axial", "radial"))
+        curves = (axial, radial, radial)
+        axes = _axes(given, title, table, joints[point], design, spin)
+        bush = Bush(
+            point=str(point),
+            axes=axes,
+            soft=np.array([_at_rest(c) if c else s for s, c in zip(soft, curves, strict=True)]),
+            tilt=np.array([1.0 / rate if is_bearing and rate else 0.0 for rate in tilt]),
+            # a bearing tilts across the axis of the wheel, whatever its own is
+            tilts_about=_across(given, title, table, spin)
+            if is_bearing and "axis" in table
+            else axes[1:],
+            turning=(0.0, 0.0, 0.0) if is_bearing else (torsion, *tilt),
+            curves=curves,
+        )
+        found.append(bush)
+    return found
+
+
+def _turning(
+    given: Arguments, title: str, table: Mapping[str, Any], key: str
+) -> tuple[float, float]:
+    """Return stiffnesses against rotation about two axes [N m/rad]; zero where there are none."""
+    if key not in table:
+        return 0.0, 0.0
+    first, second = _pair(given, title, table, key)
+    return first * _PER_DEG, second * _PER_DEG
+
+
+def _curve(given: Arguments, title: str, table: Mapping[str, Any], which: str) -> Curve | None:
+    """Return a curve where there is one."""
+    key, rate = f"{which}_curve", f"{which}_N_per_mm"
+    if key not in table:
+        return None
+    if rate in table:
+        given.refuse(f"{title}: {key} and {rate} both say how stiff it is. Keep one.")
+    return curve_of(given, f"{title} {key}", table[key], odd=which == "radial")
+
+
+def _at_rest(curve: Curve) -> float:
+    """Return how soft a bush is that is relaxed [m/N]."""
+    return 1.0 / float(curve.rate(np.zeros(1))[0])
+
+
+def refuse_rigid(given: Arguments, bushes: Sequence[Bush], rack: float) -> None:
+    """Refuse bushes of which none gives way."""
+    if not (rack or given.refused or any(bush.gives_way for bush in bushes)):
+        given.refuse(
+            "bushings: one or more are needed that give way, by axial_N_per_mm, radial_N_per_mm, a "
+            "curve, or the tilt of the wheel bearing."
+        )
+
+
+def left_out(bushes: Sequence[Bush]) -> str:
+    """Return what first order leaves out of some bushes, in words; empty where that is nothing."""
+    return "what resists torsion and tilting" if any(any(b.turning) for b in bushes) else ""
+
+
+def softness_of_rack(given: Arguments, described: Mapping[str, Any]) -> float:
+    """Return how far the rack gives way along its axis [m/N]; zero where nothing is said."""
+    if RACK not in described:
+        return 0.0
+    table, title = described[RACK], f"[bushings.{RACK}]"
+    if not isinstance(table, Mapping) or set(table) != {"axial_N_per_mm"}:
+        given.refuse(f"{title} must be a section with axial_N_per_mm, and nothing else.")
+        return 0.0
+    return 1.0 / (_stiffness(given, title, table, "axial_N_per_mm") * _PER_MM)
+
+
+def _translations(given: Arguments, title: str, table: Mapping[str, Any]) -> list[float]:
+    """Return the compliances along the axis and in both directions across it [m/N]."""
+    axial = _stiffness(given, title, table, "axial_N_per_mm")
+    both = _pair(given, title, table, "radial_N_per_mm")
+    return [1.0 / (value * _PER_MM) for value in (axial, *both)]
+
+
+def _pair(given: Arguments, title: str, table: Mapping[str, Any], key: str) -> tuple[float, float]:
+    """Return both of what may be one stiffness or two."""
+    value = table.get(key)
+    if not (isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.ndim)):
+        both = _stiffness(given, title, table, key)
+        return both, both
+    if key not in _PAIRS or len(value) != 2:
+        words = "a number is needed, or two." if key in _PAIRS else "a number is needed."
+        given.refuse(f"{title} {key}: {words}")
+        return np.inf, np.inf
+    first, second = (_stiffness(given, title, {key: each}, key) for each in value)
+    return first, second
+
+
+def _stiffness(given: Arguments, title: str, table: Mapping[str, Any], key: str) -> float:
+    """Return a stiffness in its unit for people; infinite where there is none."""
+    if key not in table:
+        return np.inf
+    unit = "N m/deg" if key.endswith("Nm_per_deg") else "N/mm"
+    number = given.number(f"{title} {key}", table[key], unit, least=_SOFTEST, below=_STIFFEST)
+    return float(number)
+
+
+def _axes(
+    given: Arguments,
+    title: str,
+    table: Mapping[str, Any],
+    joint: Joint,
+    design: Points,
+    spin: Array,
+) -> Array:
+    """Return the axes of a bush as rows: its own, and the two across it."""
+    usual_axis = spin if isinstance(joint, Fixed) else joint.axis(design)
+    if usual_axis is None and "axis" not in table:
+        given.refuse(f"{title} axis is needed: no direction there is that of a bush by itself.")
+        return np.eye(3)
+    along = _direction(given, title, table, "axis", usual_axis)
+    if isinstance(joint, Telescope):
+        for key in (key for key in ("axial_N_per_mm", "axial_curve") if key in table):
+            given.refuse(f"{title} {key}: a telescope carries nothing along its axis.")
+        if "axis" in table:
+            given.refuse(f"{title} axis: that of a telescope is its own. Leave it out.")
+    return np.stack([along, *_across(given, title, table, along)])
+
+
+def _across(given: Arguments, title: str, table: Mapping[str, Any], along: Array) -> Array:
+    """Return the radial directions, (2, 3): the first as upright as it can be, unless told."""
+    usual = np.eye(3)[0 if abs(along[2]) > np.cos(_LEAST_ANGLE) else 2]
+    aside = _direction(given, title, table, "radial_axis", usual)
+    across = cross(along, aside)
+    if np.linalg.norm(across) < np.sin(_LEAST_ANGLE):
+        given.refuse(f"{title} radial_axis lies along the axis: a direction across it is needed.")
+        return np.eye(3)[1:]
+    across /= np.linalg.norm(across)
+    return np.stack([cross(across, along), across])
+
+
+def _direction(
+    given: Arguments, title: str, table: Mapping[str, Any], key: str, usual: Array | None
+) -> Array:
+    if key not in table and usual is not None:
+        return usual
+    values = given.array(f"{title} {key}", table[key], dimensions=[1])
+    if values.shape != (3,) or not 1e-6 < np.abs(values).max() < 1e6:
+        problem = "three numbers are needed, of which the largest is between 1e-6 and 1e6."
+        given.refuse(f"{title} {key}: {problem}")
+        return np.array([1.0, 0.0, 0.0])
+    return unit_vector(values)

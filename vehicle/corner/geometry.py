@@ -1,0 +1,122 @@
+"""What the geometry of any suspension must fulfil."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from pydantic import ValidationError
+
+from ...core.vectors import angle_between_lines
+from ..input.hardpoints import Hardpoints
+from ..input.messages import subsection
+from ..input.section import Section
+from ..input.vehicle import Vehicle, Wheel
+
+# A wheel nearer to the vehicle's centre plane than this is on neither side, in m.
+_SMALLEST_HALF_TRACK = 0.001
+# Nearer to the axis of steering than this, the spin axis would make the wheel turn instead of
+# steer, in degrees.
+_SMALLEST_SPIN_AXIS_ANGLE = 1.0
+
+
+def _valid(kind: type[Section], data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the sections that are right, whatever the others are; None for one left out."""
+    sections: dict[str, Any] = {}
+    for name, field in kind.model_fields.items():
+        model = subsection(kind, name)
+        if model is None:
+            continue
+        if data.get(name) is None and not field.is_required():
+            sections[name] = None
+            continue
+        try:
+            sections[name] = model.model_validate(data.get(name))
+        except ValidationError:
+            continue
+    return sections
+
+
+def geometry_problems(
+    kind: type[Section],
+    data: Mapping[str, Any],
+    further: Callable[[Mapping[str, Any]], list[str]],
+) -> list[str]:
+    """Say what is wrong with the geometry, as far as the sections that define it are right.
+
+    Parameters
+    ----------
+    kind : type of Section
+        The kind of suspension.
+    data : mapping
+        The file's content.
+    further : callable
+        What the kind checks besides, of the sections that are right.
+
+    Returns
+    -------
+    list of str
+    """
+    return problems_of_sections(_valid(kind, data), further)
+
+
+def problems_of_sections(
+    sections: Mapping[str, Any], further: Callable[[Mapping[str, Any]], list[str]]
+) -> list[str]:
+    """Say what is wrong with the geometry that some sections define.
+
+    Parameters
+    ----------
+    sections : mapping
+        Those that are right, by name; None for one that is left out.
+    further : callable
+        What the kind checks besides, of these.
+
+    Returns
+    -------
+    list of str
+    """
+    hardpoints = sections.get("hardpoints")
+    if hardpoints is None:
+        return []
+    problems: list[str] = hardpoints.unit_problems()
+    if problems:
+        return problems
+    problems = hardpoints.geometry_problems()
+    vehicle, wheel = sections.get("vehicle"), sections.get("wheel")
+    if vehicle is not None:
+        problems += _wrong_side(vehicle, hardpoints)
+    if vehicle is not None and wheel is not None:
+        problems += _spin_axis_along_steering_axis(vehicle, wheel, hardpoints)
+    return problems + further(sections)
+
+
+def _wrong_side(vehicle: Vehicle, hardpoints: Hardpoints) -> list[str]:
+    """Compare the declared side with that of the wheel."""
+    if vehicle.sign * hardpoints.metres("wheel_center")[1] >= _SMALLEST_HALF_TRACK:
+        return []
+    half = "above" if vehicle.side == "left" else "below"
+    limit = 1000.0 * vehicle.sign * _SMALLEST_HALF_TRACK
+    problem = (
+        f'[vehicle] side = "{vehicle.side}", but {hardpoints.text("wheel_center")}: '
+        f"y points left, so a {vehicle.side} wheel must have y {half} {limit:g} mm. Change "
+        "side, or the sign of y of all hardpoints."
+    )
+    return [problem]
+
+
+def _spin_axis_along_steering_axis(
+    vehicle: Vehicle, wheel: Wheel, hardpoints: Hardpoints
+) -> list[str]:
+    """Refuse a wheel that would spin when it should steer."""
+    axis = hardpoints.steering_axis()
+    if axis is None:
+        return []
+    angle = angle_between_lines(wheel.spin_axis(vehicle.sign), axis)
+    if angle >= _SMALLEST_SPIN_AXIS_ANGLE:
+        return []
+    problem = (
+        f"[wheel] camber_deg = {wheel.camber_deg} deg and toe_deg = {wheel.toe_deg} deg put the "
+        f"spin axis within {angle:.3f} deg of the {hardpoints.AXIS_NAME}; at least "
+        f"{_SMALLEST_SPIN_AXIS_ANGLE:g} deg are needed to steer the wheel. Correct the angles, or "
+        f"{hardpoints.text(*(hardpoints.STEERING_AXIS or ()))}."
+    )
+    return [problem]

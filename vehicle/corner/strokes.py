@@ -1,0 +1,53 @@
+"""Lengths and forces over wheel travel, by the chain rule from derivatives by the arm's angle."""
+
+import numpy as np
+
+from ...systems.system import System
+from .corner import Array, Spring, Stroke
+
+
+class Strokes:
+    """The paths of a model's force elements at many positions.
+
+    Parameters
+    ----------
+    model : System
+    states, inputs : ndarray
+        Positions at rest, as in the compiled module.
+    arm : str
+        The state that is the angle of the arm.
+
+    Attributes
+    ----------
+    parameters : mapping
+        Those of the model, by name [SI units].
+    """
+
+    def __init__(self, model: System, states: Array, inputs: Array, arm: str) -> None:
+        # at unit rate velocities are first derivatives, and their derivatives second ones
+        states = states.copy()
+        states[..., model.state_names.index(f"{arm}_rate")] = 1.0
+        self.parameters = model.parameters
+        self._signals = model.signals(states, inputs)
+        by_arm = model.evaluate("signals_jacobian", states, inputs)[..., 0]
+        self._by_arm = dict(zip(model.signal_names, np.moveaxis(by_arm, -1, 0), strict=True))
+
+    def __contains__(self, signal: str) -> bool:
+        """Return whether the model has a signal of this name."""
+        return signal in self._signals
+
+    def stroke(self, path: str) -> Stroke:
+        """Return the length of a path, such as "strut"."""
+        rise, rise_change = self._signals["wheel_velocity"], self._by_arm["wheel_velocity"]
+        slope = self._signals[f"{path}_velocity"] / rise
+        change = self._by_arm[f"{path}_velocity"]
+        return Stroke(
+            length=self._signals[f"{path}_length"],
+            slope=slope,
+            curvature=(change - slope * rise_change) / rise**2,
+        )
+
+    def spring(self, force: str, path: str) -> Spring:
+        """Return the force of a signal's name that acts along a path."""
+        slope = self._by_arm[force] / self._signals["wheel_velocity"]
+        return Spring(self.stroke(path), self._signals[force], slope)

@@ -1,0 +1,355 @@
+"""What holds the parts of a suspension together: its joints, and the forces along lines.
+
+A joint says which forces and moments it can carry, as unit loads on its second part; on the first
+one they are the opposite. Arrays have any leading dimensions, one element for each position.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.vectors import cross
+
+Array = NDArray[np.float64]
+Points = Mapping[str, Array]
+
+GROUND = ("chassis", "rack")
+"""Parts that do not move under loads."""
+
+FORCES_OF_A_DAMPER = ("damper_force", "friction_force", "bump_stop_force", "rebound_stop_force")
+"""Signals that act along a damper, of the equations that have them."""
+
+
+@dataclass(frozen=True)
+class Joint(ABC):
+    """Two parts that touch at hardpoints.
+
+    Attributes
+    ----------
+    first, second : str
+        The parts.
+    at : tuple of str
+        The hardpoints at which they touch.
+    """
+
+    first: str
+    second: str
+    at: tuple[str, ...]
+
+    RULE: ClassVar[str] = ""
+    """What decides where statics alone does not."""
+
+    @abstractmethod
+    def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
+        """Return what the joint can carry.
+
+        Parameters
+        ----------
+        points : mapping
+            Hardpoints by name, each of shape (..., 3) [m].
+        turned : mapping
+            Rotation of each part from design, each of shape (..., 3, 3).
+        design : mapping
+            Hardpoints at design, each of shape (3,) [m].
+
+        Returns
+        -------
+        ndarray, shape (..., touching points, 6, unknowns)
+            Force and moment on the second part at each point.
+        """
+
+    def axis(self, points: Points) -> Array | None:
+        """Return the direction that sets its bushes apart from others; None where none does."""
+        del points
+        return None
+
+    def tensions(self, points: Points) -> Array:
+        """Return loads that are in equilibrium by themselves, which statics does not decide.
+
+        Returns
+        -------
+        ndarray, shape (..., touching points, 6, tensions)
+        """
+        return np.zeros((*points[self.at[0]].shape[:-1], len(self.at), 6, 0))
+
+    def directions(self, points: Points) -> Array:
+        """Return the directions, (..., k, 3), along which it keeps its points together."""
+        return np.broadcast_to(np.eye(3), (*points[self.at[0]].shape[:-1], 3, 3))
+
+    def right_angles(
+        self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
+    ) -> list[tuple[Array, Array]]:
+        """Return directions of the first and of the second part that it keeps at right angles.
+
+        Parameters
+        ----------
+        points, turned, design
+            As of `unit_loads`.
+        spin : ndarray, shape (3,)
+            The spin axis of the wheel at design.
+
+        Returns
+        -------
+        list of tuple of ndarray, each of shape (..., 3)
+        """
+        del points, turned, design, spin
+        return []
+
+
+@dataclass(frozen=True)
+class Ball(Joint):
+    """A ball joint: a force.
+
+    Attributes
+    ----------
+    end : str
+        The other end of a rod that ends there; empty where none does.
+    """
+
+    end: str = ""
+
+    def axis(self, points: Points) -> Array | None:
+        """Return that of the rod."""
+        return _unit(points[self.end] - points[self.at[0]]) if self.end else None
+
+    def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
+        """Return the three forces."""
+        del turned, design
+        return _spread(np.eye(6)[:, :3], points[self.at[0]])
+
+
+class Fixed(Joint):
+    """What holds in every direction, as a wheel bearing with its brake: force and moment."""
+
+    def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
+        """Return three forces and three moments."""
+        del turned, design
+        return _spread(np.eye(6), points[self.at[0]])
+
+    def right_angles(
+        self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
+    ) -> list[tuple[Array, Array]]:
+        """Return the spin axis and both directions across it, then these two."""
+        del design
+        shape = points[self.at[0]].shape
+        along, across, other = (
+            np.broadcast_to(turned.get(self.first, np.eye(3)) @ direction, shape)
+            for direction in frame(spin)
+        )
+        return [(along, across), (along, other), (across, other)]
+
+
+@dataclass(frozen=True)
+class Cross(Joint):
+    """A universal joint: a force, and a moment across both of its axes.
+
+    Attributes
+    ----------
+    shaft : str
+        The other end of the second part.
+    first_axis : tuple of float
+        Of the first part, which does not turn.
+    """
+
+    shaft: str
+    first_axis: tuple[float, float, float]
+
+    def axis(self, points: Points) -> Array | None:
+        """Return that of the shaft."""
+        return _unit(points[self.shaft] - points[self.at[0]])
+
+    def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
+        """Return three forces and a moment."""
+        (center,) = self.at
+        loads = np.zeros((*points[center].shape[:-1], 1, 6, 4))
+        loads[..., 0, :3, :3] = np.eye(3)
+        loads[..., 0, 3:, 3] = _unit(cross(*self._axes(turned, design)))
+        return loads
+
+    def right_angles(
+        self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
+    ) -> list[tuple[Array, Array]]:
+        """Return its axes."""
+        del points, spin
+        first, second = self._axes(turned, design)
+        return [(np.broadcast_to(_unit(first), second.shape), _unit(second))]
+
+    def _axes(self, turned: Mapping[str, Array], design: Points) -> tuple[Array, Array]:
+        first, (center,) = np.array(self.first_axis), self.at
+        return first, turned[self.second] @ cross(design[self.shaft] - design[center], first)
+
+
+class Hinge(Joint):
+    """Two bearings on an axis: forces across it at each, and along it at both alike."""
+
+    RULE = "two bearings on an axis share the force along it equally"
+
+    def axis(self, points: Points) -> Array | None:
+        """Return that through both bearings."""
+        return _unit(points[self.at[1]] - points[self.at[0]])
+
+    def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
+        """Return two forces across the axis at each bearing, and one along it at both."""
+        del turned, design
+        along, across, other = frame(points[self.at[1]] - points[self.at[0]])
+        loads = np.zeros((*along.shape[:-1], 2, 6, 5))
+        for bearing in (0, 1):
+            loads[..., bearing, :3, 2 * bearing] = across
+            loads[..., bearing, :3, 2 * bearing + 1] = other
+            loads[..., bearing, :3, 4] = 0.5 * along
+        return loads
+
+    def tensions(self, points: Points) -> Array:
+        """Return a force along the axis at one bearing, and its opposite at the other."""
+        along, _, _ = frame(points[self.at[1]] - points[self.at[0]])
+        loads = np.zeros((*along.shape[:-1], 2, 6, 1))
+        loads[..., 0, :3, 0], loads[..., 1, :3, 0] = along, -along
+        return loads
+
+
+@dataclass(frozen=True)
+class Telescope(Joint):
+    """A tube and a rod: forces and moments across their axis, about a point on it.
+
+    Attributes
+    ----------
+    end : str
+        Another point on the axis.
+    """
+
+    end: str
+
+    RULE = "the moment of a telescope is about its lower end"
+
+    def axis(self, points: Points) -> Array | None:
+        """Return that along which it slides."""
+        return _unit(points[self.end] - points[self.at[0]])
+
+    def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
+        """Return two forces and two moments."""
+        del turned, design
+        (center,) = self.at
+        _, across, other = frame(points[self.end] - points[center])
+        loads = np.zeros((*across.shape[:-1], 1, 6, 4))
+        for rows in (slice(0, 3), slice(3, 6)):
+            column = 0 if rows.start == 0 else 2
+            loads[..., 0, rows, column] = across
+            loads[..., 0, rows, column + 1] = other
+        return loads
+
+    def directions(self, points: Points) -> Array:
+        """Return two directions across its axis."""
+        return np.stack(frame(points[self.end] - points[self.at[0]])[1:], axis=-2)
+
+    def right_angles(
+        self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
+    ) -> list[tuple[Array, Array]]:
+        """Return both directions across its axis with the axis."""
+        del turned, design, spin
+        along, across, other = frame(points[self.end] - points[self.at[0]])
+        return [(across, along), (other, along)]
+
+
+@dataclass(frozen=True)
+class Line:
+    """What pushes two parts apart along the line of two hardpoints: a spring, a damper, a stop.
+
+    Attributes
+    ----------
+    name : str
+        What it is called: 'spring', 'damper', or with a side behind that.
+    signals : tuple of str
+        The signals of the equations, or inputs, that are its force, positive when it pushes; those
+        that the equations have not are zero.
+    first, second : str
+        The parts.
+    at : tuple of str
+        The hardpoints, of the first part and of the second one.
+    """
+
+    name: str
+    signals: tuple[str, ...]
+    first: str
+    second: str
+    at: tuple[str, str]
+
+    @property
+    def is_spring(self) -> bool:
+        """Whether a spring acts along it; otherwise it is a damper, with its stops."""
+        return self.name.startswith("spring")
+
+    def direction(self, points: Points) -> Array:
+        """Return the unit vector from the first to the second point, (..., 3)."""
+        return _unit(points[self.at[1]] - points[self.at[0]])
+
+
+@dataclass(frozen=True)
+class Structure:
+    """What holds the parts of a suspension together.
+
+    Attributes
+    ----------
+    joints : sequence of Joint
+    lines : sequence of Line
+        Those of springs and dampers.
+    mounted : mapping of str to str
+        Points on the chassis that belong to a mount at another point.
+    """
+
+    joints: Sequence[Joint]
+    lines: Sequence[Line]
+    mounted: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """The parts that move."""
+        found = dict.fromkeys(part for j in self.joints for part in (j.first, j.second))
+        return tuple(part for part in found if part not in GROUND)
+
+    @property
+    def springs(self) -> tuple[str, ...]:
+        """The lines of its springs."""
+        return tuple(line.name for line in self.lines if line.is_spring)
+
+    @property
+    def dampers(self) -> tuple[str, ...]:
+        """The lines of its dampers, with their stops."""
+        return tuple(line.name for line in self.lines if not line.is_spring)
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """What decides where statics alone does not."""
+        return tuple(dict.fromkeys(joint.RULE for joint in self.joints if joint.RULE))
+
+
+def steered(*joints: Joint) -> tuple[Joint, ...]:
+    """Return joints with those that every steered wheel has: tie rod and wheel bearing."""
+    return (
+        *joints,
+        Ball("knuckle", "tie_rod", ("tie_rod_outer",), "tie_rod_inner"),
+        Cross("rack", "tie_rod", ("tie_rod_inner",), "tie_rod_outer", (0.0, 0.0, 1.0)),
+        Fixed("knuckle", "wheel", ("wheel_center",)),
+    )
+
+
+def _spread(loads: Array, point: Array) -> Array:
+    """Return the same loads for every position, at one point."""
+    return np.broadcast_to(loads, (*point.shape[:-1], 1, *loads.shape))
+
+
+def _unit(vectors: Array) -> Array:
+    lengths: Array = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return vectors / lengths
+
+
+def frame(axis: Array) -> tuple[Array, Array, Array]:
+    """Return a unit vector along an axis, (..., 3), and two across it."""
+    along = _unit(axis)
+    # the chassis axis that is most nearly across
+    aside = np.eye(3)[np.abs(along).argmin(axis=-1)]
+    across = _unit(cross(along, aside))
+    return along, across, cross(along, across)

@@ -1,0 +1,117 @@
+"""The first file of a new project: an annotated copy of a packaged data set."""
+
+from importlib import resources
+from pathlib import Path
+
+from ...core.errors import InputError
+from ...core.files import refuse, replacing
+from ...core.suggestions import suggestion
+from . import data_sets
+
+_ENDING = ".toml"
+AXLES = f"{__package__}.axles"
+"""Where the axles are that come with kintrafo."""
+
+RIGID_AXLES = f"{__package__}.rigid_axles"
+"""Where the rigid axles are that come with kintrafo."""
+
+RIGID_AXLE = "rigid_axle"
+"""The top-level key that says that a file describes a rigid axle; the packaged one has its name."""
+
+NOT_A_RIGID_AXLE = (
+    "this is the file of a rigid axle. Its commands are check, kinematics, characteristics, "
+    "compare, loads, compliance, deflection, sheet, simulate, sensitivity, tolerance, optimise, "
+    "pareto, fit, sweep, new, export and report; others are not there for it. In Python: "
+    "kintrafo.RigidAxle."
+)
+"""Said where something else is needed than a rigid axle."""
+
+DEFAULT = "macpherson"
+"""The kind of a file that does not say it."""
+
+# Sections and keys that a first file has, and that the data sets keep in a comment.
+_SECTIONS = ("# [bump_stop]", "# [rebound_stop]")
+_KEYS = ("# lifts_off = ", "# length_min_mm = ", "# length_max_mm = ")
+
+
+def kinds() -> tuple[str, ...]:
+    """Return the names of the kinds of suspension, without loading any; the default first.
+
+    Examples
+    --------
+    >>> kinds()
+    ('macpherson', 'double_wishbone', 'multi_link', 'pull_rod', 'push_rod', 'trailing_arm')
+    """
+    files = resources.files("kintrafo.vehicle").joinpath("kinds").iterdir()
+    names = sorted(f.name.removesuffix(".py") for f in files if f.name.endswith(".py"))
+    return DEFAULT, *(name for name in names if name not in (DEFAULT, "__init__"))
+
+
+def packaged() -> tuple[str, ...]:
+    """Return the names of the data sets that come with kintrafo.
+
+    Examples
+    --------
+    >>> "reference_car" in packaged()
+    True
+    """
+    return tuple(data_sets())
+
+
+def packaged_axles() -> tuple[str, ...]:
+    """Return the names of the axles that come with kintrafo.
+
+    Examples
+    --------
+    >>> packaged_axles()
+    ('reference_axle',)
+    """
+    return tuple(data_sets(AXLES))
+
+
+def write_starter(
+    path: str | Path, *, template: str = "reference_car", force: bool = False
+) -> Path:
+    """Write an input file to begin with: all keys, with units, signs and comments.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+        A name that ends in ``.toml``.
+    template : str, optional
+        Name of the packaged data set that is copied: of a suspension, an axle, or a rigid axle.
+    force : bool, optional
+        Whether a file that somebody else wrote or changed is replaced, see `kintrafo.core.files`.
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InputError
+        If there is a file already, or the name cannot be used.
+    """
+    known = data_sets() | data_sets(AXLES) | data_sets(RIGID_AXLES)
+    if not isinstance(template, str) or template not in known:
+        hint = suggestion(str(template), known)
+        problem = f"no data set {template!r} comes with kintrafo. {hint}"
+        raise InputError([problem], "template")
+    refuse([path], force=force, endings=[_ENDING])
+    text = _with_limits(known[template].read_text(encoding="utf-8"))
+    with replacing(path, force=force) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+    return Path(path)
+
+
+def _with_limits(text: str) -> str:
+    """Switch on what keeps a motion within what a suspension can do, where a data set has it.
+
+    The packaged data are those of the paper, without it.
+    """
+    lines, within = [], False
+    for line in text.splitlines():
+        within = line.startswith(_SECTIONS) or (within and line.startswith("# "))
+        on = within or line.startswith(_KEYS)
+        lines.append(line.removeprefix("# ") if on else line)
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,251 @@
+"""A subsystem of Adams/Car as an input file: its hardpoints and angles, the rest of another one."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import tomlkit
+
+from ....core.arguments import Arguments
+from ....core.errors import InputError
+from ....core.legible import legible
+from ...kinds import KINDS, Suspension
+from ..fitting import Point, Side, differences, fresh, ground, move_along, put, to_side
+from ..point_names import assumed_of, known, listed, matched, points_of
+from ..point_table import Merged, put_points
+from .rest import Rest, rest_of
+from .springs import Spring, force_at_design, put_spring, spring_of
+from .subsystem import ANGLES, Subsystem
+from .values import shown
+
+SMOOTH = "spring: a monotone cubic through the points of its curve, and straight beyond them"
+_SCHEMA = "#:schema"  # editors look for it in the first line
+
+
+@dataclass(frozen=True)
+class Imported(Merged):
+    """An input file made from a subsystem; see `kintrafo.point_table.write_merged`.
+
+    Attributes
+    ----------
+    kind : str
+        The kind of suspension.
+    side : {'left', 'right'}
+    angles : dict of str to float
+        Camber and toe that come from the subsystem [deg], by the keys of ``[wheel]``.
+    spring : Spring or None
+        The spring that comes from it.
+    assumed : tuple of str
+        What the subsystem leaves open, one sentence each.
+    """
+
+    kind: str
+    side: Side
+    angles: dict[str, float]
+    spring: Spring | None
+    assumed: tuple[str, ...]
+
+    def words(self) -> list[tuple[str, str]]:
+        """Return what was read, assumed and left out, in words."""
+        pairs = (
+            ours if ours == theirs else f"{ours} ({theirs})" for ours, theirs in self.read.items()
+        )
+        return [
+            ("read", f"{KINDS[self.kind].TITLE}, {self.side} side"),
+            ("read", ", ".join(pairs)),
+            *(("read", f"{key.removesuffix('_deg')} {v:g} deg") for key, v in self.angles.items()),
+            *([("read", self.spring.words())] if self.spring else []),
+            *(("assumed", text) for text in self.assumed),
+            *(("left out", text) for text in self.left_out),
+        ]
+
+
+def imported(
+    subsystem: Subsystem,
+    *,
+    side: Side | None = None,
+    kind: str | None = None,
+    base: str | Path | None = None,
+    names: Mapping[str, str] | None = None,
+) -> Imported:
+    """Make an input file from a subsystem.
+
+    Parameters
+    ----------
+    subsystem : Subsystem
+    side : {'left', 'right'}, optional
+        That of `base` by default, left without it.
+    kind : str, optional
+        What guides the wheel, such as ``"double_wishbone"``; by default that of `base`, without it
+        the one whose hardpoints there are.
+    base : str or pathlib.Path, optional
+        A file that everything else is taken from; hardpoints, too, that the subsystem does not
+        have. By default the packaged file of the kind, brought to where the wheel is.
+    names : mapping of str to str, optional
+        What the subsystem calls a hardpoint, where the template is not a usual one.
+
+    Returns
+    -------
+    Imported
+
+    Raises
+    ------
+    InputError
+        If a hardpoint is missing, or no suspension can be like this; with all problems.
+    """
+    with Arguments("imported") as arguments:
+        arguments.kind("subsystem", subsystem, Subsystem, "what read returns is needed")
+        if side is not None:
+            arguments.among("side", side, ("left", "right"))
+        given = arguments.mapping("names", names or {}, "hardpoints and what they are called there")
+    rest = rest_of(subsystem, kind, base, given)
+    wanted: Side = side or ("left" if rest.packaged else rest.suspension.vehicle.side)
+    read = matched(subsystem.points, rest.kind, given, subsystem.source)
+    points = _points(subsystem, read, wanted, rest.kind, whole=rest.packaged)
+    angles = _angles(subsystem, wanted)
+    document: Any = tomlkit.parse(rest.text)
+    old = to_side(document, rest.suspension, wanted)
+    spring, unread = _spring(subsystem, rest, wanted)
+    moved = move_along(document, old, points) if rest.packaged else []
+    put_points(document, points, "mm")
+    for key, angle in angles.items():
+        put(document, ("wheel", key), angle)
+    if spring:
+        put_spring(document, spring)
+    new = Suspension.from_dict(document.unwrap(), source=subsystem.source)
+    changed = None if rest.packaged else differences(rest.suspension, new)
+    text = fresh(tomlkit.dumps(document), new, changed)
+    kept = tuple(name for name in new.hardpoints.given() if name not in read)
+    assumed = (
+        *_assumed(new, kept, angles, spring, rest.title),
+        *assumed_of(rest.kind),
+        *moved,
+    )
+    return Imported(
+        text=_with_head(text, _head(subsystem, rest.title, assumed)),
+        read=read,
+        kept=kept,
+        left_out=(*_left_out(subsystem, read), *unread, *subsystem.others),
+        kind=rest.kind,
+        side=wanted,
+        angles=angles,
+        spring=spring,
+        assumed=assumed,
+    )
+
+
+def _spring(subsystem: Subsystem, rest: Rest, side: Side) -> tuple[Spring | None, list[str]]:
+    """Return the spring, and what of springs is left out: a file of the user has its own."""
+    found, unread = spring_of(subsystem, side)
+    if found is None:
+        return None, unread
+    if not rest.packaged:
+        return None, [f"{found.words()}: the {rest.title} has its own", *unread]
+    force = force_at_design(tomlkit.parse(rest.text)) if found.force is None else found.force
+    if not found.reaches(force):
+        problem = f"its curve does not reach the force at design, {force:g} N"
+        return None, [f"{found.words()}: {problem}", *unread]
+    return found, unread
+
+
+def _angles(subsystem: Subsystem, side: Side) -> dict[str, float]:
+    """Return camber and toe of a side [deg]; refuse those that are of another one."""
+    found = {key: subsystem.angle(name, side) for name, key in ANGLES.items()}
+    problems = [
+        _other_side(name, subsystem.angles[name], side)
+        for name, key in ANGLES.items()
+        if found[key] is None and name in subsystem.angles
+    ]
+    if problems:
+        raise InputError(problems, subsystem.source)
+    return {key: angle for key, angle in found.items() if angle is not None}
+
+
+def _other_side(name: str, rows: Iterable[str], side: Side) -> str:
+    return (
+        f"{shown(name)} is there as {' and '.join(rows)}; a row for the {side} side is needed, or "
+        "one for left/right."
+    )
+
+
+def _points(
+    subsystem: Subsystem, read: Mapping[str, str], side: Side, kind: str, *, whole: bool
+) -> dict[str, Point]:
+    """Return the hardpoints of a side [mm]; refuse what is missing or on the other side."""
+    found = {ours: subsystem.side(theirs, side) for ours, theirs in read.items()}
+    problems = [
+        _other_side(read[ours], subsystem.points[read[ours]], side)
+        for ours, point in found.items()
+        if point is None
+    ]
+    missing = [name for name in points_of(kind).names() if name not in found]
+    if missing and whole:
+        problems.append(
+            f"hardpoints of a {KINDS[kind].TITLE} are missing: {', '.join(missing)}. Say what they "
+            f"are called (--name {missing[0]}=NAME), or which file has them (--from FILE). "
+            f"The subsystem has: {listed(subsystem.points)}."
+        )
+    if not found:
+        problems.append(f"no hardpoint of it is one of {', '.join(known(kind))}.")
+    points = {ours: point for ours, point in found.items() if point is not None}
+    center = points.get("wheel_center")
+    if center is not None and center[1] * (1.0 if side == "left" else -1.0) <= 0.0:
+        problems.append(
+            f"wheel_center of the {side} side is {abs(center[1]):g} mm on the other side of the "
+            "car. In Adams/Car y points to the right, and rows for left/right are of the left "
+            "side, with negative y. Correct the signs of the file."
+        )
+    if problems:
+        raise InputError(problems, subsystem.source)
+    return points
+
+
+def _assumed(
+    new: Suspension,
+    kept: Iterable[str],
+    angles: Mapping[str, float],
+    spring: Spring | None,
+    rest: str,
+) -> list[str]:
+    """Return what the subsystem leaves open."""
+    told = [
+        "axes: x rearward, y to the right, z up, as is usual in Adams/Car",
+        f"{'' if spring else 'spring, '}damper, masses, tyre, rack and vehicle: as in the {rest}",
+        *([f"force of the spring: as in the {rest}"] if spring and spring.force is None else []),
+        *([SMOOTH] if spring and spring.curve else []),
+        *(f"{name}: as in the {rest}" for name in kept),
+    ]
+    told += [
+        f"{key.removesuffix('_deg')}: {getattr(new.wheel, key):g} deg, as in the {rest}"
+        for key in ANGLES.values()
+        if key not in angles
+    ]
+    return told + ground(new)
+
+
+def _left_out(subsystem: Subsystem, read: Mapping[str, str]) -> list[str]:
+    return [
+        f"hardpoint {shown(name)} ({side}): {', '.join(f'{value:.10g}' for value in point)} mm"
+        for name, rows in subsystem.points.items()
+        if name not in read.values()
+        for side, point in rows.items()
+    ]
+
+
+def _head(subsystem: Subsystem, rest: str, assumed: Iterable[str]) -> list[str]:
+    """Return the comment that the new file begins with."""
+    template = f" (template {subsystem.template})" if subsystem.template else ""
+    return [
+        f"Hardpoints from {Path(subsystem.source).name}, a subsystem of Adams/Car{template}.",
+        f"What follows is the {rest} with these hardpoints. Assumed:",
+        *(f"  {text}" for text in assumed),
+    ]
+
+
+def _with_head(text: str, head: list[str]) -> str:
+    """Return a file with a comment above it, but below a line that is for editors."""
+    first, end, rest = text.partition("\n")
+    comment = "".join(f"# {legible(line)}\n" for line in head)
+    comment += "#\n" if text.startswith("#") else "\n"
+    return f"{first}{end}{comment}{rest}" if first.startswith(_SCHEMA) else comment + text

@@ -1,0 +1,70 @@
+"""The file that an imported suspension has everything from that its subsystem does not say."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+from ....core.errors import InputError
+from ....core.legible import legible
+from ....core.suggestions import suggestion
+from ...data import find
+from ...kinds import KINDS, Suspension
+from ..fitting import packaged
+from ..point_names import kind_of, nearest_kinds
+from .subsystem import Subsystem
+
+
+class Rest(NamedTuple):
+    """The file that everything but the hardpoints is from.
+
+    Attributes
+    ----------
+    kind : str
+    title : str
+        What messages call it.
+    text : str
+    suspension : Suspension
+    packaged : bool
+        Whether it comes with this project, and not from the user.
+    """
+
+    kind: str
+    title: str
+    text: str
+    suspension: Suspension
+    packaged: bool
+
+
+def rest_of(
+    subsystem: Subsystem, kind: str | None, base: str | Path | None, given: Mapping[str, str]
+) -> Rest:
+    """Return the file that the rest is from: what the user names, or the packaged one of a kind."""
+    if kind is not None and kind not in KINDS:
+        problem = f"{kind!r} is no kind of suspension. {suggestion(kind, KINDS)}"
+        raise InputError([problem], "kind")
+    if base is not None:
+        return _users(subsystem, kind, base, given)
+    found = kind or kind_of(subsystem.points, given, subsystem.source)
+    starter, text, suspension = packaged(found)
+    return Rest(found, f"packaged {starter}", text, suspension, packaged=True)
+
+
+def _users(
+    subsystem: Subsystem, kind: str | None, base: str | Path, given: Mapping[str, str]
+) -> Rest:
+    """Return the file of a user, if the subsystem is of its kind."""
+    suspension = Suspension.load(base)
+    title = legible(f"file {Path(base).name}")
+    own = next(name for name, known in KINDS.items() if type(suspension) is known)
+    near = nearest_kinds(subsystem.points, given)
+    if kind not in (None, own):
+        problem = f"{kind} is asked for, and the {title} is of a {own}. Leave one of them out."
+        raise InputError([problem], "kind")
+    if kind is None and own not in near:
+        problem = (
+            f"its hardpoints are those of a {' or '.join(near)}, and the {title} is of a {own}. "
+            f"Give another file, or say what it is: --kind {own}."
+        )
+        raise InputError([problem], subsystem.source)
+    text = find(base).read_text(encoding="utf-8-sig")
+    return Rest(own, title, text, suspension, packaged=False)

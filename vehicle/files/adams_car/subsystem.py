@@ -1,0 +1,260 @@
+"""A suspension's subsystem of Adams/Car, as it stands in its file.
+
+In Adams/Car x points rearward, y to the right and z up. Rows for both sides have the coordinates of
+the left one.
+"""
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple, TypeVar
+
+from ....core.errors import InputError
+from ..fitting import Point, Side
+from ..teim_orbit import Block, read_blocks
+from .values import DEGREES, MILLIMETRES, Values, number, shown, unit_of
+
+_Value = TypeVar("_Value", float, Point)
+
+ANGLES = {"camber_angle": "camber_deg", "toe_angle": "toe_deg"}
+"""What is read of the parameters, with the keys of ``[wheel]``: the signs are the same."""
+
+_SYMMETRIES = ("left/right", "left", "right", "single")
+_SPRINGS = ("nspring_assembly", "spring_assembly")
+# What is read elsewhere, or says nothing of the car: keys by block. Rows of the last two are read.
+_FORMAL: Mapping[str, tuple[str, ...]] = {
+    "mdi_header": ("file_type", "file_version", "file_format"),
+    "subsystem_header": ("template_name", "major_role", "minor_role", "timestamp", "header_size"),
+    "units": ("length", "force", "angle", "mass", "time"),
+    "hardpoint": (),
+    "parameter": (),
+}
+_SILENT = ("plugins", "solver_settings")
+
+
+@dataclass(frozen=True)
+class Subsystem:
+    """What the file of a suspension's subsystem has.
+
+    Attributes
+    ----------
+    source : str
+        The file.
+    template : str
+        What it was made from; empty if the file does not say.
+    points : dict
+        By name in lower case and symmetry ('left/right', 'left', 'right' or 'single') the
+        coordinates, in mm and in the axes of Adams/Car.
+    angles : dict
+        By name and side camber_angle and toe_angle, in degrees; those that the file has.
+    springs : tuple of dict
+        The keys and values of its springs, in lower case and as they stand there.
+    force_unit : str
+    others : tuple of str
+        What else there is, and is not read.
+    """
+
+    source: str
+    template: str
+    points: dict[str, dict[str, Point]]
+    angles: dict[str, dict[str, float]]
+    springs: tuple[dict[str, str], ...]
+    force_unit: str
+    others: tuple[str, ...]
+
+    def side(self, name: str, side: Side) -> Point | None:
+        """Return a hardpoint of a side in ISO axes (x forward, y left, z up) [mm].
+
+        Returns
+        -------
+        tuple of float or None
+            None if the file does not have it for this side.
+        """
+        rows = self.points[name]
+        own = rows.get(side)
+        mirrored = own is None and side == "right"
+        found = rows.get("left/right") if own is None else own
+        if found is None:
+            return None
+        x, y, z = found
+        # the sum makes no zero negative
+        return -x + 0.0, (y if mirrored else -y) + 0.0, z
+
+    def angle(self, name: str, side: Side) -> float | None:
+        """Return an angle of a side [deg]; None if the file does not have it."""
+        rows = self.angles.get(name, {})
+        return rows.get(side, rows.get("left/right"))
+
+
+def read(path: str | Path) -> Subsystem:
+    """Read the subsystem of a suspension.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+        A text file in the TeimOrbit format; its name usually ends in ``.sub``.
+
+    Returns
+    -------
+    Subsystem
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, is no subsystem of a suspension, or is not clear; with all problems.
+    """
+    source = str(path)
+    blocks = read_blocks(path)
+    values = Values(blocks, source)
+    _refuse_others(values)
+    scale = unit_of(values, "length", "mm", MILLIMETRES)
+    problems: list[str] = []
+    points: dict[str, dict[str, Point]] = {}
+    for row in _rows(blocks, _POINTS, problems):
+        x, y, z = (scale * number(cell) for cell in row.others)
+        _put(points, row, (x, y, z), problems)
+    of_angles = [r for r in _rows(blocks, _PARAMETERS, problems) if r.name in ANGLES]
+    turn = unit_of(values, "angle", "degrees", DEGREES) if of_angles else 1.0
+    angles: dict[str, dict[str, float]] = {}
+    for row in of_angles:
+        _put(angles, row, turn * number(row.others[-1]), problems)
+    problems += [text for block in blocks if block.name in _SPRINGS for text in _twice(block)]
+    if not points and not problems:
+        problems.append("there are no rows in a block [HARDPOINT].")
+    if problems:
+        raise InputError(problems, source)
+    template = shown(values.one("subsystem_header", "template_name"))
+    springs = tuple(dict(block.values()) for block in blocks if block.name in _SPRINGS)
+    force_unit = values.one("units", "force")
+    others = (*_other_parameters(blocks), *_others(blocks))
+    return Subsystem(source, template, points, angles, springs, force_unit, others)
+
+
+def _refuse_others(values: Values) -> None:
+    """Refuse what is no subsystem of a suspension."""
+    for block, key, wanted in (
+        ("mdi_header", "file_type", "sub"),
+        ("subsystem_header", "major_role", "suspension"),
+    ):
+        found = values.one(block, key)
+        if found and found.lower() != wanted:
+            problem = (
+                f"[{block.upper()}] {key.upper()} is {shown(found)!r}; only the file of a "
+                f"suspension's subsystem can be read, in which it is {wanted!r}."
+            )
+            raise InputError([problem], values.source)
+
+
+class _Row(NamedTuple):
+    """A row of a table: what it names, for which side, the other cells, and the line."""
+
+    name: str
+    symmetry: str
+    others: list[str]
+    line: int
+
+
+class _Table(NamedTuple):
+    """A table of a kind of block: its columns, and the last ones of them that are numbers.
+
+    Rows in which none of the words stands are not looked at, if there are words.
+    """
+
+    block: str
+    columns: tuple[str, ...]
+    numbers: int
+    words: tuple[str, ...] = ()
+
+
+_POINTS = _Table("hardpoint", ("hardpoint_name", "symmetry", "x_value", "y_value", "z_value"), 3)
+_PARAMETERS = _Table("parameter", ("parameter_name", "symmetry", "type", "value"), 1, (*ANGLES,))
+
+
+def _rows(blocks: Iterable[Block], table: _Table, problems: list[str]) -> Iterator[_Row]:
+    """Yield the rows of a table that are right, and say what is wrong with others."""
+    for block in blocks:
+        if block.name != table.block:
+            continue
+        columns = block.columns() or [*table.columns]
+        if any(columns.count(column) != 1 for column in table.columns):
+            problems.append(
+                f"line {block.number}: the columns of [{block.name.upper()}] are "
+                f"{shown(', '.join(columns))}; they must be {', '.join(table.columns)}."
+            )
+            continue
+        order = [columns.index(column) for column in table.columns]
+        for line, text, cells in block.rows():
+            if [cell.lower() for cell in cells or ()] == columns:
+                continue  # the names of the columns, without their braces
+            if table.words and not any(word in text.lower() for word in table.words):
+                continue
+            wrong = _problem_of(cells, len(columns), order, table.numbers)
+            if cells is None or wrong:
+                problems.append(f"line {line}: {wrong}: {shown(text)}")
+                continue
+            first, symmetry, *others = (cells[i] for i in order)
+            yield _Row(first.lower(), symmetry.lower(), others, line)
+
+
+def _problem_of(cells: list[str] | None, count: int, order: list[int], numbers: int) -> str:
+    """Say what is wrong with a row; nothing if it is right."""
+    if cells is None:
+        return "a quote is not closed"
+    if len(cells) != count:
+        return f"{len(cells)} values instead of {count}"
+    if cells[order[1]].lower() not in _SYMMETRIES:
+        return f"symmetry is {shown(cells[order[1]])!r}; it can be {', '.join(_SYMMETRIES)}"
+    wrong = [cells[i] for i in order[-numbers:] if not math.isfinite(number(cells[i]))]
+    return f"{shown(wrong[0])!r} is no number" if wrong else ""
+
+
+def _other_parameters(blocks: Iterable[Block]) -> list[str]:
+    """Return the parameters that are not read, with their values."""
+    rows = [row for block in blocks if block.name == _PARAMETERS.block for row in block.rows()]
+    return [
+        f"parameter {shown(' '.join(cells or [text]))}"
+        for _, text, cells in rows
+        if not (cells and cells[0].lower() in (*ANGLES, _PARAMETERS.columns[0]))
+    ]
+
+
+def _twice(block: Block) -> list[str]:
+    """Say which keys a block has more than once."""
+    counts = Counter(key for key, _ in block.values())
+    return [
+        f"line {block.number}: {shown(key.upper())} is there {count} times in "
+        f"[{shown(block.name.upper())}]. Keep one of them."
+        for key, count in counts.items()
+        if count > 1
+    ]
+
+
+def _put(rows: dict[str, dict[str, _Value]], row: _Row, value: _Value, problems: list[str]) -> None:
+    """Take the value of a row, unless there is one for the same side."""
+    there: dict[str, _Value] = rows.setdefault(row.name, {})
+    both = {"left/right", "single"} & {*there, row.symmetry}
+    if row.symmetry in there or (there and both):
+        sides = " and ".join((*there, row.symmetry))
+        problems.append(
+            f"line {row.line}: {shown(row.name)} is there twice, as {sides}. Keep one of them."
+        )
+    else:
+        there[row.symmetry] = value
+
+
+def _others(blocks: Iterable[Block]) -> list[str]:
+    """Return what of blocks is not read, each with its keys, its rows and their values."""
+    found = []
+    for block in blocks:
+        if block.name in (*_SILENT, *_SPRINGS):
+            continue
+        known = _FORMAL.get(block.name)
+        unread = [pair for pair in block.values() if pair[0] not in (known or ())]
+        words = [f"{shown(key.upper())} = {shown(value)}" for key, value in unread]
+        if known is None:
+            words += [shown(" ".join(cells or [text])) for _, text, cells in block.rows()]
+        if words or known is None:
+            found.append(f"[{shown(block.name.upper())}] {', '.join(words)}".strip())
+    return found

@@ -1,0 +1,189 @@
+"""Keys of Project Chrono's files: those that are read, those that are not, and slips of the hand.
+
+Every key of a file is a field of a `Part`, is listed with its value as left out, or is refused.
+"""
+
+import difflib
+import json
+import re
+from collections.abc import Collection, Iterable, Iterator
+from pathlib import Path
+from typing import Any, ClassVar, NamedTuple, TypeVar
+
+from pydantic import BaseModel, ConfigDict, ValidationError, field_validator
+from pydantic_core import PydanticCustomError
+
+from ....core.errors import InputError
+from ....core.legible import legible, short
+
+_SIMILAR = 0.8  # of two keys that may be one, as `difflib` has it
+_NEEDED = {
+    "tuple_type": "a list is needed, such as [0.0, 1.0]",
+    "model_type": "keys with values are needed, in braces",
+    "float_type": "a number is needed, without quotes",
+    "finite_number": "a finite number is needed",
+    "bool_type": "true or false is needed, without quotes",
+}
+_DEEP = 6  # keys within each other; templates have three
+
+Place = tuple[str, ...]
+Unread = tuple[Place, Any]
+
+
+class Part(BaseModel):
+    """A part of a file.
+
+    Attributes
+    ----------
+    UNREAD : frozenset of str
+        Keys that Chrono's templates have besides.
+    """
+
+    # what is no field is listed, or refused: see `others`
+    model_config = ConfigDict(extra="ignore")
+
+    UNREAD: ClassVar[frozenset[str]] = frozenset()
+
+    @field_validator("*", mode="before")
+    @classmethod
+    def _is_there(cls, value: Any) -> Any:
+        """Refuse null, which is neither a value nor left out."""
+        if value is None:
+            raise PydanticCustomError("null", "null is no value")
+        return value
+
+
+class Other(NamedTuple):
+    """A key that is not read.
+
+    Attributes
+    ----------
+    place : tuple of str
+        The key, after those that it stands in.
+    value : object
+    part : type of Part
+        Of what it is a key.
+    """
+
+    place: Place
+    value: Any
+    part: type[Part]
+
+
+Kind = TypeVar("Kind", bound=Part)
+
+
+def checked(model: type[Kind], data: dict[str, Any], path: str | Path) -> Kind:
+    """Return the content of a file as what it is of a kind; say what is wrong if it is not."""
+    slips = _slips(others(model, data))
+    try:
+        found = model.model_validate(data)
+    except ValidationError as error:
+        details = _causes(error)
+        # of another kind of file, nothing else is worth telling
+        other = [detail for detail in details if detail["type"] == "literal_error"]
+        problems = [problem_of(detail) for detail in other or details]
+        raise InputError(problems if other else [*problems, *slips], str(path)) from None
+    if slips:
+        raise InputError(slips, str(path))
+    return found
+
+
+def others(model: type[Part], data: dict[str, Any], place: Place = ()) -> Iterator[Other]:
+    """Yield the keys of a file that a model does not have."""
+    fields = {field.alias: field.annotation for field in model.model_fields.values()}
+    for key, value in data.items():
+        inner = fields.get(key)
+        if key not in fields:
+            yield Other((*place, key), value, model)
+        elif isinstance(value, dict) and isinstance(inner, type) and issubclass(inner, Part):
+            yield from others(inner, value, (*place, key))
+
+
+def listed(found: Iterable[Unread]) -> list[str]:
+    """Return keys with their values, a line for those of one place."""
+    lines: dict[str, list[str]] = {}
+    for (*above, key), value in leaves(found):
+        lines.setdefault(_words(above), []).append(f"{legible(short(key))} = {shown(value)}")
+    return [": ".join([*filter(None, [head]), ", ".join(keys)]) for head, keys in lines.items()]
+
+
+def leaves(found: Iterable[Unread]) -> Iterator[Unread]:
+    """Yield the keys within keys, with their values."""
+    for place, value in found:
+        if isinstance(value, dict) and value and len(place) < _DEEP:
+            yield from leaves(((*place, key), inner) for key, inner in value.items())
+        else:
+            yield place, value
+
+
+def meant(key: str, known: Collection[str]) -> str:
+    """Return the known key that another spelling of it may stand for; empty if there is none."""
+    same = {_plain(name): name for name in known}
+    if _plain(key) in same:
+        return same[_plain(key)]
+    lower = {name.lower(): name for name in known}
+    near = difflib.get_close_matches(key.lower(), lower, n=1, cutoff=_SIMILAR)
+    return lower[near[0]] if near else ""
+
+
+def slip(place: Place, right: str) -> str:
+    """Say that a key seems to be another one."""
+    return (
+        f'"{_words(place)}" is no key of Chrono\'s templates. Is it "{right}"? Correct it, or '
+        "remove it."
+    )
+
+
+def problem_of(detail: Any, place: Place | None = None) -> str:
+    """Say what pydantic has found, by the file's keys."""
+    words = _words(place or (str(part) for part in detail["loc"]))
+    given = shown(detail["input"])
+    if detail["type"] == "missing":
+        return f'"{words}" is missing. Add it, in SI units.'
+    if detail["type"] in {"too_short", "too_long"}:
+        least, most = detail["ctx"].get("min_length"), detail["ctx"].get("max_length")
+        wanted = f"at least {least} are needed" if most is None else f"{most} are needed"
+        return f'"{words}" = {given} has {len(detail["input"])} values; {wanted}.'
+    if detail["type"] == "literal_error":
+        return f'"{words}" is {given}; only {detail["ctx"]["expected"]} can be read.'
+    return f'"{words}" = {given}: {_NEEDED.get(detail["type"], detail["msg"].lower())}.'
+
+
+def shown(value: Any) -> str:
+    """Return a value as it stands in the file, and not more of it than one reads."""
+    try:
+        return legible(short(json.dumps(value, default=str)))
+    except RecursionError:  # lists in each other, as deep as Python reads them
+        return "..."
+
+
+def _causes(error: ValidationError) -> list[Any]:
+    """Return what pydantic has found, without lists that are too short as an element is wrong."""
+    details = error.errors()
+    return [
+        one
+        for one in details
+        if one["type"] != "too_short"
+        or not any(
+            other["loc"][: len(one["loc"])] == one["loc"] for other in details if other is not one
+        )
+    ]
+
+
+def _slips(found: Iterable[Other]) -> list[str]:
+    """Say which keys seem to be others: their values would be lost."""
+    problems = []
+    for place, _, part in found:
+        right = meant(place[-1], [field.alias or "" for field in part.model_fields.values()])
+        if right and place[-1] not in part.UNREAD:
+            problems.append(slip(place, right))
+    return problems
+
+
+def _words(place: Iterable[str]) -> str:
+    return " > ".join(legible(short(part)) for part in place)
+
+
+def _plain(key: str) -> str:
+    return re.sub(r"[^a-z0-9]+", "", key.casefold())

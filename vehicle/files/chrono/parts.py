@@ -1,0 +1,142 @@
+"""What the files of Project Chrono's templates have in common."""
+
+from decimal import Decimal
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from ....core.vectors import cross
+from ...input.bodies import impossible_inertia
+from .keys import Part
+
+Array = NDArray[np.float64]
+# strict: neither a text nor true is a number
+Finite = Annotated[float, Field(allow_inf_nan=False, strict=True)]
+Point = tuple[Finite, Finite, Finite]
+
+ON_THE_LINE = 1e-4
+"""A point nearer than this to another one, or to a line, lies on it [m]."""
+
+DRAWING = frozenset({"Radius", "Width"})
+"""Keys of bodies that are for drawing alone."""
+
+POINTS_ONLY = "take the hardpoints alone: --points-only (points_only=True)"
+
+
+class Ends(Part):
+    """What reaches from the chassis to the upright."""
+
+    UNREAD: ClassVar[frozenset[str]] = frozenset({"Mass", "Inertia", "Radius", "Bushing Data"})
+
+    chassis: Point = Field(alias="Location Chassis")
+    upright: Point = Field(alias="Location Upright")
+
+
+class Centre(Part):
+    """Where a body is."""
+
+    UNREAD: ClassVar[frozenset[str]] = DRAWING | {"Mass", "Inertia"}
+
+    com: Point = Field(alias="COM")
+
+
+class ArmPoints(Part):
+    """The joints of an arm with two bearings on the chassis."""
+
+    UNREAD: ClassVar[frozenset[str]] = DRAWING | {"Bushing Data"}
+
+    front: Point = Field(alias="Location Chassis Front")
+    back: Point = Field(alias="Location Chassis Back")
+    upright: Point = Field(alias="Location Upright")
+
+
+class Body(Centre):
+    """A rigid body; its inertia has two forms, of older and of newer templates."""
+
+    mass: Finite = Field(alias="Mass", ge=0.0)
+    inertia: Point | None = Field(default=None, alias="Inertia")
+    moments: Point | None = Field(default=None, alias="Moments of Inertia")
+    products: Point | None = Field(default=None, alias="Products of Inertia")
+
+    def problems(self, name: str) -> list[str]:
+        """Say why no body can have this inertia, by the file's keys.
+
+        Parameters
+        ----------
+        name : str
+            What the file calls it.
+        """
+        if self.inertia is not None and (self.moments or self.products):
+            other = "Moments of Inertia" if self.moments else "Products of Inertia"
+            return [f'"{name} > Inertia" and "{other}" both give the inertia. Keep one of them.']
+        if self.inertia is None and self.moments is None:
+            return [f'"{name} > Inertia" or "Moments of Inertia" is missing. Add it, in kg m^2.']
+        reason = impossible_inertia(_elements(self._tensor()))
+        if not reason:
+            return []
+        key = "Moments of Inertia" if self.inertia is None else "Inertia"
+        given = f'"{name} > {key}" = {list(self.moments or self.inertia or ())}'
+        if self.products is not None:
+            given += f', "Products of Inertia" = {list(self.products)}'
+        return [f"{given} kg m^2: {reason}. Correct it, or {POINTS_ONLY}."]
+
+    def rigid(self, axes: Array) -> dict[str, Any]:
+        """Return its section of a hardpoint file.
+
+        Parameters
+        ----------
+        axes : ndarray, shape (3, 3)
+            Axes of the body in which the file gives its inertia, in columns.
+        """
+        elements = _elements(axes @ self._tensor() @ axes.T)
+        return {
+            "mass_kg": self.mass,
+            "com_mm": list(map(millimetres, self.com)),
+            **{f"inertia_{name}_kg_m2": value for name, value in elements.items()},
+        }
+
+    def _tensor(self) -> Array:
+        xx, yy, zz = self.moments or self.inertia or (0.0, 0.0, 0.0)
+        xy, xz, yz = self.products or (0.0, 0.0, 0.0)
+        return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+class Spindle(Centre):
+    """What turns with the wheel."""
+
+    mass: Finite = Field(alias="Mass", ge=0.0)
+    inertia: Point = Field(alias="Inertia")
+
+
+class ControlArm(ArmPoints, Body):
+    """An arm as a body."""
+
+    UNREAD: ClassVar[frozenset[str]] = ArmPoints.UNREAD
+
+    def axes(self) -> Array:
+        """Return Chrono's axes of the arm: x from its rear to its front bearing, z across it."""
+        front, back, upright = map(np.array, (self.front, self.back, self.upright))
+        z = cross(back - upright, front - upright)
+        x = front - back
+        if not (np.linalg.norm(z) > 0.0 and np.linalg.norm(x) > 0.0):
+            return np.eye(3)  # no triangle: the hardpoints are refused later, by name
+        x, z = x / np.linalg.norm(x), z / np.linalg.norm(z)
+        return np.column_stack((x, cross(z, x), z))
+
+
+class Axle(Part):
+    """The shaft that turns with the wheel."""
+
+    inertia: Finite = Field(alias="Inertia", ge=0.0)
+
+
+def millimetres(metres: float) -> float:
+    """Return a length in millimetres, with the digits that it has in metres."""
+    return float(Decimal(repr(metres)).scaleb(3))
+
+
+def _elements(tensor: Array) -> dict[str, float]:
+    at = {"xx": (0, 0), "yy": (1, 1), "zz": (2, 2), "xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}
+    return {name: float(tensor[place]) for name, place in at.items()}

@@ -1,0 +1,57 @@
+"""The hardpoints of a file of Project Chrono; the rest is that of a packaged file."""
+
+from collections.abc import Mapping
+
+import tomlkit
+
+from ...kinds import Suspension
+from ..fitting import ground, move_along, packaged, put, to_side
+from ..point_table import put_points
+from .parts import Point, millimetres
+from .suspension_file import RACK
+
+
+def with_points(
+    kind: str, points: Mapping[str, Point], alignment: Mapping[str, float], source: str
+) -> tuple[Suspension, list[str]]:
+    """Return the packaged suspension of a kind with other hardpoints, camber and toe.
+
+    Parameters
+    ----------
+    kind : str
+    points : mapping
+        Hardpoints of the left side [m].
+    alignment : mapping
+        Camber and toe [deg] by the keys of ``[wheel]``.
+    source : str
+        Where they come from.
+
+    Returns
+    -------
+    suspension : Suspension
+    assumed : list of str
+        Where everything else is from, a sentence each.
+
+    Raises
+    ------
+    InputError
+        If no suspension can be like this; by the keys of a hardpoint file.
+    """
+    starter, text, old = packaged(kind)
+    document = tomlkit.parse(text)
+    left = to_side(document, old, "left")
+    here: dict[str, Point] = {}
+    for name, (x, y, z) in points.items():
+        here[name] = (millimetres(x), millimetres(y), millimetres(z))
+    moved = move_along(document, left, here)
+    put_points(document, here, "mm")
+    for key, angle in alignment.items():
+        put(document, ("wheel", key), angle)
+    new = Suspension.from_dict(document.unwrap(), source=source)
+    told = [
+        f"spring, damper, masses, tyre and vehicle: as in the packaged {starter}",
+        *(["damper: between the points of the spring"] if kind == "double_wishbone" else []),
+        RACK,
+        *moved,
+    ]
+    return new, [*told, *ground(new)]

@@ -1,0 +1,149 @@
+"""A file of Project Chrono as a suspension."""
+
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ....core.arguments import Arguments
+from ....core.errors import InputError
+from ...kinds import Suspension
+from ..fitting import ground
+from .double_wishbone import DoubleWishbone, WishbonePoints
+from .json_file import content
+from .keys import Unread, checked, listed, others, shown
+from .macpherson import MacPhersonStrut, StrutPoints
+from .points_only import with_points
+from .suspension_file import PointsFile, SuspensionFile
+from .tires import USUAL, read_tire
+
+_TEMPLATES: Mapping[str, tuple[type[PointsFile], type[SuspensionFile]]] = {
+    whole.TEMPLATE: (points, whole)
+    for points, whole in ((StrutPoints, MacPhersonStrut), (WishbonePoints, DoubleWishbone))
+}
+_REFUSED = {
+    "MultiLink": (
+        " Its spring and damper are attached to the trailing link, beside the line through its "
+        "joints, so that they depend on its rotation about this line, which its universal joint "
+        "sets and which is another one for the links here. The wheel moves alike on five links: "
+        "write a multi_link file in which the upper arm is two links with one outer point, beside "
+        "lateral link, trailing link and tie rod."
+    ),
+}
+
+
+class Imported(NamedTuple):
+    """A suspension from a file of another program.
+
+    Attributes
+    ----------
+    suspension : Suspension
+        Of the left side.
+    assumptions : tuple of str
+        What the files leave open, or have otherwise than this project, one sentence each.
+    left_out : tuple of str
+        The keys of the files that are not read, with their values; a line for those of one part.
+    """
+
+    suspension: Suspension
+    assumptions: tuple[str, ...]
+    left_out: tuple[str, ...]
+
+
+def read(
+    path: str | Path, *, tire: str | Path | None = None, points_only: bool = False
+) -> Imported:
+    """Read a suspension of Project Chrono.
+
+    Parameters
+    ----------
+    path : str or Path
+        JSON file of the template "MacPhersonStrut" or "DoubleWishbone".
+    tire : str or Path, optional
+        JSON file of a tire; radius, mass and inertia are read, whatever its template.
+    points_only : bool, optional
+        Whether hardpoints, camber and toe alone are taken. The rest is then as in the packaged
+        file of the kind, brought to where the wheel is.
+
+    Returns
+    -------
+    Imported
+        The left suspension, what had to be assumed, and what was not read.
+
+    Raises
+    ------
+    InputError
+        If a file is not JSON or not of this kind, has a key twice or one that seems to be
+        misspelt, or no suspension can be like this; by the keys of the file.
+    """
+    with Arguments("read") as arguments:
+        arguments.flag("points_only", points_only)
+    if points_only and tire is not None:
+        problem = "nothing of a tire is taken with points_only. Leave one of them out."
+        raise InputError([problem], str(tire))
+    data = content(path)
+    template = data.get("Template")
+    if not isinstance(template, str) or template not in _TEMPLATES:
+        _refuse(data, path)
+    points, whole = _TEMPLATES[str(template)]
+    if points_only:
+        return _points_of(checked(points, data, path), data, path)
+    return _whole(checked(whole, data, path), data, path, tire)
+
+
+def _points_of(given: PointsFile, data: dict[str, Any], path: str | Path) -> Imported:
+    """Return the packaged suspension of a kind with the hardpoints of a file."""
+    try:
+        suspension, assumed = with_points(given.KIND, given.points(), given.alignment(), str(path))
+    except InputError as error:
+        raise _by_its_keys(error, given.SOURCES, path) from None
+    return Imported(suspension, tuple(assumed), _left_out(type(given), data))
+
+
+def _whole(
+    given: SuspensionFile, data: dict[str, Any], path: str | Path, tire: str | Path | None
+) -> Imported:
+    """Return the suspension of a file."""
+    wheel = USUAL if tire is None else read_tire(tire)
+    problems = given.problems()
+    if problems:
+        raise InputError(problems, str(path))
+    try:
+        suspension = Suspension.from_dict(given.data(wheel), str(path))
+    except InputError as error:
+        raise _by_its_keys(error, given.SOURCES, path) from None
+    assumed = (*given.assumptions(wheel), *ground(suspension), *wheel.assumed)
+    left_out = (*_left_out(type(given), data, given.without_effect()), *wheel.left_out)
+    return Imported(suspension, assumed, left_out)
+
+
+def _left_out(
+    model: type[PointsFile], data: dict[str, Any], without_effect: Sequence[Unread] = ()
+) -> tuple[str, ...]:
+    unread = [(place, value) for place, value, _ in others(model, data)]
+    return tuple(listed([*unread, *without_effect]))
+
+
+def _by_its_keys(error: InputError, sources: Mapping[str, str], path: str | Path) -> InputError:
+    """Return what is wrong with a suspension, with the keys that the file has for it."""
+    problems = []
+    for problem in error.problems:
+        keys = dict.fromkeys(
+            theirs
+            for ours, theirs in sources.items()
+            if re.search(rf"(?<![\w.]){re.escape(ours)}(?![A-Za-z0-9]*\])", problem)
+        )
+        named = ", ".join(f'"{key}"' for key in keys)
+        problems.append(f"{problem} In the file: {named}." if keys else problem)
+    return InputError(problems, str(path))
+
+
+def _refuse(data: dict[str, object], path: str | Path) -> None:
+    """Refuse a file of another template, or of something else."""
+    if "Template" not in data:
+        raise InputError(['"Template" is missing. Give a file of a suspension.'], str(path))
+    template = data["Template"]
+    known = " and ".join(repr(name) for name in _TEMPLATES)
+    why = _REFUSED.get(template, "") if isinstance(template, str) else ""
+    problem = f'"Template" is {shown(template)}; only {known} can be read.{why}'
+    raise InputError([problem], str(path))

@@ -1,0 +1,44 @@
+"""Reading a file, whatever it describes."""
+
+from pathlib import Path
+
+from ...core.arguments import Arguments
+from ..kinds import Suspension
+from ..models.axle.axle import Axle, is_axle
+from ..models.rigid.axle import RigidAxle, is_rigid_axle
+
+
+def load(path_or_name: str | Path) -> Suspension | Axle | RigidAxle:
+    """Read a TOML file, and return what it describes.
+
+    Parameters
+    ----------
+    path_or_name : str or pathlib.Path
+        The file; or, as a string, the name of one that comes with kintrafo, such as
+        ``"reference_car"``, ``"reference_axle"`` or ``"rigid_axle"``.
+
+    Returns
+    -------
+    Suspension, Axle or RigidAxle
+        A suspension of one wheel, two of them with what couples them, or a rigid axle.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or nothing can be like this; it lists everything that is wrong.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> [type(kintrafo.load(name)).__name__ for name in ("reference_axle", "rigid_axle")]
+    ['Axle', 'RigidAxle']
+    >>> kintrafo.load("reference_car").suspension
+    'macpherson'
+    """
+    with Arguments("load") as given:
+        given.path("path_or_name", path_or_name)
+    if is_rigid_axle(path_or_name):
+        return RigidAxle.load(path_or_name)
+    if is_axle(path_or_name):
+        return Axle.load(path_or_name)
+    return Suspension.load(path_or_name)

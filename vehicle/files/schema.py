@@ -1,0 +1,321 @@
+"""The input file's JSON Schema, for editors, and its reference page.
+
+``python -m kintrafo.vehicle.files.schema SCHEMA PAGE`` writes both.
+"""
+
+import json
+import sys
+from collections.abc import Container, Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from pydantic.json_schema import models_json_schema
+
+from ..corner.base import KIND
+from ..corner.bushes import BUSH_SCHEMA
+from ..data.starter import DEFAULT, RIGID_AXLE
+from ..input.bodies import RigidBody
+from ..input.messages import is_named
+from ..input.section import Section
+from ..input.units import unit_of
+from ..kinds import KINDS
+from ..models.axle.file import AxleFile
+from ..models.rigid import RigidAxle
+
+_LIMITS = {
+    "ge": "minimum",
+    "gt": "exclusiveMinimum",
+    "le": "maximum",
+    "lt": "exclusiveMaximum",
+}
+
+_HEAD = """\
+# The input file
+
+A suspension is a TOML file. The name of a key ends in its unit; `[hardpoints]` has one `unit` for
+all of its points. Points are `[x, y, z]` in chassis axes of ISO 8855 (x forward, y left, z up), at
+the design position. What a file says is checked as a whole: every problem is reported at once, with
+the value, the unit, what is allowed and what to do.
+
+`kintrafo new FILE` writes an annotated file to begin with. The line `suspension = "..."` above the
+first section names the kind; what only one kind has is in its own part below.
+
+Editors that know JSON Schema complete keys, show their meaning and underline what is not allowed.
+`kintrafo schema kintrafo.schema.json` writes
+[the schema](../vehicle/data/suspension.schema.json) of suspensions and axles beside your
+files; a first line
+
+```toml
+#:schema ./kintrafo.schema.json
+```
+
+says so to editors with a TOML language server, such as Even Better TOML for Visual Studio Code.
+Whether the points make a mechanism that can be assembled is not in the schema: that is what
+`kintrafo check FILE` says. The schema and this page are written by `make format-page`.
+"""
+
+_BUSHINGS = """\
+### [bushings.POINT] (optional)
+
+What gives way at a hardpoint where parts touch, for [compliance](loads.md#compliance); what is left
+out is rigid. One stiffness or curve is needed. `[bushings.rack]` has `axial_N_per_mm` alone: how
+stiff the steering holds the rack. All else that is computed takes joints as rigid.
+"""
+
+_CURVES = """\
+### Curves
+
+Springs, dampers and bushes have a rate, or a curve by its points. Between its points a curve is a
+monotone cubic (Fritsch and Carlson): smooth, and within the forces of both neighbours. With
+`interpolation = "linear"` it is straight lines, as in some other programs. Both pass through the
+points and differ between them: the damper curve that the first of the annotated files proposes
+has -2177 N at -0.7 m/s, straight lines have -1986 N there.
+
+Beyond its points a curve is extrapolated linearly: that of a damper with its slope at the end,
+those of springs and bushes with the slope between their last two points, so that they carry any
+force. A simulation reports when it goes beyond the points, and `kintrafo check` when the spring is
+beyond them at design. At a corner between two straight lines the rate is that of the less
+compressed side; a motion over such a corner is as accurate as its tolerances, with more steps.
+
+The force of a spring must not fall as it is compressed. Over `length_mm` a curve says what the
+force is at every distance of the seats, and neither `free_length_mm` nor `force_at_design_N` is
+needed. Over `compression_mm` one of them is needed: `free_length_mm` is the distance of the seats
+at which the compression is 0; `force_at_design_N` is the force at the design position, from which
+the compression there follows.
+
+```toml
+[spring]
+compression_mm = [0.0, 40.0, 80.0, 120.0, 160.0]
+force_N = [0.0, 2000.0, 4400.0, 7600.0, 12000.0]
+force_at_design_N = 5360.268
+```
+
+Analyses that need a rate take the slope of the curve at the length that the spring has: wheel
+rate, ride frequency, compliance, linearised motion. Where a curve is flat, this rate is zero.
+"""
+
+_EVERY_BODY = """\
+### Every body
+
+Except for the wheel, which is round and has keys of its own. The inertia is the tensor about the
+centre of mass, in chassis axes; `xy` is the element of the matrix, minus the product of inertia.
+"""
+
+_AN_AXLE = """\
+## An axle
+
+A file of its own, which names the hardpoint files of its sides; `kintrafo new FILE --axle` writes
+one. See [Axles](axles.md).
+"""
+
+_AXLE = "axle"  # the key of a file of an axle, and of no other
+
+_A_RIGID_AXLE = """\
+## A rigid axle
+
+A file of its own, of a beam on four rods; `kintrafo new FILE --rigid-axle` writes one. See
+[A rigid axle](rigid-axle.md). What is not described here is as of every suspension: `[tyre]`,
+`[gravity]`, the stops, and `[wheel]`, which may be left out; and `[bushings.POINT]`, whose points
+are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center` of both wheels.
+"""
+
+_TABLE_HEAD = "| key | unit | allowed | left out | meaning |\n|---|---|---|---|---|"
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON Schema of input files: of a suspension, an axle, and a rigid axle.
+
+    Returns
+    -------
+    dict
+        Every key with its description, its unit as ``x-unit`` and its range. A file with ``axle``
+        is that of an axle, one with ``rigid_axle`` that of a rigid one; of others the kind that
+        they name decides which sections there are.
+    """
+    models: list[type[Section]] = [*KINDS.values(), AxleFile, RigidAxle]
+    _, made = models_json_schema([(model, "validation") for model in models])
+    sections = {name: _with_units(section) for name, section in made["$defs"].items()}
+    kinds = {"description": "the kind of suspension", "enum": list(KINDS), "default": DEFAULT}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "suspension or axle",
+        "type": "object",
+        "if": {"required": [_AXLE]},
+        "then": _reference(AxleFile),
+        "else": {
+            "if": {"required": [RIGID_AXLE]},
+            "then": _reference(RigidAxle),
+            "else": {
+                "properties": {KIND: kinds},
+                "allOf": [{"if": _names(name), "then": _reference(KINDS[name])} for name in KINDS],
+            },
+        },
+        "$defs": sections | {"Bushing": BUSH_SCHEMA},
+    }
+
+
+def _names(kind: str) -> dict[str, Any]:
+    """Return the schema of a file that names a kind; the default may be left out."""
+    required = [] if kind == DEFAULT else [KIND]
+    return {"properties": {KIND: {"const": kind}}, "required": required}
+
+
+def _reference(model: type[Section]) -> dict[str, str]:
+    return {"$ref": f"#/$defs/{model.__name__}"}
+
+
+def _with_units(made: dict[str, Any]) -> dict[str, Any]:
+    """Return the schema of a section as we publish it, from that of pydantic."""
+    section: dict[str, Any] = _in_json_schema(made)
+    for key, entry in section["properties"].items():
+        entry.pop("title", None)
+        unit = unit_of(key)
+        if unit:
+            entry["x-unit"] = unit
+    return section
+
+
+def _in_json_schema(part: Any) -> Any:
+    """Return a schema with pydantic's names of limits in those of JSON Schema.
+
+    What may be left out is None there, which no file has.
+    """
+    if isinstance(part, dict):
+        options = part.get("anyOf", ())
+        if len(options) == 2 and {"type": "null"} in options:
+            (option,) = (one for one in options if one != {"type": "null"})
+            part = option | {key: value for key, value in part.items() if key != "anyOf"}
+        return {_LIMITS.get(key, key): _in_json_schema(value) for key, value in part.items()}
+    return [_in_json_schema(item) for item in part] if isinstance(part, list) else part
+
+
+def schema_text() -> str:
+    """Return the schema as it is published."""
+    return json.dumps(schema(), indent=2, ensure_ascii=False) + "\n"
+
+
+def page_text() -> str:
+    """Return the reference page: what every kind has, then what each has of its own."""
+    sections, shared = schema()["$defs"], _shared()
+    first, *_ = KINDS.values()
+    parts = [_HEAD, "## Every suspension\n"]
+    parts += _described(sections, first, [name for name in first.model_fields if name in shared])
+    parts += [_BUSHINGS, *_table(BUSH_SCHEMA)]
+    parts += [_CURVES, _EVERY_BODY]
+    parts += _table(_with_units(RigidBody.model_json_schema()))
+    for name, kind in KINDS.items():
+        own = [section for section in kind.model_fields if section not in shared]
+        parts.append(f'## {_capital(kind.TITLE)}\n\n`{KIND} = "{name}"`{kind.PAGE}\n')
+        parts += _described(sections, kind, own)
+    parts += [_AN_AXLE, *_table(sections[AxleFile.__name__])]
+    parts += _described(sections, AxleFile, AxleFile.model_fields)
+    parts += [_A_RIGID_AXLE, *_table(sections[RigidAxle.__name__])]
+    own = [
+        name
+        for name in RigidAxle.model_fields
+        if name not in shared or _model_of(RigidAxle, name) is not _model_of(first, name)
+    ]
+    parts += _described(sections, RigidAxle, own)
+    return "\n".join(parts).rstrip() + "\n"
+
+
+def _shared() -> set[str]:
+    """Return the names of the sections that are the same for every kind that has them.
+
+    These are several kinds: what is of one alone belongs to that.
+    """
+    first, *others = (
+        {name: _model_of(kind, name) for name in kind.model_fields} for kind in KINDS.values()
+    )
+    return {
+        name
+        for name, model in first.items()
+        if any(name in o for o in others) and all(o.get(name, model) is model for o in others)
+    }
+
+
+def _described(
+    sections: dict[str, Any], model: type[Section], names: Iterable[str], prefix: str = ""
+) -> Iterator[str]:
+    """Describe sections in a section, each with a table of its keys."""
+    required = sections[model.__name__].get("required", [])
+    for name in names:
+        inner = _model_of(model, name)
+        if inner is None:
+            continue
+        title = f"{prefix}{name}" + (".NAME" if is_named(model, name) else "")
+        optional = "" if name in required else " (optional)"
+        is_body = issubclass(inner, RigidBody)
+        also = ", with the keys of every body" if is_body else ""
+        meaning = _capital(model.model_fields[name].description)
+        yield f"### [{title}]{optional}\n\n{meaning}{also}.\n"
+        yield from _table(sections[inner.__name__], RigidBody.model_fields if is_body else ())
+        yield from _described(sections, inner, inner.model_fields, f"{title}.")
+
+
+def _table(section: dict[str, Any], known: Container[str] = ()) -> Iterator[str]:
+    """Return the table of a section's values, without those that are described elsewhere."""
+    rows = list(_rows(section, known))
+    if rows:
+        yield _TABLE_HEAD
+        yield "\n".join(rows) + "\n"
+
+
+def _model_of(model: type[Section], name: str) -> type[Section] | None:
+    """Return the section that a key holds, or may hold; None if it holds a value."""
+    annotation = model.model_fields[name].annotation
+    kinds = (annotation, *getattr(annotation, "__args__", ()))
+    return next((k for k in kinds if isinstance(k, type) and issubclass(k, Section)), None)
+
+
+def _rows(section: dict[str, Any], known: Container[str]) -> Iterator[str]:
+    required = section.get("required", [])
+    for key, entry in section["properties"].items():
+        if _is_section(entry) or key in known:
+            continue
+        unit = entry.get("x-unit", "")
+        left_out = "refused" if key in required else _default(entry)
+        yield f"| `{key}` | {unit} | {_allowed(entry)} | {left_out} | {entry['description']} |"
+
+
+def _is_section(entry: dict[str, Any]) -> bool:
+    options = (entry, *entry.get("anyOf", ()))
+    named = (option.get("additionalProperties", {}) for option in options)
+    return any("$ref" in option for option in (*options, *named))
+
+
+def _default(entry: dict[str, Any]) -> str:
+    value = entry.get("default")
+    return "-" if value is None else json.dumps(value)
+
+
+def _allowed(entry: dict[str, Any]) -> str:
+    """Return the range of a value in words."""
+    options = [entry, *entry.get("anyOf", ())]
+    for option in options:
+        choices = [option["const"]] if "const" in option else option.get("enum", ())
+        if choices:
+            return " or ".join(f'`"{value}"`' for value in choices)
+        if option.get("type") == "boolean":
+            return "true or false"
+        if option.get("type") == "array":
+            return "three numbers" if option.get("maxItems") else "numbers"
+        if "exclusiveMinimum" in option:
+            return f"more than {option['exclusiveMinimum']:g}" + _at_most(option)
+        if "minimum" in option:
+            low = f"{option['minimum']:g}"
+            return f"{low} to {option['maximum']:g}" if "maximum" in option else f"{low} or more"
+    return "a number" if any(o.get("type") in ("number", "integer") for o in options) else "text"
+
+
+def _at_most(option: dict[str, Any]) -> str:
+    return f", at most {option['maximum']:g}" if "maximum" in option else ""
+
+
+def _capital(text: str | None) -> str:
+    return (text or "")[:1].upper() + (text or "")[1:]
+
+
+if __name__ == "__main__":
+    Path(sys.argv[1]).write_text(schema_text(), encoding="utf-8", newline="\n")
+    Path(sys.argv[2]).write_text(page_text(), encoding="utf-8", newline="\n")

@@ -1,0 +1,148 @@
+"""Text files in the TeimOrbit format, which Adams/Car writes.
+
+Blocks begin with a name in brackets, parts of them with one in parentheses. In them are keys with
+values, and tables, whose columns are named in braces. Comments begin with ``$`` or ``!``, or are
+texts in quotes below ``(COMMENTS)`` or ``{comment_string}``.
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...core.reading import bytes_of
+
+_LINE_END = re.compile(r"\r\n|\r|\n")  # not those that Latin-1 has besides
+_BLOCK = re.compile(r"\s*+\[([^\[\]]*+)\]\s*+([$!].*+)?")
+_PART = re.compile(r"\s*+\(([^()]*+)\)\s*+([$!].*+)?")
+_COLUMNS = re.compile(r"\s*+\{([^{}]*+)\}?\s*+([$!].*+)?")
+_KEY = re.compile(r"""\s*+([^\s='"$!]++)\s*+=(.*+)""")
+# a text in quotes, a bare word, or a comment to the end of the line
+_CELL = re.compile(r"""'([^']*+)'|"([^"]*+)"|([^\s'"$!,]++)|([$!].*+)|[\s,]++""")
+
+
+_OF_COMMENTS = ("comments", "comment_string")
+
+
+@dataclass(frozen=True)
+class Block:
+    """A block of a file, with what is in its parts.
+
+    Attributes
+    ----------
+    name : str
+        In lower case.
+    number : int
+        Of the line that it begins with.
+    lines : tuple of (int, str)
+        What follows up to the next block, with the numbers of the lines.
+    """
+
+    name: str
+    number: int
+    lines: tuple[tuple[int, str], ...]
+
+    def values(self) -> Iterator[tuple[str, str]]:
+        """Yield keys, in lower case, and values, without quotes."""
+        for _, line in self._uncommented():
+            found = _KEY.fullmatch(line)
+            if found:
+                yield found[1].lower(), " ".join(cells_of(found[2]) or [found[2].strip()])
+
+    def columns(self) -> list[str]:
+        """Return the names of the columns of its first table, in lower case."""
+        for _, line in self._uncommented():
+            found = _COLUMNS.fullmatch(line)
+            if found:
+                return [cell.lower() for cell in cells_of(found[1]) or []]
+        return []
+
+    def rows(self) -> Iterator[tuple[int, str, list[str] | None]]:
+        """Yield number, text and cells of the rows of its tables; no cells of a broken row."""
+        for number, line in self._uncommented():
+            if not any(kind.fullmatch(line) for kind in (_PART, _COLUMNS, _KEY)):
+                cells = cells_of(line)
+                if cells != []:
+                    yield number, line.strip(), cells
+
+    def _uncommented(self) -> Iterator[tuple[int, str]]:
+        """Yield its lines without the texts that are comments, one in a line."""
+        of_comments = False
+        for number, line in self.lines:
+            begin = _PART.fullmatch(line) or _COLUMNS.fullmatch(line)
+            if begin:
+                of_comments = begin[1].strip().lower() in _OF_COMMENTS
+            text = begin or (not _KEY.fullmatch(line) and len(cells_of(line) or ()) == 1)
+            if not (of_comments and text):
+                yield number, line
+
+
+def cells_of(line: str) -> list[str] | None:
+    """Return what stands in a line, without quotes and comment; None if a quote is left open.
+
+    Examples
+    --------
+    >>> cells_of("'lca_front  '  'single' 1.0  $ a comment")
+    ['lca_front', 'single', '1.0']
+    """
+    cells, at = [], 0
+    while at < len(line):
+        found = _CELL.match(line, at)
+        if found is None:
+            return None
+        cells += [cell.strip() for cell in found.groups()[:3] if cell is not None]
+        at = found.end()
+    return cells
+
+
+def read_blocks(path: str | Path) -> list[Block]:
+    """Read the blocks of a file.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+        In UTF-8 or Latin-1, with line ends of any system.
+
+    Returns
+    -------
+    list of Block
+        In the order of the file; a name may be there more than once.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, is no text or has no blocks.
+    """
+    with Arguments("teim_orbit") as given:
+        given.path("path", path)
+    blocks: list[Block] = []
+    name, start = "", 0
+    lines: list[tuple[int, str]] = []
+    for number, line in enumerate(_LINE_END.split(_text_of(Path(path))), start=1):
+        found = _BLOCK.fullmatch(line)
+        if found:
+            blocks.append(Block(name, start, tuple(lines)))
+            name, start, lines = found[1].strip().lower(), number, []
+        else:
+            lines.append((number, line))
+    blocks.append(Block(name, start, tuple(lines)))
+    if len(blocks) == 1:
+        problem = (
+            "there is no [BLOCK] in it, so that it is no file in the TeimOrbit format. Give the "
+            "subsystem as text (TeimOrbit), not as XML."
+        )
+        raise InputError([problem], str(path))
+    return blocks[1:]
+
+
+def _text_of(file: Path) -> str:
+    """Return the file's text; every byte is a character of Latin-1."""
+    content = bytes_of(file)
+    if b"\0" in content:
+        raise InputError(["the file is no text. Save it as plain text."], str(file))
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return content.decode("latin-1")

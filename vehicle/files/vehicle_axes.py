@@ -1,0 +1,91 @@
+"""Axes of other programs, by the directions in which they point."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+
+ISO, REARWARD = "forward left up", "rearward right up"
+
+_DIRECTIONS = {
+    "forward": (1.0, 0.0, 0.0),
+    "rearward": (-1.0, 0.0, 0.0),
+    "left": (0.0, 1.0, 0.0),
+    "right": (0.0, -1.0, 0.0),
+    "up": (0.0, 0.0, 1.0),
+    "down": (0.0, 0.0, -1.0),
+}
+
+Point = tuple[float, float, float]
+
+
+class Axes(NamedTuple):
+    """Axes in which a table gives its points.
+
+    Attributes
+    ----------
+    words : str
+        Where x, y and z point: ``rearward right up``.
+    directions : ndarray, shape (3, 3)
+        The columns are these directions in axes of ISO 8855.
+    """
+
+    words: str
+    directions: NDArray[np.float64]
+
+    def point(self, place: Point) -> Point:
+        """Return a point in axes of ISO 8855: x forward, y left, z up."""
+        # one product of each sum is not zero, and the zero that is added makes none negative
+        x, y, z = (self.directions @ np.array(place) + 0.0).tolist()
+        return x, y, z
+
+
+def axes_of(words: str, *, left_handed: bool = False) -> Axes:
+    """Return the axes whose x, y and z point so.
+
+    Parameters
+    ----------
+    words : str
+        Three of forward, rearward, left, right, up and down.
+    left_handed : bool, optional
+        Whether they are left-handed, as those of some games are. Otherwise such axes are a slip of
+        the pen, of which a mirror image of the car would come.
+
+    Raises
+    ------
+    InputError
+        If they are not three axes, or of the other hand.
+
+    Examples
+    --------
+    >>> axes_of("rearward right up").point((1.0, 2.0, 3.0))
+    (-1.0, -2.0, 3.0)
+    """
+    with Arguments("axes") as given:
+        given.text("axes", words)
+        given.flag("left_handed", left_handed)
+    named = words.replace(",", " ").lower().split()
+    unknown = [word for word in named if word not in _DIRECTIONS]
+    if unknown or len(named) != 3:
+        problem = (
+            f"{words!r}: where x, y and z of the table point is needed, three of "
+            f"{', '.join(_DIRECTIONS)}, such as {REARWARD!r}."
+        )
+        raise InputError([problem], "axes")
+    directions = np.array([_DIRECTIONS[word] for word in named]).T
+    volume = round(float(np.linalg.det(directions)))
+    if volume == 0:
+        problem = f"{words!r}: two of them are on one line. One of each pair is needed."
+        raise InputError([problem], "axes")
+    if (volume < 0) != left_handed:
+        problem = f"{words!r} are {'left' if volume < 0 else 'right'}-handed axes. " + (
+            "If those of the table are, say --left-handed (left_handed=True); otherwise turn "
+            "one of them round."
+            if volume < 0
+            else "Leave --left-handed (left_handed=True) out, or turn one of them round."
+        )
+        raise InputError([problem], "axes")
+    return Axes(" ".join(named), directions)

@@ -1,0 +1,83 @@
+"""The force of a bush over its displacement, where that is no straight line."""
+
+from collections.abc import Mapping
+from typing import Any, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from .curve import LEAST_GAP, Curve, Interpolation
+
+Array = NDArray[np.float64]
+
+_KEYS, _WAY = ("mm", "N"), "interpolation"
+# No bush moves or carries more.
+_MOST_MM, _MOST_N = 1e3, 1e9
+
+
+def curve_of(given: Arguments, title: str, described: Any, *, odd: bool) -> Curve | None:
+    """Read a curve, ``{mm = [...], N = [...]}``; None where it cannot be one.
+
+    It rises, and goes on as its last two points do, so that it carries any force.
+
+    Parameters
+    ----------
+    given : Arguments
+        Gets what is wrong.
+    title : str
+    described : mapping
+    odd : bool
+        Whether it begins at zero and is the same to both sides: across an axis, none is told apart.
+    """
+    if not isinstance(described, Mapping) or {*described} - {_WAY} != {*_KEYS}:
+        given.refuse(
+            f"{title} must be a table of two lists, {{mm = [...], N = [...]}}, and if need be "
+            f'{_WAY} = "linear".'
+        )
+        return None
+    way = given.among(f"{title} {_WAY}", described.get(_WAY, "cubic"), get_args(Interpolation))
+    places, forces = (
+        given.array(f"{title} {key}", described[key], key, dimensions=[1]) for key in _KEYS
+    )
+    problem = _problem(places, forces, odd=odd)
+    if problem:
+        given.refuse(f"{title}: {problem}")
+        return None
+    if odd:
+        places, forces = (np.concatenate([-v[:0:-1], v]) for v in (places, forces))
+    return Curve(1e-3 * places, forces, "linear" if way == "linear" else "cubic", as_secants=True)
+
+
+def _problem(places: Array, forces: Array, *, odd: bool) -> str:
+    """Say why some points are no curve of a bush."""
+    if places.size != forces.size or places.size < 2:
+        return f"mm has {places.size} values and N {forces.size}; as many are needed, two or more."
+    if not (np.abs(places) <= _MOST_MM).all() or not (np.abs(forces) <= _MOST_N).all():
+        return f"values up to {_MOST_MM:g} mm and {_MOST_N:g} N are needed."
+    for key, values in (("mm", places), ("N", forces)):
+        fall = np.flatnonzero(np.diff(values) < LEAST_GAP)
+        if fall.size:
+            first, second = values[fall[0] : fall[0] + 2]
+            return (
+                f"{key}: {second:g} follows {first:g}; both lists must rise, by {LEAST_GAP:g} at "
+                "least."
+            )
+    if not ((places == 0.0) & (forces == 0.0)).any():
+        return "a point 0 mm, 0 N is needed: a bush is relaxed there."
+    return _problem_of_sides(places, odd=odd)
+
+
+def _problem_of_sides(places: Array, *, odd: bool) -> str:
+    """Say why a curve does not tell both sides."""
+    if odd and places[0] < 0.0:
+        return (
+            f"mm begins with {places[0]:g}; a bush is the same to all sides of its axis: "
+            "begin with 0 mm, 0 N."
+        )
+    if not odd and not places[0] < 0.0 < places[-1]:
+        return (
+            f"mm goes from {places[0]:g} to {places[-1]:g}; points on both sides of 0 mm are "
+            "needed, as a bush is pushed either way along its axis."
+        )
+    return ""

@@ -1,0 +1,100 @@
+"""Write a suspension or an axle as the input file that it could have come from."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Protocol
+
+import tomlkit
+
+from ...core.files import Paths, refuse, replacing
+from ...core.legible import legible
+
+_ENDING = ".toml"
+
+
+class Written(Protocol):
+    """What has the sections of an input file."""
+
+    def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
+        """Return the sections as nested dictionaries."""
+
+
+def toml_text(suspension: Written, head: Sequence[str] = ()) -> str:
+    """Return the text of an input file that gives exactly this suspension.
+
+    Parameters
+    ----------
+    suspension : Suspension, Axle or RigidAxle
+    head : sequence of str, optional
+        Lines of the comment that the file begins with.
+
+    Returns
+    -------
+    str
+        TOML, with the keys and units of the input file; what is as by default is left out.
+
+    Examples
+    --------
+    >>> from kintrafo import Suspension
+    >>> car = Suspension.load("reference_car")
+    >>> print(toml_text(car, ["My car."]).splitlines()[0])
+    # My car.
+    """
+    document = tomlkit.document()
+    for line in head:
+        document.add(tomlkit.comment(legible(line)) if line else tomlkit.nl())
+    sections = suspension.to_dict(exclude_defaults=True)
+    # long, and least looked at: at the end
+    last = {"bodies": sections.pop("bodies")} if "bodies" in sections else {}
+    for name, value in (sections | last).items():
+        document.add(tomlkit.nl())
+        document.add(name, _table(value) if isinstance(value, dict) else value)
+    return tomlkit.dumps(document).strip("\n") + "\n"
+
+
+def write_toml(
+    suspension: Written,
+    path: str | Path,
+    *,
+    head: Sequence[str] = (),
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write an input file.
+
+    Parameters
+    ----------
+    suspension : Suspension, Axle or RigidAxle
+    path : str or Path
+        A name that ends in ``.toml``.
+    head : sequence of str, optional
+        Lines of the comment that the file begins with.
+    force : bool, optional
+        Whether a file that somebody else wrote or changed is replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or Path, optional
+        Files that are never replaced.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    InputError
+        If there is a file already, or the name cannot be used.
+    """
+    refuse([path], force=force, inputs=inputs, endings=[_ENDING])
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        temporary.write_text(toml_text(suspension, head), encoding="utf-8")
+    return Path(path)
+
+
+def _table(section: Mapping[str, Any]) -> Any:
+    """Return a section; sections within it come after its own keys."""
+    table = tomlkit.table(is_super_table=all(isinstance(v, dict) for v in section.values()))
+    for key, value in sorted(section.items(), key=lambda item: isinstance(item[1], dict)):
+        if isinstance(value, dict):
+            table.add(key, _table(value).add(tomlkit.nl()))
+        else:
+            table.add(key, value)
+    return table

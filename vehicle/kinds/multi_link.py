@@ -1,0 +1,361 @@
+"""The multi-link suspension: five links hold the knuckle, one of them carries the spring.
+
+Its hardpoints, sections, bodies and checks, its equations and their parameters, what its
+characteristics are computed from, and how it is drawn.
+"""
+
+from collections.abc import Mapping
+from types import ModuleType
+from typing import ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from ...core.columns import least_singular_value, stacked
+from ...core.errors import InputError
+from ...core.vectors import Vector, components, cross, unit_vector
+from ...generated import multi_link
+from ..corner.coil_sprung import CoilDamper, CoilSprung
+from ..corner.corner import Array, Motion, Plane
+from ..corner.drawing import Axis, Drawing
+from ..corner.facts import Names
+from ..corner.structure import FORCES_OF_A_DAMPER, Ball, Cross, Line, Structure, frame, steered
+from ..input.bodies import Bodies, Rack, RigidBody, TieRod
+from ..input.hardpoints import Hardpoints, Pair
+from ..input.section import Positive, Triple
+from ..input.spring import Spring
+
+LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_link")
+"""The links on the chassis; the fifth is the toe link, which files of all kinds call tie rod."""
+_WORDS = {name: name.replace("_", " ") for name in LINKS} | {"tie_rod": "toe link"}
+_UP = np.array([0.0, 0.0, 1.0])
+
+# The height sensor whose angle is the coordinate: its lever, and how far it is above the wheel [m].
+_LEVER = 0.5
+_ABOVE = 1.0
+_BEARING = 0.1
+
+# The links have to hold the knuckle: no motion of it at a given height may be more than so many
+# times what it does to the links' lengths, angles by this radius [m].
+_LOOSEST = 100.0
+_RADIUS = 0.1
+
+
+def _ends(link: str) -> Pair:
+    """Return the hardpoints of a link, the outer one first."""
+    return f"{link}_outer", f"{link}_inner"
+
+
+class MultiLinkHardpoints(Hardpoints):
+    """The points that define a multi-link suspension, at the design position.
+
+    Two links whose outer ends are the same point are an arm with a ball joint there. All points are
+    in chassis axes (ISO 8855: x forward, y left, z up), in the unit that `unit` names.
+    """
+
+    CARRIERS: ClassVar[Mapping[str, str]] = {
+        **{f"{link}_outer": "knuckle" for link in (*LINKS, "tie_rod")},
+        "wheel_center": "knuckle",
+        "tie_rod_inner": "rack",
+        "spring_seat": "rear_lower_link",
+        "damper_seat": "knuckle",
+    }
+    ARMS: ClassVar[Mapping[str, Pair]] = {}
+    STEERING_AXIS: ClassVar[Pair | None] = None
+    JOINTS: ClassVar[tuple[str, ...]] = (
+        *(f"{link}_outer" for link in (*LINKS, "tie_rod")),
+        "tie_rod_inner",
+        "spring_seat",
+        "damper_seat",
+    )
+
+    front_upper_link_inner: Triple = Field(description="front upper link on the chassis")
+    front_upper_link_outer: Triple = Field(description="front upper link at the knuckle")
+    rear_upper_link_inner: Triple = Field(description="rear upper link on the chassis")
+    rear_upper_link_outer: Triple = Field(description="rear upper link at the knuckle")
+    front_lower_link_inner: Triple = Field(description="front lower link on the chassis")
+    front_lower_link_outer: Triple = Field(description="front lower link at the knuckle")
+    rear_lower_link_inner: Triple = Field(description="rear lower link on the chassis")
+    rear_lower_link_outer: Triple = Field(description="rear lower link at the knuckle")
+    tie_rod_outer: Triple = Field(description="toe link at the knuckle")
+    tie_rod_inner: Triple = Field(description="toe link at the rack, or where it is held")
+    spring_top: Triple = Field(description="upper end of the spring, on the chassis")
+    spring_seat: Triple = Field(description="lower end of the spring, on the rear lower link")
+    damper_top: Triple = Field(description="upper end of the damper, on the chassis")
+    damper_seat: Triple = Field(description="lower end of the damper, on the knuckle")
+    wheel_center: Triple = Field(description="centre of the wheel")
+
+    def geometry_problems(self) -> list[str]:
+        """Say why the mechanism cannot move.
+
+        Returns
+        -------
+        list of str
+            One text for each problem.
+        """
+        bodies = {words: _ends(link) for link, words in _WORDS.items()}
+        coinciding = self.coinciding(
+            bodies | {name: (f"{name}_seat", f"{name}_top") for name in ("spring", "damper")}
+        )
+        problems = self.coincidence_problems(coinciding)
+        if problems:
+            return problems
+        for words, (outer, inner) in bodies.items():
+            problems += self.cross_problems((inner, outer), words, _UP, "the vertical")
+        return problems or self._loose()
+
+    def directions(self) -> dict[str, Vector]:
+        """Return the unit vectors outward along the links, by the links' names."""
+        return {
+            link: unit_vector(self.metres(outer) - self.metres(inner))
+            for link in _WORDS
+            for outer, inner in [_ends(link)]
+        }
+
+    def _loose(self) -> list[str]:
+        """Check that the links hold the knuckle at its height, firmly."""
+        center = self.metres("wheel_center")
+        held = [
+            [*along, *(cross(self.metres(f"{link}_outer") - center, along) / _RADIUS)]
+            for link, along in self.directions().items()
+        ]
+        rows = [*held, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]
+        if least_singular_value(rows) * _LOOSEST >= 1.0:
+            return []
+        _, firm, free = np.linalg.svd(stacked(rows))
+        shift, turn = free[-1, :3], free[-1, 3:]
+        most = np.abs(free[-1]).argmax()
+        words = f"turns about {'xyz'[most - 3]}" if most > 2 else f"moves along {'xyz'[most]}"
+        times = "without end" if firm[-1] < 1e-9 else f"{1.0 / firm[-1]:.0f} times that"
+        found = np.round([*shift, *turn], 2).tolist()
+        problem = (
+            f"{self.text(*(f'{link}_outer' for link in _WORDS))}: the five links hardly hold the "
+            f"knuckle, which {words} (shift and turn {found}): if a link is a little longer, it "
+            f"moves {times} with the wheel at its height; at most {_LOOSEST:g} times are allowed. "
+            "Let no two links lie on one line, no three in a plane meet in a point, no four meet "
+            "in one at all, and let the toe link stand across the steering axis."
+        )
+        return [problem]
+
+
+class LinkDamper(CoilDamper):
+    """The damper, between the chassis and the knuckle.
+
+    It has a rate, or a curve through measured points: velocities are positive in bump, forces where
+    they resist bump (see `input.damper.Damper`). Its friction is ``friction v / sqrt(v^2 +
+    friction_velocity^2)``.
+    """
+
+    ENDS: ClassVar[Pair] = ("damper_seat", "damper_top")
+
+    length_min_mm: Positive | None = Field(
+        default=None,
+        description="distance of damper_seat and damper_top with the damper pressed in as far as "
+        "it goes; no position beyond it is returned",
+    )
+
+
+class Link(RigidBody):
+    """A link; only the rear lower one has mass."""
+
+    NAME: ClassVar[str]
+
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return its midpoint, in m."""
+        outer, inner = _ends(self.NAME)
+        middle: Vector = 0.5 * (points.metres(outer) + points.metres(inner))
+        return middle
+
+
+class FrontUpperLink(Link):
+    """The front upper link."""
+
+    NAME: ClassVar[str] = "front_upper_link"
+
+
+class RearUpperLink(Link):
+    """The rear upper link."""
+
+    NAME: ClassVar[str] = "rear_upper_link"
+
+
+class FrontLowerLink(Link):
+    """The front lower link."""
+
+    NAME: ClassVar[str] = "front_lower_link"
+
+
+class RearLowerLink(Link):
+    """The rear lower link, on which the spring stands."""
+
+    NAME: ClassVar[str] = "rear_lower_link"
+
+
+class Carrier(RigidBody):
+    """The knuckle between the links."""
+
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return the mean of the links' outer ends, in m."""
+        middle: Vector = np.mean([points.metres(f"{link}_outer") for link in LINKS], axis=0)
+        return middle
+
+
+class MultiLinkBodies(Bodies):
+    """All bodies. Only knuckle, rear lower link and wheel have mass in the equations."""
+
+    MASSLESS: ClassVar[tuple[str, ...]] = (*LINKS[:3], "tie_rod", "rack")
+
+    knuckle: Carrier = Field(description="the knuckle")
+    rear_lower_link: RearLowerLink = Field(
+        description="the rear lower link, on which the spring stands"
+    )
+    front_upper_link: FrontUpperLink = Field(
+        default=FrontUpperLink(mass_kg=0.0), description="the front upper link, without mass"
+    )
+    rear_upper_link: RearUpperLink = Field(
+        default=RearUpperLink(mass_kg=0.0), description="the rear upper link, without mass"
+    )
+    front_lower_link: FrontLowerLink = Field(
+        default=FrontLowerLink(mass_kg=0.0), description="the front lower link, without mass"
+    )
+    tie_rod: TieRod = Field(default=TieRod(mass_kg=0.0), description="the toe link, without mass")
+    rack: Rack = Field(default=Rack(mass_kg=0.0), description="the rack, without mass")
+
+
+class MultiLink(CoilSprung):
+    """A multi-link suspension at its design position: five links hold the knuckle.
+
+    The spring acts between the chassis and the rear lower link, the damper between the chassis and
+    the knuckle. See `Suspension`.
+    """
+
+    TITLE: ClassVar[str] = "multi-link suspension"
+    NAMES: ClassVar[Names] = Names(
+        "sensor_angle", "spin_angle", "rack_displacement", "spring_actuator"
+    )
+    STARTER: ClassVar[str] = "multi_link_car"
+    STOPPED: ClassVar[str] = "damper"
+    PAGE: ClassVar[str] = """: five links between chassis and knuckle.
+
+Two upper and two lower links and a toe link (`tie_rod`) hold the knuckle; two links that meet in
+one point of it are an arm. The spring stands on the rear lower link, the damper on the knuckle.
+Where the spring is free of force is said by the distance of its ends (`free_length_mm`) or by its
+force at the design position (`force_at_design_N`). The stops are touched by the damper's length."""
+
+    suspension: Literal["multi_link"] = Field(description="the kind of suspension")
+    hardpoints: MultiLinkHardpoints = Field(description="the points that define the geometry")
+    spring: Spring = Field(description="the spring, between chassis and rear lower link")
+    damper: LinkDamper = Field(description="the damper, between chassis and knuckle")
+    bodies: MultiLinkBodies = Field(description="masses and inertia")
+
+    # -- its equations --------------------------------------------------------------------------
+
+    def equations(self, *, free_rack: bool) -> ModuleType:
+        """Return the equations, in which the rack is prescribed: they have everything."""
+        if free_rack:
+            problem = f"free_rack=True: the rack of a {self.TITLE} is prescribed. Leave that out."
+            raise InputError([problem], "Model")
+        return multi_link
+
+    def beyond_the_plain(self) -> list[str]:
+        """Return what these equations have beyond plain ones: they have everything."""
+        return ["multi link", *super().beyond_the_plain()]
+
+    def parameters(self) -> dict[str, float]:
+        """Return everything that the equations of motion need, in SI units.
+
+        Returns
+        -------
+        dict of str to float
+            Besides those of `CoilSprung` the places of the height sensor in m: a lever of 0.5 m
+            above the wheel, whose tip holds the wheel centre by a rod of 1 m.
+        """
+        tip = self.hardpoints.metres("wheel_center") + _ABOVE * _UP
+        hinge = tip - np.array([0.0, self.vehicle.sign * _LEVER, 0.0])
+        along = np.array([_BEARING, 0.0, 0.0])
+        return {
+            **super().parameters(),
+            **components("sensor_front", hinge + along),
+            **components("sensor_rear", hinge - along),
+            **components("sensor_tip", tip),
+        }
+
+    # -- its geometry ---------------------------------------------------------------------------
+
+    def lengths(self) -> dict[str, float]:
+        """Return the lengths of the links, the spring and the damper at design [m]."""
+        points = self.hardpoints
+        links = {f"{link}_length": points.distance(*_ends(link)) for link in LINKS}
+        return links | {
+            "spring_length": points.distance("spring_seat", "spring_top"),
+            "damper_length": points.distance("damper_seat", "damper_top"),
+        }
+
+    def drawing(self) -> Drawing:
+        """Return how links, spring and damper are drawn."""
+        return Drawing(
+            links={
+                **{
+                    _WORDS[link]: (inner, outer, "upper arm" if "upper" in link else "arm")
+                    for link in LINKS
+                    for outer, inner in [_ends(link)]
+                },
+                "spring": ("spring_top", "spring_seat", "strut"),
+                "damper": ("damper_top", "damper_seat", "strut"),
+                "toe link": ("tie_rod_inner", "tie_rod_outer", "rod"),
+            },
+            knuckle=(
+                "tie_rod_outer",
+                "rear_lower_link_outer",
+                "rear_upper_link_outer",
+                "front_upper_link_outer",
+                "wheel_center",
+                "front_lower_link_outer",
+                "rear_lower_link_outer",
+            ),
+            legend={"arm": "links", "strut": "damper"},
+            damper=Axis("damper_seat", "damper_top", 0.5),
+            spring=Axis("spring_seat", "spring_top", 0.0),
+            upright=("rear_lower_link_outer", "rear_upper_link_outer"),
+            brackets={
+                **{link: _ends(link) for link in LINKS},
+                "seat": (("spring_seat", *_ends("rear_lower_link")), "spring_seat"),
+            },
+        )
+
+    # -- what holds it together -----------------------------------------------------------------
+
+    def structure(self) -> Structure:
+        """Return the joints; the spring acts on the rear lower link, the damper on the knuckle."""
+        links = [
+            joint
+            for link in LINKS
+            for outer, inner in [_ends(link)]
+            for joint in (
+                Ball("knuckle", link, (outer,), inner),
+                Cross("chassis", link, (inner,), outer, (0.0, 0.0, 1.0)),
+            )
+        ]
+        spring = Line(
+            "spring",
+            ("spring_force", self.NAMES.actuator),
+            "chassis",
+            "rear_lower_link",
+            ("spring_top", "spring_seat"),
+        )
+        damper = Line(
+            "damper", FORCES_OF_A_DAMPER, "chassis", "knuckle", ("damper_top", "damper_seat")
+        )
+        return Structure(steered(*links), (spring, damper))
+
+    # -- what its characteristics are computed from ---------------------------------------------
+
+    def links_at(self, points: Mapping[str, Array], travel: Motion) -> tuple[Plane, Plane]:
+        """Return two planes through the axis about which the knuckle turns over wheel travel.
+
+        No two planes hold the links, so that it is the axis of the motion itself, with the toe link
+        held: that of the screw.
+        """
+        nearest = travel.axis_nearest(points["wheel_center"])
+        _, across, other = frame(travel.turning)
+        return Plane(nearest, across), Plane(nearest, other)

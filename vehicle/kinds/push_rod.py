@@ -1,0 +1,249 @@
+"""The double wishbone suspension with push rod and rocker: spring and damper lie on the chassis.
+
+What it has besides the double wishbone: its hardpoints, bodies and checks, its equations, its
+structure and how it is drawn. What moves the rocker is told by its name alone.
+"""
+
+from collections.abc import Mapping
+from types import ModuleType
+from typing import ClassVar, Literal
+
+from pydantic import Field
+
+from ...core.columns import number
+from ...core.errors import InputError
+from ...core.vectors import Vector, cross, distance_from_line, unit_vector
+from ...generated import push_rod
+from ..corner.coil_sprung import CoilDamper
+from ..corner.drawing import Axis, Drawing
+from ..corner.structure import FORCES_OF_A_DAMPER, Ball, Cross, Hinge, Line, Structure
+from ..input.bodies import Rack, RigidBody, TieRod
+from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
+from ..input.section import Triple
+from ..input.spring import Spring
+from .double_wishbone import DoubleWishbone, DoubleWishboneBodies, DoubleWishboneHardpoints
+
+_ROCKER = ("rocker_front", "rocker_rear")
+_PUSH_ROD = ("push_rod_outer", "push_rod_inner")
+
+
+class RockerHardpoints(DoubleWishboneHardpoints):
+    """The points of a double wishbone suspension whose spring a rocker moves.
+
+    Attributes
+    ----------
+    ROD : tuple of str
+        The ends of the rod that moves the rocker, the outer one first.
+    ROD_WORDS : str
+        What it is called.
+    """
+
+    ROD: ClassVar[Pair]
+    ROD_WORDS: ClassVar[str]
+
+    rocker_front: Triple = Field(description="one bearing of the rocker on the chassis")
+    rocker_rear: Triple = Field(description="the other bearing of the rocker on the chassis")
+    spring_top: Triple = Field(description="end of spring and damper on the chassis")
+    spring_seat: Triple = Field(description="end of spring and damper on the rocker")
+
+    def geometry_problems(self) -> list[str]:
+        """Say why the mechanism cannot move, or cannot be told from its mirror image.
+
+        Returns
+        -------
+        list of str
+            One text for each problem.
+        """
+        coinciding = self.coinciding({"rocker": _ROCKER, self.ROD_WORDS: self.ROD})
+        problems = super().geometry_problems() + self.coincidence_problems(coinciding)
+        return problems if coinciding else problems + self._problems_of_rocker()
+
+    def _problems_of_rocker(self) -> list[str]:
+        """Check that rod and spring have a lever about the rocker's axis."""
+        found = []
+        for words, (place, end) in (
+            (self.ROD_WORDS, self.ROD[::-1]),
+            ("spring", ("spring_seat", "spring_top")),
+        ):
+            lever = self._lever(place, end)
+            if lever < SMALLEST_DISTANCE:
+                found.append(
+                    f"{self.text(place, end)}: the {words} acts with a lever of "
+                    f"{1000 * lever:.3f} mm about the rocker's axis; at least "
+                    f"{1000 * SMALLEST_DISTANCE:g} mm are needed, or the rocker is at its dead "
+                    f"centre. Move {place}, or the bearings of the rocker."
+                )
+        return found
+
+    def _lever(self, place: str, end: str) -> float:
+        """Return the lever of a force along a line about the rocker's axis [m]."""
+        axis = unit_vector(self.metres("rocker_front") - self.metres("rocker_rear"))
+        at, to = self.metres(place), self.metres(end)
+        if self.distance(place, end) < SMALLEST_DISTANCE:
+            return 0.0
+        arm = at - self.metres("rocker_rear")
+        lever: float = abs(number(cross(arm, unit_vector(to - at)) @ axis))
+        return lever
+
+
+class PushRodHardpoints(RockerHardpoints):
+    """The points that define a double wishbone suspension with push rod, at the design position.
+
+    All are in chassis axes (ISO 8855: x forward, y left, z up), in the unit that `unit` names.
+    """
+
+    ROD: ClassVar[Pair] = _PUSH_ROD
+    ROD_WORDS: ClassVar[str] = "push rod"
+    CARRIERS: ClassVar[Mapping[str, str]] = {
+        **DoubleWishboneHardpoints.CARRIERS,
+        "spring_seat": "rocker",
+        "push_rod_outer": "lower_arm",
+        "push_rod_inner": "rocker",
+    }
+    JOINTS: ClassVar[tuple[str, ...]] = (
+        *DoubleWishboneHardpoints.JOINTS,
+        *_PUSH_ROD,
+        "spring_seat",
+    )
+
+    push_rod_outer: Triple = Field(description="ball joint of push rod and lower arm")
+    push_rod_inner: Triple = Field(description="joint of push rod and rocker")
+
+
+class Rocker(RigidBody):
+    """The rocker."""
+
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return the midpoint of its bearings, in m."""
+        middle: Vector = 0.5 * (points.metres("rocker_front") + points.metres("rocker_rear"))
+        return middle
+
+
+class PushRodBody(RigidBody):
+    """The push rod."""
+
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return its midpoint, in m."""
+        middle: Vector = 0.5 * (points.metres("push_rod_outer") + points.metres("push_rod_inner"))
+        return middle
+
+
+class RockerBodies(DoubleWishboneBodies):
+    """The bodies of a double wishbone suspension with a rocker, without the rod that moves it."""
+
+    rocker: Rocker = Field(default=Rocker(mass_kg=0.0), description="the rocker")
+
+
+class PushRodBodies(RockerBodies):
+    """All bodies. Tie rod, rack and push rod have no mass in the equations of this suspension."""
+
+    MASSLESS: ClassVar[tuple[str, ...]] = ("tie_rod", "rack", "push_rod")
+
+    push_rod: PushRodBody = Field(
+        default=PushRodBody(mass_kg=0.0), description="the push rod, without mass"
+    )
+    tie_rod: TieRod = Field(default=TieRod(mass_kg=0.0), description="the tie rod, without mass")
+    rack: Rack = Field(default=Rack(mass_kg=0.0), description="the rack, without mass")
+
+
+class PushRod(DoubleWishbone):
+    """A double wishbone suspension with push rod and rocker at its design position.
+
+    The push rod leads from the lower arm to the rocker; spring and damper act between the rocker
+    and the chassis. See `Suspension`.
+    """
+
+    EQUATIONS: ClassVar[ModuleType] = push_rod
+    TITLE: ClassVar[str] = "push-rod suspension"
+    STARTER: ClassVar[str] = "push_rod_car"
+    PAGE: ClassVar[str] = """: a double wishbone whose spring lies on the chassis.
+
+The push rod leads from the lower arm to the rocker, which turns about the line through its two
+bearings and presses spring and damper. Where the spring is free of force is said by the distance of
+its ends (`free_length_mm`) or by its force at the design position (`force_at_design_N`). The damper
+has a rate or a curve; the stops are touched by its length."""
+
+    # another kind than that which it has nearly everything of
+    suspension: Literal["push_rod"] = Field(  # type: ignore[assignment]
+        description="the kind of suspension"
+    )
+    hardpoints: PushRodHardpoints = Field(description="the points that define the geometry")
+    spring: Spring = Field(description="the spring, between chassis and rocker")
+    damper: CoilDamper = Field(description="the damper, on the spring's axis")
+    bodies: PushRodBodies = Field(description="masses and inertia")
+
+    def equations(self, *, free_rack: bool) -> ModuleType:
+        """Return the equations, in which the rack is prescribed: they have everything."""
+        if free_rack:
+            problem = f"free_rack=True: the rack of a {self.TITLE} is prescribed. Leave that out."
+            raise InputError([problem], "Model")
+        return self.EQUATIONS
+
+    @property
+    def _rod(self) -> tuple[str, str, str, str]:
+        """What the rod is called and joined to: itself, its ends, and the arm."""
+        outer, inner = self.hardpoints.ROD
+        return outer.removesuffix("_outer"), outer, inner, self.hardpoints.CARRIERS[outer]
+
+    def beyond_the_plain(self) -> list[str]:
+        """Return what these equations have beyond plain ones: they have everything."""
+        return [self.hardpoints.ROD_WORDS, *super().beyond_the_plain()]
+
+    def lengths(self) -> dict[str, float]:
+        """Return the lengths of arms, spring and rod, and the rocker's lever [m]."""
+        points, (rod, outer, inner, _) = self.hardpoints, self._rod
+        axis = [points.metres(name) for name in _ROCKER]
+        return super().lengths() | {
+            f"{rod}_length": points.distance(outer, inner),
+            "rocker_length": distance_from_line(points.metres(inner), *axis),
+        }
+
+    def drawing(self) -> Drawing:
+        """Return how arms, rod, rocker, spring and tie rod are drawn."""
+        (rod, outer, inner, arm), words = self._rod, self.hardpoints.ROD_WORDS
+        rocker = {
+            "rocker_front_rod": ("rocker_front", inner),
+            "rocker_rear_rod": ("rocker_rear", inner),
+            "rocker_front_spring": ("rocker_front", "spring_seat"),
+            "rocker_rear_spring": ("rocker_rear", "spring_seat"),
+            "rocker_across": (inner, "spring_seat"),
+        }
+        foot = (outer, arm.replace("arm", "ball_joint"), f"{arm}_front")
+        plain = super().drawing()
+        return Drawing(
+            links={
+                **plain.links,
+                words: (outer, inner, "push rod"),
+                "rocker": ("rocker_front", inner, "rocker"),
+                "rocker at the spring": ("rocker_front", "spring_seat", "rocker"),
+            },
+            knuckle=plain.knuckle,
+            legend={**plain.legend, "arm": f"control arms, {words} and rocker"},
+            damper=Axis("spring_seat", "spring_top", 0.5),
+            spring=Axis("spring_seat", "spring_top", 0.32),
+            upright=plain.upright,
+            brackets={
+                f"{rod}_bracket": (foot, outer),
+                rod: (outer, inner),
+                **rocker,
+            },
+        )
+
+    def structure(self) -> Structure:
+        """Return the joints; spring, damper and stops act between chassis and rocker."""
+        axis = unit_vector(
+            self.hardpoints.metres("rocker_front") - self.hardpoints.metres("rocker_rear")
+        )
+        # the axis of a hinge on the chassis does not turn, as that of a cross has to be
+        first_axis = (float(axis[0]), float(axis[1]), float(axis[2]))
+        rod, outer, inner, arm = self._rod
+        ends = ("chassis", "rocker", ("spring_top", "spring_seat"))
+        damper = (*FORCES_OF_A_DAMPER, self.NAMES.actuator)
+        joints = (
+            *super().structure().joints,
+            Hinge("chassis", "rocker", _ROCKER),
+            Ball(arm, rod, (outer,), inner),
+            Cross("rocker", rod, (inner,), outer, first_axis),
+        )
+        lines = (Line("spring", ("spring_force",), *ends), Line("damper", damper, *ends))
+        return Structure(joints, lines)

@@ -1,0 +1,231 @@
+"""The trailing arm: one hinge on the chassis, and the arm is the wheel carrier.
+
+Its hardpoints, sections, bodies and checks, its equations, what its characteristics are computed
+from, and how it is drawn. There is no rack: nothing steers the wheel.
+"""
+
+from collections.abc import Mapping
+from types import ModuleType
+from typing import ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from ...core.columns import length, number
+from ...core.errors import InputError
+from ...core.vectors import Vector, angle_between_lines, cross, distance_from_line
+from ...generated import trailing_arm
+from ..corner.coil_sprung import CoilDamper, CoilSprung
+from ..corner.corner import Array, Motion, Plane
+from ..corner.drawing import Axis, Drawing
+from ..corner.facts import Names
+from ..corner.structure import FORCES_OF_A_DAMPER, Fixed, Hinge, Line, Structure, frame
+from ..input.bodies import Bodies, RigidBody
+from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
+from ..input.section import Positive, Triple
+from ..input.spring import Spring
+
+_BEARINGS = ("arm_inner", "arm_outer")
+_ARM = (*_BEARINGS, "wheel_center")
+
+# An arm whose hinge is nearer to the vertical than this does not swing up and down, in degrees.
+_SMALLEST_HINGE_ANGLE = 1.0
+
+
+class TrailingArmHardpoints(Hardpoints):
+    """The points that define a trailing arm, at the design position.
+
+    The wheel swings about the line through the two bearings: across the car it makes a trailing
+    arm, askew a semi-trailing one. All points are in chassis axes (ISO 8855: x forward, y left, z
+    up), in the unit that `unit` names.
+    """
+
+    CARRIERS: ClassVar[Mapping[str, str]] = {
+        "wheel_center": "trailing_arm",
+        "spring_seat": "trailing_arm",
+        "damper_seat": "trailing_arm",
+    }
+    ARMS: ClassVar[Mapping[str, Pair]] = {"wheel_center": _BEARINGS}
+    STEERING_AXIS: ClassVar[Pair | None] = None
+    JOINTS: ClassVar[tuple[str, ...]] = ("spring_seat", "damper_seat")
+
+    arm_inner: Triple = Field(description="inner bearing of the arm on the chassis")
+    arm_outer: Triple = Field(description="outer bearing of the arm on the chassis")
+    spring_top: Triple = Field(description="upper end of the spring, on the chassis")
+    spring_seat: Triple = Field(description="lower end of the spring, on the arm")
+    damper_top: Triple = Field(description="upper end of the damper, on the chassis")
+    damper_seat: Triple = Field(description="lower end of the damper, on the arm")
+    wheel_center: Triple = Field(description="centre of the wheel")
+
+    def geometry_problems(self) -> list[str]:
+        """Say why the mechanism cannot move.
+
+        Returns
+        -------
+        list of str
+            One text for each problem.
+        """
+        bodies: dict[str, tuple[str, ...]] = {
+            "arm": _ARM,
+            "spring": ("spring_seat", "spring_top"),
+            "damper": ("damper_seat", "damper_top"),
+        }
+        problems = self.coincidence_problems(self.coinciding(bodies))
+        return problems or self._of_hinge()
+
+    def _of_hinge(self) -> list[str]:
+        """Check that the arm can move the wheel up and down."""
+        inner, outer, center = map(self.metres, _ARM)
+        lever = distance_from_line(center, inner, outer)
+        if lever < SMALLEST_DISTANCE:
+            problem = (
+                f"{self.text('wheel_center')} lies {1000 * lever:.3f} mm from the hinge axis "
+                f"through {' and '.join(_BEARINGS)}; at least {1000 * SMALLEST_DISTANCE:g} mm are "
+                "needed for the arm to move the wheel. Correct one of the three."
+            )
+            return [problem]
+        tilt = angle_between_lines(outer - inner, np.array([0.0, 0.0, 1.0]))
+        if tilt < _SMALLEST_HINGE_ANGLE:
+            problem = (
+                f"{self.text(*_BEARINGS)}: the hinge axis is {tilt:.3f} deg from the vertical; at "
+                f"least {_SMALLEST_HINGE_ANGLE:g} deg are needed for the arm to swing up and down. "
+                "Move one of the bearings."
+            )
+            return [problem]
+        # the velocity of the wheel centre about the axis; by the lever, its part upward
+        rise = number(cross(outer - inner, center - inner)[2]) / length(outer - inner)
+        if abs(rise) >= SMALLEST_DISTANCE:
+            return []
+        problem = (
+            f"{self.text(*_ARM)}: the arm lifts the wheel with a lever of {1000 * abs(rise):.3f} "
+            f"mm; at least {1000 * SMALLEST_DISTANCE:g} mm are needed, or the arm is at its dead "
+            "centre. Move wheel_center away from above or below the hinge axis."
+        )
+        return [problem]
+
+
+class ArmDamper(CoilDamper):
+    """The damper, between the chassis and the arm.
+
+    It has a rate, or a curve through measured points: velocities are positive in bump, forces where
+    they resist bump (see `input.damper.Damper`). Its friction is ``friction v / sqrt(v^2 +
+    friction_velocity^2)``.
+    """
+
+    ENDS: ClassVar[Pair] = ("damper_seat", "damper_top")
+
+    length_min_mm: Positive | None = Field(
+        default=None,
+        description="distance of damper_seat and damper_top with the damper pressed in as far as "
+        "it goes; no position beyond it is returned",
+    )
+
+
+class TrailingArmBody(RigidBody):
+    """The arm, which carries the wheel."""
+
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return the centroid of its bearings and the wheel centre, in m."""
+        middle: Vector = np.mean([points.metres(name) for name in _ARM], axis=0)
+        return middle
+
+
+class TrailingArmBodies(Bodies):
+    """All bodies: the arm and the wheel."""
+
+    trailing_arm: TrailingArmBody = Field(description="the arm, which carries the wheel")
+
+
+class TrailingArm(CoilSprung):
+    """A trailing or semi-trailing arm at its design position; see `Suspension`.
+
+    One hinge on the chassis; spring and damper act between the chassis and the arm, each with its
+    own ends. Nothing steers the wheel.
+    """
+
+    TITLE: ClassVar[str] = "trailing-arm suspension"
+    NAMES: ClassVar[Names] = Names("arm_angle", "spin_angle", "", "spring_actuator")
+    STARTER: ClassVar[str] = "trailing_arm_car"
+    STOPPED: ClassVar[str] = "damper"
+    PAGE: ClassVar[str] = """: an arm on one hinge, which carries the wheel.
+
+The wheel swings about the line through `arm_inner` and `arm_outer`: across the car it is a trailing
+arm, askew a semi-trailing one. Nothing steers the wheel: there is no tie rod and no `[rack]`, and
+what needs them is left out or refused. Spring and damper stand on the arm, each with ends of its
+own. Where the spring is free of force is said by the distance of its ends (`free_length_mm`) or by
+its force at the design position (`force_at_design_N`). The stops are touched by the damper's
+length."""
+
+    suspension: Literal["trailing_arm"] = Field(description="the kind of suspension")
+    hardpoints: TrailingArmHardpoints = Field(description="the points that define the geometry")
+    # no section of a file, as nothing steers: `steered` is asked before it is
+    rack: ClassVar[None] = None  # type: ignore[assignment, misc]
+    spring: Spring = Field(description="the spring, between chassis and arm")
+    damper: ArmDamper = Field(description="the damper, between chassis and arm")
+    bodies: TrailingArmBodies = Field(description="masses and inertia")
+
+    # -- its equations --------------------------------------------------------------------------
+
+    def equations(self, *, free_rack: bool) -> ModuleType:
+        """Return the equations: they have everything."""
+        if free_rack:
+            problem = f"free_rack=True: a {self.TITLE} has no rack. Leave that out."
+            raise InputError([problem], "Model")
+        return trailing_arm
+
+    def beyond_the_plain(self) -> list[str]:
+        """Return what these equations have beyond plain ones: they have everything."""
+        return ["trailing arm", *super().beyond_the_plain()]
+
+    # -- its geometry ---------------------------------------------------------------------------
+
+    def lengths(self) -> dict[str, float]:
+        """Return the lengths of arm, spring and damper at design [m]."""
+        points = self.hardpoints
+        inner, outer, center = map(points.metres, _ARM)
+        return {
+            "arm_length": distance_from_line(center, inner, outer),
+            "spring_length": points.distance("spring_seat", "spring_top"),
+            "damper_length": points.distance("damper_seat", "damper_top"),
+        }
+
+    def drawing(self) -> Drawing:
+        """Return how arm, spring and damper are drawn."""
+        return Drawing(
+            links={
+                "arm": ("arm_inner", "wheel_center", "arm"),
+                "spring": ("spring_top", "spring_seat", "strut"),
+                "damper": ("damper_top", "damper_seat", "strut"),
+            },
+            knuckle=("arm_inner", "arm_outer", "wheel_center"),
+            legend={"arm": "arm", "strut": "damper", "knuckle": "hub carrier"},
+            damper=Axis("damper_seat", "damper_top", 0.5),
+            spring=Axis("spring_seat", "spring_top", 0.0),
+            upright=(("wheel_center", *_BEARINGS), "arm_outer"),
+            brackets={
+                f"{name}_bracket": ((f"{name}_seat", "wheel_center", "arm_inner"), f"{name}_seat")
+                for name in ("spring", "damper")
+            },
+        )
+
+    # -- what holds it together -----------------------------------------------------------------
+
+    def structure(self) -> Structure:
+        """Return the two bearings of the arm on one axis, and that of the wheel."""
+        ends = ("chassis", "trailing_arm")
+        signals = ("spring_force", self.NAMES.actuator)
+        joints = (Hinge(*ends, _BEARINGS), Fixed("trailing_arm", "wheel", ("wheel_center",)))
+        lines = (
+            Line("spring", signals, *ends, ("spring_top", "spring_seat")),
+            Line("damper", FORCES_OF_A_DAMPER, *ends, ("damper_top", "damper_seat")),
+        )
+        return Structure(joints, lines)
+
+    # -- what its characteristics are computed from ---------------------------------------------
+
+    def links_at(self, points: Mapping[str, Array], travel: Motion) -> tuple[Plane, Plane]:
+        """Return two planes through the hinge, about which the arm turns."""
+        del travel
+        inner, outer = (points[name] for name in _BEARINGS)
+        _, across, other = frame(outer - inner)
+        return Plane(inner, across), Plane(inner, other)

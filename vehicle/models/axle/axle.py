@@ -1,0 +1,430 @@
+"""An axle: what the sections of its file make together."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+from pydantic import ValidationError
+
+from ....core.arguments import Arguments, shown
+from ....core.errors import InputError
+from ....core.suggestions import suggestion
+from ....core.vectors import unit_vector
+from ...corner.bushes import RACK
+from ...data import data_sets, find
+from ...data.starter import AXLES, NOT_A_RIGID_AXLE, RIGID_AXLE, RIGID_AXLES
+from ...input.messages import messages_of
+from ...input.places import put
+from ...input.toml_file import read_toml
+from ...kinds import Suspension
+from ..model import Model
+from .bar import AntiRollBar, HalfBar, mirrored_points
+from .file import SIDES, AxleFile, Brakes, Drive, End
+from .steering import SteeringCurve
+
+KIND = "axle"
+"""The top-level key that says that a file describes an axle."""
+
+RIGHT, LEFT = "right", "left"
+
+# Bodies that no drop link is joined to.
+_NEVER_PULLED = ("tie_rod", "rack")
+# The racks of two sides are one, if their axes agree to that.
+_SAME_AXIS = 1e-9
+# What belongs to the whole vehicle, in the files of both sides.
+_OF_THE_VEHICLE = (
+    ("vehicle", "wheelbase_mm"),
+    ("vehicle", "center_of_gravity_height_mm"),
+    ("vehicle", "front_brake_share"),
+    ("gravity", "acceleration_m_per_s2"),
+)
+_OF_THE_RACK = (("rack", "travel_per_turn_mm"),)
+
+
+@dataclass(frozen=True)
+class Axle:
+    """Two suspensions on one rack, if they have one, with an anti-roll bar. Immutable.
+
+    Make one with `load` or `from_dict`.
+
+    Attributes
+    ----------
+    end : str
+        'front' or 'rear'.
+    right, left : Suspension
+    symmetric : bool
+        Whether one side is the mirror image of the other, by how the file gives them.
+    bar : AntiRollBar or None
+    bar_side : str
+        The side whose points the bar has.
+    steering : SteeringCurve or None
+        None: the ``travel_per_turn_mm`` of the suspension counts.
+    brakes : Brakes
+    drive : Drive or None
+
+    Examples
+    --------
+    >>> axle = Axle.load("reference_axle")
+    >>> axle.left.vehicle.side, axle.bar.link_on
+    ('left', 'control_arm')
+    """
+
+    end: End
+    right: Suspension
+    left: Suspension
+    symmetric: bool
+    bar: AntiRollBar | None
+    bar_side: str
+    steering: SteeringCurve | None
+    brakes: Brakes
+    drive: Drive | None
+
+    NEEDED = 'a kintrafo.Axle, such as Axle.load("reference_axle"), is needed'
+
+    @classmethod
+    def load(cls, path_or_name: str | Path) -> Self:
+        """Read an axle from a TOML file, and the hardpoint files that it names.
+
+        Parameters
+        ----------
+        path_or_name : str or pathlib.Path
+            The file; or, as a string, the name of one that comes with kintrafo:
+            ``"reference_axle"``.
+
+        Raises
+        ------
+        InputError
+            If a file cannot be read or no axle can be like this; it lists everything that is wrong.
+        """
+        with Arguments(cls.__name__) as given:
+            given.path("path_or_name", path_or_name)
+        packaged = packaged_axles()
+        if path_or_name in data_sets(RIGID_AXLES):
+            raise InputError([NOT_A_RIGID_AXLE], str(path_or_name))
+        file = find(path_or_name, packaged)
+        folder = file.parent if isinstance(file, Path) else Path()
+        return cls.from_dict(read_toml(file), source=str(path_or_name), folder=folder)
+
+    @classmethod
+    def from_dict(
+        cls,
+        data: Mapping[str, Any],
+        source: str = "input data",
+        *,
+        folder: str | Path = ".",
+    ) -> Self:
+        """Make an axle from nested dictionaries with the keys of the file.
+
+        Parameters
+        ----------
+        data : mapping
+            The sections, with their keys and units as in the file. A side is the name of a file, a
+            `Suspension`, or the nested dictionaries of one.
+        source : str, optional
+            Where the data come from, for error messages.
+        folder : str or pathlib.Path, optional
+            From where paths of sides are counted.
+
+        Raises
+        ------
+        InputError
+            If no axle can be like this; it lists everything that is wrong.
+        """
+        with Arguments(source) as checked:
+            for key in checked.mapping("data", data, "keys and values of an axle's file"):
+                checked.kind("key of data", key, str, "a text is needed")
+            checked.path("folder", folder)
+        if KIND not in data:
+            _refuse_other_files(data, source)
+        try:
+            described = AxleFile(**data)
+        except ValidationError as error:
+            raise InputError(messages_of(error, AxleFile, data), source) from None
+        sides = _sides_of(described, Path(folder), source)
+        bar_side = sides["side"].vehicle.side if "side" in sides else RIGHT
+        if "side" in sides:
+            one = sides["side"]
+            sides = {one.vehicle.side: one}
+            sides[LEFT if bar_side == RIGHT else RIGHT] = one.mirrored()
+        axle = cls(
+            end=described.axle,
+            right=sides[RIGHT],
+            left=sides[LEFT],
+            symmetric=described.side is not None,
+            bar=described.anti_roll_bar,
+            bar_side=bar_side,
+            steering=described.steering,
+            brakes=described.brakes,
+            drive=described.drive,
+        )
+        problems = [*_problems_of_sides(axle), *_problems_of_bar(axle)]
+        if problems:
+            raise InputError(problems, source)
+        return axle
+
+    def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
+        """Return the sections as nested dictionaries, which `from_dict` takes back unchanged.
+
+        Parameters
+        ----------
+        exclude_defaults : bool, optional
+            Whether values that are as by default are left out.
+
+        Returns
+        -------
+        dict
+            A copy of all values, with the keys and units of the file; the sections of a side are
+            nested in ``side``, or in ``right`` and ``left``, in place of the name of its file.
+        """
+        sides = {"side": self.sides[self.bar_side]} if self.symmetric else self._apart()
+        sections: dict[str, Any] = sides | {
+            "anti_roll_bar": self.bar,
+            "steering": self.steering,
+            "brakes": self.brakes,
+            "drive": self.drive,
+        }
+        how: Any = {"mode": "json", "exclude_none": True, "exclude_defaults": exclude_defaults}
+        written = {name: s.model_dump(**how) for name, s in sections.items() if s is not None}
+        return {KIND: self.end} | {name: values for name, values in written.items() if values}
+
+    def with_changes(self, changes: Mapping[str, Any]) -> Self:
+        """Return an axle that differs in some values; all checks are made again.
+
+        Parameters
+        ----------
+        changes : mapping of str to Any
+            For each place in the file, section and key with dots between them, the new value in
+            the file's unit: ``anti_roll_bar.rate_Nm_per_deg``; of a hardpoint file behind
+            ``side``, whose mirror image the other side stays, or behind ``right`` or ``left``,
+            which are apart from then on. None removes an optional key.
+
+        Raises
+        ------
+        InputError
+            If there is no such place, or no axle can be like this.
+
+        Examples
+        --------
+        >>> axle = Axle.load("reference_axle")
+        >>> lower = axle.with_changes({"left.hardpoints.ball_joint.z": 190.0})
+        >>> lower.left.hardpoints.ball_joint[2], lower.right.hardpoints.ball_joint[2]
+        (190.0, 180.0)
+        """
+        with Arguments("axle") as checked:
+            for key in checked.mapping("changes", changes, "places and values"):
+                checked.kind("key of changes", key, str, "a text is needed")
+            if not self.symmetric and any(key.startswith("side.") for key in changes):
+                checked.refuse("side: the file gives right and left. Name one of these.")
+        of_side: dict[str, dict[str, Any]] = {"side": {}, RIGHT: {}, LEFT: {}}
+        data, problems = self.to_dict(), list[str]()
+        for place, value in changes.items():
+            section, _, key = place.partition(".")
+            if section in of_side and key:
+                of_side[section][key] = value
+            elif problem := put(data, place, value):
+                problems.append(problem)
+        source = f"axle with changed {', '.join(changes)}"
+        if problems:
+            raise InputError(problems, source)
+        apart = self._changed(of_side)
+        if self.symmetric and not (of_side[RIGHT] or of_side[LEFT]):
+            apart = {"side": apart[self.bar_side]}
+        elif "anti_roll_bar" in data and self.bar_side == LEFT:  # whose points are the right side's
+            data["anti_roll_bar"] = mirrored_points(data["anti_roll_bar"])
+        return self.from_dict({n: v for n, v in data.items() if n not in SIDES} | apart, source)
+
+    def _changed(self, changes: Mapping[str, Mapping[str, Any]]) -> dict[str, Suspension]:
+        """Return both sides with changes of one and its image, then of each."""
+        sides = self._apart()
+        if changes["side"]:
+            one = sides[self.bar_side].with_changes(changes["side"])
+            sides = {side.vehicle.side: side for side in (one, one.mirrored())}
+        return {
+            side: sides[side].with_changes(changes[side]) if changes[side] else sides[side]
+            for side in (RIGHT, LEFT)
+        }
+
+    def _apart(self) -> dict[str, Suspension]:
+        """Return the sides as a file gives them that are no mirror images."""
+        return {RIGHT: self.right, LEFT: self.left}
+
+    @property
+    def sides(self) -> dict[str, Suspension]:
+        """The suspensions by their sides, the left one first."""
+        return {LEFT: self.left, RIGHT: self.right}
+
+    @cached_property
+    def models(self) -> dict[str, Model]:
+        """The compiled equations of each side by itself, the left one first."""
+        return {side: Model(suspension) for side, suspension in self.sides.items()}
+
+    @cached_property
+    def halves(self) -> dict[str, HalfBar]:
+        """The halves of the anti-roll bar by their sides; empty without a bar."""
+        if self.bar is None:
+            return {}
+        return {side: self.bar.half(mirrored=side != self.bar_side) for side in self.sides}
+
+    def steered(self) -> bool:
+        """Tell whether its wheels can be steered: whether there is a rack."""
+        return self.right.steered()
+
+    def heading(self) -> str:
+        """Return what the axle is called."""
+        kinds = " and ".join(dict.fromkeys(side.TITLE for side in self.sides.values()))
+        return f"{self.end} axle, {kinds}"
+
+
+def packaged_axles() -> dict[str, Any]:
+    """Return the files of the axles that come with kintrafo, by their names."""
+    return data_sets(AXLES)
+
+
+def is_axle(path_or_name: str | Path) -> bool:
+    """Tell whether a file, or a packaged name, is that of an axle.
+
+    What is not there, or cannot be read, is none: whoever reads it then says why.
+    """
+    if path_or_name in packaged_axles():
+        return True
+    packaged = data_sets() | data_sets(RIGID_AXLES)
+    if path_or_name in packaged or not Path(path_or_name).is_file():
+        return False
+    try:
+        return KIND in read_toml(Path(path_or_name))
+    except InputError:
+        return False
+
+
+def _refuse_other_files(data: Mapping[str, Any], source: str) -> None:
+    problem = f'{KIND} is missing: where the axle is. Add a line `{KIND} = "front"` or "rear".'
+    if RIGID_AXLE in data:
+        problem = NOT_A_RIGID_AXLE
+    elif "hardpoints" in data:
+        problem = (
+            "this is the file of one suspension, not of an axle. Name it in an axle's file, as "
+            "`side`; `kintrafo new FILE --axle` writes one."
+        )
+    raise InputError([problem], source)
+
+
+def _sides_of(described: AxleFile, folder: Path, source: str) -> dict[str, Suspension]:
+    """Return the suspensions that are given, by the keys that give them."""
+    found: dict[str, Suspension] = {}
+    problems = []
+    for key in SIDES:
+        given = getattr(described, key)
+        if given is None:
+            continue
+        try:
+            found[key] = _suspension(given, key, folder)
+        except InputError as error:
+            named = f"{key} = {shown(given)}" if isinstance(given, str) else key
+            problems += [f"{named}: {problem}" for problem in error.problems]
+    if problems:
+        raise InputError(problems, source)
+    return found
+
+
+def _suspension(given: Any, key: str, folder: Path) -> Suspension:
+    if isinstance(given, Suspension):
+        return given
+    if isinstance(given, Mapping):
+        return Suspension.from_dict(given)
+    if isinstance(given, str) and given in data_sets():
+        return Suspension.load(given)
+    if isinstance(given, str | Path):
+        if is_axle(folder / given):
+            raise InputError([f"{given} is itself an axle. Name a hardpoint file."], key)
+        return Suspension.load(folder / given)
+    problem = f"{shown(given)}: the name of a hardpoint file is needed."
+    raise InputError([problem], key)
+
+
+def _problems_of_sides(axle: Axle) -> list[str]:
+    problems = [
+        f'{side}: its file says [vehicle] side = "{suspension.vehicle.side}". Exchange the two, or '
+        "correct the file."
+        for side, suspension in axle.sides.items()
+        if suspension.vehicle.side != side
+    ]
+    problems += [
+        f'{side}: its file says [vehicle] end = "{suspension.vehicle.end}", and the axle is the '
+        f"{axle.end} one. Correct one of the two."
+        for side, suspension in axle.sides.items()
+        if suspension.vehicle.end not in (None, axle.end)
+    ]
+    if axle.right.suspension != axle.left.suspension:
+        problems.append(
+            f"right is a {axle.right.TITLE} and left a {axle.left.TITLE}: both sides of an axle "
+            "are of one kind."
+        )
+    steered = axle.right.steered() and axle.left.steered()
+    if axle.steering is not None and not steered:
+        problems.append(
+            f"[steering]: a {axle.right.TITLE} has no rack, and nothing steers its wheel. Remove "
+            "that section."
+        )
+    if steered and _apart(axle):
+        problems.append(
+            f"[rack] axis is {list(axle.right.rack.axis)} of the right side and "
+            f"{list(axle.left.rack.axis)} of the left: they have one rack. Make them equal."
+        )
+    problems += [
+        f"{side}: [bodies.{body}] mass_kg = {mass:g} kg: the rack of an axle is prescribed, and "
+        "tie rod, rack and upper strut have no mass in its equations. Set it to zero."
+        for side, suspension in axle.sides.items()
+        for body, mass in suspension.neglected_masses().items()
+    ]
+    if (axle.right.bushings or {}).get(RACK) != (axle.left.bushings or {}).get(RACK):
+        problems.append(
+            f"[bushings.{RACK}] differs in the files of both sides: they have one rack. Make them "
+            "equal."
+        )
+    of_both = [*_OF_THE_VEHICLE, *(_OF_THE_RACK if steered else ())]
+    for section, key in of_both:
+        right, left = (getattr(getattr(s, section), key) for s in (axle.right, axle.left))
+        if right != left:
+            problems.append(
+                f"[{section}] {key} is {_told(right)} in the file of the right side and "
+                f"{_told(left)} in that of the left: they have one of it. Make them equal."
+            )
+    return problems
+
+
+def _apart(axle: Axle) -> bool:
+    """Tell whether the racks of both sides go different ways."""
+    right, left = (unit_vector(side.rack.axis) for side in (axle.right, axle.left))
+    return bool(np.abs(right - left).max() > _SAME_AXIS)
+
+
+def _told(value: float | None) -> str:
+    return "not given" if value is None else f"{value:g}"
+
+
+def _problems_of_bar(axle: Axle) -> list[str]:
+    if axle.bar is None:
+        return []
+    bodies = axle.right.bodies.rigid()
+    known = [name for name in bodies if name not in _NEVER_PULLED]
+    problems = []
+    if axle.bar.link_on not in known:
+        meant = suggestion(axle.bar.link_on, known)
+        problems.append(
+            f'[anti_roll_bar] link_on = "{axle.bar.link_on}" is no part of a {axle.right.TITLE} '
+            f"that a drop link can be joined to. {meant}"
+        )
+    sign = axle.sides[axle.bar_side].vehicle.sign
+    across = [
+        name for name in ("bush", "link_top", "link_foot") if sign * axle.bar.metres(name)[1] <= 0.0
+    ]
+    if across:
+        listed = ", ".join(f"{name} = {list(getattr(axle.bar, name))}" for name in across)
+        problems.append(
+            f"[anti_roll_bar] {listed} {axle.bar.unit}: not on the {axle.bar_side} side, whose "
+            "points the section has. y points left: correct the sign of y."
+        )
+    return problems

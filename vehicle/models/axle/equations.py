@@ -1,0 +1,134 @@
+"""The equations of motion of an axle, derived and compiled when they are first needed."""
+
+from collections.abc import Callable
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any
+
+from ....core.arguments import Arguments
+from ....core.errors import InputError
+from ....core.vectors import components
+from ....systems.allowed import Allowed
+from ....systems.compile.build import compile_mechanism, require_generator
+from ....systems.system import System
+from ..model import Model
+from .axle import LEFT, RIGHT, Axle
+
+if TYPE_CHECKING:
+    from ....generator import Formulation
+
+
+class AxleModel(System):
+    """The compiled equations of an axle: both suspensions, the rack and the anti-roll bar.
+
+    They are derived and compiled when they are first needed, as by `kintrafo.compile`, and kept.
+
+    Parameters
+    ----------
+    axle : Axle
+    progress : callable, optional
+        Called with what is being done, in a few words.
+    wheel_loads : bool, optional
+        Whether what acts on the wheels are inputs, as in `Model`, after ``right_`` and ``left_``.
+
+    Attributes
+    ----------
+    axle : Axle
+    parameters, constants, design_state
+        As of `System`. Names of states, inputs and signals are those of the suspension, after
+        ``right_`` and ``left_``; the bar has ``bar_angle`` and ``bar_spring_moment``.
+    """
+
+    def __init__(
+        self,
+        axle: Axle,
+        *,
+        progress: Callable[[str], None] | None = None,
+        wheel_loads: bool = False,
+    ) -> None:
+        with Arguments("AxleModel") as given:
+            given.kind("axle", axle, Axle, Axle.NEEDED)
+            given.function("progress", progress)
+            wheel_loads = given.flag("wheel_loads", wheel_loads)
+        equations = compile_mechanism(declared(axle, wheel_loads=wheel_loads), progress=progress)
+        values = _parameters(axle, wheel_loads=wheel_loads)
+        known = {name: values[name] for name in values if name in equations.PARAMETERS}
+        super().__init__(equations, known)
+        self.axle, self.wheel_loads = axle, wheel_loads
+
+    @cached_property
+    def corners(self) -> dict[str, Model]:
+        """The equations of each side by itself, with the same loads on its wheel."""
+        if not self.wheel_loads:
+            return self.axle.models
+        return {side: Model(own, wheel_loads=True) for side, own in self.axle.sides.items()}
+
+    def allowed_lengths(self) -> tuple[Allowed, ...]:
+        """Return the lengths that the file of each side allows."""
+        return tuple(
+            one._replace(signal=f"{side}_{one.signal}", part=f"{side} {one.part}")
+            for side, own in self.axle.sides.items()
+            for one in own.allowed_lengths()
+        )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return partial(AxleModel, wheel_loads=self.wheel_loads), (self.axle,)
+
+    def __repr__(self) -> str:
+        return f"<AxleModel {self.equations.NAME}>"
+
+
+def declared(axle: Axle, *, wheel_loads: bool = False) -> "Formulation":
+    """Return the declaration of an axle, whose values are apart from it."""
+    require_generator()
+    from ....generator.mechanisms import axle as page  # noqa: PLC0415 (an extra)
+    from ....generator.mechanisms import model_named  # noqa: PLC0415
+    from ....generator.mechanisms.suspension import with_wheel_loads  # noqa: PLC0415
+
+    corner = model_named(_corner_of(axle))
+    if wheel_loads:
+        corner = with_wheel_loads(corner)
+    pulls = axle.bar.link_on if axle.bar else ""
+    parts = (corner.name, axle.end, "axle", pulls, "" if axle.symmetric else "two_sides")
+    mechanism = page.mechanism(
+        "_".join(part for part in parts if part),
+        axle.heading()[:1].upper() + axle.heading()[1:],
+        corner,
+        pulls=pulls,
+        own=not axle.symmetric,
+        end=axle.end,
+    )
+    return page.model(corner, mechanism)
+
+
+def _corner_of(axle: Axle) -> str:
+    """Return the name of the equations of one side that have everything that both have."""
+    names = {str(model.equations.NAME): side for side, model in axle.models.items()}
+    if len(names) != 1:
+        problem = (
+            f"the sides have different equations, {' and '.join(names)}: what one has and the "
+            "other has not, such as a stop or a curve, must be in both files. Add it there."
+        )
+        raise InputError([problem], "AxleModel")
+    return next(iter(names))
+
+
+def _parameters(axle: Axle, *, wheel_loads: bool) -> dict[str, float]:
+    of_sides = {
+        side: model.parameters | (model.suspension.wheel_load_parameters() if wheel_loads else {})
+        for side, model in axle.models.items()
+    }
+    values = dict(of_sides[RIGHT])
+    if not axle.symmetric:
+        values |= {f"{LEFT}_{name}": value for name, value in of_sides[LEFT].items()}
+    if axle.bar is not None:
+        values |= {"bar_rate": axle.bar.rate(), "bar_free_angle": axle.bar.free_twist()}
+        for side, prefix in ((RIGHT, ""), (LEFT, f"{LEFT}_")):
+            half = axle.halves[side]
+            for name, vector in (
+                ("bar_bush", half.bush),
+                ("bar_axis", half.axis),
+                ("link_top", half.top),
+                ("link_foot", half.foot),
+            ):
+                values |= components(f"{prefix}{name}", vector)
+    return values

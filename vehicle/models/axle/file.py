@@ -1,0 +1,79 @@
+"""The sections of an axle's file."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, WithJsonSchema
+
+from ...input.section import Section
+from ...input.vehicle import Share
+from .bar import AntiRollBar
+from .steering import SteeringCurve
+
+End = Literal["front", "rear"]
+Held = Literal["body", "carrier"]
+
+SIDES = ("side", "right", "left")
+
+# What a file can say; from Python a side may also be a suspension, or what is in its file.
+_BY_NAME = WithJsonSchema({"type": "string"})
+_SIDE = "hardpoint file beside this one, or the name of a packaged data set: "
+
+
+class Torque(Section):
+    """What holds the torque of brakes or drive."""
+
+    torque_on: Held = Field(
+        description='"carrier": what turns against the torque is on the wheel carrier, as with '
+        'brakes or a motor at the wheel; "body": on the chassis, behind a shaft'
+    )
+
+
+class Brakes(Torque):
+    """The brakes of the axle. Their share is that of ``front_brake_share`` in the side's file."""
+
+    torque_on: Held = Field(
+        default="carrier",
+        description='"carrier": brakes at the wheel; "body": inboard brakes, behind a shaft',
+    )
+
+
+class Drive(Torque):
+    """What drives the axle."""
+
+    torque_on: Held = Field(
+        default="body",
+        description='"body": the final drive is on the chassis, a shaft leads to the wheel; '
+        '"carrier": a motor at the wheel',
+    )
+    share: Share = Field(description="part of the driving force that acts at this axle's wheels")
+
+
+class AxleFile(Section):
+    """An axle as its file says it; `Axle` has the suspensions that are named here."""
+
+    axle: End = Field(description='where the axle is: "front" or "rear"')
+    side: Annotated[
+        Any,
+        Field(description=_SIDE + "one side; the other is its mirror image"),
+        _BY_NAME,
+    ] = None
+    right: Annotated[Any, Field(description=_SIDE + "the right side"), _BY_NAME] = None
+    left: Annotated[Any, Field(description=_SIDE + "the left side"), _BY_NAME] = None
+    anti_roll_bar: AntiRollBar | None = Field(default=None, description="the anti-roll bar")
+    steering: SteeringCurve | None = Field(
+        default=None,
+        description="the rack over the angle of the steering wheel, instead of travel_per_turn_mm",
+    )
+    brakes: Brakes = Field(default=Brakes(), description="what holds the torque of the brakes")
+    drive: Drive | None = Field(default=None, description="what drives the axle")
+
+    def problems(self) -> list[str]:
+        """See that there are two sides."""
+        given = [name for name in SIDES if getattr(self, name) is not None]
+        if given in (["side"], ["right", "left"]):
+            return []
+        problem = (
+            f"{' and '.join(given) or 'no side is'} given: an axle needs `side`, a hardpoint file "
+            "of one side whose mirror image is the other, or both `right` and `left`."
+        )
+        return [problem]

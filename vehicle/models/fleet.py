@@ -1,0 +1,208 @@
+"""Many suspensions of one kind that differ in values of their files, and their models as one.
+
+The file of the first is read and checked as ever. The others have its sections with columns in the
+places that differ (see `core.columns`), so that checks, centres of mass, free lengths and all that
+the equations take of a file come from the code that one suspension has, once for all of them. Who
+fails a check that the first passes, or takes another branch, is not in the fleet.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from functools import cached_property
+from typing import Any, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.columns import Column, Ledger, stacked
+from ...core.physical import impossible
+from ...systems.allowed import Allowed
+from ..corner.geometry import problems_of_sections
+from ..input.section import Section
+from ..kinds import Suspension
+from .model import Model
+
+Array = NDArray[np.float64]
+
+_COMPONENTS = {"x": 0, "y": 1, "z": 2}
+# What the mirror image has with the other sign, by section and the end of the place.
+_REVERSED = {
+    "hardpoints": (".y",),
+    "bodies": (".com_mm.y", ".inertia_xy_kg_m2", ".inertia_yz_kg_m2"),
+    "rack": (".axis.x", ".axis.z"),
+}
+
+
+class Fleet(Model):
+    """The models of many suspensions, as one whose numbers have an axis for them in front.
+
+    It is evaluated as a `Model`, with states of shape (count, positions, elements).
+
+    Parameters
+    ----------
+    suspension : Suspension
+        The first of them.
+    values : mapping of str to ndarray, shape (count,)
+        What differs, by place in the file and in its unit; the first has those of `suspension`.
+    free_rack : bool
+        As of `Model`.
+
+    Attributes
+    ----------
+    first : Model
+        That of the first.
+    suspension : Suspension
+        With columns in place of what differs.
+    constants, design_state : ndarray, shape (count, 1, ...)
+    """
+
+    def __init__(
+        self, suspension: Suspension, values: Mapping[str, Array], *, free_rack: bool
+    ) -> None:
+        # all that a model has is put together here otherwise
+        count = next(iter(values.values())).size
+        ledger = Ledger(count)
+        self._first, self._values = suspension, values
+        self._ledger = ledger
+        columns = {place: Column(column, ledger) for place, column in values.items()}
+        ledger.there &= np.isfinite(np.array([*values.values()])).all(axis=0)
+        self.suspension = _with_columns(suspension, columns)
+        self.free_rack, self.wheel_loads = free_rack, False
+        self.names = suspension.NAMES
+        self.equations = suspension.equations(free_rack=free_rack)
+        _check(self.suspension)
+        # what decides upon equations and ends; who has others is struck
+        self.suspension.equations(free_rack=free_rack)
+        self.suspension.neglected_masses()
+        self.suspension.tyre_radius()
+        self._allowed = tuple(map(_allowed, self.suspension.allowed_lengths()))
+        self.first = Model(suspension, free_rack=free_rack)
+        parameters = self.first.parameters
+        own = {name: stacked(value) for name, value in self.suspension.parameters().items()}
+        table = np.array(
+            [np.broadcast_to(own.get(name, known), count) for name, known in parameters.items()]
+        ).T
+        ledger.there &= np.isfinite(table).all(axis=1)
+        table[~ledger.there] = table[0]
+        named = dict(zip(parameters, table.T, strict=True))
+        ledger.there &= ~impossible(named, self.equations.PARAMETERS, count)
+        table[~ledger.there] = table[0]
+        constants, design, failed = self.equations.prepare_many(table)
+        ledger.there &= ~failed
+        constants[failed], design[failed] = constants[0], design[0]
+        self.parameters = parameters
+        self.constants, self.design_state = constants[:, None], design[:, None]
+
+    @property
+    def there(self) -> NDArray[np.bool_]:
+        """Who is in the fleet."""
+        return self._ledger.there
+
+    def of(self, some: NDArray[np.int64]) -> "Fleet":
+        """Return the equations of some of them, for states of theirs; it has no files."""
+        if some.size == len(self.constants):
+            return self
+        part = object.__new__(Fleet)
+        vars(part).update(vars(self))
+        part.constants, part.design_state = self.constants[some], self.design_state[some]
+        part._allowed = tuple(_allowed_of(one, some) for one in self._allowed)
+        return part
+
+    def strike(self, gone: NDArray[np.bool_]) -> None:
+        """Take some out of the fleet."""
+        self._ledger.there &= ~gone
+
+    def allowed_lengths(self) -> tuple[Allowed, ...]:
+        """Return the lengths that the files allow; limits of shape (count, 1) where they differ."""
+        return self._allowed
+
+    @cached_property
+    def mirror_image(self) -> "Fleet":
+        """The fleet of the same suspensions on the other side of the vehicle."""
+        values = {
+            place: 0.0 - column if _is_reversed(place) else column
+            for place, column in self._values.items()
+        }
+        return Fleet(self._first.mirrored(), values, free_rack=self.free_rack)
+
+
+def _is_reversed(place: str) -> bool:
+    return place.endswith(_REVERSED.get(place.partition(".")[0], ()))
+
+
+def _allowed(one: Allowed) -> Allowed:
+    limit: Any = one.limit
+    if not isinstance(limit, Column):
+        return one
+    limits: Any = limit.values[:, None]
+    return one._replace(limit=limits)
+
+
+def _allowed_of(one: Allowed, some: NDArray[np.int64]) -> Allowed:
+    limit: Any = one.limit
+    return one._replace(limit=limit[some]) if np.ndim(limit) else one
+
+
+def _with_columns(section: Any, columns: Mapping[str, Column]) -> Any:
+    """Return a section with columns in some places of it, their ranges checked."""
+    inner: dict[str, dict[str, Column]] = {}
+    changed: dict[str, Any] = {}
+    for place, column in columns.items():
+        key, _, rest = place.partition(".")
+        if rest:
+            inner.setdefault(key, {})[rest] = column
+        else:
+            _check_range(type(section), key, column)
+            changed[key] = column
+    for key, further in inner.items():
+        part = getattr(section, key)
+        if isinstance(part, Section):
+            changed[key] = _with_columns(part, further)
+        else:
+            point = list(part)
+            for axis, column in further.items():
+                point[_COMPONENTS[axis]] = column
+            changed[key] = tuple(point)
+    return section.model_copy(update=changed)
+
+
+def _check_range(kind: type[Section], key: str, column: Column) -> None:
+    """Strike who has a value that its field does not allow."""
+    field = kind.model_fields[key]
+    for limit in (*field.metadata, *_metadata(field.annotation)):
+        for name, question in _QUESTIONS.items():
+            bound = getattr(limit, name, None)
+            if bound is not None:
+                column.ledger.there &= question(column.values, bound)
+
+
+_QUESTIONS: dict[str, Callable[[Array, float], NDArray[np.bool_]]] = {
+    "ge": np.greater_equal,
+    "gt": np.greater,
+    "le": np.less_equal,
+    "lt": np.less,
+}
+
+
+def _metadata(annotation: Any) -> Iterator[Any]:
+    """Yield what is said of a type and of those that it is made of."""
+    yield from getattr(annotation, "__metadata__", ())
+    for part in get_args(annotation):
+        yield from _metadata(part)
+
+
+def _check(suspension: Suspension) -> None:
+    """Make all checks of a suspension, by which who fails one is struck."""
+    sections = {name: getattr(suspension, name) for name in type(suspension).model_fields}
+    for section in _sections(suspension):
+        section.problems()
+    parts = {n: s for n, s in sections.items() if s is None or isinstance(s, Section)}
+    suspension.hardpoints.unit_problems()
+    problems_of_sections(parts, suspension.further_problems)
+
+
+def _sections(section: Section) -> Iterator[Section]:
+    for name in type(section).model_fields:
+        part = getattr(section, name)
+        if isinstance(part, Section):
+            yield part
+            yield from _sections(part)

@@ -1,0 +1,105 @@
+"""Where the hardpoints are in a given position of the suspension."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.columns import spread
+from ...core.named_types import ArrayLike
+from ...core.vectors import turned
+from .model import Model
+
+Array = NDArray[np.float64]
+
+
+def hardpoints(
+    model: Model,
+    state: ArrayLike,
+    inputs: ArrayLike | None = None,
+    *,
+    poses: tuple[Array, Array] | None = None,
+) -> dict[str, Array]:
+    """Return the hardpoints in chassis axes.
+
+    Parameters
+    ----------
+    model : Model
+    state, inputs : array_like
+        One state or many, as in the compiled module.
+    poses : tuple of ndarray, optional
+        Positions and orientations there, if they have been evaluated.
+
+    Returns
+    -------
+    dict
+        Name to position [m], shape (..., 3). Points that the file leaves out are where those are
+        that stand in for them.
+
+    Examples
+    --------
+    >>> model = Model("reference_car")
+    >>> hardpoints(model, model.design_state)["tie_rod_inner"].round(12).tolist()
+    [-0.14, -0.31, 0.28]
+    """
+    with Arguments("hardpoints") as given:
+        given.kind("model", model, Model, Model.NEEDED)
+    points = model.suspension.hardpoints
+    moved = carried(
+        model,
+        {p: (body, points.metres(p)) for p, body in points.CARRIERS.items()},
+        state,
+        inputs,
+        poses=poses,
+    )
+    fixed = [p for p in (*points.names(), *points.STAND_INS) if p not in points.CARRIERS]
+    shape = (*next(iter(moved.values())).shape[:-1], 3)
+    return moved | {p: np.broadcast_to(spread(points.metres(p)), shape) for p in fixed}
+
+
+def carried(
+    model: Model,
+    points: Mapping[str, tuple[str, Array]],
+    state: ArrayLike,
+    inputs: ArrayLike | None = None,
+    *,
+    poses: tuple[Array, Array] | None = None,
+) -> dict[str, Array]:
+    """Return where points of moving bodies are.
+
+    Parameters
+    ----------
+    model : Model
+    points : mapping
+        By names of any choice, the body and the place at design, chassis axes [m].
+    state, inputs : array_like
+        One state or many, as in the compiled module.
+    poses : tuple of ndarray, optional
+        Positions and orientations there, if they have been evaluated.
+
+    Returns
+    -------
+    dict
+        Position of each [m], shape (..., 3).
+    """
+    bodies, at_design = model.equations.BODIES, _centers_of_mass(model)
+    if poses is None:
+        poses = (
+            model.evaluate("positions", state, inputs),
+            model.evaluate("orientations", state, inputs),
+        )
+    centers, rotations = poses
+    return {
+        name: centers[..., index, :]
+        + turned(rotations[..., index, :, :], spread(place - at_design[body]))
+        for name, (body, place) in points.items()
+        for index in [bodies.index(body)]
+    }
+
+
+def _centers_of_mass(model: Model) -> dict[str, Array]:
+    """Return the centres of mass of the rigid bodies at design [m], by the bodies' names."""
+    points = model.suspension.hardpoints
+    bodies = model.suspension.bodies.rigid()
+    return {name: body.centre_of_mass(points) for name, body in bodies.items()}

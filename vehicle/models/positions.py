@@ -1,0 +1,290 @@
+"""Positions of a suspension at given wheel heights."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...core.named_types import ArrayLike
+from ...systems.state import State
+from ..input.vehicle import Tyre
+from .model import Model
+from .reach import (
+    Branch,
+    PositionError,
+    Range,
+    at_rest,
+    branch,
+    height_and_slope,
+    travel_range,
+)
+
+__all__ = [
+    "PositionError",
+    "Range",
+    "arm_angles",
+    "design_height",
+    "road_under_load",
+    "state_at_height",
+    "travel_range",
+]
+
+Array = NDArray[np.float64]
+
+# Newton's method needs five steps where the height is smooth; where it takes longer, every other
+# step halves the bracket, which is two degrees at first.
+_NEWTON_STEPS = 10
+_MOST_STEPS = 120
+# A height that is beyond the reach by less than this is at its end, and one that is missed by less
+# is met [m].
+_ROUNDING = 1e-12
+# Where a rounding of the arm's angle moves the wheel by more than that, by so many of them.
+_ROUNDINGS = 8.0
+_EPSILON = float(np.finfo(np.float64).eps)
+
+
+def design_height(model: Model) -> float:
+    """Return the height of the wheel centre at the design position [m]."""
+    with Arguments("design_height") as given:
+        given.kind("model", model, Model, Model.NEEDED)
+    return float(model.signal("wheel_center_z", model.design_state))
+
+
+def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) -> Array:
+    """Return the arm angles at which the wheel centre has given heights.
+
+    Parameters
+    ----------
+    model : Model
+    height : array_like
+        Heights of the wheel centre, chassis axes [m].
+    rack_position : array_like, optional
+        Displacements of the rack [m]; broadcast with the heights.
+
+    Returns
+    -------
+    ndarray
+        Arm angles [rad], of the broadcast shape. The heights are met to rounding.
+
+    Raises
+    ------
+    PositionError
+        If a height is out of reach; the message states the range. Or if it cannot be met, because
+        rounding moves the wheel by more beside a dead point.
+    InputError
+        If a value is not finite.
+
+    Examples
+    --------
+    >>> model = Model("reference_car")
+    >>> (model.design_state[0] - arm_angles(model, [0.3, 0.325])).round(9).tolist()
+    [0.0, 0.068123601]
+    """
+    with Arguments("positions") as given:
+        given.kind("model", model, Model, Model.NEEDED)
+        heights = given.array("height", height, "m", empty=True)
+        racks = given.array("rack_position", rack_position, "m", empty=True)
+        try:
+            heights, racks = np.broadcast_arrays(heights, racks)
+        except ValueError:
+            given.refuse(
+                f"height and rack_position have the shapes {heights.shape} and {racks.shape}, "
+                "which do not go together. Give one of them as a single number."
+            )
+    if heights.size == 0:
+        return np.empty(heights.shape)
+    distinct, index = np.unique(racks.ravel(), return_inverse=True)
+    table = branch(model, distinct, covering=(float(heights.min()), float(heights.max())))
+    if _beyond(heights.ravel(), table, index).any():
+        table = branch(model, distinct, to_the_end=True)
+    _refuse_out_of_reach(model, heights.ravel(), distinct[index], table, index)
+    within = np.clip(heights.ravel(), table.height[index, 0], table.height[index, -1])
+    return _solve(model, within, distinct[index], table, index).reshape(heights.shape)
+
+
+def state_at_height(
+    model: Model, height: float, *, rack_position: float = 0.0, spin_rate: float = 0.0
+) -> State:
+    """Return the state of rest with the wheel centre at a given height.
+
+    Parameters
+    ----------
+    model : Model
+    height : float
+        Height of the wheel centre, chassis axes [m].
+    rack_position : float, optional
+        Displacement of the rack [m].
+    spin_rate : float, optional
+        Rate of the wheel relative to the knuckle, positive rolling forward [rad/s].
+
+    Returns
+    -------
+    State
+        With zero rates but that of the wheel's spin. It carries the position of its rack, for
+        whatever takes a state and inputs.
+
+    Raises
+    ------
+    PositionError
+        If the height is out of reach; the message states the range.
+
+    Examples
+    --------
+    >>> model = Model("reference_car")
+    >>> state = state_at_height(model, 0.325)
+    >>> round(float(model.design_state[0] - state[0]), 10)
+    0.068123601
+    """
+    with Arguments("state_at_height") as given:
+        given.kind("model", model, Model, Model.NEEDED)
+        height = given.number("height", height, "m")
+        rack_position = given.number("rack_position", rack_position, "m")
+        spin_rate = given.number("spin_rate", spin_rate, "rad/s")
+    angle = float(arm_angles(model, height, rack_position))
+    state, inputs = at_rest(model, angle, rack_position)
+    return _spinning(model, State.of(state, inputs, model.names_of_states), spin_rate)
+
+
+def road_under_load(
+    model: Model, wheel_load: float, state: ArrayLike, inputs: ArrayLike | None = None
+) -> Array:
+    """Return how high the road is when it carries a wheel at rest with a given load.
+
+    Parameters
+    ----------
+    model : Model
+    wheel_load : float
+        Vertical force of the road on the wheel, positive up [N].
+    state, inputs : array_like
+        One or many, as in the compiled module.
+
+    Returns
+    -------
+    ndarray
+        Heights for the input ``road_height`` [m].
+
+    Raises
+    ------
+    InputError
+        If the load is not a finite number of 0 N or more, or the tyre has no stiffness.
+    """
+    with Arguments("wheel load") as given:
+        given.kind("model", model, Model, Model.NEEDED)
+        advice = "A road only pushes."
+        wheel_load = given.number("wheel_load", wheel_load, "N", least=0.0, advice=advice)
+    height: Array = model.signal("wheel_center_z", state, inputs)
+    return road_below(height, model.suspension.tyre, wheel_load)
+
+
+def road_below(height: Array, tyre: Tyre, load: float) -> Array:
+    """Return how high the road is that loads the tyre of a wheel at some heights so much [m].
+
+    Raises
+    ------
+    InputError
+        If the tyre has no stiffness.
+    """
+    values = tyre.parameters()
+    if values["tyre_rate"] == 0.0:
+        problem = (
+            "[tyre] rate_N_per_m = 0 N/m: a tyre without stiffness carries no load. Enter its rate."
+        )
+        raise InputError([problem], "wheel load")
+    road: Array = height + load / values["tyre_rate"] - values["tyre_free_height"]
+    return road
+
+
+def _spinning(model: Model, state: State, spin_rate: float) -> State:
+    state[model.state_names.index(f"{model.names.spin}_rate")] = spin_rate
+    return state
+
+
+def _beyond(heights: Array, table: Branch, index: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Return which heights lie outside of the table."""
+    too_low: NDArray[np.bool_] = heights < table.height[index, 0] - _ROUNDING
+    too_high: NDArray[np.bool_] = heights > table.height[index, -1] + _ROUNDING
+    return too_low | too_high
+
+
+def _refuse_out_of_reach(
+    model: Model, heights: Array, racks: Array, table: Branch, index: NDArray[np.int64]
+) -> None:
+    beyond = _beyond(heights, table, index)
+    if not beyond.any():
+        return
+    # the one that somebody asked for is at the end of a range, not the first one beyond
+    worst = np.abs(heights[beyond] - design_height(model)).argmax()
+    height, rack = float(heights[beyond][worst]), float(racks[beyond][worst])
+    reach = travel_range(model, rack)
+    ends = _rounded_inward(reach.height)
+    travels = _rounded_inward([end - design_height(model) for end in reach.height])
+    held = f" with the rack at {rack * 1e3:g} mm" if model.suspension.steered() else ""
+    message = (
+        f"wheel height {1e3 * height:.6g} mm is out of reach: from {ends[0]:.2f} mm "
+        f"({reach.lower_limit}) to {ends[1]:.2f} mm ({reach.upper_limit}){held}; that is "
+        f"{travels[0]:+.2f} mm to {travels[1]:+.2f} mm of wheel travel from design. "
+        "Choose a height within this range."
+    )
+    raise PositionError(message)
+
+
+def _rounded_inward(ends: Sequence[float]) -> tuple[float, float]:
+    """Return a range in whole hundredths of a millimetre that lies within the given one [m]."""
+    low, high = (1e5 * end for end in ends)
+    return math.ceil(low) / 100.0, math.floor(high) / 100.0
+
+
+def _solve(
+    model: Model, heights: Array, racks: Array, table: Branch, index: NDArray[np.int64]
+) -> Array:
+    """Newton's method with the exact slope, which falls back on halving the bracket.
+
+    Beside a dead point the height is no smooth function of the angle, and Newton's step may leave
+    the bracket there. What is found is measured against what was asked.
+    """
+    points = table.height.shape[1]
+    right = np.clip((table.height[index] < heights[:, None]).sum(axis=1), 1, points - 1)
+    ends = np.stack([right - 1, right])
+    low, high = table.angle[index, ends]
+    errors = np.abs(table.height[index, ends] - heights)
+    found: Array = np.where(errors[0] <= errors[1], low, high)
+    error, angle = errors.min(axis=0), 0.5 * (low + high)
+    # at an end of the bracket, as at design, Newton's step leads out of it by a rounding
+    rows = np.flatnonzero(error > np.spacing(np.abs(heights)))
+    for count in range(_MOST_STEPS):
+        if rows.size == 0:
+            break
+        at = angle[rows]
+        height, slope = height_and_slope(model, at, racks[rows])
+        excess = height - heights[rows]
+        better = np.abs(excess) < error[rows]
+        found[rows[better]], error[rows[better]] = at[better], np.abs(excess[better])
+        # the height rises as the angle falls
+        low[rows] = np.where(excess <= 0.0, at, low[rows])
+        high[rows] = np.where(excess >= 0.0, at, high[rows])
+        newton = at - excess / slope
+        halve = (newton > low[rows]) | (newton < high[rows])
+        if count >= _NEWTON_STEPS:
+            halve |= count % 2 == 0
+        angle[rows] = np.where(halve, 0.5 * (low[rows] + high[rows]), newton)
+        rows = rows[(excess != 0.0) & (np.abs(angle[rows] - at) > 4.0 * _EPSILON * at)]
+    _refuse_missed(model, heights, racks, found, error)
+    return found
+
+
+def _refuse_missed(model: Model, heights: Array, racks: Array, found: Array, error: Array) -> None:
+    """Refuse heights that are not met to rounding."""
+    _, slope = height_and_slope(model, found, racks)
+    missed = ~(error <= _ROUNDING + _ROUNDINGS * np.spacing(np.abs(found)) * np.abs(slope))
+    if not missed.any():
+        return
+    first = int(missed.argmax())
+    message = (
+        f"wheel height {heights[first] * 1e3:.6g} mm with the rack at {racks[first] * 1e3:g} mm is "
+        f"missed by {error[first] * 1e3:.2g} mm: rounding moves the wheel by that much so near to "
+        "a dead point. Choose another height, or correct the hardpoints."
+    )
+    raise PositionError(message)

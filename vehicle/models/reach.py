@@ -1,0 +1,442 @@
+"""How far the wheel travels: the arm angles that belong to the design position's assembly.
+
+From the design position the arm is swung either way until a loop cannot close or the wheel centre
+turns back. In between, the height of the wheel centre is a monotonic function of the arm angle, so
+that every height within reach has exactly one position. `swing` sees to it that no fold between two
+angles that are looked at is missed.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.errors import KintrafoError
+from ...core.named_types import ArrayLike
+from ...systems.system import System
+from .attitudes import attitudes, iterates
+from .model import Model
+from .swing import GOAL, UNRESOLVED, Seen, march, margins_stay, resolved
+
+Array = NDArray[np.float64]
+
+# Arm angles are looked at in steps of this size [rad], up to a right angle from design.
+ARM_STEP = np.deg2rad(2.0)
+ARM_STEPS = 45
+# By how much the reach ends before that [rad]. What has to be positive is then some 1e-13 m^2,
+# clear of its rounding, and the wheel is less than a nanometre from its last position.
+_CLEARANCE = 1e-12
+# Where the straight way of an iteration passes a point at which branches meet, by less than some
+# 1e-10 rad, roundings decide whether it gets by.
+_CLEARANCE_OF_ITERATION = 1e-9
+# Lengths are read from the same numbers [m].
+_LENGTH = 1e-12
+_CHUNK = 500  # racks that are looked at together, to bound the memory
+_KEPT = 8  # tables, of so many racks each, that are remembered
+_PROBES = 9  # racks that show how much of the reach is of interest
+
+_RACK_STEP = 0.002  # in which the rack goes from its middle to where it is wanted [m]
+_MOST_RACK_STEPS = 1000
+
+_TURNS_BACK = -1
+_REASONS = {
+    _TURNS_BACK: "the wheel centre turns back there",
+    GOAL: "the arm has swung by a right angle",
+    UNRESOLVED: "positions beyond it are not connected with it, or cannot be distinguished in "
+    "double precision",
+}
+
+
+class PositionError(KintrafoError, ValueError):
+    """A position that the suspension cannot take."""
+
+
+@dataclass(frozen=True)
+class Range:
+    """Arm angles over which the wheel height changes monotonically, the design position inside.
+
+    Attributes
+    ----------
+    arm_angle : tuple of float
+        At the lowest and at the highest wheel position [rad].
+    height : tuple of float
+        Lowest and highest height of the wheel centre [m].
+    lower_limit, upper_limit : str
+        What ends the range.
+    """
+
+    arm_angle: tuple[float, float]
+    height: tuple[float, float]
+    lower_limit: str
+    upper_limit: str
+
+
+def travel_range(model: Model, rack_position: float = 0.0) -> Range:
+    """Return the travel that the wheel can make from the design position.
+
+    Parameters
+    ----------
+    model : Model
+    rack_position : float, optional
+        Displacement of the rack [m].
+
+    Returns
+    -------
+    Range
+        Its ends are the last positions before the limit, to 1e-12 rad of the arm angle, or to 1e-9
+        rad where loops are solved by iteration.
+
+    Raises
+    ------
+    PositionError
+        If the rack cannot be there with the arm in its design position.
+
+    Examples
+    --------
+    >>> reach = travel_range(Model("reference_car"))
+    >>> [round(1e3 * height, 1) for height in reach.height]
+    [-65.6, 615.9]
+    """
+    with Arguments("travel_range") as given:
+        given.kind("model", model, Model, Model.NEEDED)
+        rack_position = given.number("rack_position", rack_position, "m")
+    return _range(model, float(rack_position))
+
+
+@lru_cache(maxsize=_KEPT)
+def _range(model: Model, rack_position: float) -> Range:
+    """Look for the ends once: whoever asks for one position at rest asks for the next."""
+    racks = np.array([rack_position], dtype=np.float64)
+    low, low_limits = _ends(model, racks.tobytes(), +1.0)
+    high, high_limits = _ends(model, racks.tobytes(), -1.0)
+    heights, _ = height_and_slope(model, np.append(low, high), rack_position)
+    return Range(
+        (float(low[0]), float(high[0])),
+        (float(heights[0]), float(heights[1])),
+        _in_words(model, low_limits[0]),
+        _in_words(model, high_limits[0]),
+    )
+
+
+@dataclass(frozen=True)
+class Branch:
+    """Arm angles and wheel heights over the reach, for each of several rack positions.
+
+    Attributes
+    ----------
+    angle : ndarray, shape (racks, points)
+        Falling [rad]; repeated where the reach ends earlier.
+    height : ndarray, shape (racks, points)
+        Height of the wheel centre, rising [m].
+    """
+
+    angle: Array
+    height: Array
+
+
+def branch(
+    model: Model,
+    rack_positions: ArrayLike,
+    *,
+    covering: tuple[float, float] | None = None,
+    to_the_end: bool = False,
+) -> Branch:
+    """Tabulate the reach for each rack position.
+
+    Parameters
+    ----------
+    model : Model
+    rack_positions : array_like, shape (racks,)
+        Displacements of the rack [m].
+    covering : tuple of float, optional
+        Lowest and highest wheel height that are of interest [m]: of many racks, the rest is left
+        out as far as a few of them show where it begins. What the table covers must be seen from
+        its heights.
+    to_the_end : bool, optional
+        Whether to locate the ends of the reach, as `travel_range` does. Otherwise the table ends a
+        few degrees before them, where the height gets steep, and is made much faster.
+
+    Returns
+    -------
+    Branch
+
+    Raises
+    ------
+    PositionError
+        If the rack cannot be there with the arm in its design position.
+    """
+    racks = np.asarray(rack_positions, dtype=np.float64)
+    steps = ARM_STEPS, ARM_STEPS
+    if covering is not None and racks.size > _CHUNK:
+        steps = _steps_to(model, racks, covering)
+    chunks = [
+        _tabulated(model, racks[i : i + _CHUNK].tobytes(), steps, to_the_end=to_the_end)
+        for i in range(0, racks.size, _CHUNK)
+    ]
+    return Branch(
+        np.concatenate([chunk.angle for chunk in chunks]),
+        np.concatenate([chunk.height for chunk in chunks]),
+    )
+
+
+def _steps_to(model: Model, racks: Array, covering: tuple[float, float]) -> tuple[int, int]:
+    """Return how many steps from design, down and up, some of the racks need, and one more."""
+    some = np.quantile(racks, np.linspace(0.0, 1.0, _PROBES), method="nearest")
+    heights = _tabulate(model, some, (ARM_STEPS, ARM_STEPS), to_the_end=False).height
+    below = (heights[:, ARM_STEPS::-1] > covering[0]).sum(axis=1).max()
+    above = (heights[:, ARM_STEPS:] < covering[1]).sum(axis=1).max()
+    return min(int(below) + 1, ARM_STEPS), min(int(above) + 1, ARM_STEPS)
+
+
+@lru_cache(maxsize=_KEPT)
+def _tabulated(model: Model, racks: bytes, steps: tuple[int, int], *, to_the_end: bool) -> Branch:
+    """Look at steps of the arm once: a report asks for the same racks at a hundred heights."""
+    return _tabulate(model, np.frombuffer(racks), steps, to_the_end=to_the_end)
+
+
+def _tabulate(model: Model, racks: Array, steps: tuple[int, int], *, to_the_end: bool) -> Branch:
+    """Look at so many steps down and up from design."""
+    design = steps[0]
+    grid = model.design_state[0] - ARM_STEP * np.arange(-steps[0], steps[1] + 1)
+    seen = _look(model, grid, racks[:, None])
+    _refuse_racks(model, racks, seen, design)
+    columns = np.arange(grid.size)
+    if to_the_end:
+        low, high = (_ends(model, racks.tobytes(), direction)[0] for direction in (+1.0, -1.0))
+        angles = np.clip(grid, high[:, None], low[:, None])
+        inside = (grid < low[:, None]) & (grid > high[:, None])
+        heights = np.where(
+            grid >= low[:, None],
+            height_and_slope(model, low, racks)[0][:, None],
+            height_and_slope(model, high, racks)[0][:, None],
+        )
+        return Branch(angles, np.where(inside, seen.height, heights))
+    fine = resolved(np.array(-ARM_STEP), seen)
+    down = np.logical_and.accumulate(fine[:, :design][:, ::-1], axis=1).sum(axis=1)
+    up = np.logical_and.accumulate(fine[:, design:], axis=1).sum(axis=1)
+    inner = np.clip(columns, design - down[:, None], design + up[:, None])
+    return Branch(grid[inner], np.take_along_axis(seen.height, inner, axis=1))
+
+
+def at_rest(
+    model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0, *, arm_rate: float = 0.0
+) -> tuple[Array, Array]:
+    """Return states and inputs with everything at rest but, if wanted, the arm.
+
+    Parameters
+    ----------
+    model : Model
+    arm_angle, rack_position : array_like
+        [rad] and [m]; they are broadcast.
+    arm_rate : float, optional
+        Rate of the arm angle [rad/s].
+
+    Returns
+    -------
+    states, inputs : ndarray
+        For the compiled functions.
+    """
+    angles, racks = np.broadcast_arrays(np.asarray(arm_angle, float), rack_position)
+    names = model.state_names
+    states = np.broadcast_to(model.design_state, (*angles.shape, len(names))).copy()
+    inputs = np.zeros((*angles.shape, len(model.input_names)))
+    states[..., names.index(model.names.arm)] = angles
+    states[..., names.index(f"{model.names.arm}_rate")] = arm_rate
+    if model.free_rack:
+        states[..., names.index(model.names.rack)] = racks
+    elif model.suspension.steered():
+        inputs[..., model.input_names.index("rack_position")] = racks
+    elif racks.any():
+        at = 1e3 * float(racks.flat[np.abs(racks).argmax()])
+        model.suspension.refuse_without_rack(f"displacement of the rack = {at:g} mm")
+    return states, inputs
+
+
+def height_and_slope(
+    model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0
+) -> tuple[Array, Array]:
+    """Return the height of the wheel centre and its exact derivative by the arm angle.
+
+    Parameters
+    ----------
+    model : Model
+    arm_angle, rack_position : array_like
+        [rad] and [m]; they are broadcast.
+
+    Returns
+    -------
+    height, slope : ndarray
+        [m] and [m/rad].
+    """
+    # velocities are linear in the rates: that at unit rate is the derivative
+    states, inputs = at_rest(model, arm_angle, rack_position, arm_rate=1.0)
+    signals = model.signals(states, inputs)
+    return signals["wheel_center_z"], signals["wheel_velocity"]
+
+
+@lru_cache(maxsize=2 * _KEPT)
+def _ends(model: Model, places: bytes, direction: float) -> tuple[Array, list[int]]:
+    """Swing the arm as far as it goes, for each rack position, of which there are the bytes.
+
+    Returns
+    -------
+    angle : ndarray, shape (racks,)
+        The last angle within reach [rad].
+    limits : list of int
+        What ends the reach, as in `_look`.
+    """
+    racks = np.frombuffer(places)
+    angles = model.design_state[0] + direction * ARM_STEP * np.arange(ARM_STEPS + 1)
+    seen = _look(model, angles, racks[:, None])
+    _refuse_racks(model, racks, seen, 0)
+    fine = np.logical_and.accumulate(resolved(np.array(direction * ARM_STEP), seen), axis=1)
+    last = fine.sum(axis=1)
+    ends, limits = angles[last], np.where(seen.usable[:, 0], GOAL, seen.limit[:, 0])
+    rows = np.flatnonzero((last < ARM_STEPS) & seen.usable[:, 0])
+    goals = np.full(rows.size, angles[-1])
+    ends[rows], limits[rows] = march(
+        lambda places, which: _look(model, places, racks[rows[which], None]),
+        ends[rows],
+        goals,
+        ARM_STEP,
+    )
+    clearance = clearance_of(model)
+
+    def usable(places: Array) -> NDArray[np.bool_]:
+        return _look(model, places[:, None], racks[:, None]).usable[:, 0]
+
+    return clear_of(usable, clearance, ends, limits, angles[0], direction), limits.tolist()
+
+
+def clearance_of(model: System) -> float:
+    """Return by how much a range ends before its limit [rad]."""
+    return _CLEARANCE_OF_ITERATION if iterates(model.equations) else _CLEARANCE
+
+
+def clear_of(
+    usable: Callable[[Array], NDArray[np.bool_]],
+    clearance: float,
+    ends: Array,
+    limits: NDArray[np.int64],
+    design: Array | float,
+    direction: float,
+) -> Array:
+    """Return the last angles within reach, clear of what ends it there.
+
+    Parameters
+    ----------
+    usable : callable
+        Tells which angles can be taken: where roundings decide, the next one cannot.
+    clearance : float
+        [rad]
+    ends : ndarray
+        From `march` [rad].
+    limits : ndarray of int
+        What ends it, from `march`.
+    design : ndarray or float
+        The angle at design [rad].
+    direction : float
+        Which way the arm has swung: 1 or -1.
+    """
+    # not past the design position, where a wheel that turns back at once has its end
+    swung = direction * (ends - design)
+    clear = np.where((swung > clearance) & (limits != GOAL), ends - direction * clearance, ends)
+    refused = (limits != GOAL) & (swung > clearance) & ~usable(clear)
+    while refused.any():
+        clearance *= 10.0
+        farther = np.where(swung > clearance, ends - direction * clearance, design)
+        clear = np.where(refused, farther, clear)
+        refused &= (swung > clearance) & ~usable(clear)
+    return clear
+
+
+def refuse_beyond(model: System, state: Array, inputs: Array) -> None:
+    """Refuse a state of rest at which a length is beyond what the file allows.
+
+    Raises
+    ------
+    PositionError
+    """
+    signals = model.signals(state, inputs)
+    passed = [one for one in model.allowed_lengths() if float(one.left(signals)) < -_LENGTH]
+    if passed:
+        message = (
+            f"it would come to rest where {' and '.join(one.beyond for one in passed)}: give it "
+            "stops that hold it before, or correct loads, springs or that length."
+        )
+        raise PositionError(message)
+
+
+def _look(model: Model, angles: Array, racks: Array) -> Seen:
+    """Return whether the loops close and the wheel rises as the arm does.
+
+    The limit of what is not usable is the index of a margin, or `_TURNS_BACK`; behind the margins
+    of the equations stand those of the lengths that the file allows.
+    """
+    states, inputs = at_rest(model, angles, racks, arm_rate=1.0)
+    margins = margins_at(model, states, inputs)
+    # a NaN behind a failed guard must not pass
+    closes = np.asarray((margins > 0.0).all(axis=-1))
+    heights, slopes = np.zeros(closes.shape), np.zeros(closes.shape)
+    signals = model.signals(states[closes], inputs[closes])
+    heights[closes], slopes[closes] = signals["wheel_center_z"], signals["wheel_velocity"]
+    allowed = model.allowed_lengths()
+    left = np.ones((*closes.shape, len(allowed)))
+    for column, one in enumerate(allowed):
+        left[closes, column] = one.left(signals)
+    margins = np.concatenate([margins, left], axis=-1)
+    failed = ~(margins > 0.0)
+    fine = ~failed.any(axis=-1)
+    # the arm's angle falls as the wheel rises (Eq. 6)
+    limits = np.where(fine, _TURNS_BACK, failed.argmax(axis=-1))
+    stand = attitudes(model, states, inputs, closes)
+    return Seen(fine & (slopes < 0.0), limits, heights, slopes, margins, stand)
+
+
+def margins_at(model: Model, states: Array, inputs: Array) -> Array:
+    """Return what must be positive at a position."""
+    margins = model.evaluate("margins", states, inputs)
+    # what guards an angle that no position depends on, as the azimuth of a vertical shaft
+    acting = {guard for guards in model.equations.ACTING_GUARDS.values() for guard in guards}
+    margins[..., [guard not in acting for guard in range(margins.shape[-1])]] = 1.0
+    return margins
+
+
+def _in_words(model: Model, limit: int) -> str:
+    if limit < 0:
+        return _REASONS[limit]
+    closing: list[str] = [meaning for _, meaning in model.equations.GUARDS]
+    return [*closing, *(one.meaning for one in model.allowed_lengths())][limit]
+
+
+def _refuse_racks(model: Model, racks: Array, seen: Seen, column: int) -> None:
+    """Refuse racks that cannot get where they are with the arm in its design position."""
+    closes = (seen.margins[:, column] > 0.0).all(axis=-1)
+    first, limit = -1, -1
+    if not closes.all():
+        first = int(np.flatnonzero(~closes)[0])
+        limit = int(seen.limit[first, column])
+    else:
+        for side in (racks.argmin(), racks.argmax()):
+            way = way_of_rack(float(racks[side]))
+            margins = margins_at(model, *at_rest(model, model.design_state[0], way))
+            blocked = ~margins_stay(margins)
+            if blocked.any():
+                place = int(blocked.argmax())
+                first, limit = int(side), int(margins[place : place + 2].min(axis=0).argmin())
+    if first < 0:
+        return
+    message = (
+        f"the rack cannot be at {racks[first] * 1e3:g} mm with the suspension in its design "
+        f"position: {_in_words(model, limit)}. Choose a smaller displacement."
+    )
+    raise PositionError(message)
+
+
+def way_of_rack(rack: float) -> Array:
+    """Return places from the middle of the rack to where it is wanted."""
+    count = min(2 + int(abs(rack) / _RACK_STEP), _MOST_RACK_STEPS)
+    return np.linspace(0.0, rack, 1 + count)

@@ -1,0 +1,144 @@
+"""What rods hold of a beam that has to heave and roll.
+
+A rod of fixed length takes one of the six freedoms of a beam, if it does not repeat what others
+do. Its row says how fast it would grow in a motion of the beam: along the rod, and the moment of
+that direction about the middle of the axle. The rank of the rows is how many freedoms are taken.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.vectors import cross, unit_vector
+
+Array = NDArray[np.float64]
+Ends = tuple[Array, Array]
+"""Where a rod is at design: on the chassis, on the axle [m]."""
+
+NEEDED = 4
+"""As many rods leave a beam two freedoms: heave and roll."""
+
+# Turns are measured by what they move at this distance from the middle of the axle [m].
+_RADIUS = 0.5
+# Held at its height and inclination, the beam may move so many times what a rod grows.
+_LOOSEST = 100.0
+# A singular value below this is nothing: rods that repeat others exactly, as files can say it.
+_NOTHING = 1e-6
+_MOTIONS = ("forward", "to the left", "up", "about x (roll)", "about y (pitch)", "about z (yaw)")
+_HEAVE, _ROLL = np.eye(6)[2], np.eye(6)[3]
+_FREEDOMS = 6
+
+
+@dataclass(frozen=True)
+class Hold:
+    """What some rods hold.
+
+    Attributes
+    ----------
+    names : tuple of str
+    rows : ndarray, shape (rods, 6)
+        Growth of each rod by shifts of the beam along x, y, z, and by turns about them, those in
+        units of what they move at half a metre.
+    """
+
+    names: tuple[str, ...]
+    rows: Array
+
+    @classmethod
+    def of(cls, rods: Mapping[str, Ends], center: Array) -> "Hold":
+        """Return what rods hold of a beam whose middle is at some place [m]."""
+        rows = []
+        for chassis, axle in rods.values():
+            along = unit_vector(axle - chassis)
+            rows.append([*along, *(cross(axle - center, along) / _RADIUS)])
+        return cls(tuple(rods), np.array(rows).reshape(-1, _FREEDOMS))
+
+    @property
+    def sizes(self) -> Array:
+        """Return the singular values of the rows, the largest first."""
+        return np.asarray(np.linalg.svd(self.rows, compute_uv=False))
+
+    @property
+    def rank(self) -> int:
+        """Return how many freedoms are taken."""
+        return int((self.sizes > _NOTHING).sum())
+
+    def guides(self) -> tuple[str, ...]:
+        """Return the four rods that close the loops of the equations: those that hold firmest.
+
+        Of five that leave one freedom, the other one gives way with all of them on their bushes.
+        None, where no four of them hold the axle.
+        """
+        if len(self.names) != NEEDED + 1 or self.rank != NEEDED + 1:
+            return self.names
+        parts = [self._without(which) for which in range(len(self.names))]
+        fine = [part for part in parts if not part.problems()]
+        return max(fine, key=lambda part: part.firmness).names if fine else ()
+
+    @property
+    def firmness(self) -> float:
+        """What a rod grows by, at least, for a unit motion at a height and an inclination."""
+        return self._at_rest()[0]
+
+    def _without(self, which: int) -> "Hold":
+        names = tuple(name for i, name in enumerate(self.names) if i != which)
+        return Hold(names, np.delete(self.rows, which, axis=0))
+
+    def problems(self) -> list[str]:
+        """Say why these rods do not leave heave and roll, and nothing else."""
+        if len(self.names) != NEEDED:
+            return [self._miscounted()]
+        firm, free = self._at_rest()
+        if firm * _LOOSEST >= 1.0:
+            return []
+        times = "without end" if firm < _NOTHING else f"{1.0 / firm:.0f} times that"
+        problem = (
+            f"[rods] {', '.join(self.names)} hardly hold the axle, which moves {_told(free)}: if "
+            f"a rod is a little longer, it moves {times}, at one height and inclination of the "
+            f"axle; at most {_LOOSEST:g} times are allowed. Of the rods two or more must stop it "
+            "along x and in pitch, and one or two triangulated ones along y: a Panhard rod, or "
+            "upper links that meet."
+        )
+        return [problem]
+
+    def _at_rest(self) -> tuple[float, Array]:
+        """Return how firmly the beam is held at its height and inclination, and what is loosest."""
+        _, sizes, directions = np.linalg.svd(np.array([*self.rows, _HEAVE, _ROLL]))
+        return float(sizes[-1]), directions[-1]
+
+    def _miscounted(self) -> str:
+        """Say what these rods, more or fewer than four, leave of the freedoms of a beam."""
+        given, rank = len(self.names), self.rank
+        begin = (
+            f"[rods] {given} rod{'s' if given != 1 else ''}, {', '.join(self.names) or 'none'}: "
+            f"{NEEDED} are needed. A beam has six freedoms, an axle keeps two of them, heave and "
+            f"roll, and each rod takes one. These take {rank}"
+        )
+        if given < NEEDED:
+            missing = "rod" if given == NEEDED - 1 else "rods"
+            return f"{begin}, and {_FREEDOMS - rank} are left. Add the missing {missing}."
+        sizes = ", ".join(f"{size:.3g}" for size in self.sizes)
+        begin += f" (the singular values of their constraints are {sizes}), and "
+        if rank == NEEDED:
+            return (
+                f"{begin}2 are left: the rods repeat each other, and would be strained against "
+                "each other. Leave one of them out."
+            )
+        if rank == _FREEDOMS:
+            return f"{begin}none is left: the axle cannot move. Leave rods out."
+        _, _, directions = np.linalg.svd(self.rows)
+        return (
+            f"{begin}one is left, {_told(directions[-1])}: such an axle heaves and rolls only "
+            "because its bushes give way, and here rods are rigid. Leave one of the rods out: "
+            "three links and a Panhard rod, or four links of which two are triangulated. Or say in "
+            "[bushings] what gives way: compliance and deflection take all five."
+        )
+
+
+def _told(motion: Array) -> str:
+    """Return a motion of the beam in words: its largest part, and all of it in figures."""
+    most = int(np.abs(motion).argmax())
+    figures = (np.round(motion / motion[most], 2) + 0.0).tolist()
+    return f"{_MOTIONS[most]} (x, y, z, roll, pitch and yaw as {figures})"

@@ -1,0 +1,64 @@
+"""What holds the parts of a rigid axle together: rods, bearings, springs and dampers.
+
+The parts are the beam, both wheels and the rods by their names. Points of a rod are its name and
+``_chassis`` or ``_axle``; those of a side end in ``_left`` or ``_right``.
+"""
+
+from collections.abc import Iterable
+
+from ...corner.structure import FORCES_OF_A_DAMPER, Ball, Cross, Fixed, Joint, Line, Structure
+from ..axle.axle import LEFT, RIGHT
+
+BEAM, CHASSIS = "beam", "chassis"
+CENTER = "wheel_center"
+MIDDLE = "axle_middle"
+"""The point between the wheel centres, at which an anti-roll bar acts."""
+
+_SIDES = (LEFT, RIGHT)
+# The signals and inputs of a side that are the force of a spring or a damper.
+_FORCES = {
+    "spring": ("spring_spring_force", "spring_actuator"),
+    "damper": tuple(f"damper_{name}" for name in FORCES_OF_A_DAMPER),
+}
+_UPWARD = (0.0, 0.0, 1.0)
+
+
+def structure_of(rods: Iterable[str]) -> Structure:
+    """Return the joints and lines of an axle on rods of some names.
+
+    Parameters
+    ----------
+    rods : iterable of str
+    """
+    bearings = [Fixed(BEAM, f"wheel_{side}", (f"{CENTER}_{side}",)) for side in _SIDES]
+    lines = [
+        Line(
+            f"{name}_{side}",
+            tuple(f"{side}_{force}" for force in forces),
+            CHASSIS,
+            BEAM,
+            (f"{name}_top_{side}", f"{name}_seat_{side}"),
+        )
+        for name, forces in _FORCES.items()
+        for side in _SIDES
+    ]
+    # how the bar gets to the body is left out
+    return Structure((*_of_rods(rods), *bearings), lines, {MIDDLE: ""})
+
+
+def of_a_file(rods: Iterable[str]) -> Structure:
+    """Return the joints that a file gives bushes to: those of both bearings are one."""
+    return Structure((*_of_rods(rods), Fixed(BEAM, "wheel", (CENTER,))), ())
+
+
+def _of_rods(rods: Iterable[str]) -> list[Joint]:
+    """Return a cross at the chassis and a ball joint at the axle for each rod."""
+    return [
+        joint
+        for rod in rods
+        for inner, outer in [(f"{rod}_{CHASSIS}", f"{rod}_axle")]
+        for joint in (
+            Ball(BEAM, rod, (outer,), inner),
+            Cross(CHASSIS, rod, (inner,), outer, _UPWARD),
+        )
+    ]

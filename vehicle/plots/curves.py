@@ -1,0 +1,276 @@
+"""Curves for print: one figure for each variable of a dataset, and one page for each group.
+
+Targets and limits are drawn into the curves that they are about. How a curve is drawn is in
+`kintrafo.pictures.curves`.
+"""
+
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from functools import partial
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_pdf import PdfPages
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments, shown
+from ...core.errors import InputError
+from ...core.files import Paths, refuse, replacing
+from ...core.quantities import displayed
+from ...pictures.curves import COLUMNS, dimension_along, draw, drawable, is_constant
+from ...pictures.figures import METADATA, STYLE, lay_out, save
+from ..analysis.characteristics.groups import ORDER, group_of
+from ..studies.goals import Goal
+from .goals import about, mark_sides
+
+Array = NDArray[np.float64]
+
+FORMATS = ("png", "svg", "pdf")
+# Positions have a design value at zero; time has not.
+_WITH_DESIGN = ("wheel_travel", "rack_position", "roll_angle", "steering_wheel_angle")
+
+
+def write(
+    dataset: xr.Dataset,
+    folder: str | Path,
+    *,
+    formats: Sequence[str] = ("png",),
+    title: str = "",
+    suffix: str = "",
+    goals: Sequence[Goal] = (),
+    progress: Callable[[float], None] | None = None,
+    force: bool = False,
+    inputs: Paths = (),
+) -> list[Path]:
+    """Write one figure for each curve, and an overview of each group.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Variables over one dimension or two.
+    folder : str or pathlib.Path
+        Made if there is none.
+    formats : sequence of str, optional
+        Of 'png', 'svg' and 'pdf'.
+    title : str, optional
+        Stands above each figure, usually the name of the data.
+    suffix : str, optional
+        Ends the name of each file, before its ending.
+    goals : sequence of Goal, optional
+        Targets and limits, drawn into the curves that they are about; of an axle those over its
+        motion alone.
+    progress : callable, optional
+        Called with the part that is done, up to 1.
+    force : bool, optional
+        Whether files that somebody else wrote are replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
+
+    Returns
+    -------
+    list of pathlib.Path
+        ``overview_<group><suffix>.<format>`` and ``<variable><suffix>.<format>``.
+
+    Raises
+    ------
+    InputError
+        If one of them must not be written, before any is; or if one cannot be.
+    """
+    check_formats(formats=formats)
+    with Arguments("figures") as given:
+        given.dataset(dataset)
+        given.path("folder", folder)
+        given.text("title", title)
+        given.text("suffix", suffix)
+        given.function("progress", progress)
+        given.flag("force", force)
+        given.paths("inputs", inputs)
+    pages = {f"overview_{_slug(group)}": names for group, names in grouped(dataset, goals).items()}
+    single = {str(name): (name,) for name in drawable(dataset)}
+    drawn = {**pages, **single}
+    files = {n: [Path(folder) / f"{n}{suffix}.{ending}" for ending in formats] for n in drawn}
+    refuse([path for paths in files.values() for path in paths], force=force, inputs=inputs)
+    for index, (name, variables) in enumerate(drawn.items()):
+        with rc_context(STYLE):
+            one = figure(dataset, variables, title=title, alone=name in single, goals=goals)
+            for path in files[name]:
+                save(one, path, force=force, inputs=inputs)
+        if progress is not None:
+            progress((index + 1) / len(drawn))
+    return [path for paths in files.values() for path in paths]
+
+
+def write_overview(
+    dataset: xr.Dataset,
+    path: str | Path,
+    names: Sequence[Hashable] = (),
+    title: str = "",
+    *,
+    goals: Sequence[Goal] = (),
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write the curves of some variables on one page; a PDF has a page for each group.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+    path : str or pathlib.Path
+        The ending is the format: ``.png``, ``.svg`` or ``.pdf``.
+    names : sequence of str, optional
+        By default all that vary.
+    title : str, optional
+    goals : sequence of Goal, optional
+        Targets and limits, drawn into the curves that they are about; of an axle those over its
+        motion alone.
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InputError
+        If the file must not or cannot be written.
+    """
+    check_formats([path])
+    with Arguments("figures") as given:
+        given.dataset(dataset)
+        given.text("title", title)
+        given.flag("force", force)
+        given.paths("inputs", inputs)
+        if not given.refused:
+            names = given.names("names", names, map(str, drawable(dataset)))
+    pages = {"": tuple(names)} if names else grouped(dataset, goals)
+    with rc_context(STYLE):
+        if Path(path).suffix.lower() != ".pdf":
+            chosen = tuple(name for page in pages.values() for name in page)
+            one = figure(dataset, chosen, title=title, alone=False, goals=goals)
+            return save(one, path, force=force, inputs=inputs)
+        drawn = BytesIO()
+        with PdfPages(drawn, metadata=METADATA["pdf"]) as document:
+            for group, variables in pages.items():
+                heading = ": ".join(text for text in (title, group) if text)
+                page = figure(dataset, variables, title=heading, alone=False, goals=goals)
+                document.savefig(lay_out(page))
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        temporary.write_bytes(drawn.getvalue())
+    return Path(path)
+
+
+def check_formats(paths: Sequence[str | Path] = (), formats: Sequence[str] = ()) -> None:
+    """Refuse names of files, and formats, in which no figure can be written."""
+    with Arguments("figures") as given:
+        for name, listed in (("paths", paths), ("formats", formats)):
+            if not isinstance(listed, list | tuple):
+                given.refuse(f"{name} = {shown(listed)}: a list is needed.")
+            for path in () if given.refused or name == "formats" else listed:
+                given.path("path", path)
+    endings = {str(path): Path(path).suffix.lower().removeprefix(".") for path in paths}
+    wrong = [given for given, ending in endings.items() if ending not in FORMATS]
+    problems = [f"{given}: a figure ends in .{', .'.join(FORMATS)}." for given in wrong]
+    problems += [
+        f"{name!r} is no format of figures; there are {', '.join(FORMATS)}."
+        for name in formats
+        if name not in FORMATS
+    ]
+    if problems:
+        raise InputError(problems, "figures")
+
+
+def grouped(dataset: xr.Dataset, goals: Sequence[Goal] = ()) -> dict[str, tuple[Hashable, ...]]:
+    """Return the variables that belong on one page, by the name of their group.
+
+    What does not vary is left out, unless nothing varies, or there are goals about it.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+    goals : sequence of Goal, optional
+        Targets and limits that are to be drawn.
+
+    Returns
+    -------
+    dict of str to tuple of str
+        In the order of the report.
+    """
+    with Arguments("figures") as given:
+        given.dataset(dataset)
+    groups: dict[str, tuple[Hashable, ...]] = {}
+    names = drawable(dataset)
+    varying = tuple(
+        name
+        for name in names
+        if not is_constant(displayed(dataset[name])) or _is_wanted(dataset[name], goals)
+    )
+    for name in varying or names:
+        group = group_of(name)
+        groups[group] = (*groups.get(group, ()), name)
+    return {group: groups[group] for group in ORDER if group in groups}
+
+
+def _is_wanted(data: xr.DataArray, goals: Sequence[Goal]) -> bool:
+    return any(about(goals, data, dimension_along(data)).values())
+
+
+def _slug(text: str) -> str:
+    """Return a text as part of the name of a file."""
+    return "_".join(text.lower().split())
+
+
+def figure(
+    dataset: xr.Dataset,
+    names: Sequence[Hashable],
+    *,
+    title: str = "",
+    alone: bool = True,
+    columns: int = COLUMNS,
+    goals: Sequence[Goal] = (),
+) -> Figure:
+    """Draw curves of some variables, each in its own axes.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+    names : sequence of str
+        Variables over one dimension or two.
+    title : str, optional
+    alone : bool, optional
+        Whether this is the figure of one curve, with its definition where there is one.
+    columns : int, optional
+        How many curves stand beside each other at most.
+    goals : sequence of Goal, optional
+        Targets and limits, drawn into the curves that they are about; of an axle those over its
+        motion alone.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    return draw(
+        dataset,
+        names,
+        title=title,
+        alone=alone,
+        columns=columns,
+        positions=_WITH_DESIGN,
+        mark=partial(_mark, goals),
+    )
+
+
+def _mark(
+    goals: Sequence[Goal],
+    axes: Axes,
+    data: xr.DataArray,
+    along: str,
+    colours: Mapping[str, str],
+) -> Array:
+    return mark_sides(axes, about(goals, data, along), colours)

@@ -1,0 +1,125 @@
+"""Targets and limits of characteristics, drawn into their curves."""
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from ...core.errors import InputError
+from ...core.quantities import display_of
+from ..assembly.by_wheel import SIDES, WHEEL
+from ..studies.goals import Goal, Limit, Target
+from ..studies.sweep_axes import sweep_axis
+
+_RED = "#aa0000"
+
+
+def of_curve(goals: Iterable[Goal], name: str, over: str) -> list[Goal]:
+    """Return the goals about a characteristic over something."""
+    return [goal for goal in goals if (goal.name, goal.over) == (name, over)]
+
+
+def about(goals: Iterable[Goal], data: xr.DataArray, along: str) -> dict[str, list[Goal]]:
+    """Return the goals about the curves of a panel, by the side of the axle that they are about.
+
+    Parameters
+    ----------
+    goals : iterable of Goal
+        Those of other curves are left out.
+    data : xarray.DataArray
+        The curves; those of both wheels of an axle are over ``wheel``.
+    along : str
+        The dimension along the axis.
+
+    Returns
+    -------
+    dict of str to list of Goal
+        Empty for what is about all curves: a goal of both wheels is one where they have the same.
+
+    Raises
+    ------
+    InputError
+        If some are about parallel travel and others about that of one wheel: the axis, which is the
+        same, does not say which of them the curves are over.
+    """
+    own = [goal for goal in goals if sweep_axis(goal.over).along.name == along]
+    name = str(data.name)
+    found = {"": [goal for goal in own if goal.name == name]}
+    if WHEEL in data.dims:
+        both = [[goal for goal in own if goal.name == f"{name}_{side}"] for side in SIDES]
+        found[""] += [goal for goal in both[0] if _has_like(both[1], goal)]
+        for side, some, others in zip(SIDES, both, reversed(both), strict=True):
+            found[side] = [goal for goal in some if not _has_like(others, goal)]
+    ways = dict.fromkeys(goal.over for some in found.values() for goal in some)
+    if len(ways) > 1:
+        words = " and ".join(ways)
+        problem = f"goals of {name} over {words} have one axis. Give those of these curves alone."
+        raise InputError([problem], "figures")
+    return found
+
+
+def _has_like(goals: Iterable[Goal], goal: Goal) -> bool:
+    """Tell whether one of some goals is another in nothing but its name."""
+    return any(but_name(other) == but_name(goal) for other in goals)
+
+
+def but_name(goal: Goal) -> tuple[type, dict[str, list[float] | str]]:
+    """Return all of a goal but its name, to be compared."""
+    values = {key: np.asarray(value).tolist() for key, value in vars(goal).items() if key != "name"}
+    return type(goal), values
+
+
+def mark_sides(
+    axes: Axes, goals: Mapping[str, Iterable[Goal]], colours: Mapping[str, str]
+) -> NDArray[np.float64]:
+    """Mark what `about` returns, that of one side in the colour of its curve; as `mark`."""
+    return np.concatenate(
+        [mark(axes, some, side, colours[side] if side else "") for side, some in goals.items()]
+    )
+
+
+def mark(
+    axes: Axes, goals: Iterable[Goal], side: str = "", colour: str = ""
+) -> NDArray[np.float64]:
+    """Mark what characteristics are wanted to be, and what they must not pass.
+
+    A target is a point with what matters of it to either side; of limits, arrows stand beyond.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    goals : iterable of Goal
+        All of them are marked.
+    side : str, optional
+        Which curve they are about, where it is one of several.
+    colour : str, optional
+        By default that of targets and that of limits.
+
+    Returns
+    -------
+    ndarray
+        The values that were marked, as they are displayed.
+    """
+    marked: list[NDArray[np.float64]] = [np.empty(0)]
+    whose = f", {side}" if side else ""
+    for goal in goals:
+        factor, step = display_of(goal.quantity.attributes()).factor, sweep_axis(goal.over).factor
+        if isinstance(goal, Target):
+            axes.errorbar(
+                step * goal.at, factor * goal.value, factor * goal.within,
+                fmt="o", color=colour or "black", markersize=3, linewidth=1.0, capsize=2,
+                label=f"target{whose}",
+            )  # fmt: skip
+            marked += [factor * (goal.value + sign * goal.within) for sign in (-1.0, 1.0)]
+        if isinstance(goal, Limit):
+            for bound, marker in ((goal.least, 6), (goal.most, 7)):  # carets up and down
+                if np.isfinite(bound):
+                    at = np.full(goal.at.size, factor * bound)
+                    axes.plot(
+                        step * goal.at, at, ":", marker=marker, color=colour or _RED,
+                        linewidth=1.2, label=f"limit{whose}",
+                    )  # fmt: skip
+                    marked.append(at)
+    return np.concatenate(marked)

@@ -1,0 +1,75 @@
+"""Figures of several panels with one legend below them."""
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ...core.files import Paths
+from ...pictures.figures import STYLE, save, written_plainly
+from .curves import check_formats
+
+_COLUMNS = 2
+
+
+def write_panels(
+    draw: Callable[[Axes, str], None],
+    names: Sequence[str],
+    path: str | Path,
+    *,
+    height: float,
+    title: str,
+    force: bool,
+    inputs: Paths,
+) -> Path:
+    """Write one figure of several panels, two beside each other.
+
+    Parameters
+    ----------
+    draw : callable
+        Takes the axes of a panel and its name.
+    names : sequence of str
+        The panels.
+    path : str or pathlib.Path
+        The ending is the format: ``.png``, ``.svg`` or ``.pdf``.
+    height : float
+        Of a row [in].
+    title : str
+        Stands above the figure.
+    force : bool
+        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path
+        Files that are never replaced.
+
+    Returns
+    -------
+    pathlib.Path
+    """
+    check_formats([path])
+    columns = min(_COLUMNS, len(names))
+    rows = -(-len(names) // columns)
+    with rc_context(STYLE):
+        figure = Figure(figsize=(4.8 * columns, 0.7 + height * rows), layout="constrained")
+        panels = figure.subplots(rows, columns, squeeze=False).ravel()
+        for axes, name in zip(panels, names, strict=False):
+            draw(axes, name)
+        for axes in panels[len(names) :]:
+            axes.remove()
+        found = [panel.get_legend_handles_labels() for panel in panels[: len(names)]]
+        named = {
+            label: line
+            for lines, labels in found
+            for line, label in zip(lines, labels, strict=True)
+        }
+        if named:
+            figure.legend(
+                named.values(),
+                named.keys(),
+                loc="outside lower center",
+                ncols=2 * columns,
+                frameon=False,
+            )
+        figure.suptitle(title, fontsize=11)
+        return save(written_plainly(figure), path, force=force, inputs=inputs)

@@ -1,0 +1,99 @@
+"""A rigid axle at design from above, from the left and from behind."""
+
+from collections.abc import Iterator
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Ellipse, Rectangle
+
+from ...core.arguments import Arguments
+from ..corner.corner import Array
+from ..models.rigid.axle import SIDES, RigidAxle
+
+_RODS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7")
+_BEAM, _SPRING, _DAMPER, _WHEEL = "#4a525a", "#e69f00", "#56b4e9", "#cfd6dc"
+# What a view has to the right and upward: a component of a point, and its sense.
+_VIEWS = {
+    "from above": ((1, -1.0), (0, 1.0)),
+    "from the left": ((0, -1.0), (2, 1.0)),
+    "from behind": ((1, -1.0), (2, 1.0)),
+}
+_NAMES = "xyz"
+_LEFTWARD = np.array([0.0, 1.0, 0.0])
+# A tyre is so wide, in parts of its radius.
+_WIDTH = 0.6
+_RADIUS = 0.33  # of wheels that stand on no ground [m]
+
+
+def views(axle: RigidAxle) -> Figure:
+    """Draw a rigid axle at its design position in three views.
+
+    Parameters
+    ----------
+    axle : RigidAxle
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    with Arguments("views") as given:
+        given.kind("axle", axle, RigidAxle, RigidAxle.NEEDED)
+    result = Figure(figsize=(6.4, 5.6), layout="constrained")
+    grid = result.add_gridspec(2, 2)
+    places = (grid[0, 0], grid[0, 1], grid[1, 0])
+    lines = list(_lines(axle))
+    for (title, ways), place in zip(_VIEWS.items(), places, strict=True):
+        axes = result.add_subplot(place)
+        _draw(axes, axle, lines, ways)
+        axes.set_title(title[:1].upper() + title[1:])
+    legend = result.add_subplot(grid[1, 1])
+    legend.set_axis_off()
+    handles = {label: axes.plot([], [], color=c, lw=w)[0] for label, c, w, *_ in lines}
+    legend.legend(handles.values(), handles.keys(), loc="center", frameon=False, fontsize=10)
+    return result
+
+
+def _lines(axle: RigidAxle) -> Iterator[tuple[str, str, float, Array]]:
+    """Yield what is drawn as lines: its label, colour, width and points, (n, 3) [m]."""
+    half = axle.half_track * _LEFTWARD
+    yield "axle", _BEAM, 5.0, np.array([axle.center - half, axle.center + half])
+    for color, (name, ends) in zip(_RODS, axle.ends().items(), strict=True):
+        yield name.replace("_", " "), color, 2.4, np.array(ends)
+    for part, color in (("spring", _SPRING), ("damper", _DAMPER)):
+        for side in SIDES:
+            points = axle.points(side)
+            ends = points[f"{part}_top"], points[f"{part}_seat"]
+            yield f"{part}s", color, 2.0, np.array(ends)
+
+
+def _draw(
+    axes: Axes,
+    axle: RigidAxle,
+    lines: list[tuple[str, str, float, Array]],
+    ways: tuple[tuple[int, float], tuple[int, float]],
+) -> None:
+    (right, mirror), (up, _) = ways
+    sense = np.array([mirror, 1.0])
+    radius = axle.tyre_radius() or _RADIUS
+    sizes = {0: 2.0 * radius, 1: _WIDTH * radius, 2: 2.0 * radius}
+    for sign in (-1.0, 1.0):
+        center = (axle.center + sign * axle.half_track * _LEFTWARD)[[right, up]] * sense
+        size = sizes[right], sizes[up]
+        if {right, up} == {0, 2}:
+            axes.add_patch(Ellipse(center, *size, color=_WHEEL, zorder=0))
+        else:
+            corner = center - 0.5 * np.array(size)
+            axes.add_patch(Rectangle(corner, *size, color=_WHEEL, zorder=0))
+    for _, color, width, points in lines:
+        seen = points[:, [right, up]] * sense
+        axes.plot(*seen.T, color=color, lw=width, solid_capstyle="round")
+        if width < 5.0:
+            axes.plot(*seen.T, "o", color=color, ms=3.5)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.margins(0.06)
+    ticks = [f"{_NAMES[right]} [m]", f"{_NAMES[up]} [m]"]
+    axes.set_xlabel(ticks[0])
+    axes.set_ylabel(ticks[1])
+    if mirror < 0.0:
+        axes.xaxis.set_major_formatter(lambda value, _: f"{-value + 0.0:.4g}".replace("-", "−"))

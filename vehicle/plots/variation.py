@@ -1,0 +1,204 @@
+"""What values of the input file do to the characteristics: bars, bands, before and after."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from textwrap import fill
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
+
+from ...core.files import Paths
+from ...core.quantities import bracketed, display_of, displayed, long_name
+from ...pictures.figures import BLUE, ORANGE
+from ..assembly.of import assembly_of
+from ..studies.curves import Curves
+from ..studies.evaluation import common_positions
+from ..studies.goals import Limit
+from ..studies.optimise import Optimum
+from ..studies.sensitivity import PLACE, Effect, effects
+from ..studies.sweep_axes import sweep_axis
+from ..studies.tolerance import QUANTILE
+from .goals import mark, of_curve
+from .panels import write_panels
+
+# Before and after, told apart in black and white too.
+_PAIR = ((BLUE, "-"), (ORANGE, "--"))
+# More bars than this are no ranking any more.
+_MOST_BARS = 10
+# Few bars do not become fatter than these many.
+_LEAST_ROOM = 4
+# So many letters of a name stand beside an axis of these pictures.
+_LETTERS = 28
+
+
+def write_bars(
+    dataset: xr.Dataset,
+    path: str | Path,
+    names: Sequence[str],
+    *,
+    at: float = 0.0,
+    title: str = "",
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write which values move characteristics most, each in its own axes for each unit.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `kintrafo.vehicle.studies.sensitivity`.
+    path : str or pathlib.Path
+        The ending is the format: ``.png``, ``.svg`` or ``.pdf``.
+    names : sequence of str
+        Characteristics.
+    at : float, optional
+        Position [m].
+    title : str, optional
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
+
+    Returns
+    -------
+    pathlib.Path
+    """
+    panels = {
+        f"{name} {unit}": (name, [effect for effect in found if effect.unit == unit])
+        for name, found in ((name, list(effects(dataset, name, at))) for name in names)
+        for unit in dict.fromkeys(effect.unit for effect in found)
+    }
+    return write_panels(
+        lambda axes, key: _bars(axes, dataset, *panels[key]),
+        [*panels],
+        path,
+        height=2.6,
+        title=title,
+        force=force,
+        inputs=inputs,
+    )
+
+
+def write_bands(
+    dataset: xr.Dataset,
+    path: str | Path,
+    names: Sequence[str],
+    *,
+    limits: Sequence[Limit] = (),
+    title: str = "",
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write the bands of characteristics over the positions, each in its own axes.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `kintrafo.vehicle.studies.tolerance`.
+    path, names, title, force, inputs
+        As of `write_bars`.
+    limits : sequence of Limit, optional
+        Drawn where they are about one of the curves.
+
+    Returns
+    -------
+    pathlib.Path
+    """
+    return write_panels(
+        lambda axes, name: _bands(axes, dataset, name, limits),
+        names,
+        path,
+        height=2.5,
+        title=title,
+        force=force,
+        inputs=inputs,
+    )
+
+
+def write_optimum(
+    found: Optimum,
+    path: str | Path,
+    *,
+    title: str = "",
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write what there were targets and limits for, before and after, with these.
+
+    Parameters
+    ----------
+    found : Optimum
+        From `kintrafo.vehicle.studies.optimise`.
+    path, title, force, inputs
+        As of `write_bars`.
+
+    Returns
+    -------
+    pathlib.Path
+    """
+    models = {"before": assembly_of(found.start), "after": assembly_of(found.suspension)}
+    goals = [*found.targets, *found.limits]
+    panels = {f"{goal.name} over {goal.over}": goal for goal in goals}
+    positions = {
+        over: common_positions([*models.values()], over) for over in {goal.over for goal in goals}
+    }
+
+    def draw(axes: Axes, key: str) -> None:
+        panel = panels[key]
+        along = positions[panel.over]
+        quantity, over = panel.quantity, sweep_axis(panel.over).along
+        factor, step = (
+            display_of(quantity.attributes()).factor,
+            display_of(over.attributes()).factor,
+        )
+        for (label, model), (colour, dashes) in zip(models.items(), _PAIR, strict=True):
+            values = Curves(panel.over, along, (panel.name,)).of(model)[0]
+            axes.plot(step * along, factor * values, dashes, color=colour, label=label)
+        mark(axes, of_curve(goals, panel.name, panel.over))
+        _around(axes, over.attributes() | {"long_name": over.long_name}, quantity.attributes())
+
+    return write_panels(draw, [*panels], path, height=2.6, title=title, force=force, inputs=inputs)
+
+
+def _bars(axes: Axes, dataset: xr.Dataset, name: str, found: Sequence[Effect]) -> None:
+    defined = [effect for effect in found if np.isfinite(effect.size)]
+    moved = [e for e in defined if e.size and abs(e.size) > 1e-6 * abs(defined[0].size)]
+    words = dict(zip(dataset[PLACE].values, dataset["place_name"].values, strict=True))
+    places = [str(words[effect.place]) for effect in moved[:_MOST_BARS]]
+    values = [effect.size for effect in moved[:_MOST_BARS]]
+    if not values:
+        nothing = "none of them moves it" if defined else "no derivative here"
+        axes.text(0.5, 0.5, nothing, ha="center", va="center", transform=axes.transAxes)
+        axes.set_yticks([])
+    axes.barh(places, values, color=[BLUE if v > 0.0 else ORANGE for v in values], height=0.7)
+    axes.set_ylim(max(len(values), _LEAST_ROOM) - 0.5, -0.5)
+    axes.axvline(0.0, color="#888888", linewidth=0.8)
+    axes.grid(visible=False, axis="y")
+    axes.tick_params(labelsize=8)
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=5))
+    axes.set_xlabel(f"[{found[0].unit}]", fontsize=9)
+    axes.set_title(long_name(dataset[name]).removeprefix("sensitivity of "), fontsize=10)
+
+
+def _bands(axes: Axes, dataset: xr.Dataset, name: str, limits: Sequence[Limit]) -> None:
+    data = dataset[name]
+    along = next(str(d) for d in data.dims if d != QUANTILE)
+    position = displayed(dataset[along])
+    least, low, _, high, most = displayed(data.transpose(QUANTILE, along))
+    axes.fill_between(position, least, most, color=BLUE, alpha=0.15, label="all", linewidth=0)
+    axes.fill_between(position, low, high, color=BLUE, alpha=0.35, label="nine in ten", linewidth=0)
+    nominal = displayed(dataset[f"{name}_nominal"])
+    axes.plot(position, nominal, color="black", linewidth=1.4, label="as drawn")
+    mark(axes, of_curve(limits, name, str(dataset.attrs["over"])))
+    _around(axes, dataset[along].attrs, data.attrs)
+
+
+def _around(axes: Axes, along: Mapping[str, Any], values: Mapping[str, Any]) -> None:
+    """Say what the axes are, and mark the design position."""
+    axes.axvline(0.0, color="#888888", linewidth=0.8, zorder=1)
+    axes.margins(x=0.02)
+    axes.set_xlabel(bracketed(str(along["long_name"]), along), fontsize=9)
+    axes.set_ylabel(fill(bracketed(str(values["long_name"]), values), _LETTERS), fontsize=9.5)

@@ -1,0 +1,88 @@
+"""The chapter about what bushes do to the curves over wheel travel, and over roll."""
+
+from collections.abc import Sequence
+
+import xarray as xr
+
+from ....core.arguments import Arguments
+from ....core.quantities import long_name
+from ...analysis.characteristics.datasets import DATA_SET
+from ...analysis.compliance.tables import deflections
+from ...assembly.by_wheel import WHEEL, flat
+from ...assembly.quantity import RACK
+from ...studies.goals import Goal, check_goals
+from .chapter import Chapter, Picture
+from .curves import pictures
+
+
+def elastokinematics_chapter(*found: xr.Dataset, goals: Sequence[Goal] = ()) -> Chapter:
+    """Return how wheels move on their bushes, beside rigid joints.
+
+    Parameters
+    ----------
+    *found : xarray.Dataset
+        From `kintrafo.compliance.elastokinematics`, each over another motion.
+    goals : sequence of Target and Limit, optional
+        From `kintrafo.variation.goals`: those about these curves are drawn into them. They are
+        about rigid joints, and about the rack in its middle.
+
+    Returns
+    -------
+    Chapter
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used, or goals are about curves whose rack is turned.
+    """
+    with Arguments("elastokinematics_chapter") as given:
+        if not found:
+            given.refuse("dataset: one or more are needed.")
+        for dataset in found:
+            given.dataset(dataset, over=DATA_SET)
+        check_goals(given, "goals", goals)
+        if not given.refused:
+            wanted = [_about(given, flat(dataset), goals) for dataset in found]
+    sheets = []
+    drawn: list[Picture] = []
+    for dataset, own in zip(found, wanted, strict=True):
+        columns, over = flat(dataset), _over(dataset)
+        title = f"Kinematic and elastokinematic, over {over}"
+        words = f"Curves over {over} with rigid joints and on the bushes"
+        drawn += pictures(columns, list(map(str, columns)), title, words, goals=own)
+        sheets += deflections(dataset, f"Over {over}")
+    hardpoints = found[0].attrs["hardpoints"]
+    words = f"By equilibrium of all parts, however far bushes give way: {hardpoints}."
+    of_goals = ["Targets and limits are about the curves with rigid joints."] if any(wanted) else []
+    return Chapter("Elastokinematics", (words, *of_goals), tuple(sheets), tuple(drawn))
+
+
+def _about(given: Arguments, dataset: xr.Dataset, goals: Sequence[Goal]) -> list[Goal]:
+    """Return the goals about curves of a dataset; by its words, since other things have that name.
+
+    A wheel rate at the contact, say, is not that of the spring alone.
+    """
+    if goals and "over" not in dataset.attrs:
+        given.refuse(
+            'goals: the dataset does not say over what it goes, attrs["over"]. Compute it anew, or '
+            "leave the goals out."
+        )
+    own = [
+        goal
+        for goal in goals
+        if goal.over == dataset.attrs.get("over")
+        and goal.name in dataset
+        and long_name(dataset[goal.name]) == goal.quantity.long_name
+    ]
+    rack = dataset.coords.get(RACK.name)
+    if own and rack is not None and rack.ndim == 0 and float(rack) != 0.0:
+        given.refuse(
+            f"goals: they are about the rack in its middle, and here it is at {1e3 * float(rack):g}"
+            " mm. Give curves with rack_position = 0, or leave the goals out."
+        )
+    return own
+
+
+def _over(dataset: xr.Dataset) -> str:
+    (name,) = (str(name) for name in dataset.sizes if name not in (DATA_SET, WHEEL))
+    return str(dataset[name].attrs["long_name"])

@@ -1,0 +1,79 @@
+"""The chapter about targets and limits of characteristics."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from ....core.arguments import Arguments
+from ....core.quantities import display_of
+from ....core.tabulated import Tabulated, significant
+from ...analysis.compliance.flexibility import HELD
+from ...assembly.assembly import Assembly
+from ...assembly.of import given_assembly
+from ...studies.evaluation import curves_over
+from ...studies.goals import Goal, Verdict, judge, words_of
+from ...studies.sweep_axes import sweep_axis
+from .chapter import Chapter, Picture
+from .curves import pictures, positions_of, with_wanted
+
+_MEANING = (
+    "A target is met where it is off by no more than what matters of it, at all of its positions. "
+    "Beyond is by how much more the worst position is off."
+)
+
+
+def goals_chapter(subject: Any, goals: Sequence[Goal]) -> Chapter:
+    """Return which targets and limits a suspension or an axle meets, with its curves.
+
+    Parameters
+    ----------
+    subject : Suspension, Model, Axle or RigidAxle
+    goals : sequence of Goal
+        From `kintrafo.variation.goals`; one or more.
+
+    Returns
+    -------
+    Chapter
+
+    Raises
+    ------
+    InputError, PositionError
+        As of `kintrafo.variation.judge`.
+    """
+    with Arguments("goals_chapter") as given:
+        assembly = given_assembly(given, subject)
+        if isinstance(goals, list | tuple) and not goals:
+            given.refuse("goals is empty: one target or limit is needed.")
+    verdicts = judge(assembly, goals)
+    missed = sum(not verdict.met for verdict in verdicts)
+    words = f"{len(verdicts) - missed} of {len(verdicts)} are met, {missed} missed."
+    ways = list(dict.fromkeys(goal.over for goal in goals))
+    drawn = [picture for over in ways for picture in _drawn(assembly, goals, over)]
+    table = _table(goals, verdicts)
+    return Chapter("Targets and limits", (words, _MEANING), (table,), tuple(drawn))
+
+
+def _drawn(assembly: Assembly, goals: Sequence[Goal], over: str) -> tuple[Picture, ...]:
+    """Return the curves that goals over something are about, with these."""
+    own = [goal for goal in goals if goal.over == over]
+    dataset = curves_over(assembly, over, positions_of(assembly, over, own))
+    kind = "Compliance" if over in HELD else "Curves"
+    words = f"{kind} over {sweep_axis(over).words} with targets and limits"
+    title = f"{words}\n{HELD[over]}" if over in HELD else words
+    return pictures(dataset, with_wanted(dataset, (), own), title, words, goals=own)
+
+
+def _table(goals: Sequence[Goal], verdicts: Sequence[Verdict]) -> Tabulated:
+    """Return what comes of each goal, in as few columns as the width of a phone has room for."""
+    rows = []
+    for goal, verdict in zip(goals, verdicts, strict=True):
+        over, factor = sweep_axis(goal.over), display_of(goal.quantity.attributes()).factor
+        rows.append(
+            (
+                words_of(verdict.kind, goal.name, goal.over),
+                "met" if verdict.met else "missed",
+                "" if verdict.met else significant(factor * verdict.beyond),
+                f"{over.factor * verdict.at:g} {over.unit}",
+            )
+        )
+    columns = ("goal", "", "beyond", "worst at")
+    return Tabulated("Which are met", columns, tuple(rows), frozenset({0, 1}))

@@ -1,0 +1,28 @@
+"""The chapter with the K&C sheet."""
+
+import xarray as xr
+
+from ....core.arguments import Arguments
+from ...analysis.sheet import QUANTITY, tabulated
+from .chapter import Chapter
+
+
+def sheet_chapter(found: xr.Dataset) -> Chapter:
+    """Return the kinematic and compliance gradients at design, with their signs.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        From `kintrafo.sheet.sheet`.
+
+    Returns
+    -------
+    Chapter
+    """
+    with Arguments("sheet_chapter") as given:
+        given.dataset(found, over=QUANTITY)
+    words = (
+        "Kinematic and compliance gradients at design, as a rig's summary has them. Signs are "
+        "those of ISO 8855 (x forward, y left, z up) and of SAE J670 with its z axis down."
+    )
+    return Chapter("K&C sheet", (words,), tuple(tabulated(found, "")), ())

@@ -1,0 +1,180 @@
+"""The characteristics over the grid, whichever there are."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..analysis.characteristics.datasets import over
+from ..analysis.characteristics.groups import group_of
+from ..assembly.from_model import gaps
+from ..assembly.measures.corner import AT_STOPS
+from ..models.model import Model
+from ..models.positions import arm_angles, design_height
+from .grid import Grid
+from .plotted import has_pole
+from .poses import racks_of
+
+if TYPE_CHECKING:
+    from xarray import DataArray, Dataset
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One characteristic over wheel travel and rack displacement.
+
+    Attributes
+    ----------
+    name : str
+        Name of the variable.
+    over : {"travel", "rack"}
+        What it is drawn over.
+    label, definition, sign : str
+        Words for the reader.
+    group : str
+        Heading under which it stands.
+    unit : str
+        Unit for the reader.
+    factor : float
+        From the SI unit to that.
+    values : ndarray, shape (travels, racks)
+        In SI units; NaN where it is not defined.
+    """
+
+    name: str
+    over: Literal["travel", "rack"]
+    label: str
+    definition: str
+    sign: str
+    group: str
+    unit: str
+    factor: float
+    values: Array
+
+    @property
+    def key(self) -> str:
+        """A name that no other curve of the page has."""
+        return self.name if self.over == "travel" else f"{self.name}_over_rack"
+
+    @property
+    def jumps(self) -> bool:
+        """Whether it jumps where a stop begins to act."""
+        return self.name in AT_STOPS
+
+    @property
+    def reciprocal(self) -> bool:
+        """Whether one over the values is smoother: they have a pole, and no zero.
+
+        A swing arm's length is infinite where the wheel moves straight, a turning circle straight
+        ahead; what is interpolated is then the curvature, which passes through zero there.
+        """
+        return has_pole(self.values) and bool(np.all(np.abs(self.values) > 0.0))
+
+    @property
+    def smooth(self) -> Array:
+        """What is sampled and interpolated, shape (travels, racks)."""
+        return 1.0 / self.values if self.reciprocal else self.values
+
+    def through_design(self, grid: Grid) -> Array:
+        """Return the curve with the other coordinate zero [SI unit]."""
+        if self.over == "travel":
+            return self.values[:, grid.rack.zero]
+        return self.values[grid.travel.zero, :]
+
+
+def printed(unit: str) -> str:
+    """Return a unit as it is printed: nothing for a pure number, a small 2 for a square."""
+    return "" if unit == "1" else unit.replace("^2", "\u00b2")
+
+
+def curves(
+    model: Model, travel: Array, rack: Array, *, tell: Callable[[str], None] = lambda _: None
+) -> list[Curve]:
+    """Compute all characteristics at every combination of travels and rack displacements.
+
+    Parameters
+    ----------
+    model : Model
+    travel : ndarray, shape (n,)
+        Wheel travel [m].
+    rack : ndarray, shape (m,)
+        Rack displacement [m].
+    tell : callable, optional
+        Takes a word on what is being done.
+
+    Returns
+    -------
+    list of Curve
+        Those over travel, then those over rack displacement; without those that are defined
+        nowhere.
+    """
+    tell("characteristics over wheel travel")
+    rack = racks_of(model, rack)
+    lengthwise = [over(model, "travel", travel, rack_position=float(r)) for r in rack]
+    found = _stacked(lengthwise, "wheel_travel", "travel")
+    if model.suspension.steered():
+        tell("characteristics over rack displacement")
+        crosswise = [over(model, "rack", rack, travel=float(t)) for t in travel]
+        found += _stacked(crosswise, "rack_position", "rack")
+    return [curve for curve in found if np.isfinite(curve.values).any()]
+
+
+def gaps_on(model: Model, grid: Grid) -> list[Array]:
+    """Return what is open of each stop that begins to act somewhere on the grid.
+
+    Parameters
+    ----------
+    model : Model
+    grid : Grid
+
+    Returns
+    -------
+    list of ndarray, shape (travels, racks)
+        Negative where the stop is compressed [m].
+    """
+    rack = racks_of(model, grid.rack.values)
+    angles = arm_angles(model, design_height(model) + grid.travel.values[:, None], rack)
+    return [gap for gap in gaps(model, angles, rack) if gap.min() <= 0.0 < gap.max()]
+
+
+def only_over_rack(drawn: list[Curve]) -> set[str]:
+    """Return the names of the characteristics that belong to steering alone."""
+    along = {curve.name for curve in drawn if curve.over == "travel"}
+    return {curve.name for curve in drawn} - along
+
+
+def _stacked(
+    cuts: "Sequence[Dataset]", coordinate: str, over: Literal["travel", "rack"]
+) -> list[Curve]:
+    """Join the cuts through the grid to one array for each variable along the coordinate."""
+    axis = 1 if over == "travel" else 0
+    return [
+        _curve(
+            variable,
+            over,
+            np.stack([cut.variables[name].values for cut in cuts], axis=axis),
+        )
+        for name, variable in cuts[0].data_vars.items()
+        if variable.dims == (coordinate,) and np.issubdtype(variable.dtype, np.floating)
+    ]
+
+
+def _curve(variable: "DataArray", over: Literal["travel", "rack"], values: Array) -> Curve:
+    words = variable.attrs
+    name = str(variable.name)
+    unit = str(words.get("display_units", words.get("units", "1")))
+    return Curve(
+        name=name,
+        over=over,
+        label=str(words.get("long_name", name.replace("_", " "))),
+        definition=str(words.get("definition", "")),
+        sign=str(words.get("sign", "")),
+        group=group_of(name),
+        unit=printed(unit),
+        factor=float(words.get("display_factor", 1.0)),
+        values=values,
+    )

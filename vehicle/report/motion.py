@@ -1,0 +1,175 @@
+"""The simulated second that the page plays: a wheel released above its place, spinning."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import KintrafoError
+from ...core.quantities import attributes
+from ...simulation.simulate import simulate
+from ..analysis.paper import DURATION, REST_HEIGHT, SPIN_RATE, START_HEIGHT
+from ..models.model import Model
+from ..models.positions import design_height, state_at_height
+from .curves import printed
+from .grid import Axis, Grid
+
+Array = NDArray[np.float64]
+
+DROP = START_HEIGHT - REST_HEIGHT  # above the design position, as in the paper [m]
+STEP = 1e-3  # between two samples [s]
+# Between two samples so many more are computed, to measure the interpolation.
+_FINER = 4
+
+# What is plotted over time, as far as the model has it.
+SIGNALS = (
+    "wheel_center_z",
+    "wheel_velocity",
+    "wheel_acceleration",
+    "tyre_force",
+    "spring_force",
+    "damper_force",
+)
+
+
+@dataclass(frozen=True)
+class TimeCurve:
+    """One signal over time.
+
+    Attributes
+    ----------
+    name, label, sign : str
+        Its name, and words for the reader.
+    unit : str
+        Unit for the reader.
+    factor : float
+        From the SI unit to that.
+    values : ndarray, shape (n,)
+        In SI units.
+    """
+
+    name: str
+    label: str
+    sign: str
+    unit: str
+    factor: float
+    values: Array
+
+    @property
+    def key(self) -> str:
+        """A name that no other curve of the page has."""
+        return f"{self.name}_over_time"
+
+
+@dataclass(frozen=True)
+class Motion:
+    """One second of motion.
+
+    Attributes
+    ----------
+    time : Axis
+        Times of the samples [s].
+    travel, rack, spin : ndarray, shape (n,)
+        Wheel travel [m], rack displacement [m], spin angle of the wheel [rad].
+    signals : list of TimeCurve
+    travel_error : float
+        Largest error of the travel interpolated between two samples [m].
+    solver : str
+        What integrated.
+    """
+
+    time: Axis
+    travel: Array
+    rack: Array
+    spin: Array
+    signals: list[TimeCurve]
+    travel_error: float
+    solver: str
+
+
+@dataclass(frozen=True)
+class NoMotion:
+    """Why there is nothing to play.
+
+    Attributes
+    ----------
+    reason : str
+        A sentence for the reader.
+    """
+
+    reason: str
+
+
+def simulated_second(model: Model, grid: Grid) -> Motion | NoMotion:
+    """Simulate a wheel that is released above its design position, with the paper's spin.
+
+    Parameters
+    ----------
+    model : Model
+    grid : Grid
+        Where poses are known; a motion that leaves it cannot be shown.
+
+    Returns
+    -------
+    Motion or NoMotion
+    """
+    try:
+        return _shown(_simulate(model), grid)
+    except KintrafoError as error:
+        return NoMotion(f"The simulation could not be done: {error}")
+
+
+def _simulate(model: Model) -> Motion:
+    design = design_height(model)
+    start = state_at_height(model, design + DROP, spin_rate=SPIN_RATE)
+    times = np.linspace(0.0, DURATION, _FINER * round(DURATION / STEP) + 1)
+    result = simulate(model, (0.0, DURATION), start, t_eval=times, rtol=1e-8, atol=1e-10)
+    travel = result.signals["wheel_center_z"] - design
+    rack = np.zeros_like(times)
+    if model.free_rack:
+        rack = result.y[model.state_names.index(model.names.rack)]
+    elif model.suspension.steered():
+        rack = result.inputs[:, model.input_names.index("rack_position")]
+    time = Axis(0.0, STEP, round(DURATION / STEP) + 1)
+    kept = slice(None, None, _FINER)
+    error = np.abs(time.interpolate(travel[kept], times) - travel).max()
+    return Motion(
+        time=time,
+        travel=travel[kept],
+        rack=rack[kept],
+        spin=result.y[model.state_names.index(model.names.spin)][kept],
+        signals=[
+            _time_curve(model, name, result.signals[name][kept])
+            for name in SIGNALS
+            if name in result.signals
+        ],
+        travel_error=float(error),
+        solver=result.solver,
+    )
+
+
+def _time_curve(model: Model, name: str, values: Array) -> TimeCurve:
+    signal = model.equations.SIGNALS[name]
+    words = attributes(signal["meaning"], signal["unit"])
+    return TimeCurve(
+        name=name,
+        label=words["long_name"],
+        sign=words["sign"],
+        unit=printed(words["display_units"]),
+        factor=words["display_factor"],
+        values=values,
+    )
+
+
+def _shown(motion: Motion, grid: Grid) -> Motion | NoMotion:
+    for what, values, axis in (
+        ("wheel", motion.travel, grid.travel),
+        ("rack", motion.rack, grid.rack),
+    ):
+        low, high = values.min(), values.max()
+        if low < axis.first or high > axis.last:
+            return NoMotion(
+                f"The {what} moves from {low * 1e3:.1f} mm to {high * 1e3:.1f} mm, beyond the "
+                f"{axis.first * 1e3:.1f} mm to {axis.last * 1e3:.1f} mm that this page covers."
+            )
+    return motion

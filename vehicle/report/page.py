@@ -1,0 +1,354 @@
+"""The HTML report: one file that opens anywhere, without a network."""
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
+from importlib import resources
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments, shown
+from ...core.files import Paths, refuse, replacing
+from ...core.legible import legible
+from ...pages.mechanism.page import report_page
+from ...simulation.result import Simulation
+from ...systems.system import System
+from ..analysis.characteristics.groups import ORDER
+from ..analysis.loads.along import is_motion_of
+from ..analysis.paper import SPIN_RATE
+from ..input.section import Section
+from ..models.model import Model
+from ..studies.goals import Goal, check_goals
+from .accuracy import Accuracy, measure
+from .chapters.chapter import Chapter
+from .curves import Curve, curves, gaps_on, only_over_rack
+from .grid import Grid
+from .marks import Marks, marks
+from .motion import DROP, Motion, NoMotion, simulated_second
+from .payload import Look, page_data
+from .plotted import decimals, shown_range
+from .poses import Poses, poses, reachable_grid
+from .tables import input_tables, summary
+
+Array = NDArray[np.float64]
+
+ENDINGS = (".html", ".htm")
+"""What the name of a report ends in."""
+
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+@dataclass(frozen=True)
+class _Samples:
+    """Everything that was computed for a report."""
+
+    grid: Grid
+    poses: Poses
+    curves: list[Curve]
+    gaps: list[Array]
+    accuracy: Accuracy
+    looks: dict[str, Look]
+    marks: Marks
+    motion: Motion | NoMotion
+
+
+def write(
+    model: System,
+    path: str | Path,
+    *,
+    title: str | None = None,
+    chapters: Sequence[Chapter] = (),
+    without: Collection[str] = (),
+    goals: Sequence[Goal] = (),
+    motion: Simulation | None = None,
+    progress: Callable[[str], None] | None = None,
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write an HTML report of a suspension, or of any mechanism.
+
+    The mechanism in three dimensions to be moved by hand, its characteristics, a simulated second
+    and the input data, in one file without references to others. Of a mechanism of your own: its
+    bodies as lines between their joints, a slider for each coordinate, signals, modes at rest.
+
+    Parameters
+    ----------
+    model : Model or System
+    path : str or pathlib.Path
+        The file to write, whose name ends in ``.html``; it appears when it is complete. Folders
+        are made.
+    title : str, optional
+        Heading of the page; by default it says what the suspension is.
+    chapters : sequence of Chapter, optional
+        What stands there besides: see `kintrafo.report.axle_chapter`, `loads_chapter`,
+        `compliance_chapter` and `elastokinematics_chapter`.
+    without : collection of str, optional
+        Characteristics that are left out: of a rear axle those that only a front axle has.
+    goals : sequence of Target and Limit, optional
+        From `kintrafo.variation.goals`: they are marked in the charts that they are about, and the
+        page names those of which no chart has anything, see `kintrafo.report.goals_chapter`. Of a
+        side of an axle they may be those of the axle.
+    motion : Simulation, optional
+        Of a mechanism that is no suspension, the motion to be played; by default a second from the
+        design position at rest, without inputs.
+    progress : callable, optional
+        Called with a few words on what is being done.
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    InputError
+        If the file must not or cannot be written.
+    PositionError
+        If the suspension cannot move.
+    """
+    refuse([path], force=force, inputs=inputs, endings=ENDINGS)
+    with Arguments("report.write") as given:
+        given.kind("model", model, System, System.NEEDED)
+        given.function("progress", progress)
+        if title is not None:
+            given.text("title", title)
+        if motion is not None:
+            given.kind("motion", motion, Simulation, "what kintrafo.simulate returns is needed")
+            if isinstance(model, Model):
+                given.refuse("motion: the report of a suspension has a simulated second of its own")
+            elif not given.refused and not is_motion_of(model, motion):
+                given.refuse(f"motion: it is not one of this mechanism, {model!r}.")
+        check_goals(given, "goals", goals)
+        if not isinstance(chapters, list | tuple) or not all(
+            isinstance(chapter, Chapter) for chapter in chapters
+        ):
+            given.refuse("chapters: a list of chapters is needed, such as goals_chapter returns.")
+        if not isinstance(without, list | tuple | set | frozenset):
+            given.refuse(f"without = {shown(without)}: a list of names is needed.")
+        if not (given.refused or isinstance(model, Model)) and (chapters or without or goals):
+            given.refuse("chapters, without, goals: only the report of a suspension has them")
+    tell = progress or (lambda _: None)
+    if isinstance(model, Model):
+        text = render(
+            model, title=title, chapters=chapters, without=without, goals=goals, tell=tell
+        )
+    else:
+        tell("positions of the mechanism")
+        text = report_page(model, title, motion)
+    tell("writing the page")
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+    return Path(path)
+
+
+def render(
+    model: Model,
+    *,
+    title: str | None = None,
+    chapters: Sequence[Chapter] = (),
+    without: Collection[str] = (),
+    goals: Sequence[Goal] = (),
+    tell: Callable[[str], None] = lambda _: None,
+) -> str:
+    """Return the report as text; see `write`."""
+    samples = _sample(model, tell, without, goals)
+    side, steered = model.suspension.vehicle.side, model.suspension.steered()
+    template = _environment().get_template("page.html.jinja")
+    return template.render(
+        title=legible(title or f"{model.suspension.heading()}, {'front ' * steered}{side}"),
+        steered=steered,
+        side=side,
+        version=version("kintrafo"),
+        samples=samples,
+        over_travel=_over_travel(samples.curves),
+        over_rack=_over_rack(samples.curves, samples.marks),
+        rows=summary(samples.curves, samples.grid, samples.looks, model.suspension),
+        inputs=input_tables(model.suspension),
+        parts=model.suspension.drawing().legend,
+        chapters=chapters,
+        drop=DROP,
+        spin=SPIN_RATE / (2.0 * np.pi),
+        data=Markup(_data(model, samples)),  # noqa: S704 (page_data leaves no end tag in it)
+        script=_asset("report.js"),
+        style=_asset("report.css"),
+    )
+
+
+def write_chapters(
+    path: str | Path,
+    *,
+    title: str,
+    chapters: Sequence[Chapter],
+    data: Section,
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write an HTML report that is chapters and input data, with nothing to be moved by hand.
+
+    Parameters
+    ----------
+    path, force, inputs
+        As of `write`.
+    title : str
+        Heading of the page.
+    chapters : sequence of Chapter
+    data : Section
+        What the input file says.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    InputError
+        If the file must not or cannot be written.
+    """
+    refuse([path], force=force, inputs=inputs, endings=ENDINGS)
+    text = (
+        _environment()
+        .get_template("plain.html.jinja")
+        .render(
+            title=legible(title),
+            version=version("kintrafo"),
+            inputs=input_tables(data),
+            chapters=chapters,
+            style=_asset("report.css"),
+        )
+    )
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+    return Path(path)
+
+
+def _sample(
+    model: Model,
+    tell: Callable[[str], None],
+    without: Collection[str] = (),
+    goals: Sequence[Goal] = (),
+) -> _Samples:
+    tell("reach of the mechanism")
+    grid = reachable_grid(model)
+    travel, rack = grid.travel.values, grid.rack.values
+    tell("positions over wheel travel and rack displacement")
+    sampled = poses(model, travel, rack)
+    drawn = [c for c in curves(model, travel, rack, tell=tell) if c.name not in without]
+    gaps = gaps_on(model, grid)
+    marked = marks(drawn, grid, goals, model.suspension.vehicle.side)
+    ranges = {c.key: marked.widened(c.key, shown_range(c.values)) for c in drawn}
+    accuracy = measure(model, grid, sampled, drawn, gaps, ranges, tell=tell)
+    tell("one second of motion")
+    return _Samples(
+        grid=grid,
+        poses=sampled,
+        curves=drawn,
+        gaps=gaps,
+        accuracy=accuracy,
+        looks={c.key: _look(c, grid, ranges[c.key], accuracy) for c in drawn},
+        marks=marked,
+        motion=simulated_second(model, grid),
+    )
+
+
+def _look(curve: Curve, grid: Grid, shown: tuple[float, float], accuracy: Accuracy) -> Look:
+    """Return how a curve is shown.
+
+    Its decimals tell values through the design position apart, and say what the one at design is.
+    """
+    values = curve.through_design(grid)
+    drawn = values if np.isfinite(values).any() else curve.values
+    low, high = (end * curve.factor for end in shown_range(drawn))
+    design = float(curve.values[grid.travel.zero, grid.rack.zero]) * curve.factor
+    return Look(
+        shown=(shown[0] * curve.factor, shown[1] * curve.factor),
+        decimals=decimals(low, high, unit=curve.unit, value=design),
+        error=accuracy.curves[curve.key],
+    )
+
+
+def _over_travel(drawn: list[Curve]) -> dict[str, list[Curve]]:
+    """Return the curves over travel under their headings, in the order of the page."""
+    found = {
+        name: [curve for curve in drawn if curve.over == "travel" and curve.group == name]
+        for name in ORDER
+    }
+    return {name: group for name, group in found.items() if group}
+
+
+def _over_rack(drawn: list[Curve], marked: Marks) -> tuple[list[Curve], list[Curve]]:
+    """Return the curves over rack displacement that are in sight, and the others.
+
+    Those are of steering, of the wheel, and with targets or limits.
+    """
+    first = only_over_rack(drawn) | {c.name for c in drawn if c.group == ORDER[0]}
+    first |= {c.name for c in drawn if c.over == "rack" and marked.about(c.key)}
+    along = [curve for curve in drawn if curve.over == "rack"]
+    return [c for c in along if c.name in first], [c for c in along if c.name not in first]
+
+
+def _data(model: Model, samples: _Samples) -> str:
+    return page_data(
+        model.suspension,
+        samples.grid,
+        samples.poses,
+        samples.curves,
+        samples.gaps,
+        samples.looks,
+        samples.marks,
+        samples.motion,
+    )
+
+
+def _environment() -> Environment:
+    environment = Environment(
+        loader=PackageLoader(__package__, "."),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["fixed"] = _fixed
+    environment.filters["minus"] = _with_minus
+    environment.filters["upper_limit"] = _upper_limit
+    return environment
+
+
+def _fixed(value: float, places: int) -> str:
+    """Write a number with a true minus sign; a dash where there is none."""
+    if not np.isfinite(value):
+        return "\u2013"
+    text = f"{abs(value):.{places}f}"
+    return f"\u2212{text}" if value < 0.0 and float(text) != 0.0 else text
+
+
+def _with_minus(text: str) -> str:
+    """Write a number with a true minus sign."""
+    return text.replace("-", "\u2212") if text[1:2].isdigit() else text
+
+
+def _upper_limit(error: float) -> str:
+    """Write an error with one digit, rounded up."""
+    if error == 0.0:
+        return "0"
+    exponent = int(np.floor(np.log10(error)))
+    digit = int(np.ceil(error / 10.0**exponent * (1.0 - 1e-9)))
+    if digit == 10:
+        digit, exponent = 1, exponent + 1
+    if -4 <= exponent <= 2:
+        return f"{digit * 10.0**exponent:.{max(-exponent, 0)}f}"
+    return f"{digit} \u00b7 10{str(exponent).translate(_SUPERSCRIPTS)}"
+
+
+def _asset(name: str) -> Markup:
+    """Return a file that was bundled from web/, which is trusted."""
+    text = resources.files(__package__).joinpath("assets", name).read_text(encoding="utf-8")
+    return Markup(text)  # noqa: S704

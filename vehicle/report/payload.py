@@ -1,0 +1,187 @@
+"""What the page's script reads: samples on the grid, and how to show them."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...pages.embedded import embedded
+from ..kinds import Suspension
+from .curves import Curve
+from .encode import packed
+from .grid import Axis, Grid
+from .marks import Marks
+from .motion import Motion, NoMotion, TimeCurve
+from .plotted import decimals, full_range, meaningful
+from .poses import Poses
+
+Array = NDArray[np.float64]
+
+# Of the drawing only [m]; the radius where the data do not tell it.
+TYRE_WIDTH = 0.205
+TYRE_RADIUS = 0.3
+
+
+class Look(NamedTuple):
+    """How a curve is shown, in the unit of the reader.
+
+    Attributes
+    ----------
+    shown : tuple of float
+        Values between which it is plotted.
+    decimals : int
+        With how many it is written.
+    error : float
+        By how much interpolated values may be off; computed ones are not.
+    """
+
+    shown: tuple[float, float]
+    decimals: int
+    error: float = 0.0
+
+
+def page_data(
+    suspension: Suspension,
+    grid: Grid,
+    sampled: Poses,
+    drawn: list[Curve],
+    gaps: list[Array],
+    looks: dict[str, Look],
+    marks: Marks,
+    motion: Motion | NoMotion,
+) -> str:
+    """Return the data of the page as JSON that may stand inside of an HTML element.
+
+    Parameters
+    ----------
+    suspension : Suspension
+    grid : Grid
+    sampled : Poses
+        On the grid.
+    drawn : list of Curve
+        Characteristics on the grid.
+    gaps : list of ndarray
+        What is open of the stops, on the grid.
+    looks : dict
+        How each is shown, by its key.
+    marks : Marks
+        Targets and limits.
+    motion : Motion or NoMotion
+
+    Returns
+    -------
+    str
+    """
+    stored = _stored_under(drawn)
+    data = {
+        "grid": {"travel": _axis(grid.travel), "rack": _axis(grid.rack)},
+        "points": {name: _on_grid(values, grid) for name, values in sampled.points.items()},
+        "spin_axis": _on_grid(sampled.spin_axis, grid),
+        "samples": {c.key: _on_grid(c.smooth, grid) for c in drawn if stored[c.key] == c.key},
+        "gaps": [_on_grid(gap, grid) for gap in gaps],
+        "curves": [
+            {
+                "over": curve.over,
+                "jumps": curve.jumps,
+                "samples": stored[curve.key],
+                "reciprocal": curve.reciprocal,
+                "goals": [mark.described(curve) for mark in marks.of.get(curve.key, ())],
+                **_described(curve, looks[curve.key]),
+            }
+            for curve in drawn
+        ],
+        "motion": _motion(motion) if isinstance(motion, Motion) else None,
+        **_drawing(suspension, grid, sampled),
+    }
+    return embedded(data)
+
+
+def _stored_under(drawn: list[Curve]) -> dict[str, str]:
+    """Return for each curve whose samples it has: over travel and rack they are often the same."""
+    along = {curve.name: curve for curve in drawn if curve.over == "travel"}
+    return {
+        curve.key: twin.key
+        # equal but for the rounding of two ways to compute them
+        if (twin := along.get(curve.name)) is not None
+        and np.allclose(curve.values, twin.values, rtol=1e-9, atol=1e-12, equal_nan=True)
+        else curve.key
+        for curve in drawn
+    }
+
+
+def _on_grid(values: Array, grid: Grid) -> dict[str, Any]:
+    return packed(values, values[grid.travel.zero, grid.rack.zero])
+
+
+def _motion(motion: Motion) -> dict[str, Any]:
+    return {
+        "time": _axis(motion.time),
+        "travel": packed(motion.travel),
+        "rack": packed(motion.rack),
+        "spin": packed(motion.spin),
+        "signals": [_time_curve(curve) for curve in motion.signals],
+    }
+
+
+def _time_curve(curve: TimeCurve) -> dict[str, Any]:
+    low, high = (end * curve.factor for end in full_range(curve.values))
+    words = _described(curve, Look((low, high), decimals(low, high, unit=curve.unit)))
+    return {"over": "time", **words, **packed(curve.values)}
+
+
+def _described(curve: Curve | TimeCurve, look: Look) -> dict[str, Any]:
+    """Return how a curve is drawn and written."""
+    return {
+        "key": curve.key,
+        "unit": curve.unit,
+        "factor": curve.factor,
+        "decimals": look.decimals,
+        "approximate": not meaningful(look.decimals, look.error),
+        "range": look.shown,
+        # what hardly changes in the digits that are written and right is drawn flat
+        "least": 4.0 * max(10.0**-look.decimals, 2.0 * look.error),
+    }
+
+
+def _axis(axis: Axis) -> dict[str, float]:
+    return {"first": axis.first, "step": axis.step, "count": axis.count}
+
+
+def _drawing(suspension: Suspension, grid: Grid, sampled: Poses) -> dict[str, Any]:
+    """Return what the 3D view needs besides: sizes, directions and the road, in metres."""
+    at_design = {
+        name: values[grid.travel.zero, grid.rack.zero] for name, values in sampled.points.items()
+    }
+    parameters = suspension.parameters()
+    steered = suspension.steered()
+    rack = np.array([parameters[f"rack_axis_{c}"] if steered else 0.0 for c in "xyz"])
+    x, y, z = at_design["wheel_center"]
+    loaded = suspension.tyre_radius() or TYRE_RADIUS
+    # free of force, the tyre is larger by what it is compressed at design
+    radius = loaded + float(np.clip(parameters["tyre_free_height"] - z, 0.0, 0.2 * loaded))
+    corners = np.array([*at_design.values(), [x, y, z + radius], [x, y, z - loaded]])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    return {
+        "suspension": suspension.suspension,
+        "steered": steered,
+        "linkage": _linkage(suspension),
+        "side_sign": suspension.vehicle.sign,
+        "road_height": float(z) - loaded,
+        "tyre": {"radius": radius, "width": TYRE_WIDTH},
+        "rack_inward": (-suspension.vehicle.sign * np.sign(rack[1] or 1.0) * rack).tolist(),
+        "middle": (0.5 * (low + high)).tolist(),
+        "size": float(np.linalg.norm(high - low)),
+    }
+
+
+def _linkage(suspension: Suspension) -> dict[str, Any]:
+    """Return what guides and springs the wheel, by the names of the points."""
+    drawing, points = suspension.drawing(), suspension.hardpoints
+    return {
+        "arms": [(*bearings, ball) for ball, bearings in points.ARMS.items()],
+        "brackets": dict(drawing.brackets),
+        "damper": drawing.damper._asdict(),
+        "spring": drawing.spring._asdict(),
+        "upright": drawing.upright,
+        "steering_axis": points.STEERING_AXIS,
+    }

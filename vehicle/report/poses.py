@@ -1,0 +1,130 @@
+"""The poses of a suspension over wheel travel and rack displacement."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..models.model import Model
+from ..models.points import hardpoints
+from ..models.positions import PositionError, arm_angles, design_height, travel_range
+from ..models.reach import at_rest
+from .grid import Axis, Grid
+
+Array = NDArray[np.float64]
+
+TRAVEL = 0.100  # to either side of the design position, where the mechanism reaches [m]
+TRAVEL_STEP = 0.005  # [m]
+RACK = 0.060  # to either side of its middle position, where the mechanism reaches [m]
+RACK_STEP = 0.0025  # the wheel turns a degree in it [m]
+
+# Where there is no rack, every column is the same: as many as a cubic needs.
+_STILL = Axis.around_zero(-2.0 * RACK_STEP, 2.0 * RACK_STEP, RACK_STEP)
+# What the wheel must keep from the end of its reach, where its path turns back [m].
+_MARGIN = 0.002
+
+
+@dataclass(frozen=True)
+class Poses:
+    """Where the moving points are, and where the wheel points.
+
+    Attributes
+    ----------
+    points : dict
+        Name of a hardpoint to its positions in chassis axes [m], shape (..., 3).
+    spin_axis : ndarray, shape (..., 3)
+        Unit vector along the axis of the wheel, pointing left at zero camber and toe.
+    """
+
+    points: dict[str, Array]
+    spin_axis: Array
+
+
+def reachable_grid(model: Model) -> Grid:
+    """Return a grid of which the suspension reaches every point.
+
+    Parameters
+    ----------
+    model : Model
+
+    Returns
+    -------
+    Grid
+        As much of the usual travel and rack displacement as the mechanism allows.
+
+    Raises
+    ------
+    PositionError
+        If even a small rectangle around the design position is out of reach.
+    """
+    design = design_height(model)
+    if not model.suspension.steered():
+        travel = _travel(travel_range(model).height, design)
+        if travel is not None:
+            return Grid(travel, _STILL)
+        problem = (
+            f"the wheel cannot travel {TRAVEL_STEP * 1e3:g} mm up and down, so there is nothing to "
+            "report. Check the hardpoints of the arm."
+        )
+        raise PositionError(problem)
+    for rack in np.arange(RACK, 0.5 * RACK_STEP, -RACK_STEP):
+        ends = _common_reach(model, float(rack))
+        if ends is None:
+            continue
+        travel = _travel(ends, design)
+        if travel is not None:
+            return Grid(travel, Axis.around_zero(-float(rack), float(rack), RACK_STEP))
+    message = (
+        f"the wheel cannot travel {TRAVEL_STEP * 1e3:g} mm up and down with the rack "
+        f"{RACK_STEP * 1e3:g} mm to either side, so there is nothing to report. Check the "
+        "lengths of tie rod, arms and strut."
+    )
+    raise PositionError(message)
+
+
+def _travel(ends: tuple[float, float], design: float) -> Axis | None:
+    """Return the usual travel within a reach of the wheel; None if hardly any is."""
+    low, high = max(ends[0] - design + _MARGIN, -TRAVEL), min(ends[1] - design - _MARGIN, TRAVEL)
+    if low < -TRAVEL_STEP and high > TRAVEL_STEP:
+        return Axis.around_zero(low, high, TRAVEL_STEP)
+    return None
+
+
+def _common_reach(model: Model, rack: float) -> tuple[float, float] | None:
+    """Return the wheel heights that are reached with the rack at, and at either side of, zero."""
+    try:
+        reaches = [travel_range(model, r).height for r in (-rack, 0.0, rack)]
+    except PositionError:
+        return None
+    return max(low for low, _ in reaches), min(high for _, high in reaches)
+
+
+def racks_of(model: Model, columns: Array) -> Array:
+    """Return where the rack is in each column of the grid; in none anywhere if there is none."""
+    return columns if model.suspension.steered() else np.zeros_like(columns)
+
+
+def poses(model: Model, travel: Array, rack: Array) -> Poses:
+    """Compute poses at every combination of travels and rack displacements.
+
+    Parameters
+    ----------
+    model : Model
+    travel : ndarray, shape (n,)
+        Wheel travel [m].
+    rack : ndarray, shape (m,)
+        Rack displacement [m].
+
+    Returns
+    -------
+    Poses
+        Arrays of shape (n, m, 3).
+    """
+    heights, rack = design_height(model) + travel[:, None], racks_of(model, rack)
+    states, inputs = at_rest(model, arm_angles(model, heights, rack), rack)
+    points = hardpoints(model, states, inputs)
+    parameters = model.suspension.parameters()
+    axis = np.array([parameters[f"spin_axis_{c}"] for c in "xyz"])
+    rotations = model.evaluate("orientations", states, inputs)
+    carrier = rotations[..., model.equations.BODIES.index(model.suspension.carrier), :, :]
+    return Poses({name: np.array(p) for name, p in points.items()}, carrier @ axis)

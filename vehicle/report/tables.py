@@ -1,0 +1,166 @@
+"""The tables of the page: characteristics at design, and the input data."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ..analysis.typical import typical_ranges
+from ..corner.bushes import BUSH_SCHEMA
+from ..input.section import Section
+from ..kinds import Suspension
+from .curves import Curve
+from .grid import Grid
+from .payload import Look
+
+
+@dataclass(frozen=True)
+class Row:
+    """One characteristic at design.
+
+    Attributes
+    ----------
+    key, group, label, unit : str
+        Of the curve.
+    value : float
+        At design, in that unit.
+    decimals : int
+        With how many it is written.
+    typical : str
+        Range in which it usually lies, or nothing.
+    source : str
+        Who says so.
+    verdict : {"", "within", "outside"}
+        How the value compares.
+    """
+
+    key: str
+    group: str
+    label: str
+    unit: str
+    value: float
+    decimals: int
+    typical: str = ""
+    source: str = ""
+    verdict: str = ""
+
+
+@dataclass(frozen=True)
+class InputTable:
+    """One section of the input file.
+
+    Attributes
+    ----------
+    name : str
+        As in the file; empty for what stands above the first section.
+    meaning : str
+        What the section is.
+    rows : list of tuple of str
+        Key, value as text, and what it is.
+    """
+
+    name: str
+    meaning: str
+    rows: list[tuple[str, str, str]]
+
+
+def summary(
+    drawn: list[Curve], grid: Grid, looks: dict[str, Look], suspension: Suspension
+) -> list[Row]:
+    """Return the characteristics over travel at the design position.
+
+    Parameters
+    ----------
+    drawn : list of Curve
+        All that are plotted.
+    grid : Grid
+    looks : dict
+        How each is written, by its key.
+    suspension : Suspension
+        What is usual is known of front wheels alone, which are steered.
+
+    Returns
+    -------
+    list of Row
+    """
+    usual = typical_ranges(suspension.suspension) if suspension.steered() else {}
+    design = grid.travel.zero, grid.rack.zero
+    return [
+        _row(curve, curve.values[design], looks[curve.key].decimals, usual.get(curve.name))
+        for curve in drawn
+        if curve.over == "travel"
+    ]
+
+
+def _row(curve: Curve, value: float, decimals: int, usual: dict[str, Any] | None) -> Row:
+    shown = value * curve.factor
+    plain = Row(curve.key, curve.group, curve.label, curve.unit, shown, decimals)
+    # a range in another unit than the curve's would be compared wrongly
+    if usual is None or usual["unit"] != curve.unit:
+        return plain
+    within = usual["low"] <= round(shown, decimals) <= usual["high"]
+    return Row(
+        curve.key,
+        curve.group,
+        curve.label,
+        curve.unit,
+        shown,
+        decimals,
+        typical=f"{usual['low']:g} to {usual['high']:g}".replace("-", "\u2212"),
+        source=usual["source"],
+        verdict="within" if within else "outside",
+    )
+
+
+def input_tables(described: Section) -> list[InputTable]:
+    """Return the input data as they stand in the file, section by section.
+
+    Parameters
+    ----------
+    described : Section
+        A suspension, or a rigid axle.
+
+    Returns
+    -------
+    list of InputTable
+    """
+    return list(_tables(described, "", "above the first section"))
+
+
+def _tables(section: Section, name: str, meaning: str) -> Iterator[InputTable]:
+    """Return the table of a section's own values, then those of the sections in it."""
+    fields = type(section).model_fields
+    values = {key: getattr(section, key) for key in fields}
+    rows = [
+        (key, _text(value), fields[key].description or "")
+        for key, value in values.items()
+        if value is not None and not isinstance(value, Section | Mapping)
+    ]
+    if rows:
+        yield InputTable(name, meaning, rows)
+    for key, value in values.items():
+        if isinstance(value, Section):
+            yield from _tables(value, f"{name}.{key}".lstrip("."), fields[key].description or "")
+        elif isinstance(value, Mapping) and all(isinstance(v, Section) for v in value.values()):
+            for inner, named in value.items():
+                yield from _tables(named, f"{key}.{inner}", fields[key].description or "")
+        elif isinstance(value, Mapping):
+            yield from _of_bushes(value, key, fields[key].description or "")
+
+
+def _of_bushes(bushings: Mapping[str, Any], name: str, meaning: str) -> Iterator[InputTable]:
+    """Return a table for each bush."""
+    for point, table in bushings.items():
+        known = BUSH_SCHEMA["properties"]
+        rows = [(key, _text(value), known[key]["description"]) for key, value in table.items()]
+        yield InputTable(f"{name}.{point}", meaning, rows)
+
+
+def _text(value: Any) -> str:
+    """Write a value as a person reads it; numbers in full, points with commas."""
+    if isinstance(value, tuple | list):
+        return ", ".join(_text(item) for item in value)
+    if isinstance(value, Mapping):
+        return "; ".join(f"{key}: {_text(inner)}" for key, inner in value.items())
+    if isinstance(value, float):
+        return f"{value:.12g}".replace("-", "\u2212")
+    return str(value)

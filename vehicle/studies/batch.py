@@ -1,0 +1,230 @@
+"""Characteristics of many suspensions that differ in values of their files, all together.
+
+They go through one evaluation of the equations with constants of their own, some hundred at a time,
+on all cores. What is found is that of one by one but for rounding: the arm's angle that meets a
+height is found to its last digits either way, by other steps. Who cannot be built like the others,
+or does not reach all positions for sure, is looked at one by one, and so are all of them where an
+equation refuses a position: so reasons are those of one by one.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import KintrafoError
+from ...core.threads import shared_out
+from ...equations.errors import ClosureError
+from ...simulation.lanes.run import usual_threads
+from ..analysis.compliance.flexibility import HELD
+from ..assembly.from_model import corner
+from ..assembly.measures.corner import OVER_RACK, OVER_TRAVEL
+from ..assembly.measures.measure import some_of_axle, values
+from ..assembly.of import assembly_of
+from ..assembly.single import Single
+from ..corner.corner import Corner
+from ..kinds import Suspension
+from ..models.fleet import Fleet
+from ..models.fleet_positions import fleet_angles
+from .curves import Curves, changed
+from .evaluation import Subject
+from .places import Place, is_factor
+
+Array = NDArray[np.float64]
+
+# Cars of a batch: so many that what is done once for them does not count, and so few that what is
+# computed of them stays in the cache.
+_TOGETHER = 256
+# Fewer cars are quicker one by one.
+_FEWEST = 3
+# How often those who are in the way are left out before all go one by one.
+_MOST_TRIES = 8
+
+Finish = Callable[[slice, list[Array], list[str]], None]
+
+
+def moved_by(places: Sequence[Place], off: Array) -> dict[str, Array]:
+    """Return the values of many files, by place and in its unit there.
+
+    Parameters
+    ----------
+    places : sequence of Place
+    off : ndarray, shape (count, places)
+        By how much they are off, SI units.
+    """
+    return {
+        name: column
+        for place, by in zip(places, off.T, strict=True)
+        for name, column in place.moved_all(by).items()
+    }
+
+
+def curves_of_many(
+    suspension: Subject,
+    values: Mapping[str, Array],
+    looks: Sequence[Curves],
+    finish: Finish,
+    *,
+    threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> None:
+    """Evaluate some curves of many suspensions.
+
+    Parameters
+    ----------
+    suspension : Suspension or RigidAxle
+        What they are otherwise; rigid axles are looked at one by one.
+    values : mapping of str to ndarray, shape (count,)
+        What they have of their own, by place, in the unit of the file.
+    looks : sequence of Curves
+    finish : callable
+        Called for some suspensions at a time, from the thread of the caller: which they are, the
+        values of each look, (some, names, positions), and a reason for each, empty where it has
+        curves; without they are NaN.
+    threads : int, optional
+        By default as many as there are cores.
+    progress : callable, optional
+        Called with the part that is done, up to 1.
+    """
+    count = next(iter(values.values())).size
+    parts = [slice(a, min(a + _TOGETHER, count)) for a in range(0, count, _TOGETHER)]
+
+    def found_in(part: slice, unwanted: Callable[[], bool]) -> tuple[slice, list[Array], list[str]]:
+        own = {place: column[part] for place, column in values.items()}
+        return part, *_some(suspension, own, looks, unwanted)
+
+    done = 0
+
+    def take(some: tuple[slice, list[Array], list[str]]) -> None:
+        nonlocal done
+        finish(*some)
+        done += some[0].stop - some[0].start
+        if progress is not None:
+            progress(done / count)
+
+    shared_out(found_in, parts, take, min(threads or usual_threads(), len(parts)))
+
+
+def _some(
+    suspension: Subject,
+    values: Mapping[str, Array],
+    looks: Sequence[Curves],
+    unwanted: Callable[[], bool],
+) -> tuple[list[Array], list[str]]:
+    """Return the values of each look and the reasons, of some suspensions."""
+    count = next(iter(values.values())).size
+    found = [np.full((count, len(look.names), look.positions.size), np.nan) for look in looks]
+    reasons = [""] * count
+    there = np.zeros(count, dtype=bool)
+    alone = any(look.over in HELD for look in looks)
+    alone = alone or any(map(is_factor, values))
+    alone = alone or any("bushings" in place.split(".")[:2] for place in values)
+    if isinstance(suspension, Suspension) and count >= _FEWEST and not alone:
+        there = _together(suspension, values, looks, found)
+    for car in np.flatnonzero(~there).tolist():
+        if unwanted():
+            break
+        changes = {place: float(column[car]) for place, column in values.items()}
+        try:
+            model = assembly_of(changed(suspension, changes))
+            own = [look.of(model) for look in looks]
+        except KintrafoError as error:
+            reasons[car] = str(error)
+            own = [np.full(rows.shape[1:], np.nan) for rows in found]
+        for rows, curves in zip(found, own, strict=True):
+            rows[car] = curves
+    return found, reasons
+
+
+def _together(
+    suspension: Suspension,
+    values: Mapping[str, Array],
+    looks: Sequence[Curves],
+    found: Sequence[Array],
+) -> NDArray[np.bool_]:
+    """Fill what can be found of all together, and tell of whom that is."""
+    nominal = _in_file(suspension, values)
+    there = np.ones(next(iter(values.values())).size, dtype=bool)
+    for _ in range(_MOST_TRIES):
+        cars = np.flatnonzero(there)
+        if cars.size < _FEWEST:
+            break
+        whole = {place: np.append(nominal[place], values[place][cars]) for place in values}
+        try:
+            curves, fit = _of_fleet(suspension, whole, looks)
+        except ClosureError as error:
+            # of one that is at a position which the equations refuse
+            which = error.index[0] - 1 if error.index else -1
+            if which < 0:
+                break
+            there[cars[which]] = False
+            continue
+        except KintrafoError:
+            break
+        there[cars] = fit
+        if curves:
+            for rows, each in zip(found, curves, strict=True):
+                rows[cars] = each
+            return there
+    return np.zeros_like(there)
+
+
+def _of_fleet(
+    suspension: Suspension, whole: Mapping[str, Array], looks: Sequence[Curves]
+) -> tuple[list[Array], NDArray[np.bool_]]:
+    """Return the curves of all behind the first, if all of them can be, and who can be."""
+    fleet = Fleet(suspension, whole, free_rack=bool(suspension.neglected_masses()))
+    corners = [list(_corners(fleet, look)) for look in looks if fleet.there.all()]
+    if not fleet.there.all():
+        return [], fleet.there[1:]
+    every = [_values(look, own) for look, own in zip(looks, corners, strict=True)]
+    shape = fleet.there.size
+    curves = [
+        np.stack(
+            [np.broadcast_to(by[n], (shape, look.positions.size))[1:] for n in look.names], axis=1
+        )
+        for look, by in zip(looks, every, strict=True)
+    ]
+    return curves, fleet.there[1:]
+
+
+def _corners(fleet: Fleet, look: Curves) -> Iterator[Corner]:
+    """Yield the corner at the positions of a look, and those of both sides if they are needed.
+
+    These are that of the other side, and the own one with the rack in its middle.
+
+    Who does not get there is struck, and no more corners are looked at then.
+    """
+    at = look.positions
+    still = np.zeros(at.size)
+    travel, rack = (at, still) if look.over == "travel" else (still, at)
+    both = look.over == "rack" and some_of_axle(OVER_RACK, look.names)
+    sides = [(fleet, travel, rack)]
+    if both:
+        sides += [(fleet.mirror_image, travel, rack), (fleet, still[:1], still[:1])]
+    for side, *place in sides:
+        angles, reached = fleet_angles(side, *place)
+        fleet.strike(~(side.there & reached))
+        if not fleet.there.all():
+            return
+        yield corner(side, angles, place[1])
+
+
+def _values(look: Curves, corners: Sequence[Corner]) -> dict[str, Array]:
+    own, *others = corners
+    of = Single(own, lambda: others[0], lambda: others[1])
+    measures = OVER_TRAVEL if look.over == "travel" else OVER_RACK
+    return values(measures, of, [*of.corners], look.names)
+
+
+def _in_file(suspension: Suspension, places: Mapping[str, Array]) -> dict[str, float]:
+    """Return the numbers that a file has in some places."""
+    data = suspension.to_dict()
+    found = {}
+    for place in places:
+        at: Any = data
+        for key in place.split("."):
+            at = at["xyz".index(key)] if isinstance(at, list) else at[key]
+        found[place] = float(at)
+    return found

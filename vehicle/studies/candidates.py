@@ -1,0 +1,105 @@
+"""Suspensions of which some values are free, and what they do where there are goals."""
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import KintrafoError
+from ..assembly.of import assembly_of
+from .batch import curves_of_many, moved_by
+from .curves import Together, changed
+from .evaluation import Subject
+from .goals import Goal
+from .places import Place
+
+Array = NDArray[np.float64]
+
+# Nearer to the end of its range than this part of it, a value is at the end.
+_AT_THE_END = 1e-6
+
+
+class Candidates:
+    """Characteristics as functions of the free values, each from -1 to 1 over its range.
+
+    Parameters
+    ----------
+    suspension : Suspension or RigidAxle
+    reach : mapping of Place to float
+        How far values may move to either side [SI].
+    goals : sequence of Goal
+    """
+
+    def __init__(
+        self, suspension: Subject, reach: Mapping[Place, float], goals: Sequence[Goal]
+    ) -> None:
+        self.suspension = suspension
+        self.places, self.reach = tuple(reach), np.array([*reach.values()])
+        self.goals = tuple(goals)
+        self._look = Together([goal.curves for goal in self.goals])
+        self._values: dict[bytes, list[Array] | None] = {}
+
+    def at(self, x: Array) -> Subject:
+        """Return the suspension with some values."""
+        changes: dict[str, float] = {}
+        for place, by in zip(self.places, x * self.reach, strict=True):
+            changes |= place.moved(float(by))
+        return changed(self.suspension, changes)
+
+    def values(self, x: Array) -> list[Array] | None:
+        """Return the values of the characteristic of each goal; None where there are none."""
+        key = x.tobytes()
+        if key not in self._values:
+            try:
+                found = [values[0] for values in self._look.of(assembly_of(self.at(x)))]
+            except KintrafoError:
+                found = [np.array(np.nan)]
+            finite = all(np.isfinite(values).all() for values in found)
+            self._values[key] = found if finite else None
+        return self._values[key]
+
+    def look_at(self, several: Iterable[Array]) -> None:
+        """Look at several suspensions together, so that `values` has them."""
+        new = {x.tobytes(): x for x in several if x.tobytes() not in self._values}
+        if not new:
+            return
+        off = np.array([*new.values()]) * self.reach
+        keys = [*new]
+
+        def seen(some: slice, found: list[Array], reasons: list[str]) -> None:
+            for row, (key, reason) in enumerate(zip(keys[some], reasons, strict=True)):
+                values = [curves[row, 0] for curves in found]
+                finite = not reason and all(np.isfinite(one).all() for one in values)
+                self._values[key] = values if finite else None
+
+        looks = [goal.curves for goal in self.goals]
+        curves_of_many(self.suspension, moved_by(self.places, off), looks, seen)
+
+    def ends(self, x: Array, which: int) -> tuple[list[Array] | None, list[Array] | None]:
+        """Return what `values` returns at the two ends of the range of one value."""
+        ends = np.array([x, x])
+        ends[:, which] = -1.0, 1.0
+        low, high = (self.values(end) for end in ends)
+        return low, high
+
+    @property
+    def evaluations(self) -> int:
+        """How many suspensions were looked at."""
+        return len(self._values)
+
+    @property
+    def impossible(self) -> int:
+        """How many of them cannot be, or do not reach a position."""
+        return sum(values is None for values in self._values.values())
+
+    # -- words ------------------------------------------------------------------------------------
+
+    def at_the_end(self, x: Array) -> list[str]:
+        """Name the values that are at an end of their range."""
+        pairs = zip(self.places, x, strict=True)
+        return [place.name for place, part in pairs if abs(part) > 1.0 - _AT_THE_END]
+
+    def moved(self, x: Array) -> dict[str, float]:
+        """Return by how much values have moved, in the units for people, by name."""
+        pairs = zip(self.places, x * self.reach, strict=True)
+        return {place.name: float(by / place.to_si) for place, by in pairs}

@@ -1,0 +1,223 @@
+"""The curves of many cars that differ in values of the input file, labelled once."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments, shown
+from ...core.named_types import ArrayLike
+from ...core.quantities import variable
+from ...core.suggestions import suggestion
+from ..analysis.compliance.flexibility import Held
+from .batch import curves_of_many
+from .curves import Curves, curves_of, refuse_bushes
+from .evaluation import Subject, check_subject
+from .places import Place, places_of
+
+Array = NDArray[np.float64]
+
+CAR = "car"
+"""The dimension of what is given as rows of numbers."""
+
+# So many numbers take 0.8 GB.
+_MOST_NUMBERS = 100_000_000
+
+_REDUCTIONS: dict[str, tuple[str, Callable[[Array], Array]]] = {
+    "min": ("least", lambda rows: rows.min(axis=-1)),
+    "max": ("greatest", lambda rows: rows.max(axis=-1)),
+    "mean": ("mean of", lambda rows: rows.mean(axis=-1)),
+    "range": ("range of", lambda rows: np.ptp(rows, axis=-1)),
+}
+"""What may be kept of the curves of a car instead: over its positions, each counted alike."""
+
+
+def cars(
+    suspension: Subject,
+    values: Mapping[str, ArrayLike] | xr.Dataset,
+    *,
+    over: str | None = None,
+    positions: ArrayLike | None = None,
+    names: Sequence[str] | None = None,
+    held: Held | None = None,
+    reductions: Sequence[str] | None = None,
+    threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> xr.Dataset:
+    """Return the characteristics of many cars that differ in values of the input file.
+
+    Parameters
+    ----------
+    suspension : Suspension or RigidAxle
+        What they are otherwise.
+    values : mapping or xarray.Dataset
+        What they have of their own, by place as in `sensitivity` but without ``*``:
+        ``hardpoints.ball_joint.z``, in the unit of the file for people (mm, deg, N/m). Rows of
+        numbers are over the dimension ``car``; of a dataset, all combinations along its dimensions
+        are cars.
+    over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
+        What varies along the curves: by default wheel travel, which counts from each car's own
+        design position, of a rigid axle that of both wheels (``bump``); it has the last four ways.
+    positions : array_like, optional
+        Wheel travel, or displacement of the rack [m], or roll [rad]; by default the
+        usual range of `suspension`.
+    names : sequence of str, optional
+        Characteristics; by default all.
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
+        Instead of characteristics, compliance by the names of `kintrafo.compliance.linear`, over
+        wheel travel, the wheels held like that, see there; bushes of the file may vary, too.
+    reductions : sequence of str, optional
+        Keep 'min', 'max', 'mean' or 'range' of the curves instead of them, over the positions.
+    threads : int, optional
+        By default as many as there are cores.
+    progress : callable, optional
+        Called with the part that is done, up to 1.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over the dimensions of the cars and the positions: the characteristics, or instead of each
+        ``..._min`` and so on; and ``reason``, empty where a car has curves. Cars that cannot be
+        built, or do not reach all positions, are NaN and say why.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+
+    Notes
+    -----
+    Cars are evaluated together, some hundred at a time. What is found is that of one by one but for
+    rounding: some 1e-12 of a curve, as the arm's angle is found to its last digits by other steps.
+    Cars at the end of their reach, or beyond, are looked at one by one.
+
+    Examples
+    --------
+    >>> from kintrafo import Suspension
+    >>> car = Suspension.load("reference_car")
+    >>> found = cars(car, {"hardpoints.tie_rod_inner.z": [278.0, 280.0, 282.0]}, positions=[0.0])
+    >>> np.rad2deg(found["bump_steer"].values[:, 0] * 1e-3).round(4).tolist()  # deg/mm
+    [0.0039, 0.0062, 0.0084]
+    """
+    with Arguments("cars") as given:
+        check_subject(given, suspension)
+        given.function("progress", progress)
+        if threads is not None:
+            threads = given.whole("threads", threads, most=1024)
+        kept = tuple(given.names("reductions", reductions, _REDUCTIONS)) if reductions else ()
+        if not given.refused:
+            curves = curves_of(given, suspension, over, positions, names, held)
+            columns, frame = _columns(given, suspension, values, curves.over)
+        if not given.refused:
+            numbers = frame.size * len(curves.names) * (len(kept) or curves.positions.size)
+            if numbers > _MOST_NUMBERS:
+                given.refuse(
+                    f"values: {frame.size} cars make {numbers:.3g} numbers, and at most "
+                    f"{_MOST_NUMBERS:.3g} are kept. Name fewer characteristics, or reductions."
+                )
+    collected = _Collected(curves, kept, frame.size)
+    curves_of_many(
+        suspension, columns, [curves], collected.take, threads=threads, progress=progress
+    )
+    return _dataset(collected, frame)
+
+
+class _Collected:
+    """What is kept of the cars.
+
+    Parameters
+    ----------
+    curves : Curves
+    kept : tuple of str
+        Reductions; without any, the curves.
+    count : int
+    """
+
+    def __init__(self, curves: Curves, kept: tuple[str, ...], count: int) -> None:
+        self.curves, self.kept = curves, kept
+        last = len(kept) or curves.positions.size
+        self.values = np.full((count, len(curves.names), last), np.nan)
+        self.reasons = np.full(count, "", dtype=object)
+
+    def take(self, some: slice, found: list[Array], reasons: list[str]) -> None:
+        """Keep what was found of some of them."""
+        self.reasons[some] = reasons
+        rows = found[0]
+        if not self.kept:
+            self.values[some] = rows
+            return
+        with np.errstate(invalid="ignore"):  # a turning circle may be infinite
+            for which, name in enumerate(self.kept):
+                self.values[some, :, which] = _REDUCTIONS[name][1](rows)
+
+
+def _columns(
+    given: Arguments, suspension: Subject, values: Any, over: str
+) -> tuple[dict[str, Array], xr.DataArray]:
+    """Return the values of each car by place, in the unit of the file, and their dimensions."""
+    if not isinstance(values, xr.Dataset):
+        rows = {}
+        for name, row in given.mapping("values", values, "places and rows of numbers").items():
+            array = given.array(f"values of {shown(name)}", row, dimensions=[0, 1])
+            rows[str(name)] = xr.DataArray(array, dims=(CAR,) * array.ndim)
+    else:
+        known = places_of(suspension)
+        rows = {str(n): values[n] for n in (*values.data_vars, *values.coords) if n in known}
+        rows |= {str(n): values[n] for n in values.data_vars}
+    places = _places(given, suspension, rows)
+    if given.refused:
+        return {}, xr.DataArray(0.0)
+    refuse_bushes(given, places.values(), [over])
+    try:
+        whole = xr.broadcast(*(row.drop_vars(row.coords) for row in rows.values()))
+    except ValueError:
+        given.refuse("values: rows have different lengths; as many numbers of each are needed.")
+        return {}, xr.DataArray(0.0)
+    whole = tuple(row if row.dims else row.expand_dims(CAR) for row in whole)
+    columns = {}
+    for (name, place), row in zip(places.items(), whole, strict=True):
+        flat = given.array(f"values of {name}", row.values.ravel(), place.unit)
+        columns[name] = flat * place.in_file
+    frame = whole[0]
+    labels = {}
+    if isinstance(values, xr.Dataset):
+        labels = {n: c for n, c in values.coords.items() if set(c.dims) <= set(frame.dims)}
+    return columns, xr.zeros_like(frame, dtype=float).assign_coords(labels)
+
+
+def _places(given: Arguments, suspension: Subject, names: Any) -> dict[str, Place]:
+    known = places_of(suspension)
+    if not names:
+        given.refuse("values: one place or more is needed.")
+    for name in names:
+        if name not in known:
+            given.refuse(f"values: {name} is no number of the file. {suggestion(name, [*known])}")
+    return {name: known[name] for name in names if name in known}
+
+
+def _dataset(collected: _Collected, frame: xr.DataArray) -> xr.Dataset:
+    curves, along = collected.curves, collected.curves.along
+    shape, dims = frame.shape, tuple(map(str, frame.dims))
+    data: dict[str, Any] = {}
+    for row, name in enumerate(curves.names):
+        attributes = curves.quantity(name).attributes()
+        values = collected.values[:, row]
+        if not collected.kept:
+            data[name] = ((*dims, along.name), values.reshape(*shape, -1), attributes)
+        for which, reduction in enumerate(collected.kept):
+            meaning = f"{_REDUCTIONS[reduction][0]} {attributes['long_name']}"
+            reduced = attributes | {"long_name": meaning}
+            data[f"{name}_{reduction}"] = (dims, values[:, which].reshape(shape), reduced)
+    reasons = collected.reasons.astype(str).reshape(shape)
+    data["reason"] = variable(dims, reasons, "why a car has no curves", "1")
+    coordinates: dict[Any, Any] = dict(frame.coords)
+    if not collected.kept:
+        coordinates[along.name] = (along.name, curves.positions, along.attributes())
+    seen = int((collected.reasons == "").sum())
+    attributes = {
+        "title": f"characteristics of {frame.size} cars over {along.long_name}",
+        "message": f"{seen} of {frame.size} cars have curves",
+    }
+    return xr.Dataset(data, coordinates, attributes)

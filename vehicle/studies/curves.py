@@ -1,0 +1,150 @@
+"""The characteristics that are looked at, of a suspension whose values change."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeVar, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ..analysis.compliance.flexibility import HELD
+from ..assembly.assembly import Assembly
+from ..assembly.of import assembly_of
+from ..assembly.quantity import Quantity
+from .evaluation import Subject, available, usual_positions, values_of
+from .places import Place, scaled
+from .sweep_axes import sweep_axes_of, sweep_axis
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Curves:
+    """Which characteristics are looked at, and where.
+
+    Attributes
+    ----------
+    over : str
+        Of `ways.WAYS`; or what holds the wheel under loads.
+    positions : ndarray
+        [m]; over roll [rad].
+    names : tuple of str
+        The characteristics.
+    """
+
+    over: str
+    positions: Array
+    names: tuple[str, ...]
+
+    @property
+    def along(self) -> Quantity:
+        """What varies along them."""
+        return sweep_axis(self.over).along
+
+    def quantity(self, name: str) -> Quantity:
+        """Return what a name stands for."""
+        return sweep_axis(self.over).known[name]
+
+    def of(self, assembly: Assembly) -> Array:
+        """Return the values, of shape (names, positions), SI units.
+
+        Raises
+        ------
+        PositionError
+            If a position is out of reach.
+        """
+        found = values_of(assembly, self.over, self.positions, self.names)
+        return np.array([found[name] for name in self.names])
+
+
+class Together:
+    """Curves that are evaluated together: at once over each way."""
+
+    def __init__(self, curves: Sequence[Curves]) -> None:
+        self._curves = tuple(curves)
+        self._looks: dict[str, Curves] = {}
+        for over in dict.fromkeys(c.over for c in curves):
+            same = [c for c in curves if c.over == over]
+            positions = np.unique(np.concatenate([c.positions for c in same]))
+            names = dict.fromkeys(name for c in same for name in c.names)
+            self._looks[over] = Curves(over, positions, tuple(names))
+
+    def of(self, assembly: Assembly) -> list[Array]:
+        """Return the values of each of the curves, of shape (names, positions), SI units."""
+        found = {over: look.of(assembly) for over, look in self._looks.items()}
+        return [self._part(curves, found[curves.over]) for curves in self._curves]
+
+    def _part(self, curves: Curves, values: Array) -> Array:
+        look = self._looks[curves.over]
+        rows = [look.names.index(name) for name in curves.names]
+        columns = np.searchsorted(look.positions, curves.positions)
+        return values[rows][:, columns]
+
+
+S = TypeVar("S", bound=Subject)
+
+
+def changed(suspension: S, changes: Mapping[str, float]) -> S:
+    """Return a suspension or an axle with other values, or the same; of lists by a factor."""
+    return (
+        cast("S", suspension.with_changes(scaled(suspension, changes))) if changes else suspension
+    )
+
+
+def curves_of(
+    given: Arguments,
+    suspension: Subject,
+    over: Any,
+    positions: Any,
+    names: Sequence[str] | None,
+    held: Any = None,
+) -> Curves:
+    """Check what is to be looked at; by default all characteristics over the usual positions.
+
+    With what holds the wheels under loads these are compliances.
+    """
+    ways = sweep_axes_of(suspension)
+    over = ways[0] if over is None else given.among("over", over, ways)
+    if held is not None:
+        over = _held(given, suspension, over, held)
+    if positions is not None:
+        unit = "m" if given.refused else sweep_axis(over).along.units
+        positions = given.array("positions", positions, unit, dimensions=[1])
+    if given.refused:
+        return Curves("travel", np.zeros(1), ())
+    assembly = assembly_of(suspension)
+    if isinstance(names, list | tuple):
+        assembly.refuse_of_steering(names)
+    if positions is None:
+        positions = usual_positions(assembly, over)
+    known = available(assembly, over)
+    chosen = known if names is None else given.names("names", names, known)
+    if not (chosen or given.refused):
+        given.refuse(
+            f"names is empty: one characteristic or more is needed, of {', '.join(known)}."
+        )
+    return Curves(over, positions, tuple(dict.fromkeys(chosen)))
+
+
+def _held(given: Arguments, suspension: Subject, over: Any, held: Any) -> Any:
+    """Check what holds the wheels under loads, and return it."""
+    usual = sweep_axes_of(suspension)[0]
+    if over != usual:
+        given.refuse(
+            f"held: compliance is over {sweep_axis(usual).words}. Leave over = {over!r} out."
+        )
+    if not assembly_of(suspension).has_bushes:
+        given.refuse("held: compliance needs a file with [bushings]. Add them.")
+    return given.among("held", held, HELD)
+
+
+def refuse_bushes(given: Arguments, places: Iterable[Place], overs: Iterable[str]) -> None:
+    """Refuse bushes where no result is one of compliance, so that joints are rigid."""
+    soft = [place.name for place in places if place.of_bushes]
+    if soft and not any(over in HELD for over in overs):
+        given.refuse(
+            f"{', '.join(soft[:3])}{' ...' if soft[3:] else ''}: these results do not depend on "
+            "bushes, since joints are rigid. Leave bushes out, or ask for compliance: name what "
+            "holds the wheels (held), or give limits and targets of compliance."
+        )

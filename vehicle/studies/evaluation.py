@@ -1,0 +1,65 @@
+"""Curves of any assembly over a sweep axis: characteristics, or compliance on its own bushes."""
+
+from collections.abc import Collection, Sequence
+from typing import Any, cast
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ..analysis.characteristics.datasets import dataset, flat_values
+from ..analysis.compare import common_positions as common_to
+from ..analysis.compliance.flexibility import HELD, Held
+from ..analysis.compliance.linear import linear
+from ..assembly.assembly import Assembly
+from ..assembly.by_wheel import flat
+from ..kinds import Suspension
+from ..models.axle import Axle
+from ..models.rigid import RigidAxle
+
+Array = NDArray[np.float64]
+Subject = Suspension | Axle | RigidAxle
+"""What has design variables: the numbers of its files."""
+
+_NEEDED = "a kintrafo.Suspension, a kintrafo.Axle or a kintrafo.RigidAxle is needed"
+
+
+def check_subject(given: Arguments, subject: Any, name: str = "suspension") -> None:
+    """Refuse what has no design variables."""
+    given.kind(name, subject, (Suspension, Axle, RigidAxle), _NEEDED)
+
+
+def usual_positions(assembly: Assembly, over: str) -> Array:
+    """Return the usual positions, as far as the wheels go [m] or [rad]."""
+    return assembly.usual(assembly.usual_motion if over in HELD else over)
+
+
+def common_positions(assemblies: Sequence[Assembly], over: str) -> Array:
+    """Return the usual positions that all of some cars reach [m] or [rad], zero included."""
+    return common_to(assemblies, assemblies[0].usual_motion if over in HELD else over)
+
+
+def curves_over(assembly: Assembly, over: str, positions: Array) -> xr.Dataset:
+    """Return all characteristics over a motion, or all compliances, to be drawn."""
+    if over in HELD:
+        found = linear(assembly, None, positions, held=cast("Held", over))
+        return found.drop_dims(["moved", "by"])
+    return dataset(assembly, over, positions)
+
+
+def values_of(
+    assembly: Assembly, over: str, positions: Array, names: Collection[str] | None = None
+) -> dict[str, Array]:
+    """Return characteristics or compliances by the names of their columns, all or some."""
+    if over not in HELD:
+        return flat_values(assembly, over, positions, names)
+    curves = flat(curves_over(assembly, over, positions))
+    return {str(name): data.values for name, data in curves.items()}
+
+
+def available(assembly: Assembly, over: str) -> tuple[str, ...]:
+    """Return the characteristics, or compliances, for which the file has the data."""
+    if over in HELD and not assembly.has_bushes:
+        return ()
+    return tuple(values_of(assembly, over, np.zeros(1)))

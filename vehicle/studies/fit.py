@@ -1,0 +1,322 @@
+"""Errors of the input file that explain curves which were measured on a rig."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...core.quantities import display_of
+from ..analysis.compliance.flexibility import HELD, Held
+from .evaluation import Subject, check_subject
+from .goals import GREATEST, LEAST, Target, check_data
+from .places import Place, amounts
+from .search import Search, in_words, least
+from .sweep_axes import SWEEP_AXES, UNDER_LOADS, sweep_axes_of
+from .tolerance import SIGMAS
+
+Array = NDArray[np.float64]
+
+# A curve is measured to this part of what it varies by, where nothing is said.
+_USUAL_ACCURACY = 0.02
+# Points of a curve that count as if their errors were independent: neighbours on a rig err alike.
+_INDEPENDENT = 10
+# Of what a value may be off by, a measurement that tells less than this part tells nothing.
+_LEAST_TOLD = 0.1
+# A curve of a car whose errors are found is farther off than this once in a hundred times.
+_CHANCE = 0.01
+# What is held is held so well [m].
+_HELD = 1e-4
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A characteristic before and after.
+
+    Attributes
+    ----------
+    name : str
+    points : int
+        How many there are.
+    within : float
+        How well it is taken to be measured [SI].
+    before, after : float
+        Root of the mean squared deviation [SI].
+    """
+
+    name: str
+    points: int
+    within: float
+    before: float
+    after: float
+
+    @property
+    def is_explained(self) -> bool:
+        """Whether what is left may be errors of measurement: 99 of 100 times it is no more.
+
+        The sum of squares of as many independent errors as count is that of chi-squared.
+        """
+        from scipy.stats import chi2  # noqa: PLC0415 (slow to import)
+
+        count = min(self.points, _INDEPENDENT)
+        most = self.within * np.sqrt(chi2.ppf(1.0 - _CHANCE, count) / count)
+        return bool(self.after <= most)
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What explains a measurement.
+
+    Attributes
+    ----------
+    suspension : Suspension or RigidAxle
+        With the values that explain it best.
+    start : Suspension or RigidAxle
+        The one that was given.
+    places : tuple of Place
+        The values that may be off, as they were.
+    moved : dict of str to float
+        By how much each is off, in the unit for people.
+    uncertainty : dict of str to float
+        Its standard deviation with the measurement known, in the same unit.
+    told : dict of str to float
+        From 0 to 1, which part of the variance that its tolerance leaves the measurement takes
+        away: of what is near 0 it tells nothing, and the value stays where it was.
+    curves : tuple of Fitted
+    success : bool
+        Whether the solver has come to its end and every curve is explained: what is left of it is
+        no more than errors of its accuracy make it 99 times of 100.
+    message : str
+        What there is to say about it.
+    evaluations : int
+        How many suspensions were looked at.
+    """
+
+    suspension: Subject
+    start: Subject
+    places: tuple[Place, ...]
+    moved: dict[str, float]
+    uncertainty: dict[str, float]
+    told: dict[str, float]
+    curves: tuple[Fitted, ...]
+    success: bool
+    message: str
+    evaluations: int
+
+
+def fit(
+    suspension: Subject,
+    measured: xr.Dataset,
+    tolerances: Mapping[str, float | str],
+    *,
+    accuracy: Mapping[str, float] | None = None,
+    names: Sequence[str] | None = None,
+    held: Held = "height",
+    progress: Callable[[float], None] | None = None,
+) -> Fit:
+    """Find which errors of the input file explain curves that were measured.
+
+    Parameters
+    ----------
+    suspension : Suspension or RigidAxle
+    measured : xarray.Dataset
+        From `kintrafo.rig.measured_curves`; the steering straight ahead, or the wheel at design.
+        Compliance by the names of `kintrafo.compliance.linear` may be among the curves over wheel
+        travel, if the file has its bushes.
+    tolerances : mapping of str to float or str
+        How far values may be off to either side, as of `tolerance`: normally distributed with a
+        third of it as standard deviation. None is moved farther. A text such as ``"30 %"`` is a
+        part of the value, as of the stiffness of a bush.
+    accuracy : mapping of str to float, optional
+        Standard deviation with which characteristics are measured, in the unit for people. By
+        default 2 % of what the curve varies by.
+    names : sequence of str, optional
+        Which of the curves are to be explained; by default all.
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
+        What held the wheel when compliance was measured, see `kintrafo.compliance.linear`.
+    progress : callable, optional
+        Called after every step of the solver with the cost that is left, as a part of that at the
+        start.
+
+    Returns
+    -------
+    Fit
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used, or nothing that may be off moves a curve.
+    PositionError
+        If the suspension does not reach a position as it is.
+
+    Notes
+    -----
+    The most probable values, by SciPy's ``least_squares``: the sum of the squared deviations of the
+    curves, each in parts of its accuracy, and of the values, each in parts of its standard
+    deviation. Uncertainties are those of first order there. A curve of more than 10 points counts
+    as 10, since neighbours on a rig err alike.
+
+    Examples
+    --------
+    >>> from kintrafo import Suspension, characteristics
+    >>> car = Suspension.load("reference_car")
+    >>> built = car.with_changes({"hardpoints.tie_rod_inner": [-140.0, -310.0, 282.0]})
+    >>> rig = characteristics.over(built, "travel", np.linspace(-0.06, 0.06, 7))[["toe"]]
+    >>> found = fit(car, rig, {"hardpoints.tie_rod_inner.z": 5.0, "hardpoints.ball_joint.x": 5.0})
+    >>> [round(by, 2) for by in found.moved.values()]
+    [-0.1, 1.98]
+    """
+    with Arguments("fit") as given:
+        check_subject(given, suspension)
+        given.function("progress", progress)
+        given.dataset(measured)
+        accuracies = given.mapping(
+            "accuracy", {} if accuracy is None else accuracy, "names and numbers"
+        )
+        if not given.refused:
+            given.among("held", held, HELD)
+            targets = _targets(given, suspension, measured, names, (accuracies, held))
+        if not given.refused:
+            check_data(given, suspension, targets)
+            by_pattern = given.mapping("tolerances", tolerances, "places and numbers")
+            reach = amounts(given, suspension, by_pattern, "tolerance")
+            if not reach:
+                given.refuse("tolerances: one or more are needed.")
+    search = Search(suspension, reach, targets, (), progress, SIGMAS)
+    idle = search.idle(np.zeros(len(reach)))
+    if len(idle) == len(reach):
+        raise InputError([f"tolerances: nothing of {', '.join(idle)} moves a curve."], "fit")
+    return _fit(search, *least(search))
+
+
+def _targets(
+    given: Arguments,
+    suspension: Subject,
+    measured: xr.Dataset,
+    names: Any,
+    how: tuple[Mapping[str, Any], Held],
+) -> list[Target]:
+    """Return the measured curves as targets, without the cells that are empty."""
+    accuracies, held_by = how
+    # parallel travel is the first of the ways over wheel travel
+    ways = {SWEEP_AXES[way].along.name: way for way in reversed(sweep_axes_of(suspension))}
+    over = [name for name in ways if name in measured.dims]
+    if len(over) != 1:
+        given.refuse(
+            "measured: what kintrafo.rig.measured_curves returns is needed, over "
+            f"{' or '.join(reversed(ways))}."
+        )
+        return []
+    (along,) = over
+    way = ways[along]
+    for name in (other for other in ways if other != along and other in measured.coords):
+        held = measured[name].values
+        if not (held.size == 1 and abs(float(held.item())) <= _HELD):
+            where = f"held at {1e3 * held.item():g} mm" if held.size == 1 else "not held"
+            given.refuse(f"measured: {name} is {where}; curves with it at zero are needed.")
+    if not np.isfinite(measured[along].values.astype(float)).all():
+        given.refuse(f"measured: {along} has no number at some points.")
+    there = [
+        name
+        for name in map(str, measured)
+        if measured[name].dims == (along,) and np.issubdtype(measured[name].dtype, np.floating)
+    ]
+    under_loads = UNDER_LOADS[held_by].known if way == "travel" else {}
+    known = [name for name in there if name in SWEEP_AXES[way].known or name in under_loads]
+    chosen = known if names is None else given.names("names", names, known)
+    if not chosen and not given.refused:
+        given.refuse("measured: one curve or more is needed.")
+    for name in accuracies:
+        given.among("accuracy of", name, known)
+    return [
+        target
+        for name in chosen
+        for over in [held_by if name in under_loads else way]
+        if (target := _target(given, measured[name], over, accuracies.get(name))) is not None
+    ]
+
+
+def _target(given: Arguments, curve: xr.DataArray, over: str, accuracy: Any) -> Target | None:
+    name = str(curve.name)
+    fine = np.isfinite(curve.values)
+    values, at = curve.values[fine], curve[str(curve.dims[0])].values[fine]
+    if not values.size:
+        given.refuse(f"measured: {name} has no value.")
+        return None
+    quantity = (SWEEP_AXES | UNDER_LOADS)[over].known[name]
+    shown = display_of(quantity.attributes())
+    if accuracy is not None:
+        number = given.number(
+            f"accuracy of {name}", accuracy, shown.units, least=LEAST, below=GREATEST
+        )
+        within = number / shown.factor
+    else:
+        within = _USUAL_ACCURACY * float(np.ptp(values))
+        if within == 0.0:
+            given.refuse(
+                f"measured: {name} does not vary, so that nothing says how well it is measured. "
+                f"Give its accuracy, in {shown.units or 'its unit'}."
+            )
+            return None
+    return Target(name, over, at, values, within * _repeated(values.size))
+
+
+def _repeated(points: int) -> float:
+    """Return what deviations are divided by, so that many count as independent ones do."""
+    return float(np.sqrt(max(1.0, points / _INDEPENDENT)))
+
+
+def _fit(search: Search, x: Array, gave_up: str) -> Fit:
+    """Return what was found in words and numbers."""
+    slopes = search.slopes(x)
+    variances = np.diag(np.linalg.inv(slopes.T @ slopes))
+    # before, each value has a third of its range as standard deviation
+    told = 1.0 - variances * SIGMAS**2
+    curves = _curves(search, x)
+    names = [place.name for place in search.places]
+    facts = {
+        "the solver gave up": [gave_up] if gave_up else [],
+        "not explained": [curve.name for curve in curves if not curve.is_explained],
+        "at the end of its tolerance": search.at_the_end(x),
+        "the curves tell nothing of": [
+            name for name, part in zip(names, told, strict=True) if part < _LEAST_TOLD
+        ],
+    }
+    deviations = search.moved(np.sqrt(variances))
+    return Fit(
+        suspension=search.at(x),
+        start=search.suspension,
+        places=search.places,
+        moved=search.moved(x),
+        uncertainty=deviations,
+        told=dict(zip(names, np.clip(told, 0.0, 1.0).tolist(), strict=True)),
+        curves=curves,
+        success=not (gave_up or facts["not explained"]),
+        message=in_words(facts) or "explained",
+        evaluations=search.evaluations,
+    )
+
+
+def _curves(search: Search, x: Array) -> tuple[Fitted, ...]:
+    return tuple(
+        Fitted(target.name, target.at.size, target.within / _repeated(target.at.size), *deviations)
+        for target, *deviations in zip(
+            search.targets, _deviations(search, np.zeros_like(x)), _deviations(search, x),
+            strict=True,
+        )
+    )  # fmt: skip
+
+
+def _deviations(search: Search, x: Array) -> Iterable[float]:
+    """Return the root of the mean squared deviation of each curve."""
+    found = search.values(x)
+    if found is None:
+        found = [np.full(target.at.size, np.nan) for target in search.targets]
+    return [
+        float(np.sqrt(np.mean((values - target.value) ** 2)))
+        for target, values in zip(search.targets, found, strict=True)
+    ]

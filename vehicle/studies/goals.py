@@ -1,0 +1,458 @@
+"""Targets and limits of characteristics, as a file or a caller gives them."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.quantities import bracketed, display_of
+from ..analysis.compliance.flexibility import HELD
+from ..assembly.of import assembly_of, given_assembly
+from ..assembly.quantity import Quantity
+from ..input.toml_file import read_sections
+from .curves import Curves, Together
+from .evaluation import available
+from .sweep_axes import OF_CORNERS, SWEEP_AXES, compliances_over, sweep_axes_of, sweep_axis
+
+Array = NDArray[np.float64]
+
+_SECTIONS = (
+    "distribution",
+    "tolerances",
+    "free",
+    "targets",
+    "minimise",
+    "maximise",
+    "limits",
+    "accuracy",
+)
+# No characteristic is as great as this in any unit, and no deviation as small matters.
+GREATEST, LEAST = 1e9, 1e-9
+
+
+@dataclass(frozen=True)
+class Goal:
+    """Something about a characteristic at some positions.
+
+    Attributes
+    ----------
+    name : str
+        Characteristic.
+    over : str
+        Of `ways.WAYS`; or what holds the wheel under loads.
+    at : ndarray, shape (n,)
+        Positions [m]; over roll [rad].
+    """
+
+    name: str
+    over: str
+    at: Array
+
+    @property
+    def quantity(self) -> Quantity:
+        """What the name stands for."""
+        return sweep_axis(self.over).known[self.name]
+
+    @property
+    def over_words(self) -> str:
+        """What stands behind the name where it is not over the usual: `` over the rack``."""
+        usual = self.over in ("travel", "bump") or self.over in HELD
+        return "" if usual else f" over {sweep_axis(self.over).words}"
+
+    @property
+    def curves(self) -> Curves:
+        """What has to be evaluated for it."""
+        return Curves(self.over, self.at, (self.name,))
+
+
+@dataclass(frozen=True)
+class Target(Goal):
+    """What a characteristic is wanted to be.
+
+    Attributes
+    ----------
+    name, over, at
+        As of `Goal`.
+    value : ndarray, shape (n,)
+        SI units.
+    within : float
+        A deviation that matters, SI units: deviations are compared in parts of it. NaN where it
+        was left out since it plays no part, as of `pareto`.
+    """
+
+    value: Array
+    within: float
+
+
+@dataclass(frozen=True)
+class Limit(Goal):
+    """What a characteristic must not pass.
+
+    Attributes
+    ----------
+    name, over, at
+        As of `Goal`.
+    least, most : float
+        SI units; infinite where there is none.
+    """
+
+    least: float
+    most: float
+
+    def kept(self, values: Array) -> NDArray[np.bool_]:
+        """Tell which of some values are within the limit."""
+        return (values >= self.least) & (values <= self.most)
+
+    @property
+    def sides(self) -> list[tuple[float, float]]:
+        """The bounds that there are, with the sign of the room beside them."""
+        return [(s, b) for s, b in ((1.0, self.least), (-1.0, self.most)) if np.isfinite(b)]
+
+    @property
+    def size(self) -> float:
+        """What room is measured by."""
+        return max(abs(bound) for _, bound in self.sides) or 1.0
+
+    def room(self, values: Array) -> Array:
+        """Return how much room there is to every bound, in parts of the size; negative beyond."""
+        return np.concatenate([sign * (values - bound) / self.size for sign, bound in self.sides])
+
+
+def read(path: str | Path) -> dict[str, Any]:
+    """Read a TOML file of tolerances, free values, targets, limits and such; it may have them all.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+
+    Returns
+    -------
+    dict
+        The sections that it has.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, or has something else.
+    """
+    return read_sections(path, _SECTIONS)
+
+
+def limits(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> list[Limit]:
+    """Read limits by themselves, for a picture: as those of `tolerance` and `optimise`.
+
+    Parameters
+    ----------
+    described : mapping
+        By characteristic.
+    ways : sequence of str, optional
+        As of `goals`.
+    """
+    with Arguments("limits") as given:
+        tables = given.mapping("limits", described, "names and limits")
+        return limits_of(given, tables, _ways(given, ways))
+
+
+def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> list[Goal]:
+    """Return the targets and limits of a file that was read, to be drawn and judged.
+
+    Parameters
+    ----------
+    described : mapping
+        From `read`; other sections are left to others.
+    ways : sequence of str, optional
+        What they may be over, and the first of them where they do not say it: ``travel`` and
+        ``rack``, or of an axle, also a rigid one, ``bump``, ``roll``, ``left`` and ``right``.
+
+    Returns
+    -------
+    list of Target and Limit
+    """
+    with Arguments("goals") as given:
+        sections = given.mapping("described", described, "sections and tables")
+        known = _ways(given, ways)
+        return [
+            *targets_of(given, _section(given, sections, "targets"), known),
+            *limits_of(given, _section(given, sections, "limits"), known),
+        ]
+
+
+def _ways(given: Arguments, ways: Any) -> Sequence[str]:
+    """Return what goals may be over; the usual where what is given is no such names."""
+    names = given.names("ways", ways, SWEEP_AXES)
+    if not names and not given.refused:
+        given.refuse(f"ways is empty: one is needed, of {', '.join(SWEEP_AXES)}.")
+    return names or OF_CORNERS
+
+
+def _section(given: Arguments, sections: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    return given.mapping(name, sections.get(name, {}), "tables")
+
+
+def words_of(kind: str, name: str, over: str) -> str:
+    """Return a goal in words: ``limit: scrub radius [mm] over the rack``.
+
+    Parameters
+    ----------
+    kind : str
+        'target' or 'limit'.
+    name, over : str
+        As of `Goal`.
+    """
+    quantity = sweep_axis(over).known[name]
+    words = f"{kind}: {bracketed(quantity.long_name, quantity.attributes())}"
+    if over in HELD:
+        return f"{words} (held: {over})"
+    return words if over in ("travel", "bump") else f"{words} over {sweep_axis(over).words}"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What comes of a goal.
+
+    Attributes
+    ----------
+    name, over : str
+        The characteristic, and what it is over; or what holds the wheel under loads.
+    kind : str
+        'target' or 'limit'.
+    met : bool
+        Whether all of its positions are within the limit, or off by no more than what matters.
+    beyond : float
+        By how much the worst position is beyond that, SI units; negative where there is room.
+    at : float
+        That position [m]; over roll [rad].
+    """
+
+    name: str
+    over: str
+    kind: str
+    met: bool
+    beyond: float
+    at: float
+
+
+def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
+    """Tell which targets and limits a suspension or an axle meets.
+
+    Parameters
+    ----------
+    suspension : Suspension, Model, Axle or RigidAxle
+    wanted : sequence of Target and Limit
+        From `goals`.
+
+    Returns
+    -------
+    list of Verdict
+        In this order.
+
+    Raises
+    ------
+    InputError
+        If the file has not the data that one of them needs.
+    PositionError
+        If the suspension does not reach a position.
+
+    Examples
+    --------
+    >>> from kintrafo import load
+    >>> car = load("reference_car")
+    >>> toe = goals({"limits": {"toe": {"at_mm": [-50.0, 50.0], "least": -0.2, "most": 0.2}}})
+    >>> [(verdict.name, verdict.met, verdict.at) for verdict in judge(car, toe)]
+    [('toe', False, -0.05)]
+    """
+    with Arguments("judge") as given:
+        given_assembly(given, suspension, "suspension")
+        check_goals(given, "wanted", wanted)
+        if not given.refused:
+            assembly = assembly_of(suspension)
+            check_data(given, assembly, wanted)
+    looks = Together([goal.curves for goal in wanted])
+    found = looks.of(assembly) if wanted else []
+    return [_verdict(goal, values[0]) for goal, values in zip(wanted, found, strict=True)]
+
+
+def _verdict(goal: Goal, values: Array) -> Verdict:
+    if isinstance(goal, Target):
+        kind, beyond = "target", np.abs(values - goal.value) - goal.within
+        met = bool((np.abs(values - goal.value) <= goal.within).all())
+    else:
+        assert isinstance(goal, Limit)
+        kind, beyond = "limit", np.maximum(goal.least - values, values - goal.most)
+        met = bool(goal.kept(values).all())
+    worst = int(beyond.argmax())
+    return Verdict(goal.name, goal.over, kind, met, float(beyond[worst]), float(goal.at[worst]))
+
+
+def check_goals(given: Arguments, name: str, wanted: Any) -> None:
+    """Refuse what is no list of goals."""
+    if not isinstance(wanted, list | tuple) or not all(
+        isinstance(one, Target | Limit) for one in wanted
+    ):
+        given.refuse(f"{name}: a list of targets and limits, from `variation.goals`, is needed.")
+
+
+def check_data(
+    given: Arguments,
+    suspension: Any,
+    goals: Iterable[Goal],
+) -> None:
+    """Refuse goals about what the suspension has not: no data in the file, or no number there.
+
+    Parameters
+    ----------
+    given : Arguments
+    suspension : Suspension, Axle or RigidAxle
+    goals : iterable of Goal
+
+    Raises
+    ------
+    PositionError
+        If the suspension does not reach a position.
+    """
+    assembly = assembly_of(suspension)
+    ways = sweep_axes_of(suspension)
+    for goal in goals:
+        name = f"{goal.name} over {ways[0] if goal.over in HELD else goal.over}"
+        if goal.over not in (*ways, *HELD):
+            given.refuse(f"{name}: what is looked at has curves over {', '.join(ways)}.")
+            continue
+        assembly.refuse_of_steering([goal.name])
+        if goal.name not in available(assembly, goal.over):
+            given.refuse(
+                f"{name}: the file has not the data that this needs, see [vehicle], [rack], "
+                "[tyre] and [bushings]."
+            )
+            continue
+        missing = goal.at[~np.isfinite(goal.curves.of(assembly)[0])]
+        if missing.size:
+            over = sweep_axis(goal.over)
+            places = ", ".join(f"{over.factor * at:g} {over.unit}" for at in missing)
+            given.refuse(
+                f"{name}: it has no finite value at {places}, as a turning circle straight ahead. "
+                f"Leave that position out of at_{over.unit}."
+            )
+
+
+def targets_of(
+    given: Arguments,
+    described: Mapping[str, Any],
+    ways: Sequence[str],
+    *,
+    weighed: bool = True,
+) -> list[Target]:
+    """Read targets, by the names of characteristics; in millimetres and units for people.
+
+    A characteristic has a table, or several in a list: over travel and over the rack. Where targets
+    are not weighed against each other, ``within`` may be left out; where it stands it is checked.
+    """
+    found = []
+    for name, table in _tables(given, described, ("targets", ways), {"value", "within"}):
+        left_out = not weighed and "within" not in table.entries
+        within = np.nan if left_out else table.number("within", least=LEAST)
+        found.append(Target(name, table.over, table.at, table.numbers("value"), within))
+    return found
+
+
+def extremes_of(
+    given: Arguments, described: Mapping[str, Any], section: str, ways: Sequence[str]
+) -> list[Goal]:
+    """Read which characteristics are to be small or great, and where, as `targets_of`."""
+    found = _tables(given, described, (section, ways), set())
+    return [Goal(name, table.over, table.at) for name, table in found]
+
+
+def limits_of(given: Arguments, described: Mapping[str, Any], ways: Sequence[str]) -> list[Limit]:
+    """Read limits, by the names of characteristics, as `targets_of`."""
+    found = []
+    for name, table in _tables(given, described, ("limits", ways), {"least", "most"}):
+        least, most = (
+            table.number(key) if key in table.entries else sign * np.inf
+            for key, sign in (("least", -1.0), ("most", 1.0))
+        )
+        if not least < most:
+            given.refuse(f"[limits.{name}]: least must be smaller than most.")
+        if not {"least", "most"} & {*table.entries}:
+            given.refuse(f"[limits.{name}]: least or most is needed, in {table.unit}.")
+        found.append(Limit(name, table.over, table.at, least, most))
+    return found
+
+
+@dataclass(frozen=True)
+class _Table:
+    """A table of a file about one characteristic."""
+
+    given: Arguments
+    title: str
+    entries: Mapping[str, Any]
+    over: str
+    at: Array
+    unit: str
+    factor: float
+
+    def number(self, key: str, *, least: float = -GREATEST) -> float:
+        """Return a number in SI units."""
+        value = self._given(key)
+        name = f"{self.title} {key}"
+        number = self.given.number(name, value, self.unit, least=least, below=GREATEST)
+        return number / self.factor
+
+    def numbers(self, key: str) -> Array:
+        """Return a number for each position in SI units; one stands for all."""
+        name = f"{self.title} {key}"
+        values = self.given.array(name, self._given(key), self.unit, dimensions=[0, 1])
+        if values.size not in (1, self.at.size):
+            self.given.refuse(
+                f"{name}: {values.size} numbers and {self.at.size} in "
+                f"at_{sweep_axis(self.over).unit}: one for each position is needed, or one for all."
+            )
+            return np.zeros_like(self.at)
+        if (np.abs(values) > GREATEST).any():
+            self.given.refuse(f"{name}: numbers of {GREATEST:g} {self.unit} or less are needed.")
+        return np.broadcast_to(values / self.factor, self.at.shape).copy()
+
+    def _given(self, key: str) -> Any:
+        if key not in self.entries:
+            self.given.refuse(f"{self.title}: {key} is missing, in {self.unit}.")
+        return self.entries.get(key, 1.0)
+
+
+def _tables(
+    given: Arguments, described: Mapping[str, Any], of: tuple[str, Sequence[str]], keys: set[str]
+) -> Iterable[tuple[str, _Table]]:
+    section, ways = of
+    for name, table in _listed(described):
+        title = f"[{section}.{name}]"
+        if not isinstance(table, Mapping):
+            at_key = f"at_{SWEEP_AXES[ways[0]].unit}"
+            given.refuse(
+                f"{title} must be a section, with {' and '.join([at_key, *sorted(keys)])}."
+            )
+            continue
+        over = given.among(f"{title} over", table.get("over", ways[0]), ways)
+        under_loads = compliances_over(over)
+        at_key, known = f"at_{SWEEP_AXES[over].unit}", {**SWEEP_AXES[over].known, **under_loads}
+        known_keys = [at_key, "over", *sorted(keys)]
+        if name in under_loads:
+            known_keys.append("held")
+            over = given.among(f"{title} held", table.get("held", "height"), HELD)
+        for key in table.keys() - {*known_keys}:
+            given.refuse(f"{title} {key} is not known: there are {', '.join(known_keys)}.")
+        if given.among("characteristic", name, known) != name:
+            continue
+        shown = display_of(known[name].attributes())
+        unit, factor = sweep_axis(over).unit, sweep_axis(over).factor
+        at = given.array(f"{title} {at_key}", table.get(at_key, 0.0), unit, dimensions=[0, 1])
+        positions = np.atleast_1d(at) / factor
+        yield name, _Table(given, title, table, over, positions, shown.units, shown.factor)
+
+
+def _listed(described: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
+    """Yield every table with its name, those of lists one after the other."""
+    for name, tables in described.items():
+        for table in tables if isinstance(tables, list | tuple) else [tables]:
+            yield name, table

@@ -1,0 +1,280 @@
+"""The numbers of an input file that may vary, and how they are called."""
+
+import math
+import re
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fnmatch import fnmatchcase
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments, shown
+from ...core.quantities import Display, attributes
+from ...core.suggestions import suggestion
+from ..assembly.of import assembly_of
+from ..input.units import unit_of, without_unit
+from .evaluation import Subject
+
+_SPACES = str.maketrans("._", "  ")
+_DEG = math.pi / 180.0
+# of an amount by which a value of a file may move, in the unit of the file
+_LEAST, _GREATEST = 1e-12, 1e12
+_TO_SI = {"mm": 1e-3, "deg": _DEG, "N/mm^3": 1e9, "N/mm": 1e3, "N m/deg": 1.0 / _DEG}
+_SI = {"mm": "m", "deg": "rad", "N/mm^3": "N/m^3", "N/mm": "N/m", "N m/deg": "N m/rad", "": "1"}
+
+
+# What begins the values of one side of an axle whose image the other one is, and of each.
+_SIDE, _APART = "side.", ("right", "left")
+# Sections of points in the unit of the hardpoints: of a file, and of each rod of a rigid axle.
+_POINTS, _RODS = ("hardpoints.", "left_hardpoints."), "rods."
+_OF_A_BAR = ("bush", "link_top", "link_foot")
+# The list of a file that varies by a factor on all of it: the forces of a spring's curve.
+_SCALED = "spring.force_N"
+
+
+@dataclass(frozen=True)
+class Place:
+    """A number of an input file.
+
+    Attributes
+    ----------
+    name : str
+        Section and key with dots between them, and the component of a point:
+        ``hardpoints.ball_joint.z``. That of a list stands for a factor on all of it.
+    unit : str
+        In which a person reads it: ``mm``, ``deg``, ``N/m``; empty for a pure number.
+    value : float
+        In this unit; of a factor 1.
+    in_file : float
+        What a value in this unit is multiplied with in the file: 0.001 for hardpoints in metres.
+    """
+
+    name: str
+    unit: str
+    value: float
+    in_file: float = 1.0
+
+    @property
+    def of_bushes(self) -> bool:
+        """Whether it is one of a bush."""
+        return "bushings" in self.name.split(".")[:2]
+
+    @property
+    def words(self) -> str:
+        """What it is called for a person: ``ball joint z``, ``strut spring rate``."""
+        words = without_unit(self.name).removeprefix(_SIDE).replace("hardpoints.", "", 1)
+        return words.translate(_SPACES) + (" factor" if is_factor(self.name) else "")
+
+    @property
+    def si_unit(self) -> str:
+        """The SI unit."""
+        return _SI.get(self.unit, self.unit)
+
+    @property
+    def to_si(self) -> float:
+        """What a value in the unit for people is multiplied with for SI units."""
+        return _TO_SI.get(self.unit, 1.0)
+
+    def attributes(self) -> dict[str, Any]:
+        """Return the attributes of a variable of such values."""
+        shown = Display(self.unit or "1", 1.0 / self.to_si)
+        return attributes(self.words, self.si_unit) | {
+            "display_units": shown.units,
+            "display_factor": shown.factor,
+        }
+
+    def moved(self, by: float) -> dict[str, float]:
+        """Return the change of the file that moves the value by an amount in SI units."""
+        return {self.name: (self.value + by / self.to_si) * self.in_file}
+
+    def moved_all(self, by: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+        """Return the changes of many files, as `moved` of each."""
+        return {self.name: (self.value + by / self.to_si) * self.in_file}
+
+
+def places_of(suspension: Subject) -> dict[str, Place]:
+    """Return every number of the files of a suspension or an axle, by name."""
+    return {
+        f"{begin}{place.name}": replace(place, name=f"{begin}{place.name}")
+        for begin, sections in _sections(suspension).items()
+        for place in _places(sections, "", _units_of_points(sections))
+    }
+
+
+def _sections(subject: Subject) -> dict[str, dict[str, Any]]:
+    return assembly_of(subject).design_sections
+
+
+def _units_of_points(sections: dict[str, Any]) -> dict[str, float]:
+    """Return what millimetres are multiplied with in sections of points; takes their units out."""
+    factors = {
+        section: 1e-3 if sections[section].pop("unit") == "m" else 1.0
+        for section in ("hardpoints", "anti_roll_bar")
+        if "unit" in sections.get(section, {})
+    }
+    # other points are in the unit of the hardpoints
+    return {"": factors.get("hardpoints", 1.0)} | factors
+
+
+def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, Place]:
+    """Return the numbers that some patterns name, in the order of the file.
+
+    Parameters
+    ----------
+    given : Arguments
+        Gets what is wrong.
+    suspension : Suspension
+    patterns : sequence of str
+        A number, or all within a section or a point; ``*`` stands for anything:
+        ``hardpoints.*.z``.
+    """
+    known = places_of(suspension)
+    lists = _lists_of(suspension)
+    wanted: set[str] = set()
+    lost: dict[str, None] = {}
+    texts = isinstance(patterns, list | tuple) and all(isinstance(p, str) for p in patterns)
+    if not (texts and patterns):
+        given.refuse(f"places = {shown(patterns)}: a list of places is needed.")
+        return {}
+    for pattern in (_of_both(pattern, known) for pattern in patterns):
+        found = {name for name in known if _fits(name, pattern) and _is_meant(name, pattern, known)}
+        if not found and pattern in lists:
+            given.refuse(f"{pattern} is a list, as of a curve; single numbers vary. Leave it out.")
+        elif not found:
+            hint = _hint(pattern, known)
+            given.refuse(f"{pattern} is no number of the input file, nor a section of it. {hint}")
+        wanted |= found
+        if found:
+            fixed = lists.keys() - found
+            lost |= dict.fromkeys(sorted(name for name in fixed if _fits(name, pattern)))
+    if lost:
+        warnings.warn(
+            f"{', '.join(lost)}: lists, as of a curve, do not vary; single numbers do, and by a "
+            f"factor the forces of a spring, where {_SCALED} is named.",
+            RuntimeWarning,
+            stacklevel=2,
+        )
+    return {name: place for name, place in known.items() if name in wanted}
+
+
+def _of_both(pattern: str, known: Mapping[str, Place]) -> str:
+    """Return a pattern that names a value of a side, of an axle: that of one and its image."""
+    both = f"{_SIDE}{pattern}"
+    if any(_fits(name, pattern) for name in known):
+        return pattern
+    return both if any(_fits(name, both) for name in known) else pattern
+
+
+def _is_meant(name: str, pattern: str, known: Mapping[str, Place]) -> bool:
+    """Return whether a pattern means a value: of sides that are images, each only by its name."""
+    if is_factor(name) and pattern.rpartition(".")[2] != name.rpartition(".")[2]:
+        return False  # an amount is meant for numbers of other units
+    side = name.partition(".")[0]
+    if side not in _APART or not any(other.startswith(_SIDE) for other in known):
+        return True
+    return pattern.startswith(side)
+
+
+def _hint(pattern: str, known: Mapping[str, Place]) -> str:
+    """Return what a pattern may have meant that names nothing of a file."""
+    has_bushes = any(place.of_bushes for place in known.values())
+    if "bushings" in pattern.split(".")[:2] and not has_bushes:
+        return "The file has no [bushings]. Add them."
+    levels = {".".join(name.split(".")[:depth]) for name in known for depth in (1, 2, 3)}
+    return suggestion(pattern, sorted(levels)) if len(pattern) > 2 else "Name one of its sections."
+
+
+def amounts(
+    given: Arguments, suspension: Subject, by_pattern: Mapping[str, Any], what: str
+) -> dict[Place, float]:
+    """Return an amount in SI units for every number that a pattern names; later patterns count.
+
+    They are in the order of the file, whatever that of the patterns is. A text such as "20 %" is a
+    part of each value.
+    """
+    found: dict[str, tuple[Place, float]] = {}
+    for pattern, amount in by_pattern.items():
+        for name, place in matching(given, suspension, [str(pattern)]).items():
+            title = f"{what} of {pattern}"
+            number = _part_of(given, title, amount, place) if isinstance(amount, str) else amount
+            checked = given.number(title, number, place.unit, above=0.0, below=_GREATEST)
+            if checked < _LEAST:
+                unit = f"{place.unit and ' '}{place.unit}"
+                given.refuse(f"{title} = {checked:g}{unit}: {_LEAST:g}{unit} or more is needed.")
+            found[name] = place, checked * place.to_si
+    return dict(found[name] for name in places_of(suspension) if name in found)
+
+
+def _part_of(given: Arguments, title: str, text: str, place: Place) -> float:
+    """Return what a text such as "20 %" is of a value, in its unit."""
+    percent = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*%\s*", text)
+    if percent is None:
+        given.refuse(f'{title} = "{text}": a number is needed, or a text such as "20 %".')
+        return 1.0
+    if place.value == 0.0:
+        given.refuse(f"{title} = {text}: {place.name} is zero, of which there is no part.")
+        return 1.0
+    return float(percent[1]) / 100.0 * abs(place.value)
+
+
+def _fits(name: str, pattern: str) -> bool:
+    return fnmatchcase(name, pattern) or fnmatchcase(name, f"{pattern}.*")
+
+
+def is_factor(name: str) -> bool:
+    """Return whether a place has a list, and what varies is a factor on all of it."""
+    return name == _SCALED or name.endswith(f".{_SCALED}")
+
+
+def scaled(suspension: Subject, changes: Mapping[str, float]) -> dict[str, Any]:
+    """Return changes of a file with lists in place of the factors on them."""
+    if not any(map(is_factor, changes)):
+        return {**changes}
+    lists = _lists_of(suspension)
+    return {
+        name: [by * one for one in lists[name]] if is_factor(name) else by
+        for name, by in changes.items()
+    }
+
+
+def _lists_of(suspension: Subject) -> dict[str, Sequence[float]]:
+    """Return the lists that are no points, such as the forces of a curve, by name."""
+    every = _sections(suspension).items()
+    return {f"{begin}{name}": one for begin, table in every for name, one in _lists(table)}
+
+
+def _lists(table: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Sequence[float]]]:
+    """Yield the lists that are no points, by their names."""
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            yield from _lists(value, f"{above}{key}.")
+        elif (
+            isinstance(value, list | tuple)
+            and not key.endswith("axis")
+            and (is_factor(f"{above}{key}") or not any(_places({key: value}, above, {"": 1.0})))
+        ):
+            yield f"{above}{key}", value
+
+
+def _places(table: Mapping[str, Any], above: str, in_file: Mapping[str, float]) -> Iterator[Place]:
+    for key, value in table.items():
+        name = f"{above}{key}"
+        if isinstance(value, Mapping):
+            yield from _places(value, f"{name}.", in_file)
+            continue
+        if above.startswith("bushings.") and key == "axis":
+            continue  # a direction, whose length does not count
+        of_points = above in _POINTS or above.startswith(_RODS)
+        of_points = of_points or (above == "anti_roll_bar." and key in _OF_A_BAR)
+        factor = in_file.get(above.rstrip("."), in_file[""])
+        unit, factor = ("mm", factor) if of_points else (unit_of(key), 1.0)
+        if isinstance(value, list) and (of_points or key.endswith("com_mm") or key == "axis"):
+            for axis, component in zip("xyz", value, strict=True):
+                yield Place(f"{name}.{axis}", unit, component / factor, factor)
+        elif isinstance(value, list | tuple) and is_factor(name):
+            yield Place(name, "", 1.0)
+        elif isinstance(value, float):
+            yield Place(name, unit, value)

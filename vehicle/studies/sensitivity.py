@@ -1,0 +1,389 @@
+"""By how much each value of the input file moves each characteristic."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError, KintrafoError
+from ...core.named_types import ArrayLike
+from ...core.quantities import Display, display_of
+from ..analysis.compliance.flexibility import HELD, Held
+from ..assembly.of import assembly_of
+from .batch import curves_of_many, moved_by
+from .curves import Curves, changed, curves_of, refuse_bushes
+from .evaluation import Subject, check_subject
+from .places import Place, matching
+from .sweep_axes import SWEEP_AXES, UNDER_LOADS
+
+Array = NDArray[np.float64]
+
+PLACE = "place"
+"""The dimension of the values that vary."""
+
+# Half of the longer of two steps, in SI units. The error of the difference is of fourth order:
+# (0.5 mm / 300 mm)^4 = 8e-12 of a curve that changes over 300 mm, and rounding is 1e-15 / 0.5 mm =
+# 2e-12 of it per millimetre.
+_STEPS = {"m": 5e-4, "rad": 1e-3}
+_RELATIVE_STEP = 1e-3
+# What stands for the size of a value that is zero: other elements of such an inertia are some
+# hundredths, and no body has one without them that is as great.
+_SIZE_OF_ZERO = {"kg m^2": 1e-3}
+# Differences of fourth order, and of second order beside them, by steps from where the value is:
+# with neighbours on both sides, and with those of one side where the other cannot be, as below a
+# mass of zero.
+_BOTH_SIDES = (
+    {-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12},
+    {-1: -1 / 2, 1: 1 / 2},
+)
+_ONE_SIDE = (
+    {0: -25 / 12, 1: 4.0, 2: -3.0, 3: 4 / 3, 4: -1 / 4},
+    {0: -3 / 2, 1: 2.0, 2: -1 / 2},
+)
+# Two orders that disagree by more than these parts of the derivative, and of the greatest one of
+# the curve, see a kink, such as that of a stop that begins to act: there is no derivative. Of a
+# smooth curve they differ by (0.5 mm / 300 mm)^2 = 3e-6 of it, some times.
+_KINK, _KINK_OF_GREATEST = 3e-3, 3e-4
+# Rounding of a curve, as a part of its greatest value, or of 1 rad, 1 m, ...: loops that are solved
+# one after the other, and their rates, leave some thousand roundings of 2e-16.
+ROUNDING = 1e-12
+
+
+def sensitivity(
+    suspension: Subject,
+    places: Sequence[str] = ("hardpoints",),
+    *,
+    over: str | None = None,
+    positions: ArrayLike | None = None,
+    names: Sequence[str] | None = None,
+    held: Held | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> xr.Dataset:
+    """Return by how much values of the input file move the characteristics.
+
+    Parameters
+    ----------
+    suspension : Suspension or RigidAxle
+    places : sequence of str, optional
+        The values: section and key with dots between them, such as ``hardpoints.ball_joint.z``. A
+        point or a section stands for all of its numbers, ``*`` for anything.
+    over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
+        What varies along the curves: by default wheel travel, of a rigid axle that of both wheels
+        (``bump``), which has no other ways than the last four.
+    positions : array_like, optional
+        Wheel travel, or displacement of the rack [m], or roll [rad]; by default the usual range.
+    names : sequence of str, optional
+        Characteristics; by default all.
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
+        Instead of characteristics, compliance by the names of `kintrafo.compliance.linear`, over
+        wheel travel, the wheels held like that, see there; bushes of the file may vary, too.
+    progress : callable, optional
+        Called with the part that is done, up to 1.
+
+    Returns
+    -------
+    xarray.Dataset
+        Each characteristic over ``place`` and the positions: its derivative by the value, SI units,
+        each car's own position above its own design position. NaN where a curve has a kink, as
+        where a stop begins to act. What a section or ``*`` stands for and cannot move, as an
+        inertia of a part without mass, is left out: ``left_out`` among the attributes names it, and
+        ``message`` says why.
+
+    Raises
+    ------
+    InputError
+        If a place or a characteristic is not known, or the suspension cannot do what was asked
+        with neighbouring values of either side of one that is named in full.
+
+    Notes
+    -----
+    The differences of four neighbouring suspensions for each value, of fourth order: of a
+    hardpoint 0.5 mm and 1 mm to either side. Where one side cannot be, as with a friction of zero,
+    up to 2 mm to the other.
+
+    Examples
+    --------
+    >>> from kintrafo import Suspension
+    >>> car = Suspension.load("reference_car")
+    >>> found = sensitivity(car, ["hardpoints.tie_rod_inner.z"], positions=[0.0])
+    >>> round(float(np.rad2deg(found["bump_steer"][0, 0])) * 1e-6, 6)  # deg/mm per mm
+    0.001124
+    """
+    with Arguments("sensitivity") as given:
+        check_subject(given, suspension)
+        given.function("progress", progress)
+        if not given.refused:
+            curves = curves_of(given, suspension, over, positions, names, held)
+            wanted = [*matching(given, suspension, places).values()]
+            asked = [place for place in wanted if _is_asked_for(place, places)]
+            refuse_bushes(given, asked, [curves.over])
+    soft = curves.over in HELD
+    chosen = [place for place in wanted if soft or not place.of_bushes]
+    left_out = dict.fromkeys([p.name for p in wanted if p not in chosen], _RIGID)
+    refused: list[InputError] = []
+
+    def alone(suspension: Subject, place: Place, curves: Curves) -> Array:
+        try:
+            return derivative(suspension, place, curves)
+        except InputError as error:
+            if _is_asked_for(place, places):
+                raise
+            left_out[place.name] = _ALONE
+            refused.append(error)
+            return np.full((len(curves.names), curves.positions.size), np.nan)
+
+    found = derivatives(suspension, chosen, curves, progress, alone)
+    kept = [which for which, place in enumerate(chosen) if place.name not in left_out]
+    if not kept:
+        raise refused[0]
+    dataset = _dataset(curves, [chosen[which] for which in kept], found[kept])
+    return dataset.assign_attrs(left_out=", ".join(left_out), message=_message(left_out))
+
+
+_ALONE = "a file cannot have values beside them (name one in full to be told why)"
+_RIGID = "nothing here depends on bushes, joints are rigid"
+# So many values that are left out are named in a message; the dataset names all.
+_NAMED = 3
+
+
+def _is_asked_for(place: Place, patterns: Sequence[str]) -> bool:
+    """Tell whether somebody wants this value, and has not just left it to a pattern or section."""
+    return any(
+        p == place.name or (place.of_bushes and "bushings" in p.split(".")[:2]) for p in patterns
+    )
+
+
+def _message(left_out: Mapping[str, str]) -> str:
+    """Say what is left out, and why."""
+    parts = []
+    for reason in dict.fromkeys(left_out.values()):
+        names = [name for name, why in left_out.items() if why == reason]
+        more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
+        parts.append(f"{', '.join(names[:_NAMED])}{more}, since {reason}")
+    return f"left out: {'; '.join(parts)}" if parts else ""
+
+
+def derivatives(
+    suspension: Subject,
+    places: Sequence[Place],
+    curves: Curves,
+    progress: Callable[[float], None] | None = None,
+    otherwise: Callable[[Subject, Place, Curves], Array] | None = None,
+) -> Array:
+    """Return the derivatives of some curves by values; (places, names, positions), SI units.
+
+    The neighbours to both sides are looked at together; whoever lacks one goes by itself.
+    """
+    steps = [*_BOTH_SIDES[0]]
+    off = np.zeros((len(places) * len(steps), len(places)))
+    for which, place in enumerate(places):
+        rows = slice(which * len(steps), (which + 1) * len(steps))
+        off[rows, which] = step_of(place) * np.array(steps)
+    beside = np.full((len(off), len(curves.names), curves.positions.size), np.nan)
+    there = np.zeros(len(off), dtype=bool)
+
+    def seen(some: slice, found: list[Array], reasons: list[str]) -> None:
+        beside[some], there[some] = found[0], [not reason for reason in reasons]
+
+    curves_of_many(suspension, moved_by(places, off), [curves], seen, progress=progress)
+    shape = len(places), len(steps)
+    pairs = zip(beside.reshape(*shape, *beside.shape[1:]), there.reshape(shape), strict=True)
+    alone = otherwise or derivative
+    return np.array(
+        [
+            _difference(_BOTH_SIDES, step_of(place), dict(zip(steps, at, strict=True)))
+            if possible.all()
+            else alone(suspension, place, curves)
+            for place, (at, possible) in zip(places, pairs, strict=True)
+        ]
+    )
+
+
+def slopes(suspension: Subject, places: Sequence[Place], curves: Curves) -> Array:
+    """Return what `derivatives` does; NaN for a value whose neighbours cannot be."""
+    return derivatives(suspension, places, curves, otherwise=_derivative_or_nan)
+
+
+def _derivative_or_nan(suspension: Subject, place: Place, curves: Curves) -> Array:
+    try:
+        return derivative(suspension, place, curves)
+    except InputError:
+        return np.full((len(curves.names), curves.positions.size), np.nan)
+
+
+def derivative(suspension: Subject, place: Place, curves: Curves) -> Array:
+    """Return the derivative of some curves by a value; of shape (names, positions), SI units."""
+    return _difference(*_neighbours(suspension, place, curves))
+
+
+def _difference(
+    orders: Sequence[Mapping[int, float]], step: float, at: Mapping[int, Array]
+) -> Array:
+    """Return the derivative from the curves so many steps off, NaN at a kink."""
+    with np.errstate(invalid="ignore"):  # a turning circle is infinite straight ahead
+        fourth, second = (
+            np.sum([weight * at[by] for by, weight in order.items()], axis=0) / step
+            for order in orders
+        )
+    rounding = ROUNDING * np.maximum(_greatest(at[1]), 1.0) / abs(step)
+    tolerated = _KINK * np.abs(fourth) + _KINK_OF_GREATEST * _greatest(fourth) + rounding
+    fourth[np.abs(fourth) <= rounding] = 0.0
+    smooth: Array = np.where(np.abs(second - fourth) <= tolerated, fourth, np.nan)
+    return smooth
+
+
+def _neighbours(
+    suspension: Subject, place: Place, curves: Curves
+) -> tuple[Sequence[Mapping[int, float]], float, dict[int, Array]]:
+    """Return the differences that can be taken, their step, and the curves so many steps off."""
+    size = step_of(place)
+    refused = []
+    for orders, step in ((_BOTH_SIDES, size), (_ONE_SIDE, size), (_ONE_SIDE, -size)):
+        try:
+            return (
+                orders,
+                step,
+                {by: _moved(suspension, place, by * step, curves) for by in orders[0]},
+            )
+        except InputError as error:
+            refused.append(error)
+    raise refused[0]
+
+
+def _greatest(values: Array) -> Array:
+    """Return the greatest absolute value of each row that is one."""
+    sizes = np.where(np.isfinite(values), np.abs(values), 0.0)
+    greatest: Array = sizes.max(axis=1, initial=0.0, keepdims=True)
+    return greatest
+
+
+def step_of(place: Place) -> float:
+    """Return the step of a difference, SI units."""
+    if place.si_unit in _STEPS:
+        return _STEPS[place.si_unit]
+    return _RELATIVE_STEP * (abs(place.value) or _SIZE_OF_ZERO.get(place.unit, 1.0)) * place.to_si
+
+
+def _moved(suspension: Subject, place: Place, by: float, curves: Curves) -> Array:
+    try:
+        return curves.of(assembly_of(changed(suspension, place.moved(by))))
+    except KintrafoError as error:
+        problem = (
+            f"{place.name}: with {by / place.to_si:+g} {place.unit} there is no neighbour to "
+            f"compare with, since {error}"
+        )
+        raise InputError([problem], "sensitivity") from None
+
+
+def _dataset(curves: Curves, places: Sequence[Place], values: Array) -> xr.Dataset:
+    along = curves.along
+    data = {
+        name: xr.Variable((PLACE, along.name), values[:, i], _attributes(curves, name, places))
+        for i, name in enumerate(curves.names)
+    }
+    labels = {"long_name": "value of the input file that moves"}
+    coordinates = {
+        PLACE: xr.Variable(PLACE, [place.name for place in places], labels),
+        "place_unit": xr.Variable(PLACE, [place.si_unit for place in places]),
+        "place_display_unit": xr.Variable(PLACE, [place.unit for place in places]),
+        "place_display_factor": xr.Variable(PLACE, [1.0 / place.to_si for place in places]),
+        "place_name": xr.Variable(PLACE, [place.words for place in places]),
+        along.name: xr.Variable(along.name, curves.positions, along.attributes()),
+    }
+    return xr.Dataset(data, coordinates, {"title": f"sensitivity over {along.long_name}"})
+
+
+def _attributes(curves: Curves, name: str, places: Sequence[Place]) -> dict[str, Any]:
+    """Describe a derivative; where the values have several units, it is shown by their SI units."""
+    quantity = curves.quantity(name)
+    attributes = quantity.attributes()
+    shown = display_of(attributes)
+    units = {(place.si_unit, place.unit, place.to_si) for place in places}
+    si_unit, unit, to_si = (
+        next(iter(units)) if len(units) == 1 else ("place_unit", "place_unit", 1.0)
+    )
+    attributes |= {"units": _per(quantity.units, si_unit)}
+    shown = Display(_per(shown.units, unit, " per "), shown.factor * to_si)
+    return attributes | {
+        "long_name": f"sensitivity of {quantity.long_name}",
+        "sign": "positive where it grows with the value",
+        "display_units": shown.units,
+        "display_factor": shown.factor,
+    }
+
+
+def _per(unit: str, other: str, link: str = "/") -> str:
+    """Return the unit of a derivative."""
+    if other in ("", "1"):
+        return unit
+    return f"1/{other}" if unit == "1" else f"{unit}{link}{other}"
+
+
+class Effect(NamedTuple):
+    """What a value of the input file does to a characteristic.
+
+    Attributes
+    ----------
+    place : str
+        The value's name.
+    size : float
+        The derivative, in the units for people of both.
+    unit : str
+        'deg/mm per mm'
+    """
+
+    place: str
+    size: float
+    unit: str
+
+
+def effects(dataset: xr.Dataset, name: str, at: float = 0.0) -> Iterator[Effect]:
+    """Return what each value does to a characteristic at a position, the largest first.
+
+    A millimetre and a degree cannot be compared: values of one unit come together.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `sensitivity`.
+    name : str
+        Characteristic.
+    at : float, optional
+        Position [m]; the nearest that there is.
+
+    Returns
+    -------
+    iterator of Effect
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+    """
+    with Arguments("effects") as given:
+        given.dataset(dataset, over=PLACE)
+        if not given.refused:
+            given.among("name", name, [str(n) for n, d in dataset.items() if PLACE in d.dims])
+        given.number("at", at)
+    return _effects(dataset, name, at)
+
+
+def _effects(dataset: xr.Dataset, name: str, at: float) -> Iterator[Effect]:
+    data = dataset[name]
+    along = next(str(d) for d in data.dims if d != PLACE)
+    column = data.sel({along: at}, method="nearest").values
+    ways = (SWEEP_AXES | UNDER_LOADS).values()
+    quantity = next(way.known[name] for way in ways if name in way.known)
+    shown = display_of(quantity.attributes())
+    units = dataset["place_display_unit"].values.tolist()
+    sizes = column * shown.factor / dataset["place_display_factor"].values
+    found = [
+        Effect(str(place), float(size), _per(shown.units, unit, " per "))
+        for place, size, unit in zip(dataset[PLACE].values, sizes, units, strict=True)
+    ]
+    for unit in dict.fromkeys(effect.unit for effect in found):
+        same = [effect for effect in found if effect.unit == unit]
+        yield from sorted(same, key=lambda e: -abs(e.size) if np.isfinite(e.size) else 1.0)

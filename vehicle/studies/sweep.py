@@ -1,0 +1,236 @@
+"""The motion of a suspension over a grid of values of its file."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError, KintrafoError
+from ...core.named_types import ArrayLike
+from ...ensembles import ensemble
+from ...ensembles.variants import without_mass
+from ..analysis.scenario import Scenario, started
+from ..assembly.of import model_of
+from ..corner.wheel_loads import UNITS
+from ..models.axle.equations import AxleModel
+from ..models.model import Model
+from ..models.rigid.model import RigidAxleModel
+from .curves import changed, refuse_bushes
+from .evaluation import Subject, check_subject
+from .places import Place, matching
+
+Array = NDArray[np.float64]
+
+_CAR = "car"
+_MOST_CARS = 1_000_000
+
+
+def sweep(
+    suspension: Subject,
+    values: Mapping[str, ArrayLike],
+    scenario: Scenario | None = None,
+    *,
+    signals: list[str] | tuple[str, ...] = (),
+    reductions: Mapping[str, Any] | None = None,
+    rtol: float = 1e-6,
+    atol: ArrayLike = 1e-9,
+    max_steps: int = 1_000_000,
+    progress: Callable[[float], None] | None = None,
+) -> xr.Dataset:
+    """Simulate a suspension with all combinations of some values.
+
+    Parameters
+    ----------
+    suspension : Suspension or RigidAxle
+    values : mapping of str to array_like
+        The values that each place of the input file takes, in its unit for people (mm, deg, N/m,
+        ...): ``{"strut.spring_rate_N_per_m": [20e3, 25e3]}``.
+    scenario : Scenario, optional
+        Road, rack and start; by default a second at rest. Where it gives no height, each suspension
+        starts at its own rest. A rigid axle has the road under both wheels, or inputs by its own
+        names, such as ``left_road_height``.
+    signals, reductions
+        What is kept, as of `kintrafo.ensemble`: signals at the output times, and numbers.
+    rtol, atol, max_steps
+        As of `kintrafo.ensemble`.
+    progress : callable, optional
+        Called with the part that is prepared, up to 1; most of the time goes there.
+
+    Returns
+    -------
+    xarray.Dataset
+        As of `kintrafo.ensemble`, over one dimension for each place, in SI units. What cannot be,
+        or has no rest, says why in ``reason``.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used, or the values ask for different equations.
+
+    Examples
+    --------
+    >>> from kintrafo import Suspension, roads
+    >>> from kintrafo.vehicle.analysis.scenario import Scenario
+    >>> bump = Scenario(inputs={"road_height": roads.step(0.02, at=0.1, end=1.0)})
+    >>> rates = {"strut.damper_rate_N_s_per_m": [1000.0, 1500.0, 2000.0]}
+    >>> car = Suspension.load("reference_car")
+    >>> found = sweep(car, rates, bump, reductions={"wheel_acceleration": "max"})
+    >>> found["wheel_acceleration_max"].dims
+    ('strut.damper_rate_N_s_per_m',)
+    """
+    with Arguments("sweep") as given:
+        check_subject(given, suspension)
+        scenario = Scenario() if scenario is None else scenario
+        given.kind("scenario", scenario, Scenario, "a Scenario is needed")
+        given.function("progress", progress)
+        grid = given.mapping("values", values, "places and numbers")
+        if not given.refused:
+            axes = _axes(given, suspension, grid)
+    cars = _Cars(suspension, axes, scenario)
+    for car in range(cars.count):
+        cars.prepare(car)
+        if progress is not None:
+            progress((car + 1) / cars.count)
+    found = ensemble(
+        cars.model,
+        cars.variants(),
+        (0.0, scenario.duration),
+        cars.starts(),
+        inputs=cars.inputs,
+        signals=signals,
+        reductions=reductions,
+        t_eval=scenario.times(),
+        rtol=rtol,
+        atol=atol,
+        max_steps=max_steps,
+    )
+    return cars.over_the_grid(found)
+
+
+def _axes(given: Arguments, suspension: Subject, grid: Mapping[Any, Any]) -> dict[Place, Array]:
+    """Return the values of each place in SI units."""
+    axes: dict[Place, Array] = {}
+    for name, along in grid.items():
+        places = matching(given, suspension, [name] if isinstance(name, str) else name)
+        refuse_bushes(given, places.values(), ())
+        if len(places) > 1:
+            given.refuse(f"{name} stands for {len(places)} numbers: name one of them.")
+            continue
+        for place in places.values():
+            numbers = given.array(f"values of {name}", along, place.unit, dimensions=[0, 1])
+            if np.unique(numbers).size != numbers.size:
+                given.refuse(f"values of {name}: each is needed once.")
+            if place in axes:
+                given.refuse(f"{name} stands for {place.name}, which is named twice.")
+            axes[place] = np.atleast_1d(numbers) * place.to_si
+    if not axes:
+        given.refuse("values: one place or more is needed.")
+    count = np.prod([along.size for along in axes.values()], dtype=float)
+    if count > _MOST_CARS:
+        given.refuse(f"values: they make {count:g} combinations, at most {_MOST_CARS:g} are taken.")
+    return axes
+
+
+class _Cars:
+    """Suspensions over a grid, prepared one after the other."""
+
+    def __init__(
+        self, suspension: Subject, axes: Mapping[Place, Array], scenario: Scenario
+    ) -> None:
+        self._suspension, self._scenario, self._axes = suspension, scenario, dict(axes)
+        on_wheel = any(name.endswith(tuple(UNITS)) for name in scenario.inputs)
+        self.model = model_of(suspension, wheel_loads=on_wheel)
+        self.inputs: Mapping[str, Any] = scenario.inputs
+        self._shape = tuple(along.size for along in axes.values())
+        self.count = int(np.prod(self._shape))
+        self._parameters: dict[int, dict[str, float]] = {}
+        self._starts: dict[int, Array] = {}
+        self._reasons = np.full(self.count, "", dtype=object)
+
+    def prepare(self, car: int) -> None:
+        """Find the parameters and the start of one suspension."""
+        changes: dict[str, float] = {}
+        places = np.unravel_index(car, self._shape)
+        for (place, along), at in zip(self._axes.items(), places, strict=True):
+            changes |= place.moved(float(along[at]) - place.value * place.to_si)
+        try:
+            suspension = changed(self._suspension, changes)
+            model = model_of(suspension, wheel_loads=self.model.wheel_loads)
+            self._check_equations(model)
+            self._starts[car] = self._start(model)
+            self._parameters[car] = dict(model.parameters)
+        except _OtherEquationsError as error:
+            raise InputError([str(error)], "sweep") from None
+        except KintrafoError as error:
+            self._reasons[car] = str(error)
+
+    def _start(self, model: Model | AxleModel | RigidAxleModel) -> Array:
+        start, self.inputs = started(model, self._scenario)
+        return np.array(start)
+
+    def _check_equations(self, model: Model | AxleModel | RigidAxleModel) -> None:
+        if model.equations is not self.model.equations:
+            message = (
+                f"values: some ask for the equations {model.equations.NAME}, which have more in "
+                f"them than those of the file, {self.model.equations.NAME}. Let the file have a "
+                "little of what is zero in it."
+            )
+            raise _OtherEquationsError(message)
+        if model.allowed_lengths() != self.model.allowed_lengths():
+            message = (
+                "values: length_min_mm and length_max_mm end motions and move nothing. Sweep "
+                "another value, and simulate the cars with other lengths one by one."
+            )
+            raise _OtherEquationsError(message)
+
+    def variants(self) -> dict[str, Array]:
+        """Return the parameters in which the suspensions differ."""
+        model = self.model
+        given = {n: v for n, v in model.parameters.items() if not without_mass(model, n)}
+        rows = {n: np.array([own[n] for own in self._parameters.values()]) for n in given}
+        return {n: row for n, row in rows.items() if (row != given[n]).any()}
+
+    def starts(self) -> Array:
+        """Return the states at the start, a row for each suspension that can be."""
+        if not self._starts:
+            problems = [str(reason) for reason in dict.fromkeys(self._reasons)]
+            raise InputError(["none of the suspensions can be simulated", *problems[:3]], "sweep")
+        return np.array([*self._starts.values()])
+
+    def over_the_grid(self, found: xr.Dataset) -> xr.Dataset:
+        """Bring what came of the suspensions that can be onto the grid."""
+        found = found.drop_vars([*self.variants()])
+        nothing: dict[Any, Any] = {
+            "success": False, "valid": False, "reason": "", "solver": "", "steps": 0
+        }  # fmt: skip
+        filled = found.assign_coords({_CAR: [*self._starts]}).reindex(
+            {_CAR: np.arange(self.count)}, fill_value=nothing | dict.fromkeys(
+                set(found.data_vars) - set(nothing), np.nan
+            )
+        )  # fmt: skip
+        reason = filled["reason"].values
+        filled["reason"].values = np.where(self._reasons == "", reason, self._reasons)
+        names = [place.name for place in self._axes]
+        coordinates = {
+            place.name: xr.Variable(place.name, along, place.attributes())
+            for place, along in self._axes.items()
+        }
+        data = {name: self._shaped(variable.variable, names) for name, variable in filled.items()}
+        rest = {name: c.variable for name, c in filled.coords.items() if name != _CAR}
+        done = int(filled["success"].sum())
+        told = f"{done} of {self.count} reached the end of the time"
+        told += "." if done == self.count else ", `reason` says why the others did not."
+        facts = {"title": "motion over a grid of values", "message": told}
+        return xr.Dataset(data, {**rest, **coordinates}, facts)
+
+    def _shaped(self, variable: xr.Variable, names: Sequence[str]) -> xr.Variable:
+        moved = variable.transpose(_CAR, ...)
+        values = moved.values.reshape(*self._shape, *moved.shape[1:])
+        return xr.Variable((*names, *moved.dims[1:]), values, variable.attrs)
+
+
+class _OtherEquationsError(Exception):
+    """A suspension needs other equations than the first."""

@@ -1,0 +1,281 @@
+"""What tolerances of the input file make of the characteristics: bands, yield and shares."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.named_types import ArrayLike
+from ...core.quantities import variable
+from ..analysis.compliance.flexibility import Held
+from ..assembly.of import assembly_of
+from .batch import curves_of_many, moved_by
+from .curves import Curves, curves_of, refuse_bushes
+from .evaluation import Subject, check_subject
+from .goals import Limit, check_data, limits_of
+from .places import Place, amounts
+from .sensitivity import PLACE, ROUNDING, slopes
+from .sweep_axes import sweep_axes_of
+
+Array = NDArray[np.float64]
+Distribution = Literal["normal", "uniform"]
+
+QUANTILE, CAR = "quantile", "car"
+"""Dimensions of the bands, and of the cars."""
+
+SIGMAS = 3.0
+"""Of a normal distribution, a tolerance is so many standard deviations: 99.7 % lie within."""
+
+QUANTILES = (0.0, 0.05, 0.5, 0.95, 1.0)
+
+_MOST_CARS = 1_000_000
+# So many numbers take 0.8 GB until their quantiles are found.
+_MOST_NUMBERS = 100_000_000
+
+
+def tolerance(
+    suspension: Subject,
+    tolerances: Mapping[str, float],
+    *,
+    distribution: Distribution = "normal",
+    correlation: ArrayLike | None = None,
+    limits: Mapping[str, Any] | None = None,
+    count: int = 500,
+    seed: int = 1,
+    over: str | None = None,
+    positions: ArrayLike | None = None,
+    names: Sequence[str] | None = None,
+    held: Held | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> xr.Dataset:
+    """Return what becomes of the characteristics of many cars whose values differ by chance.
+
+    Parameters
+    ----------
+    suspension : Suspension or RigidAxle
+    tolerances : mapping of str to float
+        How far values are off to either side, in the unit of the input file for people (mm, deg,
+        N/m, ...), by their places as `sensitivity` takes them. Of several that name a value the
+        last counts.
+    distribution : {'normal', 'uniform'}, optional
+        Of each value: normal with a third of the tolerance as standard deviation, so that three in
+        a thousand are off by more, or anything within the tolerance alike.
+    correlation : array_like, shape (values, values), optional
+        Of the values, in the order of the file, where they do not vary independently; of the
+        normal distribution only.
+    limits : mapping, optional
+        By characteristic: ``at_mm``, ``least`` and ``most``, in mm and the unit for people, as in a
+        file of limits.
+    count : int, optional
+        How many cars.
+    seed : int, optional
+        Of the generator of random numbers: the same cars for the same seed.
+    over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
+        What varies along the curves: by default wheel travel, of a rigid axle that of both wheels
+        (``bump``), which has no other ways than the last four.
+    positions : array_like, optional
+        Wheel travel, or displacement of the rack [m], or roll [rad]; by default the usual range.
+    names : sequence of str, optional
+        Characteristics; by default all.
+    held : {'height', 'tyre', 'spring', 'locked'}, optional
+        Instead of characteristics, compliance by the names of `kintrafo.compliance.linear`, over
+        wheel travel, the wheels held like that, see there; bushes of the file may vary, too.
+    progress : callable, optional
+        Called with the part that is done, up to 1.
+
+    Returns
+    -------
+    xarray.Dataset
+        Each characteristic over ``quantile`` and the positions: 0 and 1 are the least and the
+        greatest value of all cars. ``..._nominal`` is that of the suspension itself.
+        ``..._share`` over ``place`` and the positions is the part of its variance that each value
+        causes to first order, NaN where it does not vary or has no derivative, as at a kink;
+        ``..._first_order`` is the standard deviation that the shares are about, as a part of that
+        of the cars: where it is not about 1, as where stops act in some cars only, shares say
+        little. Over ``car``: ``within_limits``, ``reason`` where a car cannot be built or does not
+        reach a position, and which value each car has in ``value_of``. The attribute ``yield`` is
+        the part of cars within all limits.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+
+    Examples
+    --------
+    >>> from kintrafo import Suspension
+    >>> car = Suspension.load("reference_car")
+    >>> found = tolerance(car, {"hardpoints": 1.0}, count=50, positions=[-0.05, 0.0, 0.05],
+    ...                   limits={"toe": {"at_mm": [-50.0, 50.0], "least": -0.3, "most": 0.3}})
+    >>> 0.0 < found.attrs["yield"] < 1.0
+    True
+    """
+    with Arguments("tolerance") as given:
+        check_subject(given, suspension)
+        given.function("progress", progress)
+        count = given.whole("count (--cars)", count, least=2, most=_MOST_CARS)
+        seed = given.whole("seed", seed, least=0)
+        given.among("distribution", distribution, ("normal", "uniform"))
+        described = given.mapping("limits", {} if limits is None else limits, "names and limits")
+        bounds = limits_of(given, described, sweep_axes_of(suspension))
+        if not given.refused:
+            curves = curves_of(given, suspension, over, positions, names, held)
+            check_data(given, suspension, bounds)
+            by_pattern = given.mapping("tolerances", tolerances, "places and numbers")
+            spread = amounts(given, suspension, by_pattern, "tolerance")
+            refuse_bushes(given, spread, [curves.over, *(limit.over for limit in bounds)])
+            if not spread:
+                given.refuse("tolerances: one or more are needed.")
+            root = _root_of(given, correlation, len(spread), distribution)
+            numbers = count * len(curves.names) * curves.positions.size
+            if numbers > _MOST_NUMBERS:
+                given.refuse(
+                    f"count = {count}: {len(curves.names)} characteristics at "
+                    f"{curves.positions.size} positions make {numbers:.3g} numbers, and at most "
+                    f"{_MOST_NUMBERS:.3g} are kept. Name fewer, or fewer positions."
+                )
+    off = _drawn(distribution, root, count, seed) * np.array([*spread.values()])
+    cars = _Cars(suspension, [*spread], off, curves, bounds)
+    parts = _parts(suspension, spread, root, distribution, curves)
+    cars.see(progress)
+    return _dataset(cars, parts)
+
+
+# -- cars -----------------------------------------------------------------------------------------
+
+
+def _root_of(given: Arguments, correlation: Any, size: int, distribution: str) -> Array:
+    """Return a matrix that makes correlated numbers of independent ones."""
+    if correlation is None:
+        return np.eye(size)
+    matrix = given.array("correlation", correlation, dimensions=[2])
+    if distribution != "normal":
+        given.refuse("correlation: values vary together by a normal distribution only.")
+    if matrix.shape != (size, size):
+        given.refuse(f"correlation has the shape {matrix.shape}: ({size}, {size}) is needed.")
+    elif not (np.array_equal(matrix, matrix.T) and (np.diag(matrix) == 1.0).all()):
+        given.refuse("correlation: it must be symmetric, with ones on its diagonal.")
+    elif np.linalg.eigvalsh(matrix)[0] < -1e-12 * size:
+        given.refuse("correlation: no values vary like that (an eigenvalue is negative).")
+    if given.refused:
+        return np.eye(size)
+    sizes, vectors = np.linalg.eigh(matrix)
+    root: Array = vectors * np.sqrt(np.maximum(sizes, 0.0))
+    return root
+
+
+def _drawn(distribution: str, root: Array, count: int, seed: int) -> Array:
+    """Draw how far the values of each car are off, in parts of their tolerances."""
+    random = np.random.default_rng(seed)
+    if distribution == "uniform":
+        return random.uniform(-1.0, 1.0, (count, len(root)))
+    drawn: Array = random.standard_normal((count, len(root))) @ root.T / SIGMAS
+    return drawn
+
+
+class _Cars:
+    """Cars that are looked at.
+
+    Parameters
+    ----------
+    suspension : Suspension or RigidAxle
+    places : sequence of Place
+        What varies.
+    off : ndarray, shape (cars, places)
+        By how much, SI units.
+    curves : Curves
+    limits : sequence of Limit
+    """
+
+    def __init__(
+        self,
+        suspension: Subject,
+        places: Sequence[Place],
+        off: Array,
+        curves: Curves,
+        limits: Sequence[Limit],
+    ) -> None:
+        self.suspension, self.places, self.off = suspension, places, off
+        self.curves, self.limits = curves, limits
+        self.nominal = curves.of(assembly_of(suspension))
+        self.values = np.full((len(off), *self.nominal.shape), np.nan)
+        self.reasons = np.full(len(off), "", dtype=object)
+        self.within = np.zeros(len(off), dtype=bool)
+
+    def see(self, progress: Callable[[float], None] | None) -> None:
+        """Look at all of them."""
+        looks = [self.curves, *(limit.curves for limit in self.limits)]
+        moved = moved_by(self.places, self.off)
+        curves_of_many(self.suspension, moved, looks, self._seen, progress=progress)
+
+    def _seen(self, some: slice, found: list[Array], reasons: list[str]) -> None:
+        self.values[some], *limited = found
+        self.reasons[some] = reasons
+        within = np.array([not reason for reason in reasons])
+        for limit, values in zip(self.limits, limited, strict=True):
+            within &= limit.kept(values[:, 0]).all(axis=1)
+        self.within[some] = within
+
+
+# -- results --------------------------------------------------------------------------------------
+
+
+def _parts(
+    suspension: Subject,
+    spread: Mapping[Place, float],
+    root: Array,
+    distribution: str,
+    curves: Curves,
+) -> Array:
+    """Return the variance that each value causes to first order; (places, names, positions).
+
+    Of correlated values it is that of their sum in which they have a part: it may be negative.
+    """
+    sigma = np.array([*spread.values()]) / (np.sqrt(3.0) if distribution == "uniform" else SIGMAS)
+    moved = sigma[:, None, None] * slopes(suspension, [*spread], curves)
+    parts: Array = moved * np.einsum("ij,jnp->inp", root @ root.T, moved)
+    return parts
+
+
+def _dataset(cars: _Cars, parts: Array) -> xr.Dataset:
+    curves = cars.curves
+    along = curves.along
+    seen = cars.reasons == ""
+    nothing = np.full(cars.nominal.shape, np.nan)
+    with np.errstate(invalid="ignore", divide="ignore"):  # a turning circle may be infinite
+        bands = np.quantile(cars.values[seen], QUANTILES, axis=0) if seen.any() else [nothing] * 5
+        variance = parts.sum(axis=0)
+        shares = np.where(variance > 0.0, parts / variance, np.nan)
+        deviation = cars.values[seen].std(axis=0) if seen.any() else nothing
+        varies = deviation > ROUNDING * np.maximum(np.abs(cars.nominal), 1.0)
+        first_order = np.where(varies, np.sqrt(variance) / deviation, np.nan)
+    data: dict[Any, Any] = {}
+    for i, name in enumerate(curves.names):
+        quantity = curves.quantity(name)
+        attributes = quantity.attributes()
+        data[name] = xr.Variable((QUANTILE, along.name), [band[i] for band in bands], attributes)
+        data[f"{name}_nominal"] = xr.Variable(along.name, cars.nominal[i], attributes)
+        meaning = f"part of the variance of {quantity.long_name}"
+        data[f"{name}_share"] = variable((PLACE, along.name), shares[:, i], meaning, "1")
+        meaning = f"standard deviation of {quantity.long_name} to first order, as a part"
+        data[f"{name}_first_order"] = variable(along.name, first_order[i], meaning, "1")
+    data["within_limits"] = variable(CAR, cars.within, "whether the car is within all limits", "1")
+    data["reason"] = variable(CAR, cars.reasons.astype(str), "why a car has no curves", "1")
+    values = np.array([p.value * p.to_si for p in cars.places]) + cars.off
+    data["value_of"] = variable((CAR, PLACE), values, "value that the car has, in place_unit", "SI")
+    coordinates = {
+        QUANTILE: variable(QUANTILE, np.array(QUANTILES), "part of the cars that is below", "1"),
+        PLACE: [place.name for place in cars.places],
+        "place_unit": (PLACE, [place.si_unit for place in cars.places]),
+        along.name: xr.Variable(along.name, curves.positions, along.attributes()),
+    }
+    attributes = {
+        "title": f"tolerances over {along.long_name}",
+        "over": curves.over,
+        "yield": float(cars.within.mean()),
+        "message": f"{int(seen.sum())} of {seen.size} cars have curves",
+    }
+    return xr.Dataset(data, coordinates, attributes)
