@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from kintrafo import Model, Suspension, load
 from kintrafo.vehicle.analysis.checkup import USUAL_HOP, USUAL_RIDE, as_dict, checkup
-from kintrafo.vehicle.analysis.typical import typical_ranges
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.positions import state_at_height
+from kintrafo.vehicle.models.typical import typical_ranges
 
 PAGE = Path(__file__).parents[1] / "docs/characteristics.md"
 

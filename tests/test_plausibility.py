@@ -4,8 +4,8 @@ import pytest
 from kintrafo import Model, Suspension
 from kintrafo.core.errors import InputError
 from kintrafo.vehicle.analysis.checkup import checkup
-from kintrafo.vehicle.analysis.plausibility import plausibility
 from kintrafo.vehicle.data.starter import packaged
+from kintrafo.vehicle.models.plausibility import plausibility
 
 CARS = {name: Suspension.load(name) for name in packaged()}
 

@@ -18,10 +18,10 @@ from kintrafo import (
     variation,
 )
 from kintrafo.vehicle import data
-from kintrafo.vehicle.analysis.plausibility import plausibility
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.data import rigid_axles as rigid_data
 from kintrafo.vehicle.input.spring_table import force_and_rate, rate_at
+from kintrafo.vehicle.models.plausibility import plausibility
 from kintrafo.vehicle.models.rigid.model import RigidAxleModel
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, interp1d
 from scipy.optimize import brentq

@@ -2,8 +2,8 @@
 
 CSV and Excel have one line of names with units, such as ``camber [deg]``, and values in display
 units. netCDF and Parquet keep SI units, all digits, and the description of every variable. All but
-netCDF are flat tables: where a dataset has the dimension ``wheel`` they have a column for each
-wheel, ``camber_left`` and ``camber_right``.
+netCDF are flat tables: what is over a dimension of names, as both wheels of an axle, has a column
+for each, ``camber_left`` and ``camber_right``.
 """
 
 import re
@@ -20,8 +20,8 @@ from ..core.files import Paths, replacing
 from ..core.legible import legible
 from ..core.optional import require
 from ..core.quantities import bracketed, display_of
-from ..vehicle.assembly.by_wheel import flat
 from . import workbook
+from .columns import flat
 
 # Enough for a micrometre in a kilometre, and still short enough to read.
 _CSV_DIGITS = "%.9g"
@@ -119,7 +119,7 @@ def as_dict(dataset: xr.Dataset) -> dict[str, Any]:
     -------
     dict
         ``coordinates`` and ``variables``, each by name: ``units``, ``long_name``, ``sign``,
-        ``dimensions`` and ``values``. What each wheel of an axle has is there for either wheel.
+        ``dimensions`` and ``values``. What is over names has a variable for each.
     """
     with Arguments("export") as given:
         given.dataset(dataset)

@@ -21,8 +21,6 @@ from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
 from ..core.quantities import bracketed, display_of, displayed, long_name
-from ..vehicle.analysis.characteristics.datasets import DATA_SET
-from ..vehicle.assembly.by_wheel import WHEEL
 from .figures import BLUE, GREEN, ORANGE, written_plainly
 from .labels import label_lines
 
@@ -31,8 +29,6 @@ Array = NDArray[np.float64]
 # Told apart in colour and, by the dashes, in black and white too.
 _COLOURS = (BLUE, ORANGE, GREEN, "#cc79a7", "#56b4e9", "#e69f00", "#000000")
 _DASHES = ("-", "--", "-.", ":")
-# The dimensions of several suspensions that are compared, and of both wheels of an axle.
-_FAMILIES = (DATA_SET, WHEEL)
 # More lines than this are a carpet: some of them are drawn.
 _MOST_LINES = 7
 COLUMNS = 3
@@ -227,12 +223,17 @@ def _styles(data: xr.DataArray, count: int) -> list[tuple[Any, str]]:
 def dimension_along(data: xr.DataArray) -> str:
     """Return the dimension along the axis."""
     dims = [str(d) for d in data.dims]
-    return next(d for d in dims if d not in _FAMILIES) if data.ndim > 1 else dims[0]
+    return next(d for d in dims if not _has_names(data, d)) if data.ndim > 1 else dims[0]
+
+
+def _has_names(data: xr.DataArray, dimension: str) -> bool:
+    """Return whether a dimension is one of names, such as those of data sets or wheels."""
+    return dimension in data.coords and data[dimension].dtype.kind in "UO"
 
 
 def _family(data: xr.DataArray) -> str | None:
     """Return the dimension of lines that have names."""
-    return next((name for name in _FAMILIES if name in data.dims), None)
+    return next((str(d) for d in data.dims if _has_names(data, str(d))), None)
 
 
 def _lines(data: xr.DataArray) -> tuple[str, list[tuple[str, Array]]]:
@@ -356,7 +357,7 @@ class _Named:
 def _named_lines(axes: Axes, data: xr.DataArray) -> _Named:
     along, lines = _lines(data)
     across = next(d for d in data.dims if d != along)
-    title = None if across in _FAMILIES else long_name(data[across])
+    title = None if _has_names(data, str(across)) else long_name(data[across])
     return _Named(_drawn_lines(axes, len(lines)), [label for label, _ in lines], title)
 
 

@@ -1,7 +1,6 @@
 """What an engineer asks of an assembly.
 
 `checkup`          a first look
-`plausibility`, `typical`      what no suspension of a car looks like, and where cars usually lie
 `characteristics`  kinematic characteristics over the motions of a rig
 `sweep`            positions of wheels and joints
 `compare`          several suspensions beside each other

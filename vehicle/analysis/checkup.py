@@ -12,8 +12,8 @@ from ..assembly.assembly import Assembly
 from ..assembly.equilibrium import equilibrium
 from ..assembly.of import given_assembly
 from ..assembly.usual import USUAL_TRAVEL
+from ..models.plausibility import USUAL_HOP
 from ..models.positions import PositionError
-from .plausibility import USUAL_HOP
 from .wheel_facts import Equilibrium, WheelFacts, facts_of, without_friction
 
 if TYPE_CHECKING:

@@ -13,9 +13,9 @@ from ..assembly.equilibrium import equilibrium
 from ..assembly.from_model import corner
 from ..corner.facts import Extended
 from ..models.model import Model
+from ..models.plausibility import plausibility
 from ..models.positions import PositionError, Range, design_height, travel_range
 from . import paper
-from .plausibility import plausibility
 
 Array = NDArray[np.float64]
 

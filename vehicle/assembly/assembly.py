@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
 from ...core.quantities import variable
-from ..analysis.plausibility import Plausibility
 from ..corner.bushes import Bush
 from ..corner.corner import Array
 from ..input.vehicle import Tyre
 from ..models.axle.file import Held as TorqueHolder
 from ..models.model import Model
+from ..models.plausibility import Plausibility
 from .anti_roll_bar import Bar, RollBar
 from .coupling import BodyPose
 from .held import Held

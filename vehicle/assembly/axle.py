@@ -12,7 +12,6 @@ from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.quantities import variable
 from ...core.vectors import unit_vector
-from ..analysis.plausibility import Plausibility
 from ..corner.bushes import described_bushings, mirrored_bushings, softness_of_rack
 from ..corner.corner import Array
 from ..input.vehicle import Tyre
@@ -20,6 +19,7 @@ from ..models.axle import Axle
 from ..models.axle.axle import LEFT, RIGHT
 from ..models.axle.equations import AxleModel
 from ..models.model import Model
+from ..models.plausibility import Plausibility
 from ..models.reach import PositionError
 from . import motions
 from .anti_roll_bar import Bar

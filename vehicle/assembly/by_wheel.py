@@ -13,13 +13,14 @@ import numpy as np
 import xarray as xr
 
 from ...core.arguments import Arguments
+from ...datasets.columns import AS_COLUMNS, with_columns
 from ..corner.corner import Array
 from .quantity import Quantity
 
 WHEEL, DATA_SET = "wheel", "data_set"
 """The dimension of the wheels, and that of several sets of curves beside each other."""
 
-_ATTRIBUTES = {"long_name": "wheel"}
+_ATTRIBUTES = {"long_name": "wheel"} | AS_COLUMNS
 SIDES = ("left", "right")
 """The wheels of an axle."""
 
@@ -87,23 +88,7 @@ def flat(dataset: xr.Dataset) -> xr.Dataset:
     """
     with Arguments("flat") as given:
         given.dataset(dataset)
-    if WHEEL not in dataset.dims:
-        return dataset.drop_vars(WHEEL, errors="ignore")
-    found: dict[str, xr.Variable] = {}
-    for name, data in dataset.items():
-        if WHEEL not in data.dims:
-            found[str(name)] = data.variable
-            continue
-        for wheel in map(str, dataset[WHEEL].values):
-            own = data.sel({WHEEL: wheel}, drop=True).variable
-            words = f"{data.attrs.get('long_name', name)}, {wheel}"
-            found[f"{name}_{wheel}"] = xr.Variable(
-                own.dims, own.data, own.attrs | {"long_name": words}
-            )
-    others = dataset.drop_vars(WHEEL).coords
-    order = [*(str(dim) for dim in dataset.sizes if dim in others), *map(str, others)]
-    coords = {name: others[name].variable for name in dict.fromkeys(order)}
-    return xr.Dataset(found, coords, dataset.attrs)
+    return with_columns(dataset, WHEEL)
 
 
 def together(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:

@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
 from ...core.quantities import variable
-from ..analysis.plausibility import Plausibility
 from ..corner.bushes import described_bushings
 from ..corner.corner import Array
 from ..input.vehicle import Tyre
 from ..models.axle.file import Held as TorqueHolder
+from ..models.plausibility import Plausibility
 from ..models.reach import PositionError
 from ..models.rigid.axle import RigidAxle
 from ..models.rigid.model import HEAVE, ROLL, RigidAxleModel

@@ -5,4 +5,5 @@
 `points`     where the hardpoints are in a position
 `swing`, `reach`, `positions`    how far the wheel travels, and its positions at rest
 `fleet`      many suspensions at once
+`plausibility`, `typical`      what no suspension of a car looks like, and where cars usually lie
 """

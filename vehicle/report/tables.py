@@ -4,10 +4,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..analysis.typical import typical_ranges
 from ..corner.bushes import BUSH_SCHEMA
 from ..input.section import Section
 from ..kinds import Suspension
+from ..models.typical import typical_ranges
 from .curves import Curve
 from .grid import Grid
 from .payload import Look

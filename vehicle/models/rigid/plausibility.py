@@ -4,7 +4,8 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from ...analysis.plausibility import (
+from ..axle.axle import LEFT, RIGHT
+from ..plausibility import (
     Plausibility,
     beyond_the_table,
     stray_points,
@@ -15,7 +16,6 @@ from ...analysis.plausibility import (
     unlikely_wheel,
     unusual_alignment,
 )
-from ..axle.axle import LEFT, RIGHT
 from .axle import SIDES, RigidAxle
 from .file import Rod
 
