@@ -169,11 +169,11 @@ def nonlinear(
         wanted = amounts_of(given, amounts)
         if not given.refused:
             assembly.refuse_holding(given, assembly.usual_motion, 0.0, rack_position)
-            parts = _parts_of(given, assembly, under, wheels)
+            parts = parts_of(given, assembly, under, wheels)
         softs = softs_of(given, assembly, bushings, hardpoints)
         if not given.refused:
             refuse_without_rate(given, held, *assembly.tyres)
-    load = replace(BY_NAME[under], words=_words_of(under, wheels, parts))
+    load = replace(BY_NAME[under], words=words_of(under, wheels, parts))
     at = np.array([travel])
     suspension = on_joints(assembly, assembly.poses(assembly.at_travel(at, rack_position)), softs)
     base = at_height(suspension, at)
@@ -194,14 +194,18 @@ def nonlinear(
         words = f"torque of the anti-roll bar, {assembly.BAR_SIGN}"
         data["bar_torque"] = variable(LOAD, torque, words, "N m")
     how = {"held": HELD[held], "hardpoints": HARDPOINTS[hardpoints]}
-    coordinates = _coordinates_of(load, wanted) | {WHEEL: wheel_coordinate(assembly.wheels)}
+    coordinates = {
+        DATA_SET: ["equilibrium", "linear"],
+        LOAD: load_coordinate(load, wanted),
+        WHEEL: wheel_coordinate(assembly.wheels),
+    }
     return xr.Dataset(data, coordinates, {"title": f"deflection under {load.words}"} | how)
 
 
 # -- which wheels have the load -------------------------------------------------------------------
 
 
-def _parts_of(given: Arguments, assembly: Assembly, under: str, wheels: Any) -> tuple[float, ...]:
+def parts_of(given: Arguments, assembly: Assembly, under: str, wheels: Any) -> tuple[float, ...]:
     """Return the parts of a load that the wheels have."""
     ways = {how.name: how.parts for how in loadings(BY_NAME[under], assembly.wheels)}
     if len(assembly.wheels) == 1:
@@ -219,7 +223,7 @@ def _parts_of(given: Arguments, assembly: Assembly, under: str, wheels: Any) -> 
     return tuple(both.tolist())
 
 
-def _words_of(under: str, wheels: str | Sequence[float] | None, parts: Sequence[float]) -> str:
+def words_of(under: str, wheels: str | Sequence[float] | None, parts: Sequence[float]) -> str:
     """Return a load on some wheels in words."""
     load = BY_NAME[under]
     for how in loadings(load, parts):
@@ -437,11 +441,8 @@ def _changes_of_beam(
     return data
 
 
-def _coordinates_of(load: RigLoad, amounts: Array) -> dict[str, Any]:
-    """Return the coordinates of results over a load."""
+def load_coordinate(load: RigLoad, amounts: Array) -> xr.Variable:
+    """Return the coordinate of results over a load."""
     words = load.words.partition(" ")[2]
     shown = {"display_units": "kN", "display_factor": 1e-3} if load.unit == "N" else {}
-    return {
-        DATA_SET: ["equilibrium", "linear"],
-        LOAD: xr.Variable(LOAD, amounts, attributes(words, load.unit) | shown),
-    }
+    return xr.Variable(LOAD, amounts, attributes(words, load.unit) | shown)
