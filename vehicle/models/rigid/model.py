@@ -31,8 +31,7 @@ _ROUNDING = 1e-12
 _STEP = 0.02
 _OVERHELD = (
     "[rods] {rods}: five rods leave an axle heave and roll only as their bushes give way, and here "
-    "rods are rigid. `kintrafo compliance`, with and without --nonlinear, shows how it moves on its "
-    "bushes. "
+    "rods are rigid. How it moves on its bushes: `kintrafo compliance`, and --nonlinear. "
     "For all else leave one of the rods out."
 )
 
