@@ -199,7 +199,7 @@ def test_what_documents_name_is_there_after_one_import():
             ["check", "reference_car"],
             {"xarray", "pandas", "matplotlib", "scipy.interpolate", "kintrafo.simulation"},
         ),
-        (["check", "rigid_axle"], {"matplotlib", "kintrafo.plots", "kintrafo.simulation"}),
+        (["check", "rigid_axle"], {"matplotlib", "kintrafo.vehicle.plots", "kintrafo.simulation"}),
         (
             ["characteristics", "reference_car"],
             {"matplotlib", "scipy.interpolate", "kintrafo.simulation", "kintrafo.vehicle.studies"},
@@ -207,7 +207,7 @@ def test_what_documents_name_is_there_after_one_import():
     ],
 )
 def test_a_command_imports_only_what_it_uses(line, unused):
-    program = "import sys; from kintrafo import cli\n"
+    program = "import sys; from kintrafo.vehicle import cli\n"
     program += "try: cli.run()\nexcept SystemExit as end: assert not end.code, end.code\n"
     program += "print(*sys.modules)"
     done = subprocess.run(
