@@ -2,7 +2,12 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..models.axle.bar import HalfBar
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -23,6 +28,11 @@ class Bar:
     rate: float
     free_twist: float
 
+    def torque(self, twist: Array) -> Array:
+        """Return the torque at a twist [N m]."""
+        found: Array = self.rate * (twist - self.free_twist)
+        return found
+
 
 @dataclass(frozen=True)
 class RollBar:
@@ -38,3 +48,8 @@ class RollBar:
 
     body: str
     rate: float
+
+    def torque(self, twist: Array) -> Array:
+        """Return the moment at an inclination [N m]."""
+        found: Array = self.rate * twist
+        return found

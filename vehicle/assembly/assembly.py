@@ -359,6 +359,9 @@ class Assembly(ABC):
     def wheel_reach(self, rack: float) -> Sequence[WheelReach] | None:
         """Return how far each wheel goes; None where it depends on the other one.
 
+        Several wheels that have a reach each are groups of their own in `poses`, which nothing but
+        the bar joins.
+
         Raises
         ------
         PositionError
@@ -534,6 +537,14 @@ class Assembly(ABC):
         del poses
         return {}
 
+    def bar_twist(self, poses: Mapping[str, Assembled]) -> dict[str, Array]:
+        """Return what each group adds to the twist of the bar, (n,) [rad]; empty without one."""
+        del poses
+        return {}
+
     def bar_torque(self, poses: Mapping[str, Assembled]) -> Array:
         """Return the torque of the bar with rigid joints, (n,) [N m]; zero without one."""
-        return np.zeros(len(next(iter(poses.values())).states))
+        twist = sum(
+            self.bar_twist(poses).values(), np.zeros(len(next(iter(poses.values())).states))
+        )
+        return twist if self.bar is None else self.bar.torque(twist)

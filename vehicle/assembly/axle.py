@@ -24,7 +24,7 @@ from ..models.reach import PositionError
 from . import motions
 from .anti_roll_bar import Bar
 from .assembly import Assembly, Bushings
-from .axle_coupling import on_the_bar, pull_of_bar, rules_of, torque_of_bar, turn_of_half
+from .axle_coupling import TWIST_BY_TURN, on_the_bar, pull_of_bar, rules_of, turn_of_half
 from .corner import CornerAssembly, lines_of, poses_of
 from .coupling import STEERING, BodyPose, on_the_rack
 from .held import Held
@@ -456,9 +456,12 @@ class AxleAssembly(Assembly):
             return {}
         return {f"_{side}": pull_of_bar(self.axle, side, poses[f"_{side}"]) for side in SIDES}
 
-    def bar_torque(self, poses: Mapping[str, Any]) -> Array:
-        """Return the torque of the bar with rigid joints, (n,) [N m]."""
-        return torque_of_bar(self.axle, poses) if self.axle.halves else super().bar_torque(poses)
+    def bar_twist(self, poses: Mapping[str, Any]) -> dict[str, Array]:
+        """Return what each side adds to the twist of the bar, (n,) [rad]."""
+        return {
+            f"_{side}": TWIST_BY_TURN[side] * turn_of_half(self.axle, side, poses[f"_{side}"])[1]
+            for side in self.axle.halves
+        }
 
 
 def motions_of_two(words: Mapping[str, str]) -> dict[str, RigMotion]:

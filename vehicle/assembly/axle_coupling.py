@@ -16,6 +16,9 @@ from .load import Load
 from .poses import Poses
 
 SIDES = (LEFT, RIGHT)
+TWIST_BY_TURN = {LEFT: 1.0, RIGHT: -1.0}
+"""Twist of the bar by the turn of each half."""
+
 BAR, LINK = "anti_roll_bar", "drop_link"
 
 _OF_BAR = "two bearings of an anti-roll bar share the force along it equally"
@@ -41,17 +44,8 @@ def pull_of_bar(axle: Axle, side: str, poses: Poses, torque: Array | float = 1.0
     foot, turn = turn_of_half(axle, side, poses)
     half = axle.halves[side]
     direction, lever = half.lever(foot, turn)
-    sense = {LEFT: -1.0, RIGHT: 1.0}[side]
-    force = (sense * torque / lever)[:, None] * direction
+    force = (-TWIST_BY_TURN[side] * torque / lever)[:, None] * direction
     return Load(half.body, "link_foot", LINK, force, np.zeros(3), foot)
-
-
-def torque_of_bar(axle: Axle, poses: Mapping[str, Poses]) -> Array:
-    """Return the torque of the bar, positive with the left half turned the farther, (n,) [N m]."""
-    assert axle.bar is not None
-    left, right = (turn_of_half(axle, side, poses[f"_{side}"])[1] for side in SIDES)
-    torque: Array = axle.bar.rate() * (left - right - axle.bar.free_twist())
-    return torque
 
 
 def on_the_bar(

@@ -212,11 +212,10 @@ class Parts:
                 fine &= way @ (design[f"{name}_top"] - design[f"{name}_seat"]) > 0.0
         return fine
 
-    def torque_of_bar(self) -> Array:
-        """Return that of the anti-roll bar, positive with the left wheel up, (n,) [N m]."""
-        rolls = self.states[:, self.model.state_names.index("roll")]
-        torque: Array = self.model.parameters["bar_rate"] * rolls
-        return torque
+    @property
+    def roll(self) -> Array:
+        """The inclination of the axle, positive with the left wheel up, (n,) [rad]."""
+        return self.states[:, self.model.state_names.index("roll")]
 
     # -- what acts ------------------------------------------------------------------------------
 
@@ -243,7 +242,8 @@ class Parts:
         """Return the couple of the anti-roll bar, about the axle's axis forward."""
         if self.axle.anti_roll_bar is None:
             return []
-        unit, torque = self.bar_by_torque(), self.torque_of_bar()[:, None]
+        unit = self.bar_by_torque()
+        torque = (self.model.parameters["bar_rate"] * self.roll)[:, None]
         return [
             replace(unit, part=part, moment=sign * torque * unit.moment)
             for part, sign in ((BEAM, 1.0), (CHASSIS, -1.0))

@@ -3,6 +3,12 @@
 An assembly rests where the generalised forces of the coordinates that move its wheels are zero and
 push it back from beside. `nearest` looks for that over all of the way of one coordinate, `settled`
 from a position near it with any number of them.
+
+The search of load cases (`analysis.loads.static_equilibrium`) is another one, because its forces
+are others: virtual work of the loads on the wheels, for many cases on one grid, down to a rounding
+that it knows. Here any input of the equations acts (actuators, roads, forces of a program), and the
+reach of one wheel is searched for roots that lie within one step of the grid, which a case on stops
+does not have.
 """
 
 from collections.abc import Callable

@@ -369,7 +369,6 @@ class RigidAxleAssembly(Assembly):
         """Return the couple of a unit torque of the bar."""
         return {"": poses[""].bar_by_torque()} if self.bar and self.bar.rate else {}
 
-    def bar_torque(self, poses: Mapping[str, Any]) -> Array:
-        """Return the torque of the bar, (n,) [N m]."""
-        torque: Array = poses[""].torque_of_bar()
-        return torque
+    def bar_twist(self, poses: Mapping[str, Any]) -> dict[str, Array]:
+        """Return the roll of the axle, (n,) [rad]."""
+        return {"": poses[""].roll}

@@ -7,7 +7,7 @@ it is stable; several wheels from the cells of such a grid that are nearest to d
 design where there are none.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,6 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...assembly.assembly import Assembly
+from ...assembly.load import known
+from ...assembly.poses import Assembled
 from ...assembly.rig import WheelReach
 from ...models.reach import PositionError
 from .applied_loads import WheelLoads, wheels_of
@@ -182,7 +184,7 @@ class _Search:
         grid = np.linspace(*reach.coordinate, _GRID)[1:-1]
         racks = np.full(grid.shape, self.loads.racks[rows[0]])
         poses = self.assembly.at_wheel_coordinates(grid[:, None], racks)
-        work = VirtualWork.of(self.assembly, poses)
+        work = VirtualWork.of(poses, self.assembly.acting(poses))
         away = np.abs(grid[:-1] - self.assembly.design_wheel_coordinates)
         for row in rows:
             held = work.missing(self.loads.at(poses, np.full(grid.size, row)))[:, 0]
@@ -238,23 +240,41 @@ class _Search:
         }
 
     def _on_a_grid(self, rows: list[int]) -> Iterator[list[tuple[Array, Array]]]:
-        """Yield the cells of cases whose wheels are on one grid."""
+        """Yield the cells of cases whose wheels are on one grid.
+
+        Each wheel misses on its own grid what it does without the bar, and more in proportion to
+        the torque of the bar, which depends on both.
+        """
         first, free = rows[0], self.loads.free[rows[0]]
         ends = zip(self.low[first], self.high[first], self.coordinates[first], free, strict=True)
         grids = [np.linspace(a, b, _GRID - 2) if f else np.array([at]) for a, b, at, f in ends]
-        mesh = np.stack(np.meshgrid(*grids, indexing="ij"), axis=-1)
-        places = mesh.reshape(-1, free.size)
+        shape = tuple(grid.size for grid in grids)
+        places = np.stack(np.broadcast_arrays(*grids), axis=-1)
+        mesh = _on_mesh(places, shape)
         racks = np.full(len(places), self.loads.racks[first])
         poses = self.assembly.at_wheel_coordinates(places, racks)
-        work = VirtualWork.of(self.assembly, poses)
+        alone = VirtualWork.of(poses, {suffix: known(group) for suffix, group in poses.items()})
+        by_torque = _on_mesh(self._by_torque(poses), shape)
+        torque = self._torque(poses, shape)
         sizes = np.array([grid[1] - grid[0] if grid.size > 1 else 0.0 for grid in grids])
         for row in rows:
-            missing = work.missing(self.loads.at(poses, np.full(len(places), row)))
-            values = missing.reshape(mesh.shape)[..., free]
+            missing = alone.missing(self.loads.at(poses, np.full(len(places), row)))
+            values = (_on_mesh(missing, shape) + torque * by_torque)[..., free]
             inside = _changes_sign(values, np.flatnonzero(free)).all(axis=-1)
             middles = mesh[tuple(np.argwhere(inside).T)] + 0.5 * sizes
             away = ((middles - self.assembly.design_wheel_coordinates)[:, free] ** 2).sum(axis=-1)
             yield [(middles[i], sizes) for i in np.argsort(away, kind="stable")[:_TRIES]]
+
+    def _by_torque(self, poses: Mapping[str, Assembled]) -> Array:
+        """Return what each wheel misses by a unit torque of the bar, (n, wheels) [1/m]."""
+        unit = {suffix: [load] for suffix, load in self.assembly.bar_loads(poses).items()}
+        return VirtualWork.of(poses, unit).missing()
+
+    def _torque(self, poses: Mapping[str, Assembled], shape: tuple[int, ...]) -> Array:
+        """Return the torque of the bar on a mesh, (..., 1) [N m]."""
+        assert self.assembly.bar is not None  # nothing else joins them
+        twists = np.stack([*self.assembly.bar_twist(poses).values()], axis=-1)
+        return self.assembly.bar.torque(_on_mesh(twists, shape).sum(axis=-1, keepdims=True))
 
     def _walk(self, rows: Rows) -> None:
         for _ in range(_MOST):
@@ -287,7 +307,9 @@ class _Search:
         places = (self.coordinates[rows][:, None] + widths * around).reshape(-1, size)
         every = np.repeat(rows, len(around))
         poses = self.assembly.at_wheel_coordinates(places, self.loads.racks[every])
-        found = VirtualWork.of(self.assembly, poses).missing(self.loads.at(poses, every))
+        found = VirtualWork.of(poses, self.assembly.acting(poses)).missing(
+            self.loads.at(poses, every)
+        )
         found = found.reshape(len(rows), len(around), size)
         slopes = (found[:, 1 + size :] - found[:, 1 : 1 + size]).mT / (2.0 * widths)
         free = self.loads.free[rows]
@@ -399,6 +421,12 @@ def _changes_sign(values: Array, axes: NDArray[np.int64]) -> Booleans:
         most = np.maximum(*(np.take(most, end, axis) for end in ends))
     found: Booleans = (least <= 0.0) & (most >= 0.0)
     return found
+
+
+def _on_mesh(values: Array, shape: tuple[int, ...]) -> Array:
+    """Return what is along the grids of wheels, (n, wheels), on the mesh of them, (..., wheels)."""
+    grids = (own[:size] for own, size in zip(values.T, shape, strict=True))
+    return np.stack(np.meshgrid(*grids, indexing="ij"), axis=-1)
 
 
 def _steps(missing: Array, slopes: Array) -> Array:

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.vectors import cross
-from ...assembly.assembly import Assembly
 from ...assembly.load import Load
 from ...assembly.poses import Assembled, touching, wheel_axes
 from ...corner.structure import GROUND
@@ -34,10 +33,19 @@ class VirtualWork:
     rise: Array
 
     @classmethod
-    def of(cls, assembly: Assembly, poses: Mapping[str, Assembled]) -> "VirtualWork":
-        """Return the work in the motions of all wheels."""
-        acting = assembly.acting(poses)
-        count, size = len(next(iter(poses.values())).states), len(assembly.wheels)
+    def of(
+        cls, poses: Mapping[str, Assembled], acting: Mapping[str, Sequence[Load]]
+    ) -> "VirtualWork":
+        """Return the work in the motions of all wheels.
+
+        Parameters
+        ----------
+        poses : mapping
+        acting : mapping of str to sequence of Load
+            What acts without the wheels' loads on each group.
+        """
+        count = len(next(iter(poses.values())).states)
+        size = sum(len(group.wheels) for group in poses.values())
         own, rise = np.zeros((count, size)), np.zeros((count, size, size))
         units = np.zeros((count, size, size, 12))
         first = 0
@@ -58,12 +66,12 @@ class VirtualWork:
             first += len(group.wheels)
         return cls(own, units, rise)
 
-    def missing(self, loads: Array) -> Array:
+    def missing(self, loads: Array | None = None) -> Array:
         """Return the vertical force of the road that each wheel needs besides, (n, k) [N].
 
         Parameters
         ----------
-        loads : ndarray, shape (n or 1, k, 12)
+        loads : ndarray, shape (n or 1, k, 12), optional
             What acts on the wheels, as `Case.vector`.
 
         Returns
@@ -71,7 +79,9 @@ class VirtualWork:
         ndarray
             Not finite where no such force does work: at a dead point.
         """
-        power = self.own + (loads[:, :, None] * self.units).sum(axis=(1, 3))
+        power = self.own
+        if loads is not None:
+            power = power + (loads[:, :, None] * self.units).sum(axis=(1, 3))
         with np.errstate(divide="ignore", invalid="ignore"):
             found: Array = -power / self.rise[:, 0] if power.shape[1] == 1 else self._solved(power)
         return np.where(np.isfinite(found), found, np.nan)
