@@ -34,11 +34,7 @@ ROCKER = {
 }
 NAMES = {
     "macpherson": STRUT,
-    "double_wishbone": {
-        **WISHBONES,
-        "spring_top": "top_mount",
-        "spring_seat": "lwr_strut_mount",
-    },
+    "double_wishbone": {**WISHBONES, "spring_top": "top_mount", "spring_seat": "lwr_strut_mount"},
     "push_rod": {
         **WISHBONES,
         **ROCKER,

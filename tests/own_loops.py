@@ -10,17 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from kintrafo.generator.mechanisms.chains import AXES, PLACES
-from own_mechanisms import (
-    NORMAL,
-    Place,
-    askew,
-    ball,
-    cross,
-    declare,
-    guide,
-    heading,
-    hinge,
-)
+from own_mechanisms import NORMAL, Place, askew, ball, cross, declare, guide, heading, hinge
 
 if TYPE_CHECKING:
     from kintrafo.generator import Formulation
@@ -324,12 +314,7 @@ def hooke_axes(bend: float) -> list[Place]:
 HOOKE = around_a_point("hooke", hooke_axes(BEND))
 """A Hooke joint between two shafts, declared of hinges."""
 
-SPHERICAL_AXES: list[Place] = [
-    (1.0, 0.0, 0.0),
-    (0.8, 0.6, 0.1),
-    (0.1, 0.7, 1.0),
-    (0.2, -0.5, 1.1),
-]
+SPHERICAL_AXES: list[Place] = [(1.0, 0.0, 0.0), (0.8, 0.6, 0.1), (0.1, 0.7, 1.0), (0.2, -0.5, 1.1)]
 SPHERICAL = around_a_point("spherical", SPHERICAL_AXES)
 """A spherical four-bar linkage."""
 

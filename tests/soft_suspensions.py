@@ -196,10 +196,7 @@ class Stiffness:
         """Return the points that hold or give way, what else holds, and the ends of the lines."""
         rigid = []
         knuckle, wheel, _, across, other = self.bearing()
-        joints = [
-            *POINTS[self.like],
-            ("wheel_center", self.carrier, "wheel"),
-        ]
+        joints = [*POINTS[self.like], ("wheel_center", self.carrier, "wheel")]
         if self.like is not TRAILING:
             joints.append(("tie_rod_outer", "knuckle", "tie_rod"))
             joints.append(("tie_rod_inner", "rack", "tie_rod"))

@@ -11,7 +11,6 @@ from kintrafo import InputError, Model, Suspension, characteristics
 from kintrafo.vehicle.files.adams_car import Imported, imported, read, read_names
 from kintrafo.vehicle.files.point_table import write_merged
 from kintrafo.vehicle.kinds import KINDS
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CARS = {kind: Suspension.load(KINDS[kind].STARTER) for kind in KINDS}
 OFFSET = Suspension.load("offset_strut_car")
@@ -483,7 +482,7 @@ def test_two_that_may_be_one(tmp_path: Path) -> None:
     assert taken(tmp_path, text, kind="push_rod", names={"push_rod_outer": "prod_outboard"})
 
 
-def test_the_command(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_the_command(kintrafo: Any, tmp_path: Path) -> None:
     written(tmp_path, subsystem(WISHBONES, more=MORE))
     code, out, _ = kintrafo("import-adams", "front.sub", "car.toml", "--side", "right")
     assert code == 0

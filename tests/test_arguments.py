@@ -36,10 +36,7 @@ SPAN = (0.0, 0.01)
             lambda: kintrafo.simulate(CAR, SPAN, REST, inputs=np.arange(3.0)),
             r"inputs = array\(\[0., 1., 2.\]\): a dict",
         ),
-        (
-            lambda: run(CAR, Scenario(inputs=None)),
-            "inputs = None: a dict of input names",
-        ),
+        (lambda: run(CAR, Scenario(inputs=None)), "inputs = None: a dict of input names"),
         (lambda: run(CAR, Scenario(duration={})), "duration = {}"),
         (lambda: run(CAR, Scenario(output_step=1e-9)), "more than 5000000 rows"),
         (

@@ -6,15 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import (
-    Axle,
-    InputError,
-    Model,
-    PositionError,
-    Suspension,
-    characteristics,
-    compliance,
-)
+from kintrafo import Axle, InputError, Model, PositionError, Suspension, characteristics, compliance
 from kintrafo.core.arguments import Arguments
 from kintrafo.vehicle.analysis.compliance.bars import Bars, Foot
 from kintrafo.vehicle.analysis.compliance.on_bushes import on_joints, softs_of
@@ -29,7 +21,6 @@ from oracle.constraints import Pose
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 from soft_suspensions import BUSHES_OF, STRUT, TRAILING, WISHBONES
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 from test_deflection import SOFTER, UNDER, Energy
 
 SIDES = ("left", "right")
@@ -512,11 +503,7 @@ def test_tables_have_each_wheel_and_both() -> None:
         ("reference_axle --motion roll --at 5", "--at is only for the file of one suspension"),
     ],
 )
-def test_options_that_do_not_go_together_are_refused(
-    kintrafo: Any,  # noqa: F811
-    line: str,
-    words: str,
-) -> None:
+def test_options_that_do_not_go_together_are_refused(kintrafo: Any, line: str, words: str) -> None:
     bushes = str(Path(__file__).parent / "data/studies/bushes.toml")
     file, *options = line.split()
     code, _, err = kintrafo("compliance", file, bushes, "--nonlinear", *options)

@@ -23,7 +23,6 @@ from kintrafo.vehicle.models.points import carried
 from kintrafo.vehicle.models.positions import arm_angles, design_height
 from kintrafo.vehicle.models.reach import at_rest
 from test_axles import AXLE, BENT, placed
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CAR = Suspension.load("reference_car")
 PLAIN = Axle.from_dict({"axle": "front", "side": CAR})
@@ -214,7 +213,7 @@ def test_a_motion_needs_nothing_else() -> None:
         loads.along(AxleModel(BENT), motion)
 
 
-def test_the_command_tells_both_sides(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_the_command_tells_both_sides(kintrafo: Any, tmp_path: Path) -> None:
     forces = {"left": "[0, 0.5, 0.7]", "right": "[0, 1, 1.3]"}
     text = "".join(f"[cases.turn.{side}]\ncontact_g = {g}\n" for side, g in forces.items())
     (tmp_path / "cases.toml").write_text(text, encoding="utf-8")

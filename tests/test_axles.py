@@ -40,7 +40,7 @@ from kintrafo.vehicle.models.reach import at_rest, travel_range
 from kintrafo.vehicle.report import Chapter, axle_chapter
 from kintrafo.vehicle.studies.evaluation import values_of
 from scipy.optimize import brentq
-from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
+from test_cli_commands import commands_of
 
 ROOT = Path(__file__).parent.parent
 AXLE = Axle.load("reference_axle")
@@ -341,9 +341,7 @@ def test_the_usual_roll_ends_where_a_wheel_does() -> None:
 
 
 @pytest.mark.parametrize(
-    "of",
-    [AXLE, BENT, RigidAxle.load("rigid_axle")],
-    ids=["reference", "bent", "rigid"],
+    "of", [AXLE, BENT, RigidAxle.load("rigid_axle")], ids=["reference", "bent", "rigid"]
 )
 def test_the_roll_moment_gradient_is_the_slope_of_the_roll_moment(of: Any) -> None:
     angles, step = np.deg2rad([-3.0, 0.0, 1.0]), 1e-3
@@ -693,7 +691,7 @@ def test_an_axle_has_a_chapter_in_the_report() -> None:
 
 
 @pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
-def test_the_page_of_a_rear_axle_has_nothing_of_a_front_one(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_the_page_of_a_rear_axle_has_nothing_of_a_front_one(kintrafo: Any, tmp_path: Path) -> None:
     text = 'axle = "rear"\nside = "reference_car"\n'
     (tmp_path / "rear.toml").write_text(text, encoding="utf-8")
     case = "[cases.static]\ncontact_g = [0, 0, 1]\n"
@@ -716,7 +714,7 @@ def test_a_chapter_needs_no_steering_ratio() -> None:
 
 @needs_compiler
 @pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
-def test_the_commands_of_the_page_run(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_the_commands_of_the_page_run(kintrafo: Any, tmp_path: Path) -> None:
     page = (ROOT / "docs/axles.md").read_text(encoding="utf-8")
     for name, text in re.findall(r"```toml\n# (\w+\.toml)(.*?)```", page, flags=re.DOTALL):
         (tmp_path / name).write_text(f"#{text}", encoding="utf-8")
@@ -728,7 +726,7 @@ def test_the_commands_of_the_page_run(kintrafo: Any, tmp_path: Path) -> None:  #
     assert (tmp_path / "curves_roll.csv").read_text().startswith("roll_angle")
 
 
-def test_commands_refuse_what_only_the_other_sort_has(kintrafo: Any) -> None:  # noqa: F811
+def test_commands_refuse_what_only_the_other_sort_has(kintrafo: Any) -> None:
     for line, word in (
         ("characteristics reference_car --roll 3", "--roll is only for the file of an axle"),
         ("characteristics reference_axle --motion bmp", "bump"),
@@ -751,11 +749,7 @@ def test_commands_refuse_what_only_the_other_sort_has(kintrafo: Any) -> None:  #
 
 SOFT: dict[str, Any] = {
     "arm_front": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": [8000.0, 5000.0]},
-    "arm_rear": {
-        "axial_N_per_mm": 400.0,
-        "radial_N_per_mm": 1200.0,
-        "axis": [0.2, 0.1, 1.0],
-    },
+    "arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0, "axis": [0.2, 0.1, 1.0]},
 }
 RACK = {"rack": {"axial_N_per_mm": 2500.0}}
 PLAIN = Axle.from_dict({"axle": "front", "side": CAR})

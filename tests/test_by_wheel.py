@@ -21,10 +21,7 @@ def test_one_wheel_has_no_dimension():
 
 def test_two_wheels_are_columns_of_a_table():
     found = xr.Dataset(
-        {
-            "camber": of_wheels(TRAVEL, ["at"], [VALUES, -VALUES]),
-            "torque": ("at", VALUES),
-        },
+        {"camber": of_wheels(TRAVEL, ["at"], [VALUES, -VALUES]), "torque": ("at", VALUES)},
         {"wheel": wheel_coordinate(["left", "right"]), "at": VALUES, "rack": 0.1},
         {"title": "both"},
     )

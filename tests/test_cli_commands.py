@@ -22,24 +22,6 @@ CAR = "reference_car"
 CAR_FILE = ROOT / "vehicle/data/reference_car.toml"
 
 
-@pytest.fixture
-def kintrafo(monkeypatch, capsys, tmp_path):
-    """Run a command line in an empty folder; return exit code, stdout and stderr."""
-    monkeypatch.chdir(tmp_path)
-
-    def run(*arguments):
-        monkeypatch.setattr("sys.argv", ["kintrafo", *map(str, arguments)])
-        code = 0
-        try:
-            cli.run()
-        except SystemExit as end:
-            code = int(end.code or 0)
-        captured = capsys.readouterr()
-        return code, captured.out, captured.err
-
-    return run
-
-
 def test_help_is_quick():
     program = (
         "import sys; from typer.testing import CliRunner; from kintrafo.vehicle.cli import app;"

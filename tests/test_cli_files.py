@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 from kintrafo.terminal.exits import standing_streams
 from kintrafo.vehicle import cli
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 ROOT = Path(__file__).parent.parent
 CAR = "reference_car"
@@ -87,10 +86,7 @@ WRITING = {
         ["fit", CAR, str(STUDIES / "rig.csv"), str(STUDIES / "tolerances.toml"), "-o", "a.toml"],
         "a.toml",
     ),
-    "sweep": (
-        ["sweep", CAR, "wheel.toe_deg=0,1", "--duration", 0.01, "--plot", "a.png"],
-        "a.png",
-    ),
+    "sweep": (["sweep", CAR, "wheel.toe_deg=0,1", "--duration", 0.01, "--plot", "a.png"], "a.png"),
     "report": (["report", CAR], f"{CAR}.html"),
     "report of an axle": (["report", "reference_axle"], "reference_axle.html"),
     "report of a rigid axle": (["report", "rigid_axle", "--loads"], "rigid_axle.html"),
@@ -108,7 +104,7 @@ def test_every_command_that_writes_is_here():
 
 
 @pytest.mark.parametrize("command", WRITING)
-def test_no_command_writes_over_what_it_did_not_write(kintrafo, tmp_path, command):  # noqa: F811
+def test_no_command_writes_over_what_it_did_not_write(kintrafo, tmp_path, command):
     arguments, name = WRITING[command]
     (tmp_path / name).write_text("a year of work")
     code, out, err = kintrafo(*arguments)
@@ -119,7 +115,7 @@ def test_no_command_writes_over_what_it_did_not_write(kintrafo, tmp_path, comman
     assert (tmp_path / name).read_text() == "a year of work"
 
 
-def test_no_file_is_written_twice(kintrafo, tmp_path):  # noqa: F811
+def test_no_file_is_written_twice(kintrafo, tmp_path):
     code, _, err = kintrafo("simulate", CAR, "-o", "a.csv", "--loads", "a.csv", "--duration", 0.01)
     assert code == 2
     assert "named twice" in err
@@ -129,7 +125,7 @@ def test_no_file_is_written_twice(kintrafo, tmp_path):  # noqa: F811
 @pytest.mark.parametrize(
     "command", ["new", "schema", "kinematics", "import-chrono", "import-adams"]
 )
-def test_force_and_again(kintrafo, tmp_path, command):  # noqa: F811
+def test_force_and_again(kintrafo, tmp_path, command):
     arguments, name = WRITING[command]
     (tmp_path / name).write_text("a year of work")
     assert kintrafo(*arguments, "--force")[0] == 0
@@ -153,7 +149,7 @@ def test_force_and_again(kintrafo, tmp_path, command):  # noqa: F811
         ["compare", CAR, "car.csv", "-o", "./car.csv"],
     ],
 )
-def test_what_is_read_is_not_written_even_by_force(kintrafo, tmp_path, arguments):  # noqa: F811
+def test_what_is_read_is_not_written_even_by_force(kintrafo, tmp_path, arguments):
     texts = {
         "car.toml": TEXT,
         "other.toml": TEXT,
@@ -170,7 +166,7 @@ def test_what_is_read_is_not_written_even_by_force(kintrafo, tmp_path, arguments
     assert found == texts
 
 
-def test_generate_keeps_the_source(kintrafo, tmp_path):  # noqa: F811
+def test_generate_keeps_the_source(kintrafo, tmp_path):
     """The files of a mechanism are called as it is, and so is the file that declares it."""
     source = tmp_path / "four_bar.py"
     text = "from kintrafo.generator.mechanisms.four_bar import FOUR_BAR\n"
@@ -257,7 +253,7 @@ def test_streams_that_were_closed(monkeypatch):
         (TEXT.replace("[   5.0,", "[-1" + "0" * 4000 + ","), "ball_joint"),
     ],
 )
-def test_toml_that_no_person_writes(kintrafo, tmp_path, text, words):  # noqa: F811
+def test_toml_that_no_person_writes(kintrafo, tmp_path, text, words):
     (tmp_path / "car.toml").write_text(text, encoding="utf-8")
     code, out, err = kintrafo("check", "car.toml", "--json")
     assert code == 1, err
@@ -270,7 +266,7 @@ STRANGE = ["$^$.toml", os.fsdecode(b"caf\xe9.toml"), "two\nlines.toml", "[bold]x
 
 
 @pytest.mark.parametrize("name", STRANGE)
-def test_strange_names(kintrafo, tmp_path, name):  # noqa: F811
+def test_strange_names(kintrafo, tmp_path, name):
     (tmp_path / name).write_text(TEXT, encoding="utf-8")
     code, out, err = kintrafo("kinematics", name, "--step", 80, "-o", f"{name}.csv")
     assert code == 0, err
@@ -280,7 +276,7 @@ def test_strange_names(kintrafo, tmp_path, name):  # noqa: F811
     assert "no_such_" in err
 
 
-def test_strange_names_compared(kintrafo, tmp_path):  # noqa: F811
+def test_strange_names_compared(kintrafo, tmp_path):
     for name in STRANGE:
         (tmp_path / name).write_text(TEXT, encoding="utf-8")
     files = [f"a.{ending}" for ending in ("csv", "nc", "parquet")]

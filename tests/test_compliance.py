@@ -9,21 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import (
-    Axle,
-    InputError,
-    Model,
-    RigidAxle,
-    Suspension,
-    characteristics,
-    compliance,
-)
+from kintrafo import Axle, InputError, Model, RigidAxle, Suspension, characteristics, compliance
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.input.toml_writer import write_toml
 from kintrafo.vehicle.kinds import KINDS
 from kintrafo.vehicle.report.tables import input_tables
 from soft_suspensions import BUSHES_OF, LINKED, STRUT, TRAILING, WISHBONES, Stiffness, Z
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 DATA = Path(__file__).parents[1] / "vehicle/data"
 
@@ -195,10 +186,7 @@ def test_without_a_spring_nothing_holds_the_wheel() -> None:
 # -- tyres ----------------------------------------------------------------------------------------
 
 LATERAL, LONGITUDINAL = 1.5e5, 2.5e5
-ON_TYRES = {
-    "tyre.lateral_rate_N_per_m": LATERAL,
-    "tyre.longitudinal_rate_N_per_m": LONGITUDINAL,
-}
+ON_TYRES = {"tyre.lateral_rate_N_per_m": LATERAL, "tyre.longitudinal_rate_N_per_m": LONGITUDINAL}
 SOFT_CAR = Suspension.load("reference_car").with_changes(ON_TYRES)
 BUSH: dict[str, Any] = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
 RODS = {"panhard_rod_chassis": {"axial_N_per_mm": 5000.0}}
@@ -342,7 +330,7 @@ def test_bushes_of_the_file_that_are_none(bushings: Any, words: str) -> None:
         Suspension.load("reference_car").with_changes({"bushings": bushings})
 
 
-def test_commands_take_bushes_from_the_file(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_commands_take_bushes_from_the_file(kintrafo: Any, tmp_path: Path) -> None:
     write_toml(WITH_BUSHES, tmp_path / "soft.toml")
     text = "[bushings.arm_rear]\naxial_N_per_mm = 400.0\n"
     (tmp_path / "b.toml").write_text(text, encoding="utf-8")

@@ -60,12 +60,7 @@ if TYPE_CHECKING:
 IMAGE = np.diag([1.0, -1.0, 1.0])
 DECLARED = {
     m.name: m
-    for m in (
-        *four_bar.MODELS,
-        *slider_crank.MODELS,
-        *double_wishbone.MODELS,
-        macpherson.MODELS[2],
-    )
+    for m in (*four_bar.MODELS, *slider_crank.MODELS, *double_wishbone.MODELS, macpherson.MODELS[2])
 }
 
 
@@ -237,10 +232,7 @@ HINGES = {
         angle_to=ELBOW,
     ),
     "elbow": Revolute(
-        "elbow",
-        UPPER,
-        LOWER,
-        axis=Line(ELBOW, Direction("elbow_axis", (1.0, 0.2, -0.1))),
+        "elbow", UPPER, LOWER, axis=Line(ELBOW, Direction("elbow_axis", (1.0, 0.2, -0.1)))
     ),
 }
 LAWS = (
@@ -266,10 +258,7 @@ def pendulum(first: str, second: str) -> Formulation:
         name="pendulum",
         title="Double pendulum",
         joints=(shoulder, elbow),
-        forces=(
-            Weight(),
-            ForceElement("bar", TwistOfHinges(HINGES[first], HINGES[second]), LAWS),
-        ),
+        forces=(Weight(), ForceElement("bar", TwistOfHinges(HINGES[first], HINGES[second]), LAWS)),
         coordinates=(
             shoulder.angle("q1", "angle of the shoulder"),
             elbow.angle("q2", "angle of the elbow"),

@@ -37,12 +37,7 @@ SHIPPED = (
 )
 # Of masses, of a tyre and of angles that are only reported: no pose depends on them.
 NO_POSE = ("pivot", "cos_camber", "shaft_level")
-CASES = (
-    *(model for model in MODELS if model.name in SHIPPED),
-    *OWN,
-    SCOTCH_YOKE,
-    KNEE,
-)
+CASES = (*(model for model in MODELS if model.name in SHIPPED), *OWN, SCOTCH_YOKE, KNEE)
 
 
 def module_of(model: Any) -> Any:

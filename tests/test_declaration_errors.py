@@ -133,8 +133,7 @@ class TestDrivenJoints:
 
 class TestForces:
     PUSHED = replace(
-        RUSR,
-        forces=(JointForce(ROCKER, Input("torque", "N m", "torque on the rocker")),),
+        RUSR, forces=(JointForce(ROCKER, Input("torque", "N m", "torque on the rocker")),)
     )
 
     def test_along_a_joint_that_follows(self):

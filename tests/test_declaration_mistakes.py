@@ -132,10 +132,7 @@ MISTAKES = {
         lambda: Body("wheel", 1.0, com="wheel_com"),
         ["Body 'wheel'", "com is 'wheel_com'", "a Point"],
     ),
-    "text for a mass": (
-        lambda: Body("wheel", "1.0", A),
-        ["Body 'wheel'", "mass", "a Mass"],
-    ),
+    "text for a mass": (lambda: Body("wheel", "1.0", A), ["Body 'wheel'", "mass", "a Mass"]),
     "name of a body for the body": (
         lambda: Revolute("A", "crank", TWO, axis=AXIS),
         ["Revolute 'A'", "first is 'crank'", "a Body is needed"],
@@ -237,10 +234,7 @@ MISTAKES = {
         lambda: Revolute(name="A", frist=ONE, second=TWO, axis=AXIS),
         ["Revolute 'A'", "frist is none of its fields", "Did you mean first?"],
     ),
-    "field left out": (
-        lambda: Revolute("A", ONE, TWO),
-        ["Revolute 'A'", "axis is missing"],
-    ),
+    "field left out": (lambda: Revolute("A", ONE, TWO), ["Revolute 'A'", "axis is missing"]),
     "argument too many": (
         lambda: Point("a", (0, 0, 0), "a", "x", "y"),
         ["Point 'a'", "'y' is one argument too many", "name, place, meaning, flat"],
@@ -290,10 +284,7 @@ MISTAKES = {
         lambda: Direction("a", (0.0, "1", 0.0), "a"),
         ["Direction 'a'", "along[1] '1'", "real number"],
     ),
-    "inertia as a matrix": (
-        lambda: Body("a", 1.0, (0, 0, 0), np.eye(3)),
-        ["Body 'a'", "inertia"],
-    ),
+    "inertia as a matrix": (lambda: Body("a", 1.0, (0, 0, 0), np.eye(3)), ["Body 'a'", "inertia"]),
     "two moments of inertia": (
         lambda: Body("a", 1.0, (0, 0, 0), (1.0, 2.0)),
         ["Body 'a'", "inertia has 2 number(s); 3 or 6 are needed"],
@@ -352,10 +343,7 @@ MISTAKES = {
         lambda: Point("ball joint", (0, 0, 0)),
         ["'ball joint' cannot be written in C"],
     ),
-    "dash in a name": (
-        lambda: Body("tie-rod", 1.0, A),
-        ["'tie-rod' cannot be written in C"],
-    ),
+    "dash in a name": (lambda: Body("tie-rod", 1.0, A), ["'tie-rod' cannot be written in C"]),
     "digit first": (
         lambda: Direction("2nd", (1, 0, 0)),
         ["'2nd' cannot be written in C", "a letter first"],
@@ -519,11 +507,7 @@ MISTAKES = {
     ),
     "motion named as a parameter": (
         lambda: Formulation(
-            "m",
-            "m",
-            instead(RATE, name="drive_velocity"),
-            (),
-            prescribed={bar.A: DRIVE},
+            "m", "m", instead(RATE, name="drive_velocity"), (), prescribed={bar.A: DRIVE}
         ),
         ["'drive_velocity' is the name of a parameter and of an input"],
     ),

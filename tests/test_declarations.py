@@ -96,15 +96,7 @@ def test_all_problems_are_listed():
 def test_what_is_referred_to_is_there_and_nothing_else():
     """Bodies, inputs and parameters are collected, in the order in which they were written."""
     names = [body.name for body in MECHANISM.bodies]
-    assert names == [
-        "chassis",
-        "control_arm",
-        "knuckle",
-        "tie_rod",
-        "rack",
-        "upper_strut",
-        "wheel",
-    ]
+    assert names == ["chassis", "control_arm", "knuckle", "tie_rod", "rack", "upper_strut", "wheel"]
     assert list(MECHANISM.numbers.values()) == list(range(1, 8))
     assert MECHANISM.input_names == ["strut_force", "road_height", "rack_force"]
     parameters = [p.name for p in MECHANISM.parameters]

@@ -155,10 +155,7 @@ def test_signals_have_units_and_meanings(built: Built) -> None:
 def test_copies_have_the_outputs_of_their_own() -> None:
     mechanism = declared().mechanism
     pair = combined(
-        "pair",
-        "Two",
-        (Copy(mechanism, "a_"), Copy(mechanism, "b_", mirrored=True)),
-        outputs=(),
+        "pair", "Two", (Copy(mechanism, "a_"), Copy(mechanism, "b_", mirrored=True)), outputs=()
     )
     assert [o.name for o in pair.outputs][:2] == ["a_mark", "a_mark_velocity"]
     assert pair.derived["b_mark_y"] == -pair.derived["a_mark_y"]

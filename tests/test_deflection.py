@@ -47,7 +47,6 @@ from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 from soft_suspensions import BUSHES, BUSHES_OF, LINKED, STRUT, TRAILING, WISHBONES, Stiffness
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CARS = [STRUT, WISHBONES, LINKED, TRAILING]
 UNDER = ["lateral", "braking", "recession", "aligning"]
@@ -542,10 +541,7 @@ def test_no_load_presses_a_damper_in_farther_than_it_goes(side: str) -> None:
     compliance.nonlinear(model, stiff, "braking", [2.0 * most])
 
 
-def test_what_the_suspension_cannot_do_ends_a_command_with_1(
-    kintrafo: Any,  # noqa: F811
-    tmp_path: Path,
-) -> None:
+def test_what_the_suspension_cannot_do_ends_a_command_with_1(kintrafo: Any, tmp_path: Path) -> None:
     """As the page of the command line says of all that is no mistake in what was given."""
     soft = "[bushings.arm_rear]\naxial_N_per_mm = 1.0\nradial_N_per_mm = 1.0\n"
     (tmp_path / "soft.toml").write_text(soft, encoding="utf-8")

@@ -166,10 +166,7 @@ def test_metres():
             {"hardpoints.lower_ball_joint.y": -360.5, "hardpoints.lower_ball_joint.z": 195.0},
             "the arm needs at least 1 mm to move the wheel. Move lower_ball_joint outboard",
         ),
-        (
-            {"hardpoints.upper_arm_front.x": -150.0},
-            "the front bearing must have the greater x",
-        ),
+        ({"hardpoints.upper_arm_front.x": -150.0}, "the front bearing must have the greater x"),
         (
             {"hardpoints.spring_top": [-10.0, -600.0, 200.0]},
             "two points of the spring must be at least 1 mm apart",

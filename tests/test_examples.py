@@ -16,7 +16,6 @@ from kintrafo import Model, Suspension, characteristics, export, point_table, st
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.vehicle import cli
 from kintrafo.vehicle.report.chapters.chapter import Picture
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -135,7 +134,7 @@ def one_picture(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.usefixtures("coarse_report", "first_page_of_curves", "one_picture")
 @pytest.mark.usefixtures("few_frames", "few_generations")
 @pytest.mark.parametrize("line", LINES)
-def test_every_example_of_a_help_text_runs(kintrafo: Any, line: str) -> None:  # noqa: F811
+def test_every_example_of_a_help_text_runs(kintrafo: Any, line: str) -> None:
     program, command, *words = shlex.split(line)
     positional = [*takewhile(lambda word: not word.startswith("-"), words)]
     written = positional[-1:] if command in WRITERS else []

@@ -8,7 +8,6 @@ import pytest
 from exported import compiled, system_named
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.targets.c_folder import STEP, STEPS
-from test_cli_commands import kintrafo as command  # noqa: F401 (a fixture)
 
 needs_compiler = pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
 NAMES = ("four_bar", "slider_crank", "prescribed", "reference_car")
@@ -155,16 +154,16 @@ def test_damaged_equations_are_named(tmp_path, monkeypatch):
         kintrafo.export_model(system, tmp_path / "c", "c")
 
 
-def test_the_command(command, tmp_path):  # noqa: F811
-    code, out, _ = command("export", "reference_car", "--to", "c")
+def test_the_command(kintrafo, tmp_path):
+    code, out, _ = kintrafo("export", "reference_car", "--to", "c")
     assert (code, out.strip()) == (0, "reference_car_c")
     assert (tmp_path / "reference_car_c/macpherson_values.c").exists()
-    code, out, _ = command("export", "four_bar", "--to", "c", "-o", "bar", "--json")
+    code, out, _ = kintrafo("export", "four_bar", "--to", "c", "-o", "bar", "--json")
     assert code == 0
     assert '"equations": "four_bar"' in out
-    code, _, err = command("export", "four_bar", "--to", "casadi")
+    code, _, err = kintrafo("export", "four_bar", "--to", "casadi")
     assert code == 2
     assert "'casadi' is not known" in err
-    code, _, err = command("export", "four_bra", "--to", "c")
+    code, _, err = kintrafo("export", "four_bra", "--to", "c")
     assert code == 2
     assert "no such file" in err

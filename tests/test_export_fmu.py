@@ -17,7 +17,6 @@ from kintrafo.targets.fmi import binaries
 from kintrafo.targets.fmi.units import powers
 from mockup import DISCARD, ERROR, OK, Unit
 from own_models import STRICT, UNOPTIMISED
-from test_cli_commands import kintrafo as command  # noqa: F401 (a fixture)
 
 pytestmark = pytest.mark.skipif(
     find_compiler() is None or sys.platform != "linux", reason="no compiler for Linux"
@@ -555,15 +554,15 @@ def test_an_export_again_has_the_same_bytes(tmp_path):
     assert paths[0].read_bytes() == paths[1].read_bytes()
 
 
-def test_the_command(command, tmp_path):  # noqa: F811
-    code, out, err = command("export", "four_bar", "--to", "fmu", "--fmi", 3)
+def test_the_command(kintrafo, tmp_path):
+    code, out, err = kintrafo("export", "four_bar", "--to", "fmu", "--fmi", 3)
     assert (code, out.strip()) == (0, "four_bar.fmu"), err
     with zipfile.ZipFile(tmp_path / "four_bar.fmu") as archive:
         assert "binaries/x86_64-linux/four_bar.so" in archive.namelist()
-    code, _, err = command("export", "four_bar", "--to", "c", "--fmi", 3)
+    code, _, err = kintrafo("export", "four_bar", "--to", "c", "--fmi", 3)
     assert code == 2
     assert "fmi is no option" in err
-    code, _, err = command("export", "four_bar", "--to", "fmu", "--platform", "amiga")
+    code, _, err = kintrafo("export", "four_bar", "--to", "fmu", "--platform", "amiga")
     assert code == 2
     assert "'amiga' is not known" in err
 

@@ -59,9 +59,7 @@ def test_every_coordinate_is_a_wire_once(drawn: tuple[Plan, dict[str, list[str]]
         assert len(re.findall(rf"(?<![\w]){re.escape(shown)}(?![\w])", written)) == 1, name
 
 
-def test_letters_are_those_of_the_paper(
-    drawn: tuple[Plan, dict[str, list[str]], Path],
-) -> None:
+def test_letters_are_those_of_the_paper(drawn: tuple[Plan, dict[str, list[str]], Path]) -> None:
     """Figure 1 of the paper: O, A, B, C, D, E, and HG of the wheel's bearing."""
     plan, words, _ = drawn
     if plan.formulation.name != "macpherson":

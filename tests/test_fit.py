@@ -5,17 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from kintrafo import (
-    InputError,
-    Model,
-    Suspension,
-    characteristics,
-    compliance,
-    variation,
-)
+from kintrafo import InputError, Model, Suspension, characteristics, compliance, variation
 from kintrafo.core.quantities import display_of
 from kintrafo.vehicle.studies.places import places_of
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CAR = Suspension.load("reference_car")
 ROD = "hardpoints.tie_rod_inner.z"
@@ -155,7 +147,7 @@ def test_what_cannot_be_is_refused() -> None:
             variation.fit(**{"suspension": CAR, "measured": measured, **arguments})  # type: ignore[arg-type]
 
 
-def test_the_command_tells_it(kintrafo: Any, tmp_path: Any) -> None:  # noqa: F811
+def test_the_command_tells_it(kintrafo: Any, tmp_path: Any) -> None:
     from kintrafo import export
 
     export.write(rig(AS_BUILT, names=["toe", "camber"]), tmp_path / "rig.csv")
@@ -258,7 +250,7 @@ def test_parts_that_are_none_are_refused() -> None:
         variation.fit(SOFT, measured, {REAR: "30 %"}, held="nothing")  # type: ignore[arg-type]
 
 
-def test_the_command_fits_bushes(kintrafo: Any, tmp_path: Any) -> None:  # noqa: F811
+def test_the_command_fits_bushes(kintrafo: Any, tmp_path: Any) -> None:
     from kintrafo import export
     from kintrafo.vehicle.input.toml_writer import write_toml
 

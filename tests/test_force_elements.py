@@ -66,8 +66,7 @@ def test_line_spring_along_the_strut_is_the_telescope_spring(seed):
     (strut,) = model.mechanism.elements
     free_length = parameters["strut_length_max"] - parameters["spring_free_slide"]
     by_line = accelerations(
-        changed(model, (strut, line)),
-        parameters | {"coil_free_length": free_length},
+        changed(model, (strut, line)), parameters | {"coil_free_length": free_length}
     )
     # both are evaluated with 15 digits of mpmath; the forces are large differences of lengths
     assert by_line == pytest.approx(accelerations(model, parameters), rel=1e-11)

@@ -7,15 +7,7 @@ from typing import Any
 import kintrafo
 import numpy as np
 import pytest
-from kintrafo import (
-    Axle,
-    InputError,
-    Model,
-    PositionError,
-    System,
-    characteristics,
-    variation,
-)
+from kintrafo import Axle, InputError, Model, PositionError, System, characteristics, variation
 from kintrafo.generated import four_bar
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.report.grid import Axis, Grid

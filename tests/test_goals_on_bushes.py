@@ -9,19 +9,10 @@ from typing import Any
 
 import pytest
 import xarray as xr
-from kintrafo import (
-    Axle,
-    InputError,
-    Model,
-    RigidAxle,
-    characteristics,
-    compliance,
-    variation,
-)
+from kintrafo import Axle, InputError, Model, RigidAxle, characteristics, compliance, variation
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.report import elastokinematics_chapter
 from kintrafo.vehicle.studies.sweep_axes import SWEEP_AXES
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CAR, AXLE, RIGID = Model("reference_car"), Axle.load("reference_axle"), RigidAxle.load("rigid_axle")
 SOFT = {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}
@@ -119,7 +110,7 @@ def test_goals_about_a_turned_rack_are_refused() -> None:
 
 
 @pytest.mark.usefixtures("coarse_report")
-def test_a_report_has_them(kintrafo: Any, monkeypatch: pytest.MonkeyPatch) -> None:  # noqa: F811
+def test_a_report_has_them(kintrafo: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     seen = []
     whole = elastokinematics_chapter
 

@@ -6,16 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import (
-    Axle,
-    InputError,
-    Model,
-    RigidAxle,
-    Suspension,
-    compliance,
-    report,
-    variation,
-)
+from kintrafo import Axle, InputError, Model, RigidAxle, Suspension, compliance, report, variation
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.cli import app

@@ -307,10 +307,7 @@ def test_energy_stays_where_nothing_dissipates(built: Callable[[str], Built]) ->
 @WITH_DERIVATIVES
 @pytest.mark.parametrize("by", ["state", "inputs"])
 def test_jacobians_are_exact(
-    name: str,
-    by: str,
-    built: Callable[[str], Built],
-    derive: Callable[[str], Derivation],
+    name: str, by: str, built: Callable[[str], Built], derive: Callable[[str], Derivation]
 ) -> None:
     # differences in 50 digits: every perturbed state is solved anew, to 50 digits as well
     model, derived = built(name), derive(name)
@@ -451,9 +448,7 @@ def test_documents_say_that_it_iterates(built: Callable[[str], Built]) -> None:
     assert "not free of iteration" not in double_wishbone.__doc__
 
 
-def test_report_names_the_equations_of_the_loops(
-    derive: Callable[[str], Derivation],
-) -> None:
+def test_report_names_the_equations_of_the_loops(derive: Callable[[str], Derivation]) -> None:
     text = markdown(derive(ARM.name))
     assert "This model is not free of iteration." in text
     for rod in RODS[ARM.name]:

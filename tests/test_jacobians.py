@@ -116,9 +116,7 @@ def test_derivatives_of_the_program(
         assert (np.abs(found - expected) <= 1e-12 * size).all()
 
 
-def test_derivatives_of_the_compiled_functions(
-    jacobian_and_places: tuple[str, list[At]],
-) -> None:
+def test_derivatives_of_the_compiled_functions(jacobian_and_places: tuple[str, list[At]]) -> None:
     jacobian, at_places = jacobian_and_places
     for at in at_places:
         found = at(jacobian)
@@ -260,9 +258,7 @@ def test_global_jacobian_gives_the_velocities(car_and_places: tuple[Mechanism, l
         assert at("global_jacobian") @ state[at.size :] == pytest.approx(twists, rel=0, abs=1e-12)
 
 
-def test_mass_matrix_from_the_global_jacobian(
-    car_and_places: tuple[Mechanism, list[At]],
-) -> None:
+def test_mass_matrix_from_the_global_jacobian(car_and_places: tuple[Mechanism, list[At]]) -> None:
     """Eq. 3: M is the sum of J^T Xi J over the bodies that carry mass."""
     car, at_places = car_and_places
     for at in at_places:

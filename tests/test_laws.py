@@ -36,12 +36,7 @@ from kintrafo.generator import (
 from kintrafo.generator.declare.laws import Law, Stretch
 from kintrafo.generator.program import ConstantStage, Function, Program
 from oracle import laws as oracle
-from oracle.reference import (
-    completed,
-    reference_parameters,
-    set_damper_curve,
-    spring_parameters,
-)
+from oracle.reference import completed, reference_parameters, set_damper_curve, spring_parameters
 from scipy.interpolate import PchipInterpolator
 from symbolic import python
 from sympy import Symbol

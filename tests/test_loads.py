@@ -29,7 +29,7 @@ from kintrafo.vehicle.models.positions import design_height
 from kintrafo.vehicle.models.reach import at_rest
 from oracle.constraints import ARM, BODIES, KNUCKLE, RACK, TIE_ROD, UPPER_STRUT, WHEEL
 from oracle.newton import Mechanism
-from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
+from test_cli_commands import commands_of
 
 ROOT = Path(__file__).parent.parent
 CAR = Suspension.load("reference_car")
@@ -178,7 +178,7 @@ def test_a_mount_carries_the_total_of_what_is_bolted_there(car: Suspension) -> N
     np.testing.assert_array_equal(totals["force_z"], found["total_force"].sel(axis="z"))
 
 
-def test_the_top_of_a_strut_has_the_spring_in_its_total(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_the_top_of_a_strut_has_the_spring_in_its_total(kintrafo: Any, tmp_path: Path) -> None:
     """At rest the body carries the wheel less what hangs on it: nearly all at the mount."""
     out = tmp_path / "loads.csv"
     status, told, _ = kintrafo(*f"loads reference_car --out {out}".split())
@@ -411,7 +411,7 @@ def test_a_motion_of_another_car_is_none_of_this() -> None:
             loads.along(Model(other), motion)
 
 
-def test_couples_are_shown_without_a_force(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_couples_are_shown_without_a_force(kintrafo: Any, tmp_path: Path) -> None:
     (tmp_path / "c.toml").write_text(
         "[cases.couple]\ntravel_mm = 0\ncenter_Nm = [0, 400, 0]\n[cases.far]\n"
         "contact_N = [0, 0, 1e6]\n",
@@ -429,7 +429,7 @@ def test_couples_are_shown_without_a_force(kintrafo: Any, tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("file", ["reference_car", "reference_axle", "rigid_axle"])
-def test_totals_are_shown_alone(kintrafo: Any, tmp_path: Path, file: str) -> None:  # noqa: F811
+def test_totals_are_shown_alone(kintrafo: Any, tmp_path: Path, file: str) -> None:
     arguments = ("loads", file, "--case", "static", "--part", "total")
     code, out, _ = kintrafo(*arguments, "-o", "a.csv", "--plot", "b.png", "--part", "wheel_left"
                             if "axle" in file else "wheel")  # fmt: skip
@@ -446,7 +446,7 @@ def test_totals_are_shown_alone(kintrafo: Any, tmp_path: Path, file: str) -> Non
     assert "total is no part that can be drawn" in " ".join(err.split())
 
 
-def test_extremes_are_printed(kintrafo: Any) -> None:  # noqa: F811
+def test_extremes_are_printed(kintrafo: Any) -> None:
     code, out, _ = kintrafo("loads", "offset_strut_car", "--envelope", "--part", "knuckle")
     assert code == 0
     ends = loads.envelope(loads.static(Model(OFFSET)))
@@ -496,10 +496,7 @@ def test_two_bearings_share_what_is_along_their_axis() -> None:
     ],
 )
 def test_the_exit_code_is_about_the_cases_that_were_asked_for(
-    kintrafo: Any,  # noqa: F811
-    tmp_path: Path,
-    words: str,
-    code: int,
+    kintrafo: Any, tmp_path: Path, words: str, code: int
 ) -> None:
     bad = "[cases.bad]\ncontact_N = [0, 0, 1e6]\n"
     (tmp_path / "bad.toml").write_text(bad, encoding="utf-8")
@@ -511,7 +508,7 @@ def test_the_exit_code_is_about_the_cases_that_were_asked_for(
 
 
 @pytest.mark.usefixtures("first_page_of_curves")
-def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:
     page = (ROOT / "docs/loads.md").read_text(encoding="utf-8")
     for name, text in re.findall(r"```toml\n# (\S+)\n(.*?)```", page, flags=re.DOTALL):
         (tmp_path / name).write_text(text, encoding="utf-8")
@@ -539,7 +536,7 @@ def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
         ("[cases]\na = 3", "must be a section"),
     ],
 )
-def test_files_that_are_none(kintrafo: Any, tmp_path: Path, text: str, words: str) -> None:  # noqa: F811
+def test_files_that_are_none(kintrafo: Any, tmp_path: Path, text: str, words: str) -> None:
     (tmp_path / "c.toml").write_text(text, encoding="utf-8")
     code, _, err = kintrafo("loads", "reference_car", "--cases", "c.toml")
     assert code == 2
@@ -547,7 +544,7 @@ def test_files_that_are_none(kintrafo: Any, tmp_path: Path, text: str, words: st
 
 
 @pytest.mark.parametrize("option", ["--part", "--case"])
-def test_options_are_named(kintrafo: Any, option: str) -> None:  # noqa: F811
+def test_options_are_named(kintrafo: Any, option: str) -> None:
     code, _, err = kintrafo("loads", "reference_car", option, "nothing")
     assert code == 2
     assert f"{option} 'nothing' is not known" in " ".join(err.split())

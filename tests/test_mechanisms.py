@@ -31,12 +31,7 @@ from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import Plan
 from oracle.constraints import Array
 from oracle.maximal import Jet, Motion, Oracle, Reduced
-from oracle.reference import (
-    completed,
-    further_parameters,
-    general_parameters,
-    spring_parameters,
-)
+from oracle.reference import completed, further_parameters, general_parameters, spring_parameters
 from own_models import Built, needs_gcc, own, shipped
 from scipy.integrate import solve_ivp
 from symbolic import constants_of, derivatives_of, python

@@ -27,7 +27,7 @@ from kintrafo.vehicle.models.positions import arm_angles, design_height
 from kintrafo.vehicle.models.reach import at_rest
 from scipy.optimize import brentq, fsolve
 from scipy.spatial.transform import Rotation
-from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
+from test_cli_commands import commands_of
 
 CAR = Suspension.load("multi_link_car")
 MODEL = Model(CAR)
@@ -246,7 +246,7 @@ def test_an_axle_of_it_rolls() -> None:
 
 
 @pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
-def test_the_commands_of_the_page_run(kintrafo: Any) -> None:  # noqa: F811
+def test_the_commands_of_the_page_run(kintrafo: Any) -> None:
     page = Path(__file__).parent.parent / "docs/multi-link.md"
     commands = commands_of(page.read_text(encoding="utf-8"))
     assert len(commands) == 9

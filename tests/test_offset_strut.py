@@ -17,13 +17,7 @@ from kintrafo.equations.errors import ClosureError
 from kintrafo.generated import macpherson_general
 from oracle.constraints import Array, Pose
 from oracle.newton import AssemblyError, Mechanism, residual_norm, solve_pose
-from oracle.reference import (
-    Parameters,
-    general_parameters,
-    mirrored_parameters,
-    set_vector,
-    vector,
-)
+from oracle.reference import Parameters, general_parameters, mirrored_parameters, set_vector, vector
 
 MODEL = macpherson_general
 GUARDS = [name for name, _ in MODEL.GUARDS]

@@ -15,7 +15,6 @@ from kintrafo.vehicle.plots.pareto import write_front
 from kintrafo.vehicle.studies.candidates import Candidates
 from kintrafo.vehicle.studies.front import compromise, spread, unbeaten
 from matplotlib.image import imread
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CAR = Suspension.load("reference_car")
 ROD, JOINT = "hardpoints.tie_rod_inner.z", "hardpoints.ball_joint.z"
@@ -178,7 +177,7 @@ def test_fronts_of_random_numbers() -> None:
 # -- searches --------------------------------------------------------------------------------------
 
 
-def test_the_seed_decides(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_the_seed_decides(kintrafo: Any, tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text(STUDY, encoding="utf-8")
     before = np.random.get_state()[1].tolist()  # noqa: NPY002 (the state of everybody)
     for name, seed in (("a.csv", 5), ("b.csv", 5), ("c.csv", 6)):
@@ -252,7 +251,7 @@ def test_several_objectives_of_one_kind_are_told_apart_and_drawn(tmp_path: Path)
 # -- commands -------------------------------------------------------------------------------------
 
 
-def test_the_chosen_member_is_written(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_the_chosen_member_is_written(kintrafo: Any, tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text(STUDY, encoding="utf-8")
     code, out, err = kintrafo(
         "pareto", "reference_car", "s.toml", *QUICK, "--member", 2, "--car", "car.toml"
@@ -269,7 +268,7 @@ def test_the_chosen_member_is_written(kintrafo: Any, tmp_path: Path) -> None:  #
 
 
 @pytest.mark.parametrize("member", [0, 5, 4])
-def test_a_member_that_is_not_there(kintrafo: Any, tmp_path: Path, member: int) -> None:  # noqa: F811
+def test_a_member_that_is_not_there(kintrafo: Any, tmp_path: Path, member: int) -> None:
     """Four cars of a generation have no fifth member, and need not have a fourth."""
     study = STUDY.replace("[limits.scrub_radius]\nmost = 21.0", "[limits.toe]\nmost = 0.001")
     (tmp_path / "s.toml").write_text(study, encoding="utf-8")
@@ -282,10 +281,7 @@ def test_a_member_that_is_not_there(kintrafo: Any, tmp_path: Path, member: int) 
     assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
 
 
-def test_nothing_is_written_where_no_car_keeps_the_limits(
-    kintrafo: Any,  # noqa: F811
-    tmp_path: Path,
-) -> None:
+def test_nothing_is_written_where_no_car_keeps_the_limits(kintrafo: Any, tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text(STUDY.replace("21.0", "-90.0"), encoding="utf-8")
     code, out, _ = kintrafo("pareto", "reference_car", "s.toml", *QUICK, "-o", "a.csv")
     assert code == 1
@@ -295,9 +291,7 @@ def test_nothing_is_written_where_no_car_keeps_the_limits(
 
 @pytest.mark.usefixtures("interruptible")
 def test_an_interruption_ends_it_at_once(
-    kintrafo: Any,  # noqa: F811
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
+    kintrafo: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "s.toml").write_text(STUDY, encoding="utf-8")
     looked_at = []
@@ -318,9 +312,7 @@ def test_an_interruption_ends_it_at_once(
 
 
 def test_without_pymoo_it_is_said_how_to_install_it(
-    kintrafo: Any,  # noqa: F811
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
+    kintrafo: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "s.toml").write_text(STUDY, encoding="utf-8")
     monkeypatch.setitem(sys.modules, "pymoo.algorithms.moo.nsga2", None)
@@ -353,10 +345,7 @@ WRONG = [
     ({"free": {ROD: 0.0}}, "range of hardpoints.tie_rod_inner.z = 0 mm: .* above 0 mm"),
     ({"free": {"hardpoint": 1.0}}, "Did you mean hardpoints"),
     ({"free": [ROD]}, "a dict of places and numbers"),
-    (
-        {"free": {"bushings.arm_rear.axial_N_per_mm": 1.0}},
-        "these results do not depend on bushes",
-    ),
+    ({"free": {"bushings.arm_rear.axial_N_per_mm": 1.0}}, "these results do not depend on bushes"),
     ({"targets": {}}, "they make 1 objectives, and 2 to 6 are needed"),
     ({"maximise": {"toe": [{"at_mm": at} for at in range(6)]}}, "they make 7 objectives"),
     ({"targets": [1.0]}, "targets = .* a dict of names of characteristics"),
@@ -390,7 +379,7 @@ def test_a_position_out_of_reach_is_no_study() -> None:
         call(targets={"toe": TOE["toe"] | {"at_mm": [900.0]}})
 
 
-def test_a_file_with_something_else(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_a_file_with_something_else(kintrafo: Any, tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text(STUDY.replace("maximise", "maximize"), encoding="utf-8")
     code, out, err = kintrafo("pareto", "reference_car", "s.toml")
     assert (code, out) == (2, "")

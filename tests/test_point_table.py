@@ -16,7 +16,6 @@ from kintrafo.vehicle.files.point_table import (
     write_points,
 )
 from kintrafo.vehicle.kinds import KINDS
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CAR = Suspension.load("reference_car")
 
@@ -324,7 +323,7 @@ def test_cells_that_are_no_numbers(cell: Any, tmp_path: Path) -> None:
         read_points(workbook(tmp_path, {"a": rows}))
 
 
-def test_the_commands(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_the_commands(kintrafo: Any, tmp_path: Path) -> None:
     assert kintrafo("export-points", "reference_car", "points.csv")[0] == 0
     code, out, _ = kintrafo("import-points", "points.csv", "reference_car", "new.toml")
     assert (code, "read: arm_front" in out) == (0, True)
@@ -337,7 +336,7 @@ def test_the_commands(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     assert kintrafo("import-points", "points.txt", "new.toml", "x.toml")[0] == 2
 
 
-def test_a_table_of_another_car_is_doubted(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_a_table_of_another_car_is_doubted(kintrafo: Any, tmp_path: Path) -> None:
     """Rows that are no hardpoints are named on stderr, where hardpoints are missing."""
     other = HEAD + "wheel_center,5,-750,310\nlower_arm_front,1,2,3\nlower_arm_rear,1,2,4\n"
     table(tmp_path, other, "other.csv")

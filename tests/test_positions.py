@@ -26,11 +26,7 @@ from kintrafo import (
 from kintrafo.systems.state import inputs_of
 from kintrafo.vehicle.assembly.rest import nearest
 from kintrafo.vehicle.models.points import hardpoints
-from kintrafo.vehicle.models.positions import (
-    arm_angles,
-    design_height,
-    road_under_load,
-)
+from kintrafo.vehicle.models.positions import arm_angles, design_height, road_under_load
 from kintrafo.vehicle.models.reach import at_rest, branch, height_and_slope
 from oracle import newton
 from oracle.multipliers import solve_prescribed

@@ -20,7 +20,6 @@ from kintrafo import (
 )
 from kintrafo.pictures.curves import _alone
 from kintrafo.vehicle.assembly.by_wheel import flat
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 MODEL = Model("reference_car")
 LOOP = """# a loop, as a rig records it
@@ -116,10 +115,7 @@ WRONG = [
     ("", "empty"),
     ("wheel_travel [mm],toe [deg],toe [deg]\n1,2,3\n2,3,4\n", "toe is in 2 columns"),
     ("wheel_travel [mm];wheel_rate [N/m]\n1;25,000\n2.5;26,000\n", "points and commas"),
-    (
-        "rack_position [mm],wheel_rate [N/mm]\n1,2\n2,3\n",
-        "known over wheel_travel only",
-    ),
+    ("rack_position [mm],wheel_rate [N/mm]\n1,2\n2,3\n", "known over wheel_travel only"),
 ]
 
 
@@ -167,7 +163,7 @@ def test_positions_out_of_reach(tmp_path: Path) -> None:
         rig.beside(rig.measured_curves(path), {"car": MODEL})
 
 
-def test_the_command(kintrafo: Any, loop: Path, tmp_path: Path) -> None:  # noqa: F811
+def test_the_command(kintrafo: Any, loop: Path, tmp_path: Path) -> None:
     code, out, err = kintrafo(
         "compare", "reference_car", loop.name, "--plot", "a.png", "-o", "a.csv"
     )
@@ -334,7 +330,7 @@ def test_names_of_data_sets_differ_as_texts(door: Any) -> None:
             door(names)
 
 
-def test_compliance_by_the_command(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_compliance_by_the_command(kintrafo: Any, tmp_path: Path) -> None:
     SOFT.save(tmp_path / "a.toml")
     SOFTER.save(tmp_path / "b.toml")
     (tmp_path / "rig.csv").write_text(

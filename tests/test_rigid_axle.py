@@ -34,7 +34,7 @@ from kintrafo.vehicle.assembly.measures.rigid_axle import MEASURES
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import fsolve
 from scipy.spatial.transform import Rotation
-from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
+from test_cli_commands import commands_of
 
 Array = np.ndarray
 AXLE = RigidAxle.load("rigid_axle")
@@ -642,19 +642,11 @@ def test_other_doors_refuse_it_by_name() -> None:
         "new a.toml --rigid-axle --template reference_car",
     ],
 )
-def test_commands_that_have_nothing_for_it_say_so(kintrafo: Any, line: str) -> None:  # noqa: F811
+def test_commands_that_have_nothing_for_it_say_so(kintrafo: Any, line: str) -> None:
     code, out, err = kintrafo(*shlex.split(line))
     assert code != 0, out
     assert out == ""
-    words = (
-        "rigid axle",
-        "rigid-axle",
-        "only for",
-        "steer",
-        "rack",
-        "are bump",
-        "one sort",
-    )
+    words = ("rigid axle", "rigid-axle", "only for", "steer", "rack", "are bump", "one sort")
     assert any(word in err for word in words), err
     assert "Traceback" not in err
     assert not Path("a.csv").exists()
@@ -736,7 +728,7 @@ def test_two_axles_are_compared_over_the_same_positions() -> None:
 
 
 @pytest.mark.usefixtures("first_page_of_curves")
-def test_the_commands_of_the_page_run(kintrafo: Any) -> None:  # noqa: F811
+def test_the_commands_of_the_page_run(kintrafo: Any) -> None:
     page = PAGE.read_text(encoding="utf-8")
     commands = commands_of(page)
     assert len(commands) == 20

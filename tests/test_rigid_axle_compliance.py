@@ -30,7 +30,6 @@ from kintrafo.vehicle.assembly.by_wheel import flat
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
 from soft_suspensions import minimum
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 from test_rigid_axle import AXLE, LOPSIDED, PAGE, TRIANGULATED, Found
 
 Array = np.ndarray
@@ -558,7 +557,7 @@ def test_the_page_has_what_the_command_prints() -> None:
     assert set(printed) <= rows
 
 
-def test_a_file_has_its_bushes(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_a_file_has_its_bushes(kintrafo: Any, tmp_path: Path) -> None:
     """In the tables, the sheet and the report, as those that are given in their place."""
     soft = {"panhard_rod_axle": {"radial_N_per_mm": 900.0, "axis": [1.0, 0.0, 0.0]}}
     own = AXLE.with_changes({"bushings": soft})

@@ -25,7 +25,6 @@ from kintrafo import (
 from kintrafo.vehicle.analysis.loads.sheets import overview
 from kintrafo.vehicle.analysis.scenario import Scenario, run
 from kintrafo.vehicle.plots.loads import free_bodies
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 from test_rigid_axle import AXLE, LEFT, LOPSIDED, MODEL, Found, each_axle, slopes
 
 Array = np.ndarray
@@ -491,7 +490,7 @@ def test_labels_of_free_bodies_do_not_overlap(axle: RigidAxle, case: str) -> Non
         assert all(frame.contains(*end) for box in boxes for end in (box.p0, box.p1))
 
 
-def test_commands_tell_the_loads(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_commands_tell_the_loads(kintrafo: Any, tmp_path: Path) -> None:
     forces = {"left": "[0, 0.5, 0.7]", "right": "[0, 1, 1.3]"}
     text = "".join(f"[cases.turn.{side}]\ncontact_g = {g}\n" for side, g in forces.items())
     (tmp_path / "cases.toml").write_text(text, encoding="utf-8")
@@ -515,7 +514,7 @@ def test_commands_tell_the_loads(kintrafo: Any, tmp_path: Path) -> None:  # noqa
 
 
 @pytest.mark.usefixtures("first_page_of_curves")
-def test_the_report_has_the_load_cases(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_the_report_has_the_load_cases(kintrafo: Any, tmp_path: Path) -> None:
     text = "[cases.stop]\ncontact_g = [-1.0, 0.0, 1.2]\n"
     (tmp_path / "cases.toml").write_text(text, encoding="utf-8")
     soft = "[bushings.panhard_rod_chassis]\naxial_N_per_mm = 5000.0\n"

@@ -13,7 +13,6 @@ from kintrafo import Axle, InputError, Model, RigidAxle, characteristics, rig, r
 from kintrafo.vehicle.analysis.scenario import Scenario, run
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.models.rigid.model import RigidAxleModel
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 from test_rigid_axle import AXLE, Found
 
 Array = np.ndarray
@@ -107,7 +106,7 @@ def test_an_optimum_and_a_fit_find_the_axle_that_was_meant() -> None:
         assert fitted.moved[place] == pytest.approx(by, abs=0.3)
 
 
-def test_what_a_rig_measured_is_explained(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_what_a_rig_measured_is_explained(kintrafo: Any, tmp_path: Path) -> None:
     """Curves over roll in deg, of the root finder."""
     meant = AXLE.with_changes({"rods.left_link.chassis.z": 298.0})
     rolls = np.linspace(-3.0, 3.0, 5)
@@ -211,7 +210,7 @@ def test_what_no_rods_allow_has_no_neighbour() -> None:
     assert str(found["reason"].values[1]) == ""
 
 
-def test_the_commands_take_it(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_the_commands_take_it(kintrafo: Any, tmp_path: Path) -> None:
     goals = """
 [free]
 "rods.panhard_rod.axle.z" = 20.0

@@ -10,7 +10,6 @@ import pytest
 from kintrafo import InputError, RigidAxleModel, equilibrium, loads, simulate
 from kintrafo.vehicle.analysis.scenario import Scenario, run
 from kintrafo.vehicle.corner.wheel_loads import UNITS
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 from test_rigid_axle import AXLE, LOPSIDED, Found
 from test_wheel_loads import LIMITS
 
@@ -146,7 +145,7 @@ def test_a_ride_under_loads_and_what_is_refused() -> None:
         RigidAxleModel(AXLE.with_changes(low), wheel_loads=True)
 
 
-def test_measured_loads_are_driven(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_measured_loads_are_driven(kintrafo: Any, tmp_path: Path) -> None:
     text = "time_s,contact_force_x_N,hub_torque_Nm\n0,0,0\n0.02,0,0\n0.05,-2000,-720\n"
     (tmp_path / "braked.csv").write_text(text, encoding="utf-8")
     command = "simulate rigid_axle --measured braked.csv --wheels left --loads loads.csv"

@@ -182,11 +182,7 @@ def test_an_input_is_given_once(tmp_path):
     assert excitation({"rack_position": Course(held=0.02)}, 1.0, road)["rack_position"] == 0.02
 
 
-@given(
-    duration=st.floats(1e-3, 1e2),
-    count=st.integers(1, 1000),
-    part=st.floats(0.0, 0.99),
-)
+@given(duration=st.floats(1e-3, 1e2), count=st.integers(1, 1000), part=st.floats(0.0, 0.99))
 def test_output_times_cover_the_duration(duration, count, part):
     times = Scenario(duration=duration, output_step=duration / (count + part)).times()
     assert times[0] == 0.0

@@ -65,11 +65,7 @@ def exact_tensor(parameters: Parameters) -> list[list[mpmath.mpf]]:
 
 
 def evaluate(
-    model: Derivation,
-    constants: dict[str, mpmath.mpf],
-    function: str,
-    state: Array,
-    inputs: Array,
+    model: Derivation, constants: dict[str, mpmath.mpf], function: str, state: Array, inputs: Array
 ) -> list[mpmath.mpf]:
     """Evaluate a function of a derived model in mpmath's precision."""
     values = dict(constants)

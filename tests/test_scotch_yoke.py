@@ -19,11 +19,7 @@ if TYPE_CHECKING:
     from kintrafo.generator import Formulation
 
 
-CASES = (
-    yoke("scotch_yoke"),
-    yoke("turned_yoke", turned=True),
-    yoke("carried_yoke", carried=True),
-)
+CASES = (yoke("scotch_yoke"), yoke("turned_yoke", turned=True), yoke("carried_yoke", carried=True))
 
 
 @pytest.mark.parametrize("model", CASES, ids=lambda model: model.name)

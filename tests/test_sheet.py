@@ -10,7 +10,6 @@ from kintrafo.vehicle.analysis.sheet import sheet, tabulated
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.models.positions import arm_angles, design_height
 from kintrafo.vehicle.models.reach import at_rest
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 BUSHES = {"arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0}}
 # x forward, y right, z down
@@ -93,7 +92,7 @@ def test_what_cannot_be_is_refused_by_name():
         sheet(RigidAxle.load("rigid_axle"), BUSHES)
 
 
-def test_the_command_prints_it_and_writes_definitions(kintrafo):  # noqa: F811
+def test_the_command_prints_it_and_writes_definitions(kintrafo):
     code, out, err = kintrafo("sheet", "rigid_axle", "-o", "sheet.csv")
     assert code == 0, err
     assert "rigid_axle: in roll" in out

@@ -42,10 +42,7 @@ def test_a_sum_takes_up_the_sign_of_a_sum() -> None:
 
 def test_a_product_hands_the_sign_on() -> None:
     program = without_signs({T: -A * B, S: T * C}, A + S)
-    assert written(program) == {
-        "minus_t": A * B,
-        "minus_s": C * sp.Symbol("minus_t"),
-    }
+    assert written(program) == {"minus_t": A * B, "minus_s": C * sp.Symbol("minus_t")}
 
 
 def test_a_named_negative_gives_its_name_to_what_has_none() -> None:

@@ -36,8 +36,7 @@ def reference_states():
 
 
 @pytest.mark.parametrize(
-    "method",
-    [*dict.fromkeys([*native_methods(), "BDF", "Radau", "LSODA", "RK45", "DOP853"])],
+    "method", [*dict.fromkeys([*native_methods(), "BDF", "Radau", "LSODA", "RK45", "DOP853"])]
 )
 def test_methods_agree_with_the_reference_trajectory(method):
     times, states = reference_states()

@@ -156,9 +156,7 @@ def rod_end_on_the_strut() -> tuple[Parameters, Instant]:
     ball, top = vector(parameters, "ball_joint"), vector(parameters, "strut_top")
     on_strut = ball + 0.2 * (top - ball)
     set_vector(
-        parameters,
-        "tie_rod_inner",
-        on_strut - instant.rack * vector(parameters, "rack_axis"),
+        parameters, "tie_rod_inner", on_strut - instant.rack * vector(parameters, "rack_axis")
     )
     return parameters, instant
 

@@ -30,7 +30,7 @@ from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.usual import usual_rack
 from kintrafo.vehicle.models.positions import design_height
 from kintrafo.vehicle.studies import sensitivity
-from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
+from test_cli_commands import commands_of
 
 CAR = Suspension.load("trailing_arm_car")
 ACROSS = CAR.with_changes(
@@ -360,7 +360,7 @@ def test_equations_of_an_axle_are_those_of_its_sides() -> None:
 
 
 @pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
-def test_the_commands_of_the_page_run(kintrafo: Any) -> None:  # noqa: F811
+def test_the_commands_of_the_page_run(kintrafo: Any) -> None:
     page = Path(__file__).parent.parent / "docs/trailing-arm.md"
     commands = commands_of(page.read_text(encoding="utf-8"))
     assert len(commands) == 8

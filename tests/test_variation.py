@@ -31,7 +31,7 @@ from kintrafo.vehicle.studies.curves import Curves, changed
 from kintrafo.vehicle.studies.places import places_of
 from numpy.polynomial import Chebyshev
 from scipy.optimize import brentq
-from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
+from test_cli_commands import commands_of
 
 ROOT = Path(__file__).parent.parent
 CAR = Suspension.load("reference_car")
@@ -534,7 +534,7 @@ def test_a_neighbour_that_cannot_be_is_named(monkeypatch: pytest.MonkeyPatch) ->
 
 
 @pytest.mark.usefixtures("first_page_of_curves", "few_generations")
-def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:
     page = (ROOT / "docs/studies.md").read_text(encoding="utf-8")
     for name, text in re.findall(r"```toml\n# (\S+)\n(.*?)```", page, flags=re.DOTALL):
         (tmp_path / name).write_text(text, encoding="utf-8")
@@ -566,7 +566,7 @@ def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     assert abs(curve(better, "toe", [-0.06, 0.06])).max() < abs(curve(CAR, "toe", 0.06)).max() / 5
 
 
-def test_commands_refuse_and_end_as_others_do(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+def test_commands_refuse_and_end_as_others_do(kintrafo: Any, tmp_path: Path) -> None:
     (tmp_path / "a.toml").write_text("[limit.toe]\nleast = 0.0\n", encoding="utf-8")
     code, _, err = kintrafo("tolerance", "reference_car", "a.toml")
     assert code == 2

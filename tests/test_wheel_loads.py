@@ -6,16 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from kintrafo import (
-    Axle,
-    AxleModel,
-    InputError,
-    Model,
-    Suspension,
-    equilibrium,
-    loads,
-    simulate,
-)
+from kintrafo import Axle, AxleModel, InputError, Model, Suspension, equilibrium, loads, simulate
 from kintrafo.generator import DeclarationError, Direction, Input
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.suspension import with_wheel_loads
@@ -26,7 +17,6 @@ from kintrafo.vehicle.analysis.scenario import Scenario, run
 from kintrafo.vehicle.assembly.corner import CornerAssembly
 from kintrafo.vehicle.corner.wheel_loads import UNITS
 from kintrafo.vehicle.models.positions import design_height
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 CARS = [Suspension.load("reference_car"), Suspension.load("double_wishbone_car").mirrored()]
 LIMITS = {"N": 4000.0, "N m": 400.0}
@@ -111,7 +101,7 @@ def test_both_sides_of_an_axle_do_what_one_does() -> None:
         run(model, replace(scenario, inputs={**braked, "left_contact_force_x": 0.0}))
 
 
-def test_measured_loads_are_driven(kintrafo, tmp_path: Path) -> None:  # noqa: F811
+def test_measured_loads_are_driven(kintrafo, tmp_path: Path) -> None:
     file = tmp_path / "braked.csv"
     file.write_text(BRAKED)
     assert set(measured(file).values) == {"contact_force_x", "hub_torque"}

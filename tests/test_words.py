@@ -17,7 +17,6 @@ from kintrafo.generated import four_bar
 from kintrafo.pages.embedded import embedded
 from kintrafo.vehicle import cli
 from kintrafo.vehicle.analysis.sheet import sheet
-from test_cli_commands import kintrafo as run  # noqa: F401 (a fixture)
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -72,17 +71,13 @@ def number_options() -> list[tuple[str, str, str, bool]]:
 
 @pytest.mark.parametrize(("command", "option", "unit", "whole"), number_options())
 def test_every_number_is_refused_with_its_unit(
-    run: Any,  # noqa: F811
-    command: str,
-    option: str,
-    unit: str,
-    whole: bool,
+    kintrafo: Any, command: str, option: str, unit: str, whole: bool
 ) -> None:
     known = {"MM": "mm", "DEG": "deg", "S": "s", "MS": "ms", "HZ": "Hz", "KM/H": "km/h"}
     known |= {"REV/S": "rev/s", "1/S": "1/s", "N": "N"}
     assert whole or unit in (*known, "NUMBER", "TIMES"), "a unit that no message names"
     for value in ("80mm", "1_0"):
-        code, _, err = run(command, "a", "b", "c", option, value)
+        code, _, err = kintrafo(command, "a", "b", "c", option, value)
         said = " ".join(re.sub(r"[│╭╰─╮╯]", " ", err).split())
         assert code == 2
         assert "valid" not in said.replace("Invalid value for", ""), said
@@ -96,8 +91,8 @@ def test_there_are_such_options() -> None:
 
 
 @pytest.mark.parametrize("line", ["compare a b --over x", "new a.toml --suspension x"])
-def test_a_choice_is_refused_in_our_words(run: Any, line: str) -> None:  # noqa: F811
-    code, _, err = run(*line.split())
+def test_a_choice_is_refused_in_our_words(kintrafo: Any, line: str) -> None:
+    code, _, err = kintrafo(*line.split())
     assert code == 2
     assert "Value error" not in err
 
@@ -182,15 +177,11 @@ GRID = "--bump 20 --rebound 20 --step 10"
     ],
 )
 def test_tables_have_what_was_asked_for(
-    run: Any,  # noqa: F811
-    tmp_path: Path,
-    line: str,
-    there: str,
-    elsewhere: str,
+    kintrafo: Any, tmp_path: Path, line: str, there: str, elsewhere: str
 ) -> None:
     subject = line.split()[1]
     (tmp_path / "b.toml").write_text(BUSHES.get(subject, ""), encoding="utf-8")
-    code, out, err = run(*line.split())
+    code, out, err = kintrafo(*line.split())
     assert code == 0, err
     assert there in " ".join(out.split())
     assert elsewhere not in out

@@ -9,7 +9,6 @@ import xarray as xr
 from kintrafo import InputError, Model, Suspension, export, loads
 from kintrafo.core.quantities import variable
 from kintrafo.datasets import workbook
-from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 openpyxl = pytest.importorskip("openpyxl")
 
@@ -22,7 +21,7 @@ def cells(path, sheet="data"):
     return list(openpyxl.load_workbook(path)[sheet].iter_rows(values_only=True))
 
 
-def test_loads_are_read_back(kintrafo, tmp_path):  # noqa: F811
+def test_loads_are_read_back(kintrafo, tmp_path):
     (tmp_path / "c.toml").write_text(CASES + FAR, encoding="utf-8")
     files = ["-o", "a.xlsx", "-o", "a.csv"]
     assert kintrafo("loads", "reference_car", "--cases", "c.toml", *files)[0] == 1

@@ -337,10 +337,7 @@ class Oracle:
         assert isinstance(joint, Cylindrical)
         along = self.axis(joint.axis)
         ends = self.place(joint.axis.towards), self.place(joint.axis.through)
-        return [
-            *self._parallel(motion, joint, along),
-            *self._level(motion, joint, along, *ends),
-        ]
+        return [*self._parallel(motion, joint, along), *self._level(motion, joint, along, *ends)]
 
     def _gap(self, motion: Motion, joint: Joint, at: Point) -> Jet:
         place = self.place(at)

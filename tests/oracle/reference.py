@@ -322,11 +322,7 @@ def reference_parameters() -> Parameters:
         parameters[f"{body}_mass"] = mass
         set_vector(parameters, f"{body}_com", centre)
         set_inertia(parameters, body, np.diag(moments))
-    parameters |= {
-        "wheel_mass": 22.0,
-        "wheel_inertia_spin": 1.1,
-        "wheel_inertia_diametral": 0.6,
-    }
+    parameters |= {"wheel_mass": 22.0, "wheel_inertia_spin": 1.1, "wheel_inertia_diametral": 0.6}
     return parameters
 
 

@@ -509,11 +509,7 @@ def test_kinetic_energy_is_the_work_done(
 def test_moving_rack_in_a_simulation(car: Mechanism) -> None:
     def rack_motion(t: float) -> tuple[float, float, float]:
         phase = 50.0 * t
-        return (
-            0.01 * np.sin(phase) ** 2,
-            0.5 * np.sin(2.0 * phase),
-            50.0 * np.cos(2.0 * phase),
-        )
+        return (0.01 * np.sin(phase) ** 2, 0.5 * np.sin(2.0 * phase), 50.0 * np.cos(2.0 * phase))
 
     motion = simulate(
         car,

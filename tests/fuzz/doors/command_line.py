@@ -58,10 +58,7 @@ NUMBERS = (
 )
 FLAGS = ("--json", "--force", "--force")
 COARSE = ("--step", "40")
-FEW = {
-    "tolerance": ("--cars", "2"),
-    "pareto": ("--population", "4", "--generations", "2"),
-}
+FEW = {"tolerance": ("--cars", "2"), "pareto": ("--population", "4", "--generations", "2")}
 VALUES = (
     "wheel.toe_deg=0,1",
     "wheel.toe_deg=0:1:2",

@@ -9,14 +9,7 @@ parts. Inertia itself is held against differences of velocities between outputs.
 from __future__ import annotations
 
 import numpy as np
-from kintrafo import (
-    Model,
-    RigidAxle,
-    RigidAxleModel,
-    Suspension,
-    loads,
-    simulate,
-)
+from kintrafo import Model, RigidAxle, RigidAxleModel, Suspension, loads, simulate
 
 from ..attempts import WrongError
 

@@ -8,14 +8,7 @@ Loads that come back balance each other, and where they do not there is a reason
 from __future__ import annotations
 
 import numpy as np
-from kintrafo import (
-    PositionError,
-    RigidAxle,
-    RigidAxleModel,
-    characteristics,
-    equilibrium,
-    loads,
-)
+from kintrafo import PositionError, RigidAxle, RigidAxleModel, characteristics, equilibrium, loads
 from kintrafo.vehicle.assembly.by_wheel import flat
 
 from ..attempts import WrongError
