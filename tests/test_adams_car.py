@@ -484,19 +484,19 @@ def test_two_that_may_be_one(tmp_path: Path) -> None:
 
 def test_the_command(kintrafo: Any, tmp_path: Path) -> None:
     written(tmp_path, subsystem(WISHBONES, more=MORE))
-    code, out, _ = kintrafo("import-adams", "front.sub", "car.toml", "--side", "right")
+    code, out, _ = kintrafo("import", "front.sub", "car.toml", "--side", "right")
     assert code == 0
     assert "read      double wishbone suspension, right side" in out
     assert "left out  [BUSHING_ASSEMBLY] USAGE = lca_front, SYMMETRY = left/right" in out
     assert "assumed   axes: x rearward" in out
     assert Suspension.load(tmp_path / "car.toml") == WISHBONES
     (tmp_path / "mine.toml").write_text("mine", encoding="utf-8")
-    code, _, err = kintrafo("import-adams", "front.sub", "mine.toml")
+    code, _, err = kintrafo("import", "front.sub", "mine.toml")
     assert (code, "mine.toml" in err) == (2, True)
-    code, _, _ = kintrafo("import-adams", "front.sub", "car.toml", "--from", "car.toml", "--force")
+    code, _, _ = kintrafo("import", "front.sub", "car.toml", "--from", "car.toml", "--force")
     assert code == 2  # what is read is never replaced
     named = ["--name", "spring_seat=lwr_strut_mount", "--kind", "double_wishbone"]
-    assert kintrafo("import-adams", "front.sub", "again.toml", *named)[0] == 0
+    assert kintrafo("import", "front.sub", "again.toml", *named)[0] == 0
     written(tmp_path, subsystem(WISHBONES).replace("'mm'", "'furlong'"))
-    assert kintrafo("import-adams", "front.sub", "other.toml")[0] == 2
+    assert kintrafo("import", "front.sub", "other.toml")[0] == 2
     assert not (tmp_path / "other.toml").exists()

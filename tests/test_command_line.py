@@ -166,15 +166,16 @@ def test_topology_command_prints_tables_and_draws_the_graph(tmp_path):
     assert imread(picture).std() > 0.01
 
 
-@pytest.mark.parametrize("name", [command.name for command in cli.app.registered_commands])
+@pytest.mark.parametrize("name", cli.COMMANDS)
 def test_help_says_all_that_the_function_does(name, monkeypatch):
     """What is in brackets is not taken for mark-up, and lines break where the terminal ends."""
     monkeypatch.setenv("COLUMNS", "400")
-    shown = CliRunner().invoke(cli.app, [name, "--help"], env={"COLUMNS": "400"}).output
-    (command,) = (c for c in cli.app.registered_commands if c.name == name)
-    for paragraph in command.callback.__doc__.split("\n\n"):
+    words = [*name.split(), "--help"]
+    shown = CliRunner().invoke(cli.app, words, env={"COLUMNS": "400"}).output
+    command = cli.COMMANDS[name].command
+    for paragraph in command.__doc__.split("\n\n"):
         assert " ".join(paragraph.split()) in " ".join(shown.split())
-    for hint in typing.get_type_hints(command.callback, include_extras=True).values():
+    for hint in typing.get_type_hints(command, include_extras=True).values():
         for info in getattr(hint, "__metadata__", ()):
             assert " ".join((info.help or "").split()) in " ".join(shown.split())
 

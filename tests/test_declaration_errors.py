@@ -397,7 +397,7 @@ class TestProposals:
         monkeypatch.setenv("KINTRAFO_CACHE", str(tmp_path))
         path = tmp_path / "mine.py"
         path.write_text("from kintrafo.generator.mechanisms.slider_crank import SLIDER_CRANK as S")
-        result = CliRunner().invoke(app, ["topology", str(path)])
+        result = CliRunner().invoke(app, ["mechanism", "topology", str(path)])
         assert "Can be independent: A\n" in result.output
 
 

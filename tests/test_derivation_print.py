@@ -118,7 +118,7 @@ def test_long_formulas_are_broken_before_signs_and_never_in_brackets():
 
 def test_command_writes_text_and_figures(tmp_path):
     path = tmp_path / "new" / "crank.tex"
-    command = ["derivation", "slider_crank", "--out", str(path)]
+    command = ["mechanism", "derivation", "slider_crank", "--out", str(path)]
     result = CliRunner().invoke(app, command)
     assert result.exit_code == 0, result.output
     assert {p.name for p in path.parent.iterdir()} == {

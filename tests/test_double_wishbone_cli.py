@@ -69,7 +69,7 @@ def test_check_names_what_this_suspension_has(kintrafo):
 
 
 def test_topology(kintrafo):
-    code, out, _ = kintrafo("topology", CAR, "--json")
+    code, out, _ = kintrafo("mechanism", "topology", CAR, "--json")
     found = json.loads(out)
     assert code == 0
     assert found["mobility"] == 3

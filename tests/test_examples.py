@@ -23,9 +23,7 @@ if TYPE_CHECKING:
 ROOT = Path(__file__).parents[1]
 DATA = ROOT / "tests/data"
 CAR = Suspension.load("reference_car")
-LINES = [
-    example for modules in cli._PANELS.values() for module in modules for example in module.EXAMPLES
-]
+LINES = [example for module in cli.COMMANDS.values() for example in module.EXAMPLES]
 BUSHES = "[bushings.arm_rear]\naxial_N_per_mm = 400.0\nradial_N_per_mm = 900.0\n"
 # A crank-rocker, called as the examples call it.
 MECHANISM = """
@@ -36,7 +34,7 @@ from kintrafo.generator.mechanisms import four_bar
 MODEL = replace(four_bar.MODELS[0], name="crane")
 """
 # What stands last of the arguments without a dash is written by these.
-WRITERS = ("new", "schema", "import-points", "export-points", "import-chrono", "import-adams")
+WRITERS = ("new", "schema", "import")
 
 
 def documented(page: str, name: str) -> str:
@@ -84,6 +82,7 @@ def csv_of_the_page(number: int) -> Callable[[Path], Any]:
 # How the files come to be that examples read.
 FILES: dict[str, Callable[[Path], Any]] = {
     "my_car.toml": car,
+    "my_wishbones.toml": lambda path: car(path, template="double_wishbone_car"),
     "my_axle.toml": lambda path: car(path, template="reference_axle"),
     "before.toml": lambda path: car(path, BUSHES),
     "after.toml": lambda path: car(path, BUSHES.replace("900", "700")),
@@ -109,8 +108,6 @@ FILES: dict[str, Callable[[Path], Any]] = {
     ),
 }
 FILES_OF: dict[str, dict[str, Callable[[Path], Any]]] = {
-    # Adams's suspension of the tests has two wishbones
-    "import-adams": {"my_car.toml": lambda path: car(path, template="double_wishbone_car")},
     "fit": {"rig.csv": measured},
     "compliance": {"goals.toml": shown("studies.md", "soft_goals.toml")},
 }

@@ -83,6 +83,6 @@ def a_file_with_heavy_rack_simulates(folder):
     from kintrafo.vehicle.input.toml_writer import write_toml
 
     path = write_toml(CAR, folder / "heavy.toml")
-    result = CliRunner().invoke(app, ["topology", str(path)])
+    result = CliRunner().invoke(app, ["mechanism", "topology", str(path)])
     assert result.exit_code == 0, result.output
     assert "Mobility 3" in result.output

@@ -145,15 +145,22 @@ def test_commands_for_suspensions_say_what_a_mechanism_has(command):
     """Not that a Python file is no valid TOML."""
     result = CliRunner().invoke(app, [command, str(EXAMPLE)])
     assert isinstance(result.exception, kintrafo.InputError)
-    assert "kintrafo generate, topology, report, animate, derivation" in str(result.exception)
+    assert "kintrafo mechanism, report and export" in str(result.exception)
 
 
 def test_commands_show_a_mechanism_and_a_suspension(tmp_path):
     """Reports and motions from the command line."""
     for words in (
         ["report", str(EXAMPLE), str(tmp_path / "a.html")],
-        ["animate", str(EXAMPLE), str(tmp_path / "b.html"), "--start", "arm_angle_rate=1"],
-        ["animate", "reference_car", str(tmp_path / "c.gif"), "--duration", "0.1"],
+        [
+            "mechanism",
+            "animate",
+            str(EXAMPLE),
+            str(tmp_path / "b.html"),
+            "--start",
+            "arm_angle_rate=1",
+        ],
+        ["mechanism", "animate", "reference_car", str(tmp_path / "c.gif"), "--duration", "0.1"],
     ):
         result = CliRunner().invoke(app, words)
         assert result.exit_code == 0, result.output
@@ -162,7 +169,7 @@ def test_commands_show_a_mechanism_and_a_suspension(tmp_path):
     with Image.open(tmp_path / "c.gif") as picture:
         assert picture.n_frames == 3
     refused = CliRunner().invoke(
-        app, ["animate", str(EXAMPLE), str(tmp_path / "d.gif"), "--start", "arm_angle"]
+        app, ["mechanism", "animate", str(EXAMPLE), str(tmp_path / "d.gif"), "--start", "arm_angle"]
     )
     assert "NAME=VALUE" in str(refused.exception)
 
@@ -214,15 +221,23 @@ def test_of_several_mechanisms_in_a_file_one_is_shown(tmp_path):
         "from kintrafo.generator.mechanisms.slider_crank import SLIDER_CRANK\n"
     )
     commands = {
-        "topology": ["topology", str(path)],
+        "topology": ["mechanism", "topology", str(path)],
         "report": ["report", str(path), str(tmp_path / "one.html")],
-        "animate": ["animate", str(path), str(tmp_path / "moving.html"), "--duration", "0.05"],
-        "derivation": ["derivation", str(path), "--out", str(tmp_path / "one.md")],
+        "animate": [
+            "mechanism",
+            "animate",
+            str(path),
+            str(tmp_path / "moving.html"),
+            "--duration",
+            "0.05",
+        ],
+        "derivation": ["mechanism", "derivation", str(path), "--out", str(tmp_path / "one.md")],
     }
     for command in commands.values():
         refused = CliRunner().invoke(app, command)
         (hint,) = re.findall(r"--model \w+", str(refused.exception))
         done = CliRunner().invoke(app, [*command, *hint.split()])
         assert done.exit_code == 0, (command, done.output)
-        beside = [command[0], "reference_car", *command[2:], *hint.split()]
+        which = command.index(str(path))
+        beside = [*command[:which], "reference_car", *command[which + 1 :], *hint.split()]
         assert "--model is for Python files" in CliRunner().invoke(app, beside).output

@@ -470,7 +470,7 @@ class TestMistakes:
     def test_the_command_line_has_no_traceback(self, tmp_path):
         path = write(tmp_path, "x = (\n")
         done = subprocess.run(
-            [sys.executable, "-m", "kintrafo", "generate", str(path)],
+            [sys.executable, "-m", "kintrafo", "mechanism", "generate", str(path)],
             capture_output=True,
             text=True,
             check=False,
@@ -488,7 +488,7 @@ def test_which_of_several_models(tmp_path):
 
 def test_the_hint_for_one_of_several_models_works_as_printed(tmp_path):
     path = write(tmp_path, f"{IMPORTS}second = replace(first, name='other')\n")
-    command = ["generate", str(path), "--model", "other", "--numpy"]
+    command = ["mechanism", "generate", str(path), "--model", "other", "--numpy"]
     done = CliRunner().invoke(app, command)
     assert done.exit_code == 0, done.output
     (call,) = re.findall(r"kintrafo\.compile\(.*?\)", done.output.replace("\n", ""))

@@ -324,32 +324,34 @@ def test_cells_that_are_no_numbers(cell: Any, tmp_path: Path) -> None:
 
 
 def test_the_commands(kintrafo: Any, tmp_path: Path) -> None:
-    assert kintrafo("export-points", "reference_car", "points.csv")[0] == 0
-    code, out, _ = kintrafo("import-points", "points.csv", "reference_car", "new.toml")
+    assert kintrafo("export", "reference_car", "--to", "points", "-o", "points.csv")[0] == 0
+    code, out, _ = kintrafo("import", "points.csv", "new.toml", "--from", "reference_car")
     assert (code, "read: arm_front" in out) == (0, True)
     assert Suspension.load(tmp_path / "new.toml") == CAR
     (tmp_path / "mine.toml").write_text("mine", encoding="utf-8")
-    code, _, err = kintrafo("import-points", "points.csv", "new.toml", "mine.toml")
+    code, _, err = kintrafo("import", "points.csv", "mine.toml", "--from", "new.toml")
     assert (code, "mine.toml" in err) == (2, True)
-    code, _, _ = kintrafo("import-points", "points.csv", "new.toml", "new.toml", "--force")
+    code, _, _ = kintrafo("import", "points.csv", "new.toml", "--from", "new.toml", "--force")
     assert code == 2  # what is read is never replaced
-    assert kintrafo("import-points", "points.txt", "new.toml", "x.toml")[0] == 2
+    assert kintrafo("import", "points.txt", "x.toml", "--from", "new.toml")[0] == 2
 
 
 def test_a_table_of_another_car_is_doubted(kintrafo: Any, tmp_path: Path) -> None:
     """Rows that are no hardpoints are named on stderr, where hardpoints are missing."""
     other = HEAD + "wheel_center,5,-750,310\nlower_arm_front,1,2,3\nlower_arm_rear,1,2,4\n"
     table(tmp_path, other, "other.csv")
-    code, _, err = kintrafo("import-points", "other.csv", "reference_car", "new.toml")
+    code, _, err = kintrafo("import", "other.csv", "new.toml", "--from", "reference_car")
     told = " ".join(err.split())
     assert code == 0
     assert "2 of 3 rows are no hardpoints: lower_arm_front, lower_arm_rear; and " in told
     assert "arm_front, arm_rear, ball_joint, " in told
     assert " stay as in the file. " in told
     assert "--name arm_front=lower_arm_front" in told
-    assert kintrafo("export-points", "reference_car", "all.csv")[0] == 0
+    assert kintrafo("export", "reference_car", "--to", "points", "-o", "all.csv")[0] == 0
     whole = (tmp_path / "all.csv").read_text(encoding="utf-8")
     for text in (HEAD + "wheel_center,5,-750,310\n", whole + "cad_origin,0,0,0\n"):
         table(tmp_path, text)
-        code, _, err = kintrafo("import-points", "points.csv", "reference_car", "x.toml", "--force")
+        code, _, err = kintrafo(
+            "import", "points.csv", "x.toml", "--from", "reference_car", "--force"
+        )
         assert (code, err) == (0, "")

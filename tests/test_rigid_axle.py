@@ -630,8 +630,8 @@ def test_other_doors_refuse_it_by_name() -> None:
     [
         "kinematics rigid_axle --over rack",
         "sweep rigid_axle wheel.toe_deg=0,1 --rack 5",
-        "export-points rigid_axle a.csv",
-        "topology rigid_axle",
+        "export rigid_axle --to points -o a.csv",
+        "mechanism topology rigid_axle",
         "compare rigid_axle reference_car",
         "simulate rigid_axle --height 400",
         "simulate rigid_axle --rack 5",

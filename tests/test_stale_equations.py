@@ -93,7 +93,7 @@ def test_the_c_that_is_written_is_that_of_now(tmp_path, monkeypatch):
     for source in (3.0, 4.0):
         file = written(tmp_path, NUMBERS | {"source": source})
         to = ("--to", str(tmp_path / "out"), "--force")
-        done = CliRunner().invoke(app, ["generate", str(file), "--numpy", *to])
+        done = CliRunner().invoke(app, ["mechanism", "generate", str(file), "--numpy", *to])
         assert done.exit_code == 0, done.output
         texts.append((tmp_path / "out" / "edited.c").read_text())
     assert "210.0" in texts[0]

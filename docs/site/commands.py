@@ -16,7 +16,9 @@ _WIDTH = {"COLUMNS": "90"}
 
 def _help_of(name: str) -> str:
     runner = CliRunner()
-    shown = runner.invoke(cli.app, [name, "--help"], prog_name="kintrafo", env=_WIDTH).output
+    shown = runner.invoke(
+        cli.app, [*name.split(), "--help"], prog_name="kintrafo", env=_WIDTH
+    ).output
     # brackets that are no mark-up are escaped for the terminal
     return shown.replace(r"\[", "[").strip()
 
@@ -26,11 +28,11 @@ class Commands(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         """Return the sections."""
-        return [self._section(command.name) for command in cli.app.registered_commands]
+        return [self._section(name) for name in cli.COMMANDS]
 
     def _section(self, name: str) -> nodes.section:
         text = _help_of(name)
-        section = nodes.section(ids=[name], names=[name])
+        section = nodes.section(ids=[name.replace(" ", "-")], names=[name])
         section += nodes.title(text=name)
         section += nodes.literal_block(text, text, language="none")
         return section

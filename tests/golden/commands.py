@@ -40,7 +40,7 @@ LINES: tuple[tuple[str, ...], ...] = (
     ("sensitivity", "FILE", "--at", "10"),
     ("tolerance", "FILE", "TOLERANCES", "--cars", "5"),
     ("check", "FILE"),
-    ("topology", "FILE"),
+    ("mechanism", "topology", "FILE"),
 )
 
 
@@ -66,7 +66,7 @@ def observed(folder: Path) -> dict[str, Any]:
 
 
 def _observed(arguments: list[str], out: Path) -> dict[str, Any]:
-    writes = [] if arguments[0] in {"check", "topology"} else ["--out", str(out)]
+    writes = [] if arguments[0] in {"check", "mechanism"} else ["--out", str(out)]
     code, printed = _run([*arguments, "--json", *writes])
     return {
         "exit": code,

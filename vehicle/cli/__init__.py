@@ -1,5 +1,6 @@
 """The command line: ``kintrafo``. One file a command; each is a thin door to a Python function."""
 
+from types import ModuleType
 from typing import Annotated, Any
 
 import typer
@@ -8,21 +9,16 @@ from typer.core import TyperCommand
 
 from ...terminal.exits import guarded, standing_streams
 from . import (
-    animate,
     characteristics,
     check,
     compare,
     compliance,
-    derivation,
     export,
-    export_points,
     fit,
-    generate,
-    import_adams,
-    import_chrono,
-    import_points,
+    import_,
     kinematics,
     loads,
+    mechanism,
     new,
     optimise,
     paper,
@@ -34,16 +30,17 @@ from . import (
     simulate,
     sweep,
     tolerance,
-    topology,
 )
 from .numbers import explained
 
-__all__ = ["app", "run"]
+__all__ = ["COMMANDS", "app", "run"]
 
 _EXIT_CODES = (
     "Exit codes: 0 done; 1 the suspension cannot do what was asked, or [bold]check[/bold] found a "
     "problem; 2 a mistake in the arguments or in a file; 3 a package that is needed is not "
-    "installed."
+    "installed.\n\n"
+    "Not listed: [bold]kintrafo schema[/bold], the JSON Schema of input files for editors, and "
+    "[bold]kintrafo paper[/bold], the figures of the paper."
 )
 
 app = typer.Typer(
@@ -68,9 +65,9 @@ class _Command(TyperCommand):
     def __init__(self, *args: Any, **options: Any) -> None:
         super().__init__(*args, **options)
         for parameter in self.params:
-            told = getattr(parameter, "help", None)
-            if told:
-                parameter.help = escape(told)  # type: ignore[attr-defined]
+            words = getattr(parameter, "help", None)
+            if words:
+                parameter.help = escape(words)  # type: ignore[attr-defined]
 
     def parse_args(self, *given: Any) -> Any:
         """Say what is wrong with an argument without the words of what checks it."""
@@ -83,37 +80,37 @@ class _Command(TyperCommand):
 
 # In the order in which an engineer needs them.
 _PANELS = {
-    "Begin": (
-        new,
-        import_points,
-        export_points,
-        import_chrono,
-        import_adams,
-        schema,
-        check,
-        topology,
-    ),
-    "Compute": (
-        kinematics,
-        characteristics,
-        simulate,
-        loads,
-        compliance,
-        sheet,
-        compare,
-    ),
+    "Begin": (new, import_, check),
+    "Compute": (kinematics, characteristics, simulate, loads, compliance, sheet, compare),
     "Design": (sensitivity, tolerance, optimise, pareto, fit, sweep),
-    "Hand over": (report, animate, derivation, paper, generate, export),
+    "Hand over": (report, export),
 }
-for panel, modules in _PANELS.items():
-    for module in modules:
-        name = module.__name__.rpartition(".")[2].replace("_", "-")
-        examples = "\n\n".join(("Examples:", *module.EXAMPLES))
-        words = _flowing(module.command.__doc__ or "")
-        made = app.command(
-            name, cls=_Command, help=words, epilog=escape(examples), rich_help_panel=panel
-        )
-        made(explained(module.command))
+# Not in the list of commands that `kintrafo --help` prints.
+_HIDDEN = (schema, paper)
+
+COMMANDS: dict[str, ModuleType] = {}
+"""The module of each command, by what stands between ``kintrafo`` and its arguments."""
+
+
+def _add(to: typer.Typer, module: ModuleType, group: str = "", **options: Any) -> None:
+    """Add the command of a module, whose name is that of the module."""
+    name = module.__name__.rpartition(".")[2].strip("_")
+    examples = "\n\n".join(("Examples:", *module.EXAMPLES))
+    words = _flowing(module.command.__doc__ or "")
+    made = to.command(name, cls=_Command, help=words, epilog=escape(examples), **options)
+    made(explained(module.command))
+    COMMANDS[f"{group}{name}"] = module
+
+
+for _panel, _modules in _PANELS.items():
+    for _module in _modules:
+        _add(app, _module, rich_help_panel=_panel)
+for _module in _HIDDEN:
+    _add(app, _module, hidden=True)
+_mechanism = typer.Typer(no_args_is_help=True, help=mechanism.HELP, rich_markup_mode="rich")
+for _module in mechanism.COMMANDS:
+    _add(_mechanism, _module, group="mechanism ")
+app.add_typer(_mechanism, name="mechanism", rich_help_panel="Hand over")
 
 
 def _show_version(*, wanted: bool) -> None:

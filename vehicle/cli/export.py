@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ...terminal.console import print_json, problems, say
-from .options import Force, Json, Which, complete_file, refuse_which, system_of
+from .options import Force, Json, Which, complete_file, refuse_options, refuse_which, system_of
 from .subject import model_of
 
 if TYPE_CHECKING:
@@ -17,6 +17,7 @@ EXAMPLES = (
     "kintrafo export my_axle.toml --to fmu",
     "kintrafo export my_car.toml --to fmu --fmi 3 -o my_car_3.fmu",
     "kintrafo export my_mechanism.py --model crane --to c",
+    "kintrafo export my_car.toml --to points -o points.csv",
 )
 
 
@@ -34,7 +35,9 @@ def command(
     to: Annotated[
         str,
         typer.Option(
-            metavar="KIND", help="c: a folder with plain C. fmu: a functional mock-up unit."
+            metavar="KIND",
+            help="c: a folder with plain C. fmu: a functional mock-up unit. points: a table of the "
+            "hardpoints (.csv), which kintrafo import reads again.",
         ),
     ],
     out: Annotated[
@@ -60,29 +63,39 @@ def command(
     force: Force = False,
     json: Json = False,
 ) -> None:
-    """Write a model for other programs, with the numbers of this file, starting at design.
+    """Write a model, or its hardpoints, for other programs: with the numbers of FILE, at design.
 
     c: the emitted C99, which needs nothing else, with constants, a CMake file and an example. fmu:
-    Model Exchange and Co-Simulation of FMI 2.0 or 3.0 in one file. In Python any state can be the
-    start: kintrafo.export_model(model, "car.fmu", "fmu", state=rest).
+    Model Exchange and Co-Simulation of FMI 2.0 or 3.0 in one file. points: the hardpoints of a
+    suspension as a table. In Python any state can be the start: kintrafo.export_model(model,
+    "car.fmu", "fmu", state=rest).
     """
     from ...core.arguments import Arguments
     from ...targets.export import ENDINGS, export_model
+    from ..files.point_table import write_points
+    from ..kinds import Suspension
 
+    endings = {**ENDINGS, "points": "_points.csv"}
     with Arguments("export") as given:
-        given.among("--to", to, ENDINGS)
+        given.among("--to", to, endings)
     refuse_which(file, model)
+    options = {"fmi": fmi, "platforms": platform or None}
     stem = Path(file).stem if Path(file).suffix else file
-    path = Path(f"{stem}{ENDINGS[to]}") if out is None else out
-    with problems.status("export"):
-        system = _described_by(file, model)
-        given_options = {"fmi": fmi, "platforms": platform}
-        options: dict[str, Any] = {n: v for n, v in given_options.items() if v is not None}
-        written = export_model(system, path, to, force=force, read=[file], **options)
-    if json:
-        print_json({"path": str(written), "to": to, "equations": system.equations.NAME})
+    path = Path(f"{stem}{endings[to]}") if out is None else out
+    if to == "points":
+        refuse_options("--to fmu", {"--fmi": fmi, "--platform": platform or None})
+        suspension = Suspension.load(file)
+        facts = {"path": str(write_points(suspension, path, force=force, inputs=[file])), "to": to}
     else:
-        say(f"  {written}")
+        with problems.status("export"):
+            system = _described_by(file, model)
+            chosen: Any = {name: value for name, value in options.items() if value is not None}
+            written = export_model(system, path, to, force=force, read=[file], **chosen)
+        facts = {"path": str(written), "to": to, "equations": system.equations.NAME}
+    if json:
+        print_json(facts)
+    else:
+        say(f"  {facts['path']}")
 
 
 def _described_by(file: str, model: str | None) -> "System":

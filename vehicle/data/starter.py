@@ -19,10 +19,9 @@ RIGID_AXLE = "rigid_axle"
 """The top-level key that says that a file describes a rigid axle; the packaged one has its name."""
 
 NOT_A_RIGID_AXLE = (
-    "this is the file of a rigid axle. Its commands are check, kinematics, characteristics, "
-    "compare, loads, compliance, deflection, sheet, simulate, sensitivity, tolerance, optimise, "
-    "pareto, fit, sweep, new, export and report; others are not there for it. In Python: "
-    "kintrafo.RigidAxle."
+    "this is the file of a rigid axle, and that of a suspension is needed. The commands of "
+    "kintrafo mechanism and export --to points do not take a rigid axle; all others do. In "
+    "Python: kintrafo.RigidAxle."
 )
 """Said where something else is needed than a rigid axle."""
 

@@ -31,7 +31,7 @@ ENDINGS = (".csv", ".tsv", ".txt", ".xlsx")
 
 _OTHER_PROGRAMS = (
     "Save it as one of them. Of OptimumK its Excel export is read, and of Lotus Suspension "
-    "Analysis (.shk) the text with its points. Subsystems of Adams/Car: kintrafo import-adams."
+    "Analysis (.shk) the text with its points. Of Adams/Car: kintrafo import."
 )
 _MOST_POINTS = 10_000
 _MOST_HINTS = 20

@@ -15,7 +15,7 @@ from ...core.suggestions import suggestion
 
 _PYTHON = (
     "This is a Python file, and a hardpoint file (TOML) of a suspension is needed. A mechanism of "
-    "your own has: kintrafo generate, topology, report, animate, derivation; and in Python "
+    "your own has: kintrafo mechanism, report and export; and in Python "
     "kintrafo.compile, System, rest, linearise, simulate, ensemble."
 )
 _DEEP = "Tables or lists stand in each other too deeply. No key of a suspension does."

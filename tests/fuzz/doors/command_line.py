@@ -36,8 +36,8 @@ STEMS = (
     "..", "\u202etxt", "'", '"', "~", "CON", " ",
 )  # fmt: skip
 ENDINGS = (
-    ".toml", ".toml", ".csv", ".sub", ".nc", ".parquet", ".html", ".json", ".pdf", ".png", ".svg",
-    ".xlsx", ".py", "", ".",
+    ".toml", ".toml", ".csv", ".sub", ".txt", ".nc", ".parquet", ".html", ".json", ".pdf", ".png",
+    ".svg", ".xlsx", ".py", "", ".",
 )  # fmt: skip
 PLACES = ("", "", "", "", "sub/", "missing/", "file/", "link/", "circle/", "/proc/", "../")
 NUMBERS = (
@@ -69,13 +69,12 @@ VALUES = (
 )
 OPTIONS = {
     "new": ("--suspension", "--template", "--axle"),
-    "import-chrono": ("--tire", "--side"),
-    "import-adams": ("--side", "--kind", "--from", "--name"),
-    "import-points": ("--mirror", "--unit", "--axes", "--left-handed", "--sheet", "--name"),
-    "export-points": (),
+    "import": ("--side", "--from", "--from", "--from", "--name", "--kind", "--tire",
+               "--points-only", "--mirror", "--unit", "--axes", "--left-handed", "--sheet"),
+    "export": ("-o", "--fmi", "--model"),
     "schema": (),
     "check": ("--json",),
-    "topology": ("--free-rack", "--json"),
+    "mechanism topology": ("--free-rack", "--json"),
     "kinematics": ("-o", "--plot", "--over", "--bump", "--rebound", "--travel", "--rack", "--step"),
     "characteristics": ("-o", "--bump", "--rebound", "--travel", "--rack", "--rack-extent",
                         "--motion", "--roll", "--of", "--goals"),
@@ -85,8 +84,8 @@ OPTIONS = {
     "loads": ("-o", "--plot", "--cases", "--case", "--part"),
     "compliance": ("-o", "--plot", "--held", "--at", "--rack", "--bump", "--of",
                    "--goals"),
-    "deflection": ("-o", "--plot", "--under", "--most", "--held", "--at", "--rack", "--bump",
-                   "--wheels", "--motion"),
+    "compliance --nonlinear": ("-o", "--plot", "--under", "--most", "--held", "--at", "--rack",
+                               "--bump", "--wheels", "--motion"),
     "sheet": ("-o", "--held", "--json"),
     "compare": ("-o", "--over", "--of", "--held", "--goals"),
     "sensitivity": ("-o", "--plot", "--place", "--of", "--over", "--at"),
@@ -97,7 +96,8 @@ OPTIONS = {
     "sweep": ("-o", "--plot", "--keep", "--height", "--road-step", "--measured"),
     "report": ("--title", "--goals"),
     "paper": ("--data",),
-    "generate": ("--to", "--model", "--numpy"),
+    "mechanism derivation": ("-o", "-o", "--model"),
+    "mechanism generate": ("--to", "--model", "--numpy"),
 }  # fmt: skip
 WORDS = {
     "--suspension": ("macpherson", "double_wishbone", "x"),
@@ -231,7 +231,7 @@ def _content(random: Generator, ending: str) -> bytes:
         return MECHANISM.encode()
     if ending == ".json":
         return (DATA / "MacPhersonStrut.json").read_bytes()
-    if ending == ".sub":
+    if ending == ".sub" or (ending == ".txt" and random.random() < 0.5):
         return (DATA.parent / "adams/front_suspension.sub").read_bytes()
     if ending == ".toml" and random.random() < 0.3:
         return STUDY + HELD[random.integers(len(HELD))]
@@ -242,7 +242,7 @@ def _content(random: Generator, ending: str) -> bytes:
 
 def _arguments(random: Generator, names: list[str]) -> list[str]:
     command = str(random.choice(list(OPTIONS), p=_WEIGHTS))
-    arguments = [command]
+    arguments = command.split()
     for _ in range(random.choice([0, 1, 1, 1, 1, 2, 2])):
         # the equations of an axle would have to be compiled
         axles = () if command == "simulate" else ("reference_axle",)
@@ -258,6 +258,8 @@ def _arguments(random: Generator, names: list[str]) -> list[str]:
     if command == "sensitivity" and "--place" not in arguments:
         arguments += ["--place", "hardpoints.tie_rod_inner.z"]
     arguments += FEW.get(command, ())
+    if command == "export":
+        arguments += ["--to", str(random.choice(("points", "points", "c", "x")))]
     if command == "sweep":
         arguments.append(str(random.choice(VALUES)))
     if command in ("simulate", "sweep"):
@@ -270,7 +272,8 @@ def _arguments(random: Generator, names: list[str]) -> list[str]:
 _COSTLY = {
     "report": 0.02,
     "paper": 0.01,
-    "generate": 0.03,
+    "mechanism derivation": 0.01,
+    "mechanism generate": 0.03,
     "compare": 0.05,
     "characteristics": 0.05,
 }
@@ -281,7 +284,15 @@ _WEIGHTS = [
 
 
 def _value(random: Generator, option: str, names: list[str]) -> list[str]:
-    if option in ("--json", "--free-rack", "--numpy", "--axle", "--mirror", "--left-handed"):
+    if option in (
+        "--json",
+        "--free-rack",
+        "--numpy",
+        "--axle",
+        "--mirror",
+        "--left-handed",
+        "--points-only",
+    ):
         return []
     if option in WORDS:
         return [str(random.choice(WORDS[option]))]

@@ -45,7 +45,7 @@ LONG = (
     ("simulate", CAR, "--duration", "5", "--road-step", "20", "--method", "Radau", *OVER),
     ("loads", CAR, *OVER),
     ("compliance", "soft.toml", *OVER),
-    ("deflection", "soft.toml", *OVER),
+    ("compliance", "soft.toml", "--nonlinear", *OVER),
     ("sheet", "soft.toml", "-o", "a.csv", "--force"),
     ("compare", CAR, "double_wishbone_car", *OVER),
     ("sensitivity", CAR, *OVER),
@@ -55,11 +55,11 @@ LONG = (
     ("pareto", CAR, "front.toml", "--population", "60", "--generations", "60", *OVER),
     ("sweep", CAR, "strut.damper_rate_N_s_per_m=500:3000:3000", *OVER),
     ("report", CAR, "a.html", "--force"),
-    ("animate", CAR, "a.gif", "--force"),
+    ("mechanism", "animate", CAR, "a.gif", "--force"),
     ("paper", "out", "--force"),
-    ("derivation", "mechanism.py", "-o", "a.md", "--force"),
-    ("generate", "mechanism.py", "--to", "out", "--force"),
-    ("topology", "mechanism.py"),
+    ("mechanism", "derivation", "mechanism.py", "-o", "a.md", "--force"),
+    ("mechanism", "generate", "mechanism.py", "--to", "out", "--force"),
+    ("mechanism", "topology", "mechanism.py"),
 )
 NAMES = ("a.csv", "a.png", "a.toml", "a.html", "a.gif", "a.md")
 # What a process runs: it says when it has begun.

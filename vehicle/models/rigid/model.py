@@ -30,9 +30,9 @@ _ROUNDING = 1e-12
 # A way is looked at in steps of this travel at most [m].
 _STEP = 0.02
 _OVERHELD = (
-    "[rods] {rods}: five rods leave an axle heave and roll only as their bushes give way, and here "
-    "rods are rigid. How it moves on its bushes: `kintrafo compliance`, and --nonlinear. "
-    "For all else leave one of the rods out."
+    "[rods] {rods}: an axle on five rods heaves and rolls only as its bushes deflect, and here "
+    "rods are rigid. `kintrafo compliance`, with and without --nonlinear, computes its motion on "
+    "bushes. For all other analyses leave out one of the rods."
 )
 
 

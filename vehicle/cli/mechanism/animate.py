@@ -1,20 +1,20 @@
-"""``kintrafo animate``: a motion as a GIF, or as a page to play."""
+"""``kintrafo mechanism animate``: a motion as a GIF, or as a page to play."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ...terminal.console import problems, say
-from .options import File, Force, Which, load, refuse_which, system_of
+from ....terminal.console import problems, say
+from ..options import File, Force, Which, load, refuse_which, system_of
 
 if TYPE_CHECKING:
-    from ...simulation.result import Simulation
+    from ....simulation.result import Simulation
 
 EXAMPLES = (
-    "kintrafo animate my_mechanism.py motion.gif",
-    "kintrafo animate my_mechanism.py motion.html --start crank_angle_rate=6 --duration 2",
-    "kintrafo animate reference_car bounce.gif --slower 5",
+    "kintrafo mechanism animate my_mechanism.py motion.gif",
+    "kintrafo mechanism animate my_mechanism.py move.html --start crank_angle_rate=6 --duration 2",
+    "kintrafo mechanism animate reference_car bounce.gif --slower 5",
 )
 
 
@@ -35,13 +35,13 @@ def command(
     model: Which = None,
     force: Force = False,
 ) -> None:
-    """Show how a mechanism of your own, or a suspension, moves when it is let go.
+    """Show the free response of a mechanism of your own, or of a suspension.
 
     It starts at rest at the design position, but for what --start says. In Python any motion can be
     shown, over a road or with inputs: kintrafo.animate(result, "motion.gif").
     """
-    from ...core.files import refuse
-    from ...pages.animation import ENDINGS, animate
+    from ....core.files import refuse
+    from ....pages.animation import ENDINGS, animate
 
     refuse_which(file, model)
     refuse([path], force=force, inputs=[file], endings=ENDINGS)
@@ -54,7 +54,7 @@ def command(
 
 def _values(given: list[str]) -> dict[str, float]:
     """Return the values of --start by name."""
-    from ...core.errors import InputError
+    from ....core.errors import InputError
 
     found: dict[str, float] = {}
     for text in given:
@@ -75,8 +75,8 @@ def _values(given: list[str]) -> dict[str, float]:
 def _motion(file: str, name: str | None, values: dict[str, float], duration: float) -> "Simulation":
     import numpy as np
 
-    from ...core.arguments import Arguments
-    from ...simulation.simulate import simulate
+    from ....core.arguments import Arguments
+    from ....simulation.simulate import simulate
 
     with Arguments("animate") as given:
         seconds = given.number("--duration", duration, "s", above=0.0, below=3600.0)

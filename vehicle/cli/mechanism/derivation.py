@@ -1,21 +1,21 @@
-"""``kintrafo derivation``: how the equations were derived, as a chapter to print."""
+"""``kintrafo mechanism derivation``: how the equations were derived, as a chapter to print."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ...terminal.console import problems
-from .options import Force, Which, complete_file, load, refuse_which
-from .outputs import name_files
+from ....terminal.console import problems
+from ..options import Force, Which, complete_file, load, refuse_which
+from ..outputs import name_files
 
 if TYPE_CHECKING:
-    from ...generator import Formulation
+    from ....generator import Formulation
 
 EXAMPLES = (
-    "kintrafo derivation four_bar --out derivation.tex",
-    "kintrafo derivation my_car.toml --out derivation.md",
-    "kintrafo derivation my_mechanism.py --model crane --out crane.tex",
+    "kintrafo mechanism derivation four_bar --out derivation.tex",
+    "kintrafo mechanism derivation my_car.toml --out derivation.md",
+    "kintrafo mechanism derivation my_mechanism.py --model crane --out crane.tex",
 )
 
 
@@ -44,8 +44,8 @@ def command(
     A chapter with the figures of the mechanism and numbered equations, for LaTeX (pdflatex, twice)
     or as Markdown. Needs the packages of the extra "generator": pip install "kintrafo[generator]".
     """
-    from ...systems.compile.build import require_generator
-    from ...systems.compile.derivation import write_derivation
+    from ....systems.compile.build import require_generator
+    from ....systems.compile.derivation import write_derivation
 
     require_generator()
     refuse_which(file, model)
@@ -57,10 +57,10 @@ def command(
 
 def _shipped(file: str) -> "Formulation":
     """Return the model of a name, or that of the suspension in a file."""
-    from ...core.errors import InputError
-    from ...core.suggestions import suggestion
-    from ...generator.mechanisms import MODELS, model_named
-    from ..data.starter import packaged
+    from ....core.errors import InputError
+    from ....core.suggestions import suggestion
+    from ....generator.mechanisms import MODELS, model_named
+    from ...data.starter import packaged
 
     known = {model.name: model for model in MODELS}
     if file in known:

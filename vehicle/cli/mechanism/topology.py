@@ -1,4 +1,4 @@
-"""``kintrafo topology``: bodies, joints, mobility, loops and how they were solved."""
+"""``kintrafo mechanism topology``: bodies, joints, mobility, loops and how they were solved."""
 
 from itertools import islice
 from types import ModuleType
@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.table import Table
 
-from ...terminal.console import console, print_json, say
-from .options import Json, Which, complete_file, load, refuse_which
+from ....terminal.console import console, print_json, say
+from ..options import Json, Which, complete_file, load, refuse_which
 
 if TYPE_CHECKING:
-    from ...systems.topology import Topology
+    from ....systems.topology import Topology
 
 EXAMPLES = (
-    "kintrafo topology",
-    "kintrafo topology my_car.toml --json",
-    "kintrafo topology my_mechanism.py",
+    "kintrafo mechanism topology",
+    "kintrafo mechanism topology my_car.toml --json",
+    "kintrafo mechanism topology my_mechanism.py",
 )
 
 _SECONDS = 3.0  # of search for joints that can be independent
@@ -46,7 +46,7 @@ def command(
     They were found when the equations were derived, and come with the compiled model. Of a
     mechanism of your own, the joints are listed too that can be independent.
     """
-    from ...systems.topology import topology
+    from ....systems.topology import topology
 
     refuse_which(file, model)
     found = topology(
@@ -107,14 +107,14 @@ def _equations(file: str, model: str | None) -> ModuleType:
     """Return the compiled equations that a file leads to."""
     if not file.endswith(".py"):
         return load(file).equations
-    from ...systems.compile.build import compile_mechanism
+    from ....systems.compile.build import compile_mechanism
 
     return compile_mechanism(file, name=model)
 
 
 def _choices(file: str, model: str | None) -> list[dict[str, Any]]:
     """Return the first sets of joints that can be independent."""
-    from ...systems.compile.choices import proposals
+    from ....systems.compile.choices import proposals
 
     first = islice(proposals(file, name=model, seconds=_SECONDS), _MOST_CHOICES)
     return [{"independent": p.independent, "iterates": p.iterates} for p in first]

@@ -1,4 +1,4 @@
-"""``kintrafo generate``: equations of a user's own mechanism, derived and compiled."""
+"""``kintrafo mechanism generate``: equations of a user's own mechanism, derived and compiled."""
 
 import time
 from pathlib import Path
@@ -7,13 +7,13 @@ from typing import Annotated
 
 import typer
 
-from ...terminal.console import console, print_json, problems, say
-from .options import Force, Json, Which
+from ....terminal.console import console, print_json, problems, say
+from ..options import Force, Json, Which
 
 EXAMPLES = (
-    "kintrafo generate my_mechanism.py",
-    "kintrafo generate my_mechanism.py --model crane --to equations",
-    "kintrafo generate my_mechanism.py --numpy --json",
+    "kintrafo mechanism generate my_mechanism.py",
+    "kintrafo mechanism generate my_mechanism.py --model crane --to equations",
+    "kintrafo mechanism generate my_mechanism.py --numpy --json",
 )
 
 
@@ -49,8 +49,8 @@ def command(
     from a sketch. What was compiled before is found again. Needs the packages of the extra
     "generator": pip install "kintrafo[generator]".
     """
-    from ...systems.compile.build import compile_mechanism
-    from ...systems.compile.on_terminal import on_terminal
+    from ....systems.compile.build import compile_mechanism
+    from ....systems.compile.on_terminal import on_terminal
 
     started = time.perf_counter()
     try:
@@ -117,7 +117,7 @@ def _show(module: ModuleType, file: Path, chosen: str | None, seconds: float) ->
 
 def _copy(module: ModuleType, folder: Path, *, force: bool, declaration: Path) -> None:
     """Copy the sources of a compiled mechanism to where a person reads them."""
-    from ...core.files import refuse, replacing
+    from ....core.files import refuse, replacing
 
     source = Path(str(module.__file__)).parent
     copied = [p for p in sorted(source.iterdir()) if p.suffix in (".c", ".h", ".py", ".md")]

@@ -1,0 +1,265 @@
+"""``kintrafo import``: a suspension from another program, or hardpoints from a spreadsheet."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from textwrap import wrap
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import typer
+
+from ...terminal.console import note, say
+from ..data.starter import kinds
+from .options import Force, complete_file
+
+EXAMPLES = (
+    "kintrafo import points.csv new_car.toml --from my_car.toml",
+    "kintrafo import left_side.xlsx new_car.toml --from my_car.toml --mirror",
+    (
+        "kintrafo import cad.csv new_car.toml --from my_car.toml --unit in --mirror "
+        '--axes "rearward right up" --name "ball_joint=FLCA outboard"'
+    ),
+    "kintrafo import MacPhersonStrut.json new_car.toml --tire RigidTire.json --side right",
+    "kintrafo import DoubleWishbone.json new_car.toml --points-only",
+    "kintrafo import front_suspension.sub new_car.toml",
+    "kintrafo import front_suspension.sub right.toml --side right --from my_wishbones.toml",
+    "kintrafo import own.sub new_car.toml --name lower_ball_joint=my_lca_outer",
+)
+
+_WIDTH = 98  # of a comment's text
+_FILE: Mapping[str, Any] = {"exists": True, "dir_okay": False}
+_TABLES, _ADAMS, _CHRONO = "Of tables", "Of Adams/Car", "Of Project Chrono"
+
+# the choices that are shown are the files that there are
+if TYPE_CHECKING:
+    from ..files.formats import Format
+
+    Kind = str
+else:
+    Kind = Literal[kinds()]
+Side = Literal["left", "right"]
+
+
+def command(
+    source: Annotated[
+        Path,
+        typer.Argument(
+            metavar="SOURCE",
+            help="Subsystem of Adams/Car as text (.sub); suspension of Project Chrono (.json); "
+            "table .csv, .txt or .xlsx with a row for each point and columns point, x [mm], y [mm],"
+            " z [mm], also an export of OptimumK or a text of Lotus Suspension Analysis.",
+            **_FILE,
+        ),
+    ],
+    path: Annotated[Path, typer.Argument(metavar="PATH", help="File to write; ends in .toml.")],
+    *,
+    base: Annotated[
+        str | None,
+        typer.Option(
+            "--from",
+            metavar="FILE",
+            help="Hardpoint file that everything else is taken from. A table needs one; of "
+            "Adams/Car the default is a packaged one.",
+            autocompletion=complete_file,
+        ),
+    ] = None,
+    name: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="OURS=THEIRS",
+            help="What a table or Adams/Car calls a hardpoint. May be repeated.",
+        ),
+    ] = None,
+    side: Annotated[
+        Side | None,
+        typer.Option(
+            help="Of Adams/Car and Project Chrono: side of the car. Default: that of --from, or "
+            "left."
+        ),
+    ] = None,
+    mirror: Annotated[
+        bool,
+        typer.Option(
+            "--mirror", help="The table is of the other side of the car.", rich_help_panel=_TABLES
+        ),
+    ] = False,
+    unit: Annotated[
+        str | None,
+        typer.Option(
+            metavar="UNIT",
+            help="If the table gives no unit: mm, cm, m, in or ft.",
+            rich_help_panel=_TABLES,
+        ),
+    ] = None,
+    axes: Annotated[
+        str | None,
+        typer.Option(
+            metavar="WORDS",
+            help="Directions of x, y and z: three of forward, rearward, left, right, up, down. "
+            "Default: forward left up (ISO 8855).",
+            rich_help_panel=_TABLES,
+        ),
+    ] = None,
+    left_handed: Annotated[
+        bool,
+        typer.Option(
+            "--left-handed", help="The axes of --axes are left-handed.", rich_help_panel=_TABLES
+        ),
+    ] = False,
+    sheet: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME", help="Sheet of a workbook that has several.", rich_help_panel=_TABLES
+        ),
+    ] = None,
+    kind: Annotated[
+        Kind | None,
+        typer.Option(
+            help="What guides the wheel. Default: by the hardpoints.", rich_help_panel=_ADAMS
+        ),
+    ] = None,
+    tire: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="JSON",
+            help="File of a tire: radius, mass and inertia.",
+            rich_help_panel=_CHRONO,
+            **_FILE,
+        ),
+    ] = None,
+    points_only: Annotated[
+        bool,
+        typer.Option(
+            "--points-only",
+            help="Only hardpoints, camber and toe; the rest is as in the packaged file.",
+            rich_help_panel=_CHRONO,
+        ),
+    ] = False,
+    force: Force = False,
+) -> None:
+    """Write the hardpoint file of a suspension from another program, or from a table.
+
+    The ending of SOURCE, or its content, decides what it is read as. Of a table everything else,
+    comments too, is as in the file after --from. Of Adams/Car hardpoints, camber, toe and a spring
+    are read; what Project Chrono leaves open is assumed. What was read, assumed and left out is
+    printed.
+    """
+    from ...core.errors import InputError
+    from ...core.files import refuse
+    from ..files.formats import NAMES, format_of
+
+    given = {
+        "base": base,
+        "name": name,
+        "side": side,
+        "mirror": mirror,
+        "unit": unit,
+        "axes": axes,
+        "left_handed": left_handed,
+        "sheet": sheet,
+        "kind": kind,
+        "tire": tire,
+        "points_only": points_only,
+    }
+    inputs = [source, *(file for file in (base, tire) if file is not None)]
+    refuse([path], force=force, inputs=inputs, endings=[".toml"])
+    found = format_of(source)
+    read = _READERS[found]
+    options = {option: given[option] for option in read.__kwdefaults__ or {}}
+    for option, value in given.items():
+        if value and option not in options:
+            spelled = "--from" if option == "base" else f"--{option.replace('_', '-')}"
+            raise typer.BadParameter(f"{spelled} is not for {NAMES[found]}, as {source} is read")
+    try:
+        read(source, path, {"force": force, "inputs": inputs}, **options)
+    except InputError:
+        note(f"{source} is read as {NAMES[found]}.")
+        raise
+    say(f"Check it: kintrafo check {path}")
+
+
+def _table(
+    source: Path,
+    path: Path,
+    rule: Any,
+    *,
+    base: str | None = None,
+    name: list[str] | None = None,
+    mirror: bool = False,
+    unit: str | None = None,
+    axes: str | None = None,
+    left_handed: bool = False,
+    sheet: str | None = None,
+) -> None:
+    from ..files.point_names import read_names
+    from ..files.point_table import as_words, doubts, merged, read_points, write_merged
+
+    if base is None:
+        raise typer.BadParameter(
+            "a table of hardpoints needs --from FILE, a hardpoint file that the rest is taken from"
+        )
+    names = read_names(name or ())
+    table = read_points(source, unit=unit, axes=axes, left_handed=left_handed, sheet=sheet)
+    found = merged(table, base, mirrored=mirror, names=names)
+    say(f"  {write_merged(found, path, **rule)}")
+    for head, text in as_words(found, table).items():
+        say(f"  {head}: {text}")
+    if doubt := doubts(found):
+        note(f"note: {doubt}")
+
+
+def _adams(
+    source: Path,
+    path: Path,
+    rule: Any,
+    *,
+    base: str | None = None,
+    name: list[str] | None = None,
+    side: Side | None = None,
+    kind: str | None = None,
+) -> None:
+    from ..files.adams_car import imported, read, read_names
+    from ..files.point_table import write_merged
+
+    names = read_names(name or ())
+    found = imported(read(source), side=side, kind=kind, base=base, names=names)
+    say(f"  {write_merged(found, path, **rule)}")
+    for head, text in found.words():
+        say(f"  {head:<8}  {text}")
+
+
+def _chrono(
+    source: Path,
+    path: Path,
+    rule: Any,
+    *,
+    side: Side | None = None,
+    tire: Path | None = None,
+    points_only: bool = False,
+) -> None:
+    from ..files.chrono import read
+    from ..input.toml_writer import write_toml
+
+    found = read(source, tire=tire, points_only=points_only)
+    files = f"{source.name} and {tire.name}" if tire else source.name
+    head = [f"From {files} of Project Chrono (https://projectchrono.org)."]
+    for title, lines in (("Assumed:", found.assumptions), ("Left out:", found.left_out)):
+        head += [title, *(part for line in lines for part in _indented(line))] if lines else []
+    suspension = found.suspension.mirrored() if side == "right" else found.suspension
+    write_toml(suspension, path, head=head, **rule)
+    say(f"  {path}")
+    for line in found.assumptions:
+        say(f"  assumed   {line}")
+    for line in found.left_out:
+        say(f"  left out  {line}")
+
+
+_READERS: "Mapping[Format, Callable[..., None]]" = {
+    "table": _table,
+    "adams": _adams,
+    "chrono": _chrono,
+}
+
+
+def _indented(text: str) -> list[str]:
+    """Return a sentence as lines of a comment."""
+    return wrap(text, _WIDTH, initial_indent="  ", subsequent_indent="    ")
