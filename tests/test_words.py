@@ -59,8 +59,12 @@ def test_every_page_has_its_data_without_marks(tmp_path: Path) -> None:
 def number_options() -> list[tuple[str, str, str, bool]]:
     """Return command, option, unit and whether it is whole, of every option that is a number."""
     found = []
-    for name, command in typer.main.get_command(cli.app).commands.items():  # type: ignore[attr-defined]
-        hints = get_type_hints(command.callback, include_extras=True)
+    root = typer.main.get_command(cli.app)
+    for name, module in cli.COMMANDS.items():
+        hints = get_type_hints(module.command, include_extras=True)
+        command: Any = root
+        for word in name.split():
+            command = command.commands[word]
         for parameter in command.params:
             hint = str(hints.get(parameter.name, ""))
             kinds = re.findall(r"\b(float|int)\b", hint.partition("typer")[0])
@@ -77,7 +81,7 @@ def test_every_number_is_refused_with_its_unit(
     known |= {"REV/S": "rev/s", "1/S": "1/s", "N": "N"}
     assert whole or unit in (*known, "NUMBER", "TIMES"), "a unit that no message names"
     for value in ("80mm", "1_0"):
-        code, _, err = kintrafo(command, "a", "b", "c", option, value)
+        code, _, err = kintrafo(*command.split(), "a", "b", "c", option, value)
         said = " ".join(re.sub(r"[│╭╰─╮╯]", " ", err).split())
         assert code == 2
         assert "valid" not in said.replace("Invalid value for", ""), said
@@ -167,9 +171,9 @@ GRID = "--bump 20 --rebound 20 --step 10"
     ("line", "there", "elsewhere"),
     [
         (f"characteristics reference_car {GRID} --of bump_steer", "bump steer", "camber"),
-        (f"characteristics reference_axle {GRID} --motion bump --of toe", "toe angle", "camber"),
-        (f"characteristics reference_axle {GRID} --motion roll --of toe", "toe left", "camber"),
-        (f"characteristics rigid_axle {GRID} --motion roll --of roll_steer", "roll steer", "toe"),
+        (f"characteristics reference_axle {GRID} --over bump --of toe", "toe angle", "camber"),
+        (f"characteristics reference_axle {GRID} --over roll --of toe", "toe left", "camber"),
+        (f"characteristics rigid_axle {GRID} --over roll --of roll_steer", "roll steer", "toe"),
         ("compliance reference_car b.toml --of toe_by_lateral", "lateral force", "camber"),
         ("compliance rigid_axle b.toml --of axle_steer_by_lateral_parallel", "steer [deg]", "toe"),
         ("compare reference_car reference_car --of toe", "toe", "camber"),
