@@ -29,7 +29,7 @@ EXAMPLES = (
     "kintrafo compare before.toml after.toml --over rack --plot difference.png -o both.csv",
     "kintrafo compare before.toml after.toml --goals goals.toml --plot goals.png",
     "kintrafo compare rig.csv my_car.toml --plot measured.png",
-    "kintrafo compare before.toml after.toml --of toe --of bump_steer --plot steer.png",
+    "kintrafo compare before.toml after.toml --of toe,bump_steer --plot steer.png",
     "kintrafo compare before.toml after.toml --held height --plot compliance.png",
 )
 

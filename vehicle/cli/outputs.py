@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, TypedDict
 import typer
 
 from ...terminal.console import progress_bar, say
-from .options import among
+from .options import among, by_comma
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -46,8 +46,9 @@ Formats = Annotated[
     list[str] | None,
     typer.Option(
         "--format",
-        metavar="NAME",
-        help="Of --figures: png, svg or pdf. May be repeated.",
+        metavar="NAME,...",
+        help="Of --figures: png, svg or pdf.",
+        callback=by_comma,
         rich_help_panel="Output",
     ),
 ]

@@ -10,7 +10,7 @@ from rich.table import Table
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
 from ...terminal.exits import Exit
-from .options import File, Force, Json
+from .options import File, Force, Json, by_comma
 from .outputs import Out, Outputs, Plot, name_files, title_of
 from .scenarios import scenario_of
 from .simulation_options import (
@@ -61,9 +61,10 @@ def command(
     keep: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="SIGNAL:KIND",
-            help="Kept of each motion: max, min, mean, rms, above:LEVEL, percentile:NUMBER. May be "
-            f"repeated. Default: {', '.join(_USUAL)}.",
+            metavar="SIGNAL:KIND,...",
+            help="Kept of each motion: max, min, mean, rms, above:LEVEL, percentile:NUMBER. "
+            f"Default: {','.join(_USUAL)}.",
+            callback=by_comma,
         ),
     ] = None,
     height: Height = None,
