@@ -7,13 +7,11 @@ import typer
 
 from ...terminal.console import console, curve_table, print_json, print_table
 from . import goals as wanted
-from .options import Bump, File, Force, Json, Of, RackExtent, Rebound, Step, among, by_comma, metres
+from .option_groups import with_groups
+from .options import Bump, File, Json, Of, RackExtent, Rebound, Step, among, by_comma, metres
 from .outputs import (
-    Figures,
-    Formats,
-    Out,
-    Outputs,
-    Plot,
+    USUAL_OUTPUT,
+    OutputOptions,
     name_files,
     named,
     of_both,
@@ -65,6 +63,7 @@ _OF_ONE_WHEEL = (
 )
 
 
+@with_groups
 def command(
     file: File,
     *,
@@ -96,11 +95,7 @@ def command(
     ] = 0.0,
     of: Of = None,
     goals: wanted.Goals = None,
-    out: Out = None,
-    plot: Plot = None,
-    figures: Figures = None,
-    formats: Formats = None,
-    force: Force = False,
+    output: OutputOptions = USUAL_OUTPUT,
     json: Json = False,
 ) -> None:
     """All characteristics over the motions of a rig; tables of them at design.
@@ -116,12 +111,7 @@ def command(
         raise typer.BadParameter(wanted.ELSEWHERE)
     assembly = assembly_of_file(file)
     chosen = _motions(assembly, over)
-    outputs = Outputs.of(
-        out,
-        plot,
-        figures,
-        formats,
-        force=force,
+    outputs = output.of(
         inputs=[file, *([goals] if goals else [])],
         suffixes=[f"_{name}" for name in chosen],
     )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, TypedDict
 import typer
 
 from ...terminal.console import progress_bar, say
-from .options import among, by_comma
+from .options import Force, among, by_comma
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -52,6 +52,32 @@ Formats = Annotated[
         rich_help_panel="Output",
     ),
 ]
+
+
+@dataclass(frozen=True)
+class OutputOptions:
+    """The options of data files and figures of curves."""
+
+    out: Out = None
+    plot: Plot = None
+    figures: Figures = None
+    formats: Formats = None
+    force: Force = False
+
+    def of(self, inputs: Sequence[str | Path], suffixes: Sequence[str] = ("",)) -> "Outputs":
+        """Return the files, having refused what cannot be written; see `Outputs.of`."""
+        return Outputs.of(
+            self.out,
+            self.plot,
+            self.figures,
+            self.formats,
+            force=self.force,
+            inputs=inputs,
+            suffixes=suffixes,
+        )
+
+
+USUAL_OUTPUT = OutputOptions()
 
 
 class _Rule(TypedDict):
