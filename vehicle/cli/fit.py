@@ -64,8 +64,8 @@ def command(
 ) -> None:
     """Find which values of the file are off, so that the curves are as they were measured.
 
-    Each stays within its tolerance; of several ways to explain a curve the most probable one is
-    told, and how sure that is. The exit code is 1 where a curve is not explained.
+    Each stays within its tolerance. Where several errors explain a curve, the most probable ones
+    are printed, with their uncertainty. The exit code is 1 where a curve is not explained.
     """
     from ...core.files import refuse
     from .. import studies as variation

@@ -33,7 +33,7 @@ Goals = Annotated[
         "--goals",
         metavar="FILE",
         help="TOML with [targets] and [limits] of characteristics or compliance, as of kintrafo "
-        "optimise: they are drawn into the curves, and it is told which are met.",
+        "optimise: they are drawn into the curves, and a table lists which are met.",
     ),
 ]
 

@@ -49,7 +49,7 @@ def command(
     force: Force = False,
     json: Json = False,
 ) -> None:
-    """Move values of the file until characteristics come to their targets, within limits.
+    """Find values of the file that bring characteristics to their targets, within limits.
 
     The exit code is 1 where limits cannot be kept, or the search does not come to its end.
     """

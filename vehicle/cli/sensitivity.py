@@ -61,7 +61,7 @@ def command(
     force: Force = False,
     json: Json = False,
 ) -> None:
-    """By how much values of the file move the characteristics, a millimetre or a degree of each.
+    """Print the change of characteristics per millimetre or degree of each value of the file.
 
     The table is about one position; data files have all. What a section or * stands for and cannot
     move, as an inertia of a part without mass, is left out and named.

@@ -27,7 +27,7 @@ def command(
     force: Force = False,
     json: Json = False,
 ) -> None:
-    """Print the K&C sheet: kinematic and compliance gradients at design, as a rig tells them.
+    """Print the K&C sheet: kinematic and compliance gradients at design, as measured on a rig.
 
     With definitions, and with the signs of ISO 8855 and of SAE J670 (z down). Compliance is there
     where the file has bushes, or BUSHES are given.

@@ -59,7 +59,7 @@ def command(
     force: Force = False,
     json: Json = False,
 ) -> None:
-    """Bands of the characteristics of many cars whose values are off by chance, and their causes.
+    """Print bands of the characteristics of many cars within tolerances, and their causes.
 
     The table is about one position; data files have all, netCDF the shares and each car besides.
     """
