@@ -10,6 +10,7 @@ import gc
 import os
 import signal
 import sys
+from dataclasses import replace
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -202,6 +203,22 @@ def few_generations(monkeypatch: pytest.MonkeyPatch) -> None:
         return whole(*arguments, **(given | {"population": 12, "generations": 3}))
 
     monkeypatch.setattr(variation, "pareto", short)
+
+
+@pytest.fixture
+def one_picture(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let chapters show their first picture again and again; drawing all of them takes seconds."""
+    from kintrafo.vehicle.report.chapters.chapter import Picture
+
+    whole = Picture.of
+    drawn: list[Picture] = []
+
+    def first(figure: Any, words: str, ending: Any = "svg") -> Picture:
+        if not drawn:
+            drawn.append(whole(figure, words, ending))
+        return replace(drawn[0], words=words)
+
+    monkeypatch.setattr(Picture, "of", first)
 
 
 @pytest.fixture

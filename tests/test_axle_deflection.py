@@ -346,7 +346,7 @@ def test_rates_are_slopes_of_the_loads() -> None:
             assert own == pytest.approx(stiffness[which, column, column], rel=1e-6)
     np.testing.assert_allclose(stiffness[:, 0, 1], stiffness[:, 1, 0], rtol=1e-6)
     assert (stiffness[:, 0, 1] < -1e3).all()  # the bar
-    roll = flat(compliance.elastokinematics(axle, soft, "roll", [0.0]))
+    roll = compliance.elastokinematics(axle, soft, "roll", [0.0])
     pair = Pair.at(axle, 0.0, 0.0, 0.0)
     y = np.array([_contact(pair.corners[side])[1] for side in SIDES])
     # springs are relaxed, so that on the bushes the contacts are where they are with rigid joints
@@ -433,7 +433,7 @@ def test_many_positions_are_looked_at_in_parts(monkeypatch: pytest.MonkeyPatch) 
 def test_what_cannot_be_is_refused(given: dict[str, Any], words: str) -> None:
     usual = {"bushings": RACK, "under": "lateral", "amounts": [100.0]}
     with pytest.raises(InputError, match=words):
-        flat(compliance.nonlinear(axle_of(STRUT), **usual | given))
+        compliance.nonlinear(axle_of(STRUT), **usual | given)
 
 
 def test_motions_that_cannot_be_are_refused() -> None:
@@ -443,24 +443,16 @@ def test_motions_that_cannot_be_are_refused() -> None:
         ("roll", [2.0], "45 deg"),
     ):
         with pytest.raises(InputError, match=words):
-            flat(
-                compliance.elastokinematics(
-                    without_bar(TRAILING), BUSHES_OF[TRAILING], motion, along
-                )
-            )
+            compliance.elastokinematics(without_bar(TRAILING), BUSHES_OF[TRAILING], motion, along)
     for wrong in ({"motion": "roll", "travel": 0.01}, {"motion": "steer", "rack_position": 0.01}):
         with pytest.raises(InputError, match="the motion 'steer'"):
-            flat(compliance.elastokinematics(axle_of(STRUT), RACK, **wrong))
+            compliance.elastokinematics(axle_of(STRUT), RACK, **wrong)
     weak = {"arm_inner": {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}}
     heavy = Axle.from_dict(
         {"axle": "rear", "side": TRAILING.with_changes({"spring.force_at_design_N": 4000.0})}
     )
     with pytest.raises(PositionError, match=r"at a roll angle of 1\.5 deg"):
-        flat(
-            compliance.elastokinematics(
-                heavy, weak, "roll", np.deg2rad([1.5]), hardpoints="relaxed"
-            )
-        )
+        compliance.elastokinematics(heavy, weak, "roll", np.deg2rad([1.5]), hardpoints="relaxed")
 
 
 def test_loads_that_nothing_holds_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -470,7 +462,7 @@ def test_loads_that_nothing_holds_are_refused(monkeypatch: pytest.MonkeyPatch) -
     with pytest.raises(
         PositionError, match="no equilibrium that lasts was found under longitudinal"
     ):
-        flat(compliance.nonlinear(axle_of(STRUT), weak, "braking", [9e5]))
+        compliance.nonlinear(axle_of(STRUT), weak, "braking", [9e5])
 
 
 # -- what is told ---------------------------------------------------------------------------------
@@ -496,11 +488,11 @@ def test_tables_have_each_wheel_and_both() -> None:
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        ("reference_car --over roll", "--over is only for the file of an axle"),
+        ("reference_car --motion roll", "--motion is only for the file of an axle"),
         ("reference_axle --wheels left", "--wheels is only for --under"),
-        ("reference_axle --over roll --bump 10", "--bump is only for curves over wheel travel"),
-        ("reference_axle --under braking --over bump", "--over is only for curves over"),
-        ("reference_axle --over roll --at 5", "--at is only for the file of one suspension"),
+        ("reference_axle --motion roll --bump 10", "--bump is only for curves over wheel travel"),
+        ("reference_axle --under braking --motion bump", "--motion is only for curves over"),
+        ("reference_axle --motion roll --at 5", "--at is only for the file of one suspension"),
     ],
 )
 def test_options_that_do_not_go_together_are_refused(kintrafo: Any, line: str, words: str) -> None:

@@ -22,6 +22,7 @@ from kintrafo.vehicle.assembly.pair import Pair
 from kintrafo.vehicle.models.points import carried
 from kintrafo.vehicle.models.positions import arm_angles, design_height
 from kintrafo.vehicle.models.reach import at_rest
+from listed_loads import wrench
 from test_axles import AXLE, BENT, placed
 
 CAR = Suspension.load("reference_car")
@@ -42,12 +43,6 @@ def of(found: xr.Dataset, part: str, by: str = "", point: str = "") -> xr.Datase
     """Return the loads on a part, of its first case."""
     rows = (found["part"] == part) & found["by"].str.startswith(by)
     return found.isel(case=0).isel(load=(rows & found["point"].str.startswith(point)).values)
-
-
-def wrench(loads_: xr.Dataset) -> np.ndarray:
-    """Return the sum of forces, and of moments about the origin."""
-    force, moment, at = (loads_[name].values for name in ("force", "moment", "at"))
-    return np.concatenate([force.sum(0), (moment + np.cross(at, force)).sum(0)])
 
 
 @pytest.mark.parametrize("axle", [PLAIN, AXLE, LINKED], ids=["plain", "with a bar", "multi-link"])
@@ -78,18 +73,11 @@ def test_even_loads_are_those_of_each_side(axle: Axle) -> None:
         assert float(abs(found["holding_force"].sel(wheel=side)).max()) < 1e-6
 
 
-@pytest.mark.parametrize("axle", [PLAIN, AXLE, BENT, LINKED], ids=lambda axle: axle.heading())
-def test_mounts_carry_together_what_the_chassis_does(axle: Axle) -> None:
-    """Both tie rods at the rack, and the spring of a strut at its top, on either side."""
-    found = loads.static(axle, PUSHED)
-    arms = found["total_at"].values
-    force, moment = (found[f"total_{name}"].values[0] for name in ("force", "moment"))
-    together = np.concatenate([force.sum(0), (moment + np.cross(arms[0], force)).sum(0)])
-    np.testing.assert_allclose(together, wrench(of(found, "chassis")), atol=1e-7)
+def test_mounts_name_what_they_carry() -> None:
+    found = loads.static(AXLE, PUSHED)
     by = dict(zip(found["mount"].values, found["total_by"].values, strict=True))
     assert by["rack_middle"] == "steering, rack"
-    if "strut_top_left" in by:
-        assert by["strut_top_left"] == "upper_strut_left, spring_left"
+    assert by["strut_top_left"] == "upper_strut_left, spring_left"
 
 
 @pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])

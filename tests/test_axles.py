@@ -1,7 +1,6 @@
 """Axles: against their own compiled equations, differences, formulas by hand, and mirror images."""
 
 import re
-import shlex
 from pathlib import Path
 from typing import Any
 
@@ -40,7 +39,6 @@ from kintrafo.vehicle.models.reach import at_rest, travel_range
 from kintrafo.vehicle.report import Chapter, axle_chapter
 from kintrafo.vehicle.studies.evaluation import values_of
 from scipy.optimize import brentq
-from test_cli_commands import commands_of
 
 ROOT = Path(__file__).parent.parent
 AXLE = Axle.load("reference_axle")
@@ -72,7 +70,6 @@ LOPSIDED: dict[str, Any] = {
     "brakes": {"torque_on": "body"},
 }
 BENT = Axle.from_dict(LOPSIDED)
-needs_compiler = pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
 
 
 def somewhere(seed: int, count: int = 20, size: float = 0.05) -> tuple[np.ndarray, ...]:
@@ -335,7 +332,7 @@ def test_the_usual_roll_ends_where_a_wheel_does() -> None:
     low, high = (1e3 * (end - 0.3) for end in travel_range(axle.models["left"]).height)
     assert 35.0 < min(-low, high) < 50.0
     with pytest.raises(PositionError, match="is out of reach: the left wheel") as refused:
-        flat(characteristics.over(axle, "roll", [0.0, 1.1 * most]))
+        characteristics.over(axle, "roll", [0.0, 1.1 * most])
     told = re.search(r"which is (\S+) deg to (\S+) deg", str(refused.value))
     assert float(told[2]) == pytest.approx(np.degrees(most) / 0.98, rel=1e-2)
 
@@ -465,7 +462,7 @@ def test_without_a_ratio_the_rack_moves() -> None:
     )
     assert "rack_position" in flat(characteristics.over(axle, "steer")).dims
     with pytest.raises(InputError, match="travel_per_turn_mm"):
-        flat(characteristics.over(axle, "steer", [0.0]))
+        characteristics.over(axle, "steer", [0.0])
 
 
 # -- files, and what is wrong with them ---------------------------------------------------------
@@ -593,14 +590,14 @@ def test_sides_are_found_beside_the_file(tmp_path: Path) -> None:
 
 def test_what_is_out_of_reach_is_refused() -> None:
     with pytest.raises(PositionError, match="roll of 30 deg is out of reach: the left wheel"):
-        flat(characteristics.over(AXLE, "roll", np.deg2rad([0.0, 30.0])))
+        characteristics.over(AXLE, "roll", np.deg2rad([0.0, 30.0]))
     short = BAR | {"link_top": [30.0, -580.0, 215.0], "bush": [60.0, -400.0, 215.0]}
     axle = Axle.from_dict({"axle": "front", "side": CAR, "anti_roll_bar": short})
     with pytest.raises(InputError, match=r"does not reach its lever at .* mm of wheel travel"):
-        flat(characteristics.over(axle, "bump"))
+        characteristics.over(axle, "bump")
     assert any("does not reach" in text for text in checkup(axle).problems)
     with pytest.raises(InputError, match=r"less than 45 deg is needed; Python's unit is rad"):
-        flat(characteristics.over(AXLE, "roll", [3.0]))
+        characteristics.over(AXLE, "roll", [3.0])
     for racks, words in (
         ([-10.0, 10.0], "rises with the angle, and that steers to the right"),
         ([200.0, 100.0], "nothing within the 60 mm"),
@@ -609,18 +606,18 @@ def test_what_is_out_of_reach_is_refused() -> None:
         wrong = {"angle_deg": [-90.0, 90.0], "rack_mm": racks}
         axle = Axle.from_dict({"axle": "front", "side": CAR, "steering": wrong})
         with pytest.raises(InputError, match=words):
-            flat(characteristics.over(axle, "steer"))
+            characteristics.over(axle, "steer")
         assert any(words in text for text in checkup(axle).problems)
     curve = {"angle_deg": [-90.0, 90.0], "rack_mm": [10.0, -10.0]}
     axle = Axle.from_dict({"axle": "front", "side": CAR, "steering": curve})
     with pytest.raises(InputError, match="beyond the curve"):
-        flat(characteristics.over(axle, "steer", [2.0]))
+        characteristics.over(axle, "steer", [2.0])
 
 
 def test_sides_with_different_equations_have_none_together() -> None:
     left = CAR.mirrored().with_changes({"tyre.lifts_off": True})
     axle = Axle.from_dict({"axle": "front", "right": CAR, "left": left})
-    assert float(flat(characteristics.over(axle, "bump", [0.0]))["track"][0]) == pytest.approx(1.52)
+    assert float(characteristics.over(axle, "bump", [0.0])["track"][0]) == pytest.approx(1.52)
     with pytest.raises(InputError, match="must be in both files"):
         AxleModel(axle)
 
@@ -634,7 +631,7 @@ def test_axles_are_compared() -> None:
     )
     bare = Axle.from_dict({"axle": "front", "side": CAR})
     found = {d.name: d for d in differences(compare.compare({"a": AXLE, "b": stiff}, over="roll"))}
-    rates = flat(characteristics.over(AXLE, "bump", [0.0]))
+    rates = characteristics.over(AXLE, "bump", [0.0])
     assert found["roll_stiffness"].at_design == pytest.approx(float(rates["roll_stiffness_bar"][0]))
     assert found["camber_left"].largest == 0.0
     rear = Axle.from_dict({"axle": "rear", "side": CAR, "drive": {"share": 1.0}})
@@ -677,9 +674,7 @@ def test_an_axle_has_a_chapter_in_the_report() -> None:
     assert pictured(chapter) == ["roll", "bump", "left", "steer"]
     assert all(picture.source.startswith("data:image/svg") for picture in chapter.pictures)
     rows = {row[0]: row for row in whole.rows}
-    rate = (
-        float(flat(characteristics.over(BENT, "bump", [0.0]))["roll_stiffness"][0]) * np.pi / 180.0
-    )
+    rate = float(characteristics.over(BENT, "bump", [0.0])["roll_stiffness"][0]) * np.pi / 180.0
     assert float(rows["roll stiffness"][1]) == pytest.approx(rate, rel=1e-4)
     assert "camber" in {row[0] for row in wheels.rows}  # the sides differ
     of_alike = axle_chapter(AXLE)
@@ -690,7 +685,7 @@ def test_an_axle_has_a_chapter_in_the_report() -> None:
     assert data["[anti_roll_bar] rate_Nm_per_deg"] == "17.5"
 
 
-@pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
+@pytest.mark.usefixtures("coarse_report", "first_page_of_curves", "one_picture")
 def test_the_page_of_a_rear_axle_has_nothing_of_a_front_one(kintrafo: Any, tmp_path: Path) -> None:
     text = 'axle = "rear"\nside = "reference_car"\n'
     (tmp_path / "rear.toml").write_text(text, encoding="utf-8")
@@ -712,24 +707,10 @@ def test_a_chapter_needs_no_steering_ratio() -> None:
     assert pictured(page) == ["roll", "bump", "left", "steer"]
 
 
-@needs_compiler
-@pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
-def test_the_commands_of_the_page_run(kintrafo: Any, tmp_path: Path) -> None:
-    page = (ROOT / "docs/axles.md").read_text(encoding="utf-8")
-    for name, text in re.findall(r"```toml\n# (\w+\.toml)(.*?)```", page, flags=re.DOTALL):
-        (tmp_path / name).write_text(f"#{text}", encoding="utf-8")
-    for line in commands_of(page):
-        program, *arguments = shlex.split(line)
-        assert program == "kintrafo"
-        code, out, err = kintrafo(*arguments)
-        assert (code, bool(out)) == (0, True), (line, err)
-    assert (tmp_path / "curves_roll.csv").read_text().startswith("roll_angle")
-
-
 def test_commands_refuse_what_only_the_other_sort_has(kintrafo: Any) -> None:
     for line, word in (
         ("characteristics reference_car --roll 3", "--roll is only for the file of an axle"),
-        ("characteristics reference_axle --over bmp", "bump"),
+        ("characteristics reference_axle --motion bmp", "bump"),
         ("simulate reference_car --wheels left", "--wheels is only"),
         ("simulate reference_axle --height 300", "--height is only"),
         ("compare reference_axle reference_car", "files of one sort"),

@@ -437,7 +437,7 @@ def test_static_toe_and_bump_steer_steer_no_car(name, travel):
     # from 2 mm to 20 mm of rack it changes little
     assert abs(part[3] - part[4]) < 0.25 * abs(part[4]) + 0.25
     axle_file = Axle.from_dict({"axle": "front", "side": car})
-    of_axle = flat(characteristics.over(axle_file, "rack", racks, travel=travel))
+    of_axle = characteristics.over(axle_file, "rack", racks, travel=travel)
     np.testing.assert_allclose(of_axle["ackermann"], found["ackermann"], rtol=1e-8)
     if not travel:
         many = variation.cars(

@@ -2,8 +2,6 @@
 
 import json
 import re
-import shlex
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -43,76 +41,7 @@ def test_every_command_has_help_with_examples(kintrafo, command):
 
 # -- the page of the documentation --------------------------------------------------------------
 
-
-def commands_of(page):
-    """Return the lines of the shell blocks of a page, without their comments."""
-    blocks = re.findall(r"```sh\n(.*?)```", page, flags=re.DOTALL)
-    return [line.partition("  #")[0].strip() for block in blocks for line in block.splitlines()]
-
-
 PAGE = (ROOT / "docs/command-line.md").read_text(encoding="utf-8")
-LINES = commands_of(PAGE)
-
-
-# whole reports: test_report.py
-@pytest.mark.usefixtures("coarse_report", "each_page_of_curves_once", "few_frames")
-def test_the_documented_commands_run(kintrafo, tmp_path):
-    tables = re.findall(r"```csv\n(.*?)```", PAGE, flags=re.DOTALL)
-    for name, text in zip(("cad.csv", "rig.csv", "road.csv"), tables, strict=True):
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    for name in ("MacPhersonStrut.json", "RigidTire.json"):
-        shutil.copy(ROOT / "tests/data/chrono" / name, tmp_path)
-    shutil.copy(ROOT / "tests/data/adams/front_suspension.sub", tmp_path)
-    assert len(LINES) > 15
-    for line in LINES:
-        program, *arguments = shlex.split(line)
-        assert program == "kintrafo"
-        code, out, err = kintrafo(*arguments)
-        assert code == 0, (line, err)
-        assert out, line
-        for name in re.findall(r"(?:-o|--plot) (\S+)", line):
-            stem, _, ending = name.partition(".")
-            both = arguments[0] == "characteristics"
-            for suffix in ("_travel", "_rack") if both else ("",):
-                assert (tmp_path / f"{stem}{suffix}.{ending}").stat().st_size > 0
-    assert not list(tmp_path.glob(".*"))
-
-
-# the commands of `test_the_documented_commands_run`, which draws all pages
-@pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
-def test_the_tutorial_runs(kintrafo, tmp_path):
-    page = (ROOT / "docs/tutorial.md").read_text(encoding="utf-8")
-    (changed,) = re.findall(r"```toml\n(.*?)\n```", page, flags=re.DOTALL)
-    for line in commands_of(page):
-        program, *arguments = shlex.split(line)
-        if program == "cp":
-            shutil.copy(*(tmp_path / name for name in arguments))
-            continue
-        assert program == "kintrafo"
-        if arguments[0] == "compare":  # the change that the reader has made
-            text = (tmp_path / "my_car.toml").read_text(encoding="utf-8")
-            text, count = re.subn(r"^tie_rod_inner = .*$", changed, text, flags=re.MULTILINE)
-            assert count == 1
-            (tmp_path / "lower_rod.toml").write_text(text, encoding="utf-8")
-        code, out, err = kintrafo(*arguments)
-        assert (code, bool(out)) == (0, True), (line, err)
-    for name in ("curves_travel.csv", "curves_rack.pdf", "compared.png", "step.csv"):
-        assert (tmp_path / name).stat().st_size > 1000, name
-    assert "Front axle, stage 1" in (tmp_path / "front_axle.html").read_text(encoding="utf-8")
-
-
-@pytest.mark.usefixtures("coarse_report")
-def test_the_commands_about_the_report_run(kintrafo, tmp_path):
-    assert kintrafo("new", "my_car.toml")[0] == 0
-    for line in commands_of((ROOT / "docs/report.md").read_text(encoding="utf-8")):
-        program, *arguments = shlex.split(line)
-        assert program == "kintrafo"
-        code, out, err = kintrafo(*arguments)
-        assert (code, bool(out)) == (0, True), (line, err)
-    for name in ("my_car.html", "front_axle.html"):
-        text = (tmp_path / name).read_text(encoding="utf-8")
-        # the licences of what the page is made with
-        assert text.count("MIT License") >= 2
 
 
 def test_the_change_of_the_tutorial_turns_bump_steer_round():
@@ -149,23 +78,6 @@ def test_some_characteristics_are_compared(kintrafo, tmp_path):
     code, _, err = kintrafo("compare", CAR, "my_car.toml", "--of", "too")
     assert code == 2
     assert "Did you mean toe" in err
-
-
-@pytest.mark.parametrize(
-    "line",
-    [
-        "characteristics reference_axle --over bump,roll --bump 20 --rebound 20",
-        "characteristics reference_car --bump 20 --rebound 20 --of toe,camber",
-        "loads reference_car --case static,brake --part knuckle,chassis",
-        "sensitivity reference_car --of toe --place hardpoints.ball_joint.z,wheel.toe_deg",
-    ],
-)
-def test_a_list_with_commas_is_a_repeated_option(kintrafo, line):
-    repeated = re.sub(r"(--[a-z]+) ([\w.]+),([\w.]+)", r"\1 \2 \1 \3", line)
-    assert repeated != line
-    code, out, err = kintrafo(*line.split())
-    assert (code, kintrafo(*repeated.split())[:2]) == (0, (0, out)), err
-    assert kintrafo(*line.replace(",", ",,").split())[0] == 2
 
 
 def test_the_documentation_names_every_command():

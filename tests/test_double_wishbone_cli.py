@@ -2,7 +2,6 @@
 
 import json
 import re
-import shlex
 from pathlib import Path
 
 import numpy as np
@@ -167,17 +166,6 @@ def test_linearisation_knows_the_wheel_hop_and_the_spinning_wheel():
 # -- the page of the documentation ---------------------------------------------------------------
 
 PAGE = (Path(__file__).parent.parent / "docs/double-wishbone.md").read_text(encoding="utf-8")
-
-
-# `test_characteristics` draws all curves, and a whole report is in test_double_wishbone_report.py
-@pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
-def test_the_documented_commands_run(kintrafo):
-    blocks = re.findall(r"```sh\n(.*?)```", PAGE, flags=re.DOTALL)
-    commands = [line for block in blocks for line in block.splitlines()]
-    assert len(commands) == 10
-    for command in commands:
-        code, _, error = kintrafo(*shlex.split(command)[1:])
-        assert code == 0, error
 
 
 def test_the_documented_code_prints_what_it_says(capsys):

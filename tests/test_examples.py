@@ -1,29 +1,36 @@
-"""The examples of the help texts: each does what it says, and ends well."""
+"""The command lines of help texts and pages: each does what it says, and ends well."""
 
 from __future__ import annotations
 
 import re
 import shlex
 import shutil
-from dataclasses import replace
 from itertools import takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 import pytest
-from kintrafo import Model, Suspension, characteristics, export, point_table, starter
+from kintrafo import Model, Suspension, characteristics, compliance, export, point_table, starter
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.vehicle import cli
-from kintrafo.vehicle.report.chapters.chapter import Picture
+from kintrafo.vehicle.input.toml_writer import write_toml
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    Files = dict[str, Callable[[Path], Any]]
+    """By name, how a file comes to be."""
+
 ROOT = Path(__file__).parents[1]
 DATA = ROOT / "tests/data"
 CAR = Suspension.load("reference_car")
-LINES = [example for module in cli.COMMANDS.values() for example in module.EXAMPLES]
+DOCS = ROOT / "docs"
+PAGES = (
+    "axles", "command-line", "double-wishbone", "loads", "multi-link", "own-mechanism", "report",
+    "rigid-axle", "studies", "trailing-arm", "tutorial",
+)  # fmt: skip
+COMPILED = ("axles", "own-mechanism")
 BUSHES = "[bushings.arm_rear]\naxial_N_per_mm = 400.0\nradial_N_per_mm = 900.0\n"
 # A crank-rocker, called as the examples call it.
 MECHANISM = """
@@ -35,6 +42,17 @@ MODEL = replace(four_bar.MODELS[0], name="crane")
 """
 # What stands last of the arguments without a dash is written by these.
 WRITERS = ("new", "schema", "import")
+
+
+def commands_of(page: str) -> list[str]:
+    """Return the lines of the shell blocks of a page, without their comments."""
+    text = (DOCS / f"{page}.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"```sh\n(.*?)```", text, flags=re.DOTALL)
+    return [line.partition("  #")[0].strip() for block in blocks for line in block.splitlines()]
+
+
+EXAMPLES = [example for module in cli.COMMANDS.values() for example in module.EXAMPLES]
+ON_PAGES = {line for page in PAGES for line in commands_of(page)}
 
 
 def documented(page: str, name: str) -> str:
@@ -80,7 +98,7 @@ def csv_of_the_page(number: int) -> Callable[[Path], Any]:
 
 
 # How the files come to be that examples read.
-FILES: dict[str, Callable[[Path], Any]] = {
+FILES: Files = {
     "my_car.toml": car,
     "my_wishbones.toml": lambda path: car(path, template="double_wishbone_car"),
     "my_axle.toml": lambda path: car(path, template="reference_axle"),
@@ -107,40 +125,158 @@ FILES: dict[str, Callable[[Path], Any]] = {
         ("MacPhersonStrut.json", "DoubleWishbone.json", "RigidTire.json"), texts("chrono")
     ),
 }
-FILES_OF: dict[str, dict[str, Callable[[Path], Any]]] = {
+FILES_OF: dict[str, Files] = {
     "fit": {"rig.csv": measured},
     "compliance": {"goals.toml": shown("studies.md", "soft_goals.toml")},
 }
 
 
-@pytest.fixture
-def one_picture(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let chapters show their first picture again and again; drawing all of them takes seconds."""
-    whole = Picture.of
-    drawn: list[Picture] = []
+def run_line(kintrafo: Any, line: str, files: Files) -> tuple[str, list[Path]]:
+    """Run a command line on files that are made as it needs them.
 
-    def first(figure: Any, words: str, ending: Any = "svg") -> Picture:
-        if not drawn:
-            drawn.append(whole(figure, words, ending))
-        return replace(drawn[0], words=words)
-
-    monkeypatch.setattr(Picture, "of", first)
+    Returns
+    -------
+    tuple
+        What it prints, and the files that it writes.
+    """
+    program, command, *words = shlex.split(line)
+    positional = [*takewhile(lambda word: not word.startswith("-"), words)]
+    written = positional[-1:] if command in WRITERS else []
+    for name in {*words} - {*written}:
+        if name in files and not Path(name).exists():
+            files[name](Path(name))
+    code, out, err = kintrafo(command, *words)
+    assert (program, code, bool(out)) == ("kintrafo", 0, True), (line, err)
+    found: list[Path] = []
+    for name in written or re.findall(r"(?:-o|--out|--car|--plot) (\S+)", line):
+        at = Path(name)
+        new = [at] if at.exists() else [*at.parent.glob(f"{at.stem}*{at.suffix}")]
+        assert new, (line, name)
+        assert all(path.is_dir() or path.stat().st_size > 0 for path in new), (line, name)
+        found += new
+    assert not [*Path().glob(".*")]
+    return out, found
 
 
 @pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
 @pytest.mark.usefixtures("coarse_report", "first_page_of_curves", "one_picture")
 @pytest.mark.usefixtures("few_frames", "few_generations")
-@pytest.mark.parametrize("line", LINES)
+@pytest.mark.parametrize("line", [line for line in EXAMPLES if line not in ON_PAGES])
 def test_every_example_of_a_help_text_runs(kintrafo: Any, line: str) -> None:
-    program, command, *words = shlex.split(line)
-    positional = [*takewhile(lambda word: not word.startswith("-"), words)]
-    written = positional[-1:] if command in WRITERS else []
-    files = FILES | FILES_OF.get(command, {})
-    for name in {*words} - {*written}:
-        if name in files:
-            files[name](Path(name))
-    code, out, err = kintrafo(command, *words)
-    assert (program, code, bool(out)) == ("kintrafo", 0, True), err
-    for name in written or re.findall(r"(?:-o|--out|--car) (\S+)", line):
-        stem, ending = Path(name).stem, Path(name).suffix
-        assert list(Path().glob(f"{stem}*{ending}")), name
+    run_line(kintrafo, line, FILES | FILES_OF.get(shlex.split(line)[1], {}))
+
+
+# -- pages ----------------------------------------------------------------------------------------
+
+
+def lower_rod(path: Path) -> None:
+    """Write the file that the reader of the tutorial has changed."""
+    (line,) = re.findall(
+        r"```toml\n(tie_rod_inner .*?)\n```", (DOCS / "tutorial.md").read_text("utf-8")
+    )
+    text = Path("my_car.toml").read_text(encoding="utf-8")
+    text, count = re.subn(r"^tie_rod_inner = .*$", line, text, flags=re.MULTILINE)
+    assert count == 1
+    path.write_text(text, encoding="utf-8")
+
+
+SOFT = {
+    "arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 900.0},
+    "strut_top": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": 700.0},
+}
+SOFT_CAR = CAR.with_changes({"bushings": SOFT})
+
+
+def soft_rig(path: Path) -> None:
+    softer = Model(SOFT_CAR.with_changes({"bushings.strut_top.radial_N_per_mm": 600.0}))
+    export.write(compliance.linear(softer)[["toe_by_lateral", "camber_by_lateral"]], path)
+
+
+MADE_FOR: dict[str, Files] = {
+    "command-line": {"rig.csv": csv_of_the_page(1)},
+    "own-mechanism": {
+        "pushrod_suspension.py": lambda path: shutil.copy(ROOT / "examples" / path.name, path)
+    },
+    "studies": {
+        "rig.csv": measured,
+        "soft_car.toml": lambda path: write_toml(SOFT_CAR, path),
+        "soft_rig.csv": soft_rig,
+    },
+    "tutorial": {"lower_rod.toml": lower_rod},
+}
+# What the files of a page have in them, and what they do not, as patterns.
+WITH: dict[str, dict[str, list[str]]] = {
+    "axles": {"curves_roll.csv": ["^roll_angle"]},
+    "own-mechanism": {f"equations/pushrod_suspension.{end}": [] for end in ("c", "h", "md")},
+    "report": {
+        f"{name}.html": ["(?s)MIT License.*MIT License"] for name in ("my_car", "front_axle")
+    },
+    "rigid-axle": {"my_rear.html": [r"\[rods\.panhard_rod\]", "roll-centre height"]},
+    "tutorial": {"front_axle.html": ["Front axle, stage 1"]},
+}
+WITHOUT = {
+    "rigid-axle": {"my_rear.html": r'(src|href)="(?!data:|#)'},
+    "trailing-arm": {"my_arm.html": ">tie rod<|>Typical"},
+}
+# Of the code of a page, what it leaves.
+CODE: dict[str, Callable[[dict[str, Any]], bool]] = {
+    "loads": lambda _: True,
+    "studies": lambda names: bool(
+        abs(names["found"]["bump_steer_share"].sum("place") - 1.0).max() < 1e-12
+    ),
+}
+PRINTED = {"kintrafo loads my_car.toml --cases cases.toml": r"wheel travel .* 60.0 "}
+
+
+def write_files(page: str) -> None:
+    """Write the files that a page shows."""
+    text = (DOCS / f"{page}.md").read_text(encoding="utf-8")
+    for name, block in re.findall(r"```toml\n# (\w+\.toml)(?::[^\n]*)?\n(.*?)```", text, re.DOTALL):
+        Path(name).write_text(block, encoding="utf-8")
+
+
+def run_code(page: str) -> None:
+    text = (DOCS / f"{page}.md").read_text(encoding="utf-8")
+    names: dict[str, Any] = {}
+    for block in re.findall(r"```python\n(.*?)```", text, flags=re.DOTALL):
+        exec(block, names)
+    assert CODE[page](names)
+
+
+def check_files(page: str) -> None:
+    for name, patterns in WITH.get(page, {}).items():
+        found = Path(name).read_text(encoding="utf-8")
+        assert all(re.search(pattern, found) for pattern in patterns), name
+    for name, pattern in WITHOUT.get(page, {}).items():
+        assert not re.search(pattern, Path(name).read_text(encoding="utf-8")), name
+    if page == "studies":
+        toes = [toe_at_60_mm(car) for car in (CAR, Suspension.load("better_car.toml"))]
+        assert toes[1] < toes[0] / 5
+
+
+def toe_at_60_mm(car: Suspension) -> float:
+    """Return the larger toe [rad] in bump and rebound."""
+    return float(abs(characteristics.over(Model(car), "travel", [-0.06, 0.06])["toe"]).max())
+
+
+@pytest.mark.parametrize("page", PAGES)
+@pytest.mark.usefixtures("coarse_report", "one_picture", "few_frames", "few_generations")
+def test_the_commands_of_a_page_run(
+    kintrafo: Any, page: str, request: pytest.FixtureRequest
+) -> None:
+    """In their order, in one folder; one page draws all groups of curves."""
+    if page in COMPILED and find_compiler() is None:
+        pytest.skip("no C compiler")
+    every = page == "command-line"
+    request.getfixturevalue("each_page_of_curves_once" if every else "first_page_of_curves")
+    write_files(page)
+    lines = [line for line in commands_of(page) if not line.startswith("cp ")]
+    assert len(lines) > 2
+    for line in lines:
+        out, written = run_line(kintrafo, line, FILES | MADE_FOR.get(page, {}))
+        assert re.search(PRINTED.get(line, ""), out)
+        if re.search(r"characteristics my_car.toml .*-o ", line):
+            assert {path.stem.rpartition("_")[2] for path in written} == {"travel", "rack"}
+    check_files(page)
+    if page in CODE:
+        run_code(page)

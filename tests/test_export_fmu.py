@@ -279,7 +279,7 @@ def test_slopes_of_inputs(unit):
     assert instance.step(0.0, 0.05) == OK
     found = instance.get("road_height", "rack_position", "rack_velocity")
     assert found == pytest.approx([0.5 * 4.0 * 0.05**2, 0.5 * 0.2 * 0.05**2, 0.01], abs=1e-15)
-    times = np.linspace(0.0, 0.05, 2001)
+    times = np.linspace(0.0, 0.05, 201)
     inputs = {
         "road_height": (times, 0.5 * 4.0 * times**2),
         "rack_position": (times, 0.5 * 0.2 * times**2),

@@ -132,6 +132,7 @@ def test_a_chapter_of_an_axle_has_the_curves_of_each_motion(file: str) -> None:
         assert f">{words}<" in drawing
 
 
+@pytest.mark.usefixtures("one_picture")
 @pytest.mark.parametrize("file", ["reference_axle", "rigid_axle"])
 def test_reports_of_axles_tell_how_many_goals_are_missed(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, file: str
@@ -270,6 +271,7 @@ def figures(monkeypatch: pytest.MonkeyPatch) -> Any:
 OF_AXLES = ("bump", "roll", "left", "right")
 
 
+@pytest.mark.usefixtures("one_picture")
 @pytest.mark.parametrize("file", ["reference_axle", "rigid_axle"])
 def test_chapters_of_axles_have_what_is_wanted(file: str, figures: Any) -> None:
     """Curves that they have not else are added, and positions beyond the usual ones."""
@@ -345,7 +347,7 @@ def test_goals_of_axles_are_drawn_over_their_motion_alone(
         return path
 
     monkeypatch.setattr(curves, "write_overview", note)
-    asked = ["--goals", str(tmp_path / "goals.toml"), "--over", "bump,roll"]
+    asked = ["--goals", str(tmp_path / "goals.toml"), "--motion", "bump", "--motion", "roll"]
     shown = called("characteristics", file, *asked, "--plot", str(tmp_path / "a.png"))
     assert shown.exit_code == 0, shown.output
     assert words in shown.output
@@ -407,7 +409,7 @@ def test_goals_that_are_not_looked_at_are_named(goals: Path) -> None:
     ("words", "text"),
     [
         (["reference_axle"], "over 'rack' is not known. Known are: bump, roll"),
-        (["reference_axle", "--over", "steer"], "over bump, roll, left or right, and these are"),
+        (["reference_axle", "--motion", "steer"], "over bump, roll, left or right, and these are"),
         (["reference_car", "--rack", "10"], "in its middle"),
         (["reference_axle", "--rack", "10"], "in its middle"),
         (["trailing_arm_car"], "over travel"),

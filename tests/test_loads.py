@@ -3,7 +3,6 @@
 import csv
 import math
 import re
-import shlex
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -29,9 +28,7 @@ from kintrafo.vehicle.models.positions import design_height
 from kintrafo.vehicle.models.reach import at_rest
 from oracle.constraints import ARM, BODIES, KNUCKLE, RACK, TIE_ROD, UPPER_STRUT, WHEEL
 from oracle.newton import Mechanism
-from test_cli_commands import commands_of
 
-ROOT = Path(__file__).parent.parent
 CAR = Suspension.load("reference_car")
 WISHBONES = Suspension.load("double_wishbone_car")
 OFFSET = Suspension.load("offset_strut_car")
@@ -505,25 +502,6 @@ def test_the_exit_code_is_about_the_cases_that_were_asked_for(
     ended, out, err = kintrafo("loads", "reference_car", *words.split())
     assert ended == code
     assert re.search(r"\b(kerb|bad): ", out + err)
-
-
-@pytest.mark.usefixtures("first_page_of_curves")
-def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:
-    page = (ROOT / "docs/loads.md").read_text(encoding="utf-8")
-    for name, text in re.findall(r"```toml\n# (\S+)\n(.*?)```", page, flags=re.DOTALL):
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    (block,) = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
-    exec(block, {})
-    lines = [shlex.split(line)[1:] for line in commands_of(page)]
-    ends = {tuple(line): kintrafo(*line) for line in lines}
-    assert all((code, bool(out)) == (0, True) for code, out, _ in ends.values())
-    (bottomed,) = [out for words, (_, out, _) in ends.items() if "--cases" in words]
-    assert re.search(r"wheel travel .* 60.0 ", bottomed)
-    assert {path.name for path in tmp_path.iterdir()} >= {
-        "free_body_brake.png",
-        "loads.csv",
-        "compliance.csv",
-    }
 
 
 @pytest.mark.parametrize(

@@ -3,8 +3,6 @@
 `test_mechanisms` compares its equations with maximal coordinates, like those of every model.
 """
 
-import shlex
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -27,7 +25,6 @@ from kintrafo.vehicle.models.positions import arm_angles, design_height
 from kintrafo.vehicle.models.reach import at_rest
 from scipy.optimize import brentq, fsolve
 from scipy.spatial.transform import Rotation
-from test_cli_commands import commands_of
 
 CAR = Suspension.load("multi_link_car")
 MODEL = Model(CAR)
@@ -243,15 +240,3 @@ def test_an_axle_of_it_rolls() -> None:
     half = found["track"].values[1] / 2.0
     assert float(found["roll_stiffness"][1]) == pytest.approx(2.0 * rate * half**2, rel=1e-9)
     np.testing.assert_allclose(found["toe_left"], found["toe_right"][::-1], rtol=0.0, atol=1e-12)
-
-
-@pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
-def test_the_commands_of_the_page_run(kintrafo: Any) -> None:
-    page = Path(__file__).parent.parent / "docs/multi-link.md"
-    commands = commands_of(page.read_text(encoding="utf-8"))
-    assert len(commands) == 9
-    for line in commands:
-        program, *arguments = shlex.split(line)
-        assert program == "kintrafo"
-        code, out, err = kintrafo(*arguments)
-        assert (code, bool(out)) == (0, True), (line, err)

@@ -4,7 +4,6 @@ import importlib
 import multiprocessing
 import pickle
 import re
-import shlex
 import shutil
 import subprocess
 import sys
@@ -97,18 +96,6 @@ class TestPage:
         with pytest.raises(kintrafo.ClosureError) as caught:
             system.signals(system.state(arm_angle=-0.6))
         assert str(caught.value) == " ".join(blocks("text")[2].split())
-
-    @pytest.mark.usefixtures("few_frames")
-    def test_the_commands_run(self, tmp_path, monkeypatch):
-        shutil.copy(EXAMPLE, tmp_path)
-        monkeypatch.chdir(tmp_path)
-        for line in "".join(blocks("sh")).splitlines():
-            program, *arguments = shlex.split(line)
-            assert program == "kintrafo"
-            result = CliRunner().invoke(app, arguments)
-            assert result.exit_code == 0, result.output
-        written = {path.name for path in (tmp_path / "equations").iterdir()}
-        assert {"pushrod_suspension.c", "pushrod_suspension.h", "pushrod_suspension.md"} <= written
 
 
 class TestExample:

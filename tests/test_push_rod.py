@@ -16,7 +16,6 @@ from kintrafo import (
     simulate,
     state_at_height,
 )
-from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.positions import arm_angles, design_height
 from kintrafo.vehicle.models.reach import at_rest
@@ -179,6 +178,6 @@ def test_an_axle_of_push_rods() -> None:
         "rate_Nm_per_deg": 10.0,
     }
     axle = Axle.from_dict({"axle": "rear", "side": CAR, "anti_roll_bar": bar})
-    found = flat(characteristics.over(axle, "roll", np.deg2rad([-1.0, 0.0, 1.0])))
+    found = characteristics.over(axle, "roll", np.deg2rad([-1.0, 0.0, 1.0]))
     assert float(found["bar_share"][1]) > 0.0
     np.testing.assert_allclose(found["roll_moment"][0], -found["roll_moment"][2], rtol=1e-9)

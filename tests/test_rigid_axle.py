@@ -34,7 +34,6 @@ from kintrafo.vehicle.assembly.measures.rigid_axle import MEASURES
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import fsolve
 from scipy.spatial.transform import Rotation
-from test_cli_commands import commands_of
 
 Array = np.ndarray
 AXLE = RigidAxle.load("rigid_axle")
@@ -275,7 +274,7 @@ def planar(slope: float, height: float) -> RigidAxle:
 def test_the_roll_centre_is_where_a_panhard_rod_crosses_the_middle(
     slope: float, height: float
 ) -> None:
-    told = flat(characteristics.over(planar(slope, height), "bump", [0.0]))
+    told = characteristics.over(planar(slope, height), "bump", [0.0])
     # exact at design, to rounding
     assert float(told["roll_center_height"][0]) == pytest.approx(1e-3 * height, rel=1e-11)
     # links along x that rise to the front turn the axle out of the curve
@@ -286,7 +285,7 @@ def test_the_roll_centre_is_where_a_panhard_rod_crosses_the_middle(
 
 
 def test_the_roll_centre_of_triangulated_links_is_on_the_line_through_their_meeting_point() -> None:
-    told = flat(characteristics.over(TRIANGULATED, "bump", [0.0]))
+    told = characteristics.over(TRIANGULATED, "bump", [0.0])
     # the upper links meet in the centre plane behind the axle; the line is along the lower links
     part = 120.0 / (450.0 - 120.0)
     meet = np.array([-20.0, 530.0]) + part * np.array([-20.0 - 420.0, 530.0 - 500.0])
@@ -303,7 +302,7 @@ def test_anti_squat_is_that_of_the_side_view(torque_on: str) -> None:
     axle = planar(0.04, 400.0).with_changes(
         {"drive.torque_on": torque_on, "brakes.torque_on": torque_on}
     )
-    told = flat(characteristics.over(axle, "bump", [0.0]))
+    told = characteristics.over(axle, "bump", [0.0])
     lower, upper = 0.04, (490.0 - 530.0) / 500.0
     # z = 310 + lower (x - 20) and z = 530 + upper (x + 20)
     x = (530.0 + 20.0 * upper - 310.0 + 20.0 * lower) / (lower - upper)
@@ -319,11 +318,11 @@ def test_anti_squat_is_that_of_the_side_view(torque_on: str) -> None:
     assert "anti_squat" not in front
     # the axle turns about the pole as it rises: its nose, which points to the pole, down
     travel = 1e-5
-    nose = flat(characteristics.over(axle, "bump", [-travel, travel]))["pinion_angle"].values
+    nose = characteristics.over(axle, "bump", [-travel, travel])["pinion_angle"].values
     by = (nose[1] - nose[0]) / (2.0 * travel)
     assert by == pytest.approx(-1e3 / x, rel=1e-6)  # the square of the travel
     turned = axle.with_changes({"rigid_axle": "front"})
-    other = flat(characteristics.over(turned, "bump", [-travel, travel]))["pinion_angle"].values
+    other = characteristics.over(turned, "bump", [-travel, travel])["pinion_angle"].values
     np.testing.assert_allclose(other, -nose, rtol=0.0, atol=1e-15)
 
 
@@ -493,7 +492,7 @@ def test_stops_and_the_curve_of_the_damper_act_on_both_sides() -> None:
 
 def test_the_damper_ends_the_travel() -> None:
     short = AXLE.with_changes({"damper.length_min_mm": 450.0, "damper.length_max_mm": 540.0})
-    curves = flat(characteristics.over(short, "bump"))
+    curves = characteristics.over(short, "bump")
     model = RigidAxleModel(short)
     for end, part, limit in ((0.3, 1, 0.45), (-0.3, 0, 0.54)):
         at = end * model.farthest(end, end)
@@ -635,7 +634,7 @@ def test_other_doors_refuse_it_by_name() -> None:
         "compare rigid_axle reference_car",
         "simulate rigid_axle --height 400",
         "simulate rigid_axle --rack 5",
-        "characteristics rigid_axle --over steer",
+        "characteristics rigid_axle --motion steer",
         "characteristics rigid_axle --rack 5",
         "compare rigid_axle rigid_axle --over travel",
         "new a.toml --rigid-axle --axle",
@@ -700,11 +699,11 @@ def test_rods_have_names_that_files_and_tables_can_hold(name: str) -> None:
 
 def test_positions_beyond_reach_are_refused() -> None:
     with pytest.raises(PositionError, match=r"left wheel at \+900 mm"):
-        flat(characteristics.over(AXLE, "bump", [0.0, 0.9]))
+        characteristics.over(AXLE, "bump", [0.0, 0.9])
     with pytest.raises(PositionError, match="less than 45 deg"):
-        flat(characteristics.over(AXLE, "roll", [1.0]))
+        characteristics.over(AXLE, "roll", [1.0])
     with pytest.raises(InputError, match="finite"):
-        flat(characteristics.over(AXLE, "bump", [math.nan]))
+        characteristics.over(AXLE, "bump", [math.nan])
     with pytest.raises(PositionError, match="no stable equilibrium"):
         equilibrium(
             RigidAxleModel(
@@ -720,30 +719,11 @@ def test_what_is_given_comes_back() -> None:
 def test_two_axles_are_compared_over_the_same_positions() -> None:
     found = compare.compare({"a": AXLE, "b": TRIANGULATED}, over="roll")
     assert found.sizes == {"data_set": 2, "wheel": 2, "roll_angle": 33}
-    alone = flat(characteristics.over(TRIANGULATED, "roll"))
+    alone = characteristics.over(TRIANGULATED, "roll")
     np.testing.assert_array_equal(found["roll_steer"].sel(data_set="b"), alone["roll_steer"])
 
 
 # -- the page -------------------------------------------------------------------------------------
-
-
-@pytest.mark.usefixtures("first_page_of_curves")
-def test_the_commands_of_the_page_run(kintrafo: Any) -> None:
-    page = PAGE.read_text(encoding="utf-8")
-    commands = commands_of(page)
-    assert len(commands) == 20
-    for name in ("rear_cases", "axle_bushes", "rods"):
-        (text,) = re.findall(rf"```toml\n# {name}\.toml\n(.*?)```", page, flags=re.DOTALL)
-        Path(f"{name}.toml").write_text(text, encoding="utf-8")
-    for line in commands:
-        program, *arguments = shlex.split(line)
-        assert program == "kintrafo"
-        code, out, err = kintrafo(*arguments)
-        assert (code, bool(out)) == (0, True), (line, err)
-    report = Path("my_rear.html").read_text(encoding="utf-8")
-    assert "[rods.panhard_rod]" in report
-    assert "roll-centre height" in report
-    assert not re.search(r'(src|href)="(?!data:|#)', report)
 
 
 def test_every_characteristic_is_on_the_page() -> None:

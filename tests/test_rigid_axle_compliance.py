@@ -252,7 +252,7 @@ def test_springs_that_carry_the_axle_are_as_soft_as_its_wheel_rate_and_roll_stif
     # without camber the contacts, fixed to the wheels, rise as the wheel centres do, but for what
     # toe and the axle's pitch turn: 2e-5
     axle = LOPSIDED.with_changes({"wheel.camber_deg": 0.0})
-    found = flat(compliance.linear(axle, hard, [0.03], held="spring"))["flexibility"][0]
+    found = compliance.linear(axle, hard, [0.03], held="spring")["flexibility"][0]
     kinematic = flat(characteristics.over(axle, "bump", [0.03]))
     vertical = found.sel(moved=["z_left", "z_right"], by=["fz_left", "fz_right"]).values
     stiff = np.linalg.inv(vertical)
@@ -470,10 +470,8 @@ def test_first_order_is_what_small_loads_do(axle: RigidAxle) -> None:
     bushes = every_way(RATES_OF_FIVE if len(axle.rods) > len(RATES) else RATES)
     off = []
     for size in (200.0, 100.0):
-        found = flat(
-            compliance.nonlinear(
-                axle, bushes, "lateral", [size], wheels=(-1.0, 0.6), hardpoints="relaxed"
-            )
+        found = compliance.nonlinear(
+            axle, bushes, "lateral", [size], wheels=(-1.0, 0.6), hardpoints="relaxed"
         )
         ours = found["axle_lateral_change"][:, 0].values
         steer = found["axle_steer_change"][:, 0].values
@@ -491,7 +489,7 @@ def test_five_rods_move_only_as_their_bushes_give_way() -> None:
     rates = []
     for times in (1.0, 10.0):
         bushes = every_way({point: times * rate for point, rate in RATES_OF_FIVE.items()})
-        found = flat(compliance.elastokinematics(FIVE, bushes, "roll", [0.0, 0.02]))
+        found = compliance.elastokinematics(FIVE, bushes, "roll", [0.0, 0.02])
         rates.append(float(found["roll_stiffness_at_contacts"][0, 0]))
     # in roll the fifth rod strains the others
     assert rates[1] > 1.02 * rates[0]
@@ -525,23 +523,23 @@ WRONG: list[tuple[dict[str, Any], str]] = [
 @pytest.mark.parametrize(("bushes", "words"), WRONG)
 def test_bushes_that_cannot_be_are_refused_by_name(bushes: dict[str, Any], words: str) -> None:
     with pytest.raises(InputError, match=words):
-        flat(compliance.linear(AXLE, bushes, [0.0]))
+        compliance.linear(AXLE, bushes, [0.0])
 
 
 def test_what_else_cannot_be() -> None:
     soft = {"panhard_rod_axle": {"axial_N_per_mm": 900.0}}
     with pytest.raises(InputError, match="none are given, and the hardpoint file has none"):
-        flat(compliance.linear(AXLE))
+        compliance.linear(AXLE)
     with pytest.raises(PositionError):
-        flat(compliance.linear(AXLE, soft, [0.9]))
+        compliance.linear(AXLE, soft, [0.9])
     with pytest.raises(InputError, match="motion 'steer' is not known"):
-        flat(compliance.elastokinematics(AXLE, soft, "steer"))
+        compliance.elastokinematics(AXLE, soft, "steer")
     with pytest.raises(InputError, match="under 'cornering' is not known"):
-        flat(compliance.nonlinear(AXLE, soft, "cornering", [1e3]))
+        compliance.nonlinear(AXLE, soft, "cornering", [1e3])
     weak = AXLE.with_changes({"spring.rate_N_per_m": 0.0, "spring.force_at_design_N": None,
                               "spring.free_length_mm": 300.0})  # fmt: skip
     with pytest.raises(InputError, match="the springs do not hold the axle"):
-        flat(compliance.linear(weak, soft, [0.0]))
+        compliance.linear(weak, soft, [0.0])
     with pytest.raises(InputError, match=r"bushings.*panhard"):
         AXLE.with_changes({"bushings": {"panhard_rod": {"axial_N_per_mm": 900.0}}})
 
@@ -577,7 +575,7 @@ def test_a_file_has_its_bushes(kintrafo: Any, tmp_path: Path) -> None:
     assert "rigid_axle: compliance, the contact stays at its height" in out
     told = (tmp_path / "sheet.csv").read_text(encoding="utf-8")
     assert "axle_lateral_by_lateral_parallel" in told
-    for more in (["--over", "roll"], ["--under", "aligning", "--wheels", "opposed"]):
+    for more in (["--motion", "roll"], ["--under", "aligning", "--wheels", "opposed"]):
         code, out, err = kintrafo("compliance", "rigid_axle", "soft.toml", "--nonlinear", *more)
         assert code == 0, err
         assert "axle" in out

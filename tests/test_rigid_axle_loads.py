@@ -25,6 +25,7 @@ from kintrafo import (
 from kintrafo.vehicle.analysis.loads.sheets import overview
 from kintrafo.vehicle.analysis.scenario import Scenario, run
 from kintrafo.vehicle.plots.loads import free_bodies
+from listed_loads import wrench
 from test_rigid_axle import AXLE, LEFT, LOPSIDED, MODEL, Found, each_axle, slopes
 
 Array = np.ndarray
@@ -59,12 +60,6 @@ def on(found: xr.Dataset, part: str, by: str = "") -> xr.Dataset:
     """Return the loads on a part."""
     rows = (found["part"] == part) & found["by"].str.startswith(by)
     return found.isel(load=rows.values)
-
-
-def wrench(chosen: xr.Dataset) -> Array:
-    """Return the sum of forces, and of moments about the origin."""
-    force, moment, at = (chosen[name].values for name in ("force", "moment", "at"))
-    return np.concatenate([force.sum(-2), (moment + np.cross(at, force)).sum(-2)], axis=-1)
 
 
 def where(axle: RigidAxle, found: xr.Dataset) -> tuple[float, float]:

@@ -86,9 +86,7 @@ def test_cars_of_a_tolerance_are_where_the_root_finder_puts_them() -> None:
 def test_an_optimum_and_a_fit_find_the_axle_that_was_meant() -> None:
     moved = {"rods.panhard_rod.axle.z": 12.0, "rods.left_link.chassis.z": -7.0}
     meant = AXLE.with_changes({"rods.panhard_rod.axle.z": 412.0, "rods.left_link.chassis.z": 298.0})
-    height = (
-        1e3 * flat(characteristics.over(meant, "bump", [-0.04, 0.04]))["roll_center_height"].values
-    )
+    height = 1e3 * characteristics.over(meant, "bump", [-0.04, 0.04])["roll_center_height"].values
     targets = {
         "axle_steer": {"over": "roll", "at_deg": np.rad2deg(ROLLS), "within": 1e-3,
                        "value": np.rad2deg(steer(meant))},
@@ -229,12 +227,12 @@ most = 0.1
         ["sensitivity", "--place", "rods", "--of", "roll_steer", "--over", "roll", "--at", "2"],
         ["tolerance", "goals.toml", "--cars", "5", "--of", "axle_lateral", "--plot", "bands.svg"],
         ["optimise", "goals.toml", "-o", "better.toml", "--plot", "goals.svg"],
-        ["characteristics", "--goals", "goals.toml", "--over", "bump,roll"],
+        ["characteristics", "--goals", "goals.toml", "--motion", "bump", "--motion", "roll"],
     ]
     words = ["at 2 deg of roll", "5 of 5 cars", "found", "limit: steer angle of the axle"]
     for (command, *rest), told in zip(lines, words, strict=True):
         code, out, err = kintrafo(command, "rigid_axle", *rest)
         assert code == 0, err
         assert told in " ".join(out.split())
-    better = flat(characteristics.over(RigidAxle.load("better.toml"), "bump", [0.0]))
+    better = characteristics.over(RigidAxle.load("better.toml"), "bump", [0.0])
     assert float(better["roll_center_height"][0]) == pytest.approx(0.42, abs=1e-5)

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from kintrafo import Axle, InputError, Model, RigidAxle, characteristics, compliance
 from kintrafo.vehicle.analysis.sheet import sheet, tabulated
-from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.models.positions import arm_angles, design_height
 from kintrafo.vehicle.models.reach import at_rest
 
@@ -54,7 +53,7 @@ def test_the_values_are_those_of_the_curves_at_design_in_the_units_for_people():
     here = found["iso_8855"].sel(quantity="toe_by_braking_opposed_left")
     toe = np.degrees(curves["toe_by_braking_opposed"].sel(wheel="left").item()) * 1e3
     assert here.item() == pytest.approx(toe, rel=1e-12)
-    roll = flat(characteristics.over(axle, "roll", [0.0]))["roll_stiffness"].item() * np.pi / 180.0
+    roll = characteristics.over(axle, "roll", [0.0])["roll_stiffness"].item() * np.pi / 180.0
     assert found["iso_8855"].sel(quantity="roll_stiffness").item() == pytest.approx(roll)
     units = dict(zip(found["quantity"].values, found["unit"].values, strict=True))
     assert units["toe_by_aligning_opposed_left"] == "deg/100 N m"

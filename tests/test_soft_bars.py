@@ -125,7 +125,7 @@ def test_the_matrix_of_both_contacts_has_the_bar() -> None:
         return np.linalg.inv(found[np.ix_(vertical, vertical)])
 
     by = 1e-3
-    twists = flat(characteristics.over(STIFF, "left"))["bar_twist"]
+    twists = characteristics.over(STIFF, "left")["bar_twist"]
     slope = float(twists.interp(wheel_travel=by) - twists.interp(wheel_travel=-by)) / (2.0 * by)
     slopes = np.array([slope, -slope])
     added = stiffness(YIELDING) - stiffness(without)

@@ -2,8 +2,6 @@
 
 import importlib
 import math
-import re
-import shlex
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +13,6 @@ from kintrafo import (
     RigidAxle,
     Suspension,
     arm_angles,
-    characteristics,
-    compliance,
-    export,
     roads,
     scenario,
     variation,
@@ -26,14 +21,11 @@ from kintrafo.core.quantities import display_of
 from kintrafo.vehicle.assembly.from_model import gaps
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.data.starter import packaged
-from kintrafo.vehicle.input.toml_writer import write_toml
 from kintrafo.vehicle.studies.curves import Curves, changed
 from kintrafo.vehicle.studies.places import places_of
 from numpy.polynomial import Chebyshev
 from scipy.optimize import brentq
-from test_cli_commands import commands_of
 
-ROOT = Path(__file__).parent.parent
 CAR = Suspension.load("reference_car")
 WISHBONES = Suspension.load("double_wishbone_car")
 ROD = "hardpoints.tie_rod_inner.z"
@@ -531,39 +523,6 @@ def test_a_neighbour_that_cannot_be_is_named(monkeypatch: pytest.MonkeyPatch) ->
 
 
 # -- commands -----------------------------------------------------------------------------------
-
-
-@pytest.mark.usefixtures("first_page_of_curves", "few_generations")
-def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:
-    page = (ROOT / "docs/studies.md").read_text(encoding="utf-8")
-    for name, text in re.findall(r"```toml\n# (\S+)\n(.*?)```", page, flags=re.DOTALL):
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    built = CAR.with_changes({"hardpoints.tie_rod_inner": [-140.0, -310.0, 280.3]})
-    measured = characteristics.over(Model(built), "travel")
-    export.write(measured[["toe", "camber"]], tmp_path / "rig.csv")
-    bushes = {
-        "arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 900.0},
-        "strut_top": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": 700.0},
-    }
-    soft = CAR.with_changes({"bushings": bushes})
-    write_toml(soft, tmp_path / "soft_car.toml")
-    softer = Model(soft.with_changes({"bushings.strut_top.radial_N_per_mm": 600.0}))
-    found_by_load = compliance.linear(softer)[["toe_by_lateral", "camber_by_lateral"]]
-    export.write(found_by_load, tmp_path / "soft_rig.csv")
-    found: dict[str, Any] = {}
-    for block in re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL):
-        exec(block, found)
-    np.testing.assert_allclose(found["found"]["bump_steer_share"].sum("place"), 1.0, rtol=1e-12)
-    for line in commands_of(page):
-        code, out, err = kintrafo(*shlex.split(line)[1:])
-        assert (code, bool(out)) == (0, True), (line, err)
-    assert {path.name for path in tmp_path.iterdir()} >= {
-        "bump_steer.png", "heights.nc", "bands.png", "better_car.toml", "before_and_after.png",
-        "damping.png", "damping.csv", "as_built.toml", "fitted.png",
-        "front.csv", "front.png", "chosen_car.toml",
-    }  # fmt: skip
-    better = Suspension.load(tmp_path / "better_car.toml")
-    assert abs(curve(better, "toe", [-0.06, 0.06])).max() < abs(curve(CAR, "toe", 0.06)).max() / 5
 
 
 def test_commands_refuse_and_end_as_others_do(kintrafo: Any, tmp_path: Path) -> None:

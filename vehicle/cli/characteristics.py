@@ -7,11 +7,13 @@ import typer
 
 from ...terminal.console import console, curve_table, print_json, print_table
 from . import goals as wanted
-from .option_groups import with_groups
-from .options import Bump, File, Json, Of, RackExtent, Rebound, Step, among, by_comma, metres
+from .options import Bump, File, Force, Json, Of, RackExtent, Rebound, Step, among, metres
 from .outputs import (
-    USUAL_OUTPUT,
-    OutputOptions,
+    Figures,
+    Formats,
+    Out,
+    Outputs,
+    Plot,
     name_files,
     named,
     of_both,
@@ -34,7 +36,7 @@ EXAMPLES = (
     "kintrafo characteristics my_car.toml -o curves.csv --plot curves.pdf",
     "kintrafo characteristics my_car.toml --figures figures --format svg",
     "kintrafo characteristics my_car.toml --goals goals.toml --plot curves.png",
-    "kintrafo characteristics reference_axle --over bump,roll -o axle.csv",
+    "kintrafo characteristics reference_axle --motion bump --motion roll -o axle.csv",
 )
 # Those of an assembly, where nothing is chosen, are these; what an axle has besides is asked for.
 _USUAL = ("travel", "rack", "bump", "roll", "left", "steer")
@@ -63,21 +65,19 @@ _OF_ONE_WHEEL = (
 )
 
 
-@with_groups
 def command(
     file: File,
     *,
     rebound: Rebound = None,
     bump: Bump = None,
     rack_extent: RackExtent = None,
-    over: Annotated[
+    motion: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="NAME,...",
-            help="Motions of the rig: of a suspension travel and rack, the default; of an axle "
-            "bump, roll, left, right, steer and rack, by default bump,roll,left,steer. What is not "
-            "steered has no rack and no steer.",
-            callback=by_comma,
+            metavar="NAME",
+            help="What the rig does: of a suspension travel or rack, of an axle bump, roll, left, "
+            "right, steer or rack. May be repeated. Default: travel and rack; bump, roll, left "
+            "and steer. What is not steered has no rack and no steer.",
         ),
     ] = None,
     roll: Annotated[
@@ -95,7 +95,11 @@ def command(
     ] = 0.0,
     of: Of = None,
     goals: wanted.Goals = None,
-    output: OutputOptions = USUAL_OUTPUT,
+    out: Out = None,
+    plot: Plot = None,
+    figures: Figures = None,
+    formats: Formats = None,
+    force: Force = False,
     json: Json = False,
 ) -> None:
     """All characteristics over the motions of a rig; tables of them at design.
@@ -104,14 +108,19 @@ def command(
     _rack of a suspension, _bump, _roll, _left and _steer of an axle.
     """
     from ...datasets import export
-    from ..analysis.characteristics import datasets
+    from ..analysis.characteristics.datasets import over
     from ..assembly.rig import Extent
 
     if goals and (travel or rack):
         raise typer.BadParameter(wanted.ELSEWHERE)
     assembly = assembly_of_file(file)
-    chosen = _motions(assembly, over)
-    outputs = output.of(
+    chosen = _motions(assembly, motion)
+    outputs = Outputs.of(
+        out,
+        plot,
+        figures,
+        formats,
+        force=force,
         inputs=[file, *([goals] if goals else [])],
         suffixes=[f"_{name}" for name in chosen],
     )
@@ -128,7 +137,7 @@ def command(
     for name in chosen:
         steers = name in {"rack", "steer"}
         held = {"travel": travel / 1e3} if steers else {"rack_position": rack / 1e3}
-        curves[name] = datasets.over(assembly, name, extent=extent, **held)
+        curves[name] = over(assembly, name, extent=extent, **held)
     assembly.refuse_of_steering(of or ())
     # both wheels of an axle are drawn together
     drawn = named(of_both(of) if len(assembly.wheels) > 1 else of, curves)
@@ -173,7 +182,7 @@ def _motions(assembly: "Assembly", wanted: list[str] | None) -> list[str]:
     for name in wanted:
         if name not in assembly.motions:
             assembly.refuse_motion(name)
-    return among(wanted, assembly.motions, "--over")
+    return among(wanted, assembly.motions, "--motion")
 
 
 def _refuse_options(

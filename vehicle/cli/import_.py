@@ -15,7 +15,7 @@ EXAMPLES = (
     "kintrafo import points.csv new_car.toml --from my_car.toml",
     "kintrafo import left_side.xlsx new_car.toml --from my_car.toml --mirror",
     (
-        "kintrafo import cad.csv new_car.toml --from my_car.toml --unit in --mirror "
+        "kintrafo import cad.csv new_car.toml --from my_car.toml --unit in "
         '--axes "rearward right up" --name "ball_joint=FLCA outboard"'
     ),
     "kintrafo import MacPhersonStrut.json new_car.toml --tire RigidTire.json --side right",
