@@ -488,11 +488,11 @@ def test_tables_have_each_wheel_and_both() -> None:
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        ("reference_car --motion roll", "--motion is only for the file of an axle"),
+        ("reference_car --over roll", "--over is only for the file of an axle"),
         ("reference_axle --wheels left", "--wheels is only for --under"),
-        ("reference_axle --motion roll --bump 10", "--bump is only for curves over wheel travel"),
-        ("reference_axle --under braking --motion bump", "--motion is only for curves over"),
-        ("reference_axle --motion roll --at 5", "--at is only for the file of one suspension"),
+        ("reference_axle --over roll --bump 10", "--bump is only for curves over wheel travel"),
+        ("reference_axle --under braking --over bump", "--over is only for curves over"),
+        ("reference_axle --over roll --at 5", "--at is only for the file of one suspension"),
     ],
 )
 def test_options_that_do_not_go_together_are_refused(kintrafo: Any, line: str, words: str) -> None:

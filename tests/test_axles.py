@@ -710,7 +710,7 @@ def test_a_chapter_needs_no_steering_ratio() -> None:
 def test_commands_refuse_what_only_the_other_sort_has(kintrafo: Any) -> None:
     for line, word in (
         ("characteristics reference_car --roll 3", "--roll is only for the file of an axle"),
-        ("characteristics reference_axle --motion bmp", "bump"),
+        ("characteristics reference_axle --over bmp", "bump"),
         ("simulate reference_car --wheels left", "--wheels is only"),
         ("simulate reference_axle --height 300", "--height is only"),
         ("compare reference_axle reference_car", "files of one sort"),

@@ -80,6 +80,23 @@ def test_some_characteristics_are_compared(kintrafo, tmp_path):
     assert "Did you mean toe" in err
 
 
+@pytest.mark.parametrize(
+    "line",
+    [
+        "characteristics reference_axle --over bump,roll --bump 20 --rebound 20",
+        "characteristics reference_car --bump 20 --rebound 20 --of toe,camber",
+        "loads reference_car --case static,brake --part knuckle,chassis",
+        "sensitivity reference_car --of toe --place hardpoints.ball_joint.z,wheel.toe_deg",
+    ],
+)
+def test_a_list_with_commas_is_a_repeated_option(kintrafo, line):
+    repeated = re.sub(r"(--[a-z]+) ([\w.]+),([\w.]+)", r"\1 \2 \1 \3", line)
+    assert repeated != line
+    code, out, err = kintrafo(*line.split())
+    assert (code, kintrafo(*repeated.split())[:2]) == (0, (0, out)), err
+    assert kintrafo(*line.replace(",", ",,").split())[0] == 2
+
+
 def test_the_documentation_names_every_command():
     (table,) = re.findall(r"\| command \|.*?\n\n", PAGE, flags=re.DOTALL)
     named = re.findall(r"^\| `(mechanism \w+|\w+)", table, flags=re.MULTILINE)

@@ -39,7 +39,7 @@ WRITING = {
     "kinematics --figures": (["kinematics", CAR, "--step", 40, "--figures", "."], "camber.png"),
     "characteristics": (["characteristics", CAR, "-o", "a.nc"], "a_rack.nc"),
     "characteristics of an axle": (
-        ["characteristics", "reference_axle", "--motion", "roll", "--plot", "a.svg"],
+        ["characteristics", "reference_axle", "--over", "roll", "--plot", "a.svg"],
         "a_roll.svg",
     ),
     "simulate": (["simulate", CAR, "-o", "a.parquet"], "a.parquet"),
@@ -66,7 +66,7 @@ WRITING = {
             "--nonlinear",
             "reference_axle",
             str(STUDIES / "bushes.toml"),
-            "--motion",
+            "--over",
             "roll",
             "--plot",
             "a.svg",

@@ -347,7 +347,7 @@ def test_goals_of_axles_are_drawn_over_their_motion_alone(
         return path
 
     monkeypatch.setattr(curves, "write_overview", note)
-    asked = ["--goals", str(tmp_path / "goals.toml"), "--motion", "bump", "--motion", "roll"]
+    asked = ["--goals", str(tmp_path / "goals.toml"), "--over", "bump,roll"]
     shown = called("characteristics", file, *asked, "--plot", str(tmp_path / "a.png"))
     assert shown.exit_code == 0, shown.output
     assert words in shown.output
@@ -409,7 +409,7 @@ def test_goals_that_are_not_looked_at_are_named(goals: Path) -> None:
     ("words", "text"),
     [
         (["reference_axle"], "over 'rack' is not known. Known are: bump, roll"),
-        (["reference_axle", "--motion", "steer"], "over bump, roll, left or right, and these are"),
+        (["reference_axle", "--over", "steer"], "over bump, roll, left or right, and these are"),
         (["reference_car", "--rack", "10"], "in its middle"),
         (["reference_axle", "--rack", "10"], "in its middle"),
         (["trailing_arm_car"], "over travel"),

@@ -634,7 +634,7 @@ def test_other_doors_refuse_it_by_name() -> None:
         "compare rigid_axle reference_car",
         "simulate rigid_axle --height 400",
         "simulate rigid_axle --rack 5",
-        "characteristics rigid_axle --motion steer",
+        "characteristics rigid_axle --over steer",
         "characteristics rigid_axle --rack 5",
         "compare rigid_axle rigid_axle --over travel",
         "new a.toml --rigid-axle --axle",

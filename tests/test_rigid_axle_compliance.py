@@ -575,7 +575,7 @@ def test_a_file_has_its_bushes(kintrafo: Any, tmp_path: Path) -> None:
     assert "rigid_axle: compliance, the contact stays at its height" in out
     told = (tmp_path / "sheet.csv").read_text(encoding="utf-8")
     assert "axle_lateral_by_lateral_parallel" in told
-    for more in (["--motion", "roll"], ["--under", "aligning", "--wheels", "opposed"]):
+    for more in (["--over", "roll"], ["--under", "aligning", "--wheels", "opposed"]):
         code, out, err = kintrafo("compliance", "rigid_axle", "soft.toml", "--nonlinear", *more)
         assert code == 0, err
         assert "axle" in out

@@ -227,7 +227,7 @@ most = 0.1
         ["sensitivity", "--place", "rods", "--of", "roll_steer", "--over", "roll", "--at", "2"],
         ["tolerance", "goals.toml", "--cars", "5", "--of", "axle_lateral", "--plot", "bands.svg"],
         ["optimise", "goals.toml", "-o", "better.toml", "--plot", "goals.svg"],
-        ["characteristics", "--goals", "goals.toml", "--motion", "bump", "--motion", "roll"],
+        ["characteristics", "--goals", "goals.toml", "--over", "bump,roll"],
     ]
     words = ["at 2 deg of roll", "5 of 5 cars", "found", "limit: steer angle of the axle"]
     for (command, *rest), told in zip(lines, words, strict=True):

@@ -25,15 +25,15 @@ BUSHED = {
 GRID = ("--bump", "20", "--rebound", "20")
 LINES: tuple[tuple[str, ...], ...] = (
     ("characteristics", "FILE", *GRID),
-    ("characteristics", "FILE", *GRID, "--motion", "roll"),
-    ("characteristics", "FILE", *GRID, "--motion", "steer"),
+    ("characteristics", "FILE", *GRID, "--over", "roll"),
+    ("characteristics", "FILE", *GRID, "--over", "steer"),
     ("kinematics", "FILE", *GRID),
     ("simulate", "FILE", "--duration", "0.02"),
     ("loads", "FILE"),
     ("loads", "FILE", "--envelope"),
     ("compliance", "FILE", "BUSHES", *GRID),
     ("compliance", "FILE", "BUSHES", "--nonlinear", "--under", "lateral", "--most", "500"),
-    ("compliance", "FILE", "BUSHES", "--nonlinear", "--motion", "bump", *GRID),
+    ("compliance", "FILE", "BUSHES", "--nonlinear", "--over", "bump", *GRID),
     ("sheet", "FILE", "BUSHES"),
     ("compare", "FILE", "FILE"),
     ("compare", "FILE", "FILE", "--held", "height"),

@@ -7,13 +7,11 @@ import typer
 
 from ...terminal.console import console, curve_table, print_json, print_table
 from . import goals as wanted
-from .options import Bump, File, Force, Json, Of, RackExtent, Rebound, Step, among, metres
+from .option_groups import with_groups
+from .options import Bump, File, Json, Of, RackExtent, Rebound, Step, among, by_comma, metres
 from .outputs import (
-    Figures,
-    Formats,
-    Out,
-    Outputs,
-    Plot,
+    USUAL_OUTPUT,
+    OutputOptions,
     name_files,
     named,
     of_both,
@@ -36,7 +34,7 @@ EXAMPLES = (
     "kintrafo characteristics my_car.toml -o curves.csv --plot curves.pdf",
     "kintrafo characteristics my_car.toml --figures figures --format svg",
     "kintrafo characteristics my_car.toml --goals goals.toml --plot curves.png",
-    "kintrafo characteristics reference_axle --motion bump --motion roll -o axle.csv",
+    "kintrafo characteristics reference_axle --over bump,roll -o axle.csv",
 )
 # Those of an assembly, where nothing is chosen, are these; what an axle has besides is asked for.
 _USUAL = ("travel", "rack", "bump", "roll", "left", "steer")
@@ -65,19 +63,21 @@ _OF_ONE_WHEEL = (
 )
 
 
+@with_groups
 def command(
     file: File,
     *,
     rebound: Rebound = None,
     bump: Bump = None,
     rack_extent: RackExtent = None,
-    motion: Annotated[
+    over: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="NAME",
-            help="What the rig does: of a suspension travel or rack, of an axle bump, roll, left, "
-            "right, steer or rack. May be repeated. Default: travel and rack; bump, roll, left "
-            "and steer. What is not steered has no rack and no steer.",
+            metavar="NAME,...",
+            help="Motions of the rig: of a suspension travel and rack, the default; of an axle "
+            "bump, roll, left, right, steer and rack, by default bump,roll,left,steer. What is not "
+            "steered has no rack and no steer.",
+            callback=by_comma,
         ),
     ] = None,
     roll: Annotated[
@@ -95,11 +95,7 @@ def command(
     ] = 0.0,
     of: Of = None,
     goals: wanted.Goals = None,
-    out: Out = None,
-    plot: Plot = None,
-    figures: Figures = None,
-    formats: Formats = None,
-    force: Force = False,
+    output: OutputOptions = USUAL_OUTPUT,
     json: Json = False,
 ) -> None:
     """All characteristics over the motions of a rig; tables of them at design.
@@ -108,19 +104,14 @@ def command(
     _rack of a suspension, _bump, _roll, _left and _steer of an axle.
     """
     from ...datasets import export
-    from ..analysis.characteristics.datasets import over
+    from ..analysis.characteristics import datasets
     from ..assembly.rig import Extent
 
     if goals and (travel or rack):
         raise typer.BadParameter(wanted.ELSEWHERE)
     assembly = assembly_of_file(file)
-    chosen = _motions(assembly, motion)
-    outputs = Outputs.of(
-        out,
-        plot,
-        figures,
-        formats,
-        force=force,
+    chosen = _motions(assembly, over)
+    outputs = output.of(
         inputs=[file, *([goals] if goals else [])],
         suffixes=[f"_{name}" for name in chosen],
     )
@@ -137,7 +128,7 @@ def command(
     for name in chosen:
         steers = name in {"rack", "steer"}
         held = {"travel": travel / 1e3} if steers else {"rack_position": rack / 1e3}
-        curves[name] = over(assembly, name, extent=extent, **held)
+        curves[name] = datasets.over(assembly, name, extent=extent, **held)
     assembly.refuse_of_steering(of or ())
     # both wheels of an axle are drawn together
     drawn = named(of_both(of) if len(assembly.wheels) > 1 else of, curves)
@@ -182,7 +173,7 @@ def _motions(assembly: "Assembly", wanted: list[str] | None) -> list[str]:
     for name in wanted:
         if name not in assembly.motions:
             assembly.refuse_motion(name)
-    return among(wanted, assembly.motions, "--motion")
+    return among(wanted, assembly.motions, "--over")
 
 
 def _refuse_options(

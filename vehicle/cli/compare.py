@@ -10,8 +10,9 @@ from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
 from . import goals as wanted
 from .compliance import Held
-from .options import Files, Force, Json, Of, among
-from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, title_of
+from .option_groups import with_groups
+from .options import Files, Json, Of, among
+from .outputs import USUAL_OUTPUT, OutputOptions, name_files, title_of
 from .subject import assembly_of_file
 
 if TYPE_CHECKING:
@@ -29,11 +30,12 @@ EXAMPLES = (
     "kintrafo compare before.toml after.toml --over rack --plot difference.png -o both.csv",
     "kintrafo compare before.toml after.toml --goals goals.toml --plot goals.png",
     "kintrafo compare rig.csv my_car.toml --plot measured.png",
-    "kintrafo compare before.toml after.toml --of toe --of bump_steer --plot steer.png",
+    "kintrafo compare before.toml after.toml --of toe,bump_steer --plot steer.png",
     "kintrafo compare before.toml after.toml --held height --plot compliance.png",
 )
 
 
+@with_groups
 def command(
     files: Files,
     *,
@@ -53,11 +55,7 @@ def command(
         ),
     ] = None,
     goals: wanted.Goals = None,
-    out: Out = None,
-    plot: Plot = None,
-    figures: Figures = None,
-    formats: Formats = None,
-    force: Force = False,
+    output: OutputOptions = USUAL_OUTPUT,
     json: Json = False,
 ) -> None:
     """Compare the characteristics of two or more files, or with curves that were measured.
@@ -71,9 +69,7 @@ def command(
     from ..assembly.by_wheel import flat
     from ..studies.sweep_axes import compliances_over, sweep_axes_of
 
-    outputs = Outputs.of(
-        out, plot, figures, formats, force=force, inputs=[*files, *([goals] if goals else [])]
-    )
+    outputs = output.of(inputs=[*files, *([goals] if goals else [])])
     dataset, way, subjects = _compared(files, over, held)
     known = sweep_axes_of(next(iter(subjects.values())))
     table = flat(dataset)

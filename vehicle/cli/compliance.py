@@ -29,7 +29,7 @@ EXAMPLES = (
     "kintrafo compliance reference_axle bushes.toml",
     "kintrafo compliance my_car.toml bushes.toml --nonlinear --plot curves.png",
     "kintrafo compliance my_car.toml bushes.toml --nonlinear --under lateral --most 6000",
-    "kintrafo compliance rigid_axle axle_bushes.toml --nonlinear --motion roll --plot roll.png",
+    "kintrafo compliance rigid_axle axle_bushes.toml --nonlinear --over roll --plot roll.png",
     "kintrafo compliance reference_axle bushes.toml --nonlinear --under braking --wheels opposed",
 )
 
@@ -70,9 +70,9 @@ def command(
         Literal["parallel", "opposed", "left", "right"] | None,
         typer.Option(help="Of an axle, which wheels have the load. Default: parallel."),
     ] = None,
-    motion: Annotated[
+    over: Annotated[
         Literal["bump", "roll", "left", "right", "steer"] | None,
-        typer.Option(help="With --nonlinear, of an axle: over which motion. Default: bump."),
+        typer.Option(help="With --nonlinear, of an axle: the motion of the rig. Default: bump."),
     ] = None,
     hardpoints: Annotated[
         Literal["loaded", "relaxed"] | None,
@@ -109,7 +109,7 @@ def command(
     outputs = Outputs.of(out, plot, force=force, inputs=inputs)
     rig = _Rig.of(file, bushes, (at, rack), (rebound, bump))
     loads = {"--most": most, "--wheels": wheels}
-    motions = {"--motion": motion}
+    motions = {"--over": over}
     if not nonlinear:
         refuse_options(
             "--nonlinear", {"--under": under, "--hardpoints": hardpoints} | loads | motions
@@ -121,7 +121,7 @@ def command(
         refuse_options("the file of an axle", {"--wheels": wheels} | motions)
     if under is None:
         refuse_options("--under", loads | {"--held": held})
-        found = _over_motion(rig, motion, hardpoints or "loaded")
+        found = _over_motion(rig, over, hardpoints or "loaded")
     else:
         refuse_options("curves over a motion", {"--rebound": rebound, "--bump": bump} | motions)
         how = {"held": held or "height", "wheels": wheels, "hardpoints": hardpoints or "loaded"}

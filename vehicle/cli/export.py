@@ -6,7 +6,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ...terminal.console import print_json, problems, say
-from .options import Force, Json, Which, complete_file, refuse_options, refuse_which, system_of
+from .options import (
+    Force,
+    Json,
+    Which,
+    by_comma,
+    complete_file,
+    refuse_options,
+    refuse_which,
+    system_of,
+)
 from .subject import model_of
 
 if TYPE_CHECKING:
@@ -55,8 +64,9 @@ def command(
     platform: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="NAME",
-            help="With a library for linux or windows. May be repeated. Default: this one.",
+            metavar="NAME,...",
+            help="With a library for linux and windows. Default: this system.",
+            callback=by_comma,
         ),
     ] = None,
     model: Which = None,

@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from ...terminal.console import console, curve_table, print_json, say
-from .options import Bump, File, Force, Json, RackExtent, Rebound, Step, metres
-from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, title_of
+from .option_groups import with_groups
+from .options import Bump, File, Json, RackExtent, Rebound, Step, metres
+from .outputs import USUAL_OUTPUT, OutputOptions, name_files, title_of
 from .subject import assembly_of_file
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ EXAMPLES = (
 _SHOWN = ("wheel_center_x", "wheel_center_y", "wheel_center_z", "camber", "toe", "steer")
 
 
+@with_groups
 def command(
     file: File,
     *,
@@ -39,11 +41,7 @@ def command(
     rack: Annotated[
         float, typer.Option(metavar="MM", help="Rack displacement, where the travel varies.")
     ] = 0.0,
-    out: Out = None,
-    plot: Plot = None,
-    figures: Figures = None,
-    formats: Formats = None,
-    force: Force = False,
+    output: OutputOptions = USUAL_OUTPUT,
     json: Json = False,
 ) -> None:
     """Positions of wheels and joints over wheel travel and rack displacement.
@@ -57,7 +55,7 @@ def command(
 
     if (travel and over != "rack") or (rack and over != "travel"):
         raise typer.BadParameter(f"--travel and --rack are for what is held; --over is {over}")
-    outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=[file])
+    outputs = output.of(inputs=[file])
     assembly = assembly_of_file(file)
     extent = Extent(
         rebound=metres(rebound), bump=metres(bump), rack=metres(rack_extent), step=step / 1e3

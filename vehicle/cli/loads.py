@@ -11,7 +11,7 @@ from ...core.errors import InputError
 from ...core.tabulated import whole
 from ...terminal.console import console, print_json, print_table, say
 from ...terminal.exits import Exit
-from .options import File, Force, Json, among
+from .options import File, Force, Json, among, by_comma
 from .outputs import Out, Outputs, name_files, title_of
 from .subject import described_by
 
@@ -22,7 +22,7 @@ EXAMPLES = (
     "kintrafo loads reference_car",
     "kintrafo loads my_car.toml --cases cases.toml -o loads.csv",
     "kintrafo loads my_car.toml --out loads.xlsx",
-    "kintrafo loads my_car.toml --case brake --part knuckle --plot knuckle.pdf",
+    "kintrafo loads my_car.toml --case brake,corner --part knuckle --plot knuckle.pdf",
     "kintrafo loads reference_axle --case corner",
     "kintrafo loads rigid_axle --case brake --part beam --plot beam.png",
 )
@@ -37,14 +37,15 @@ def command(
     ] = None,
     case: Annotated[
         list[str] | None,
-        typer.Option(metavar="NAME", help="Show these cases by components. May be repeated."),
+        typer.Option(metavar="NAME,...", help="Show these cases by components.", callback=by_comma),
     ] = None,
     part: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="NAME",
+            metavar="NAME,...",
             help="Show loads on these parts: knuckle, chassis, knuckle_left of an axle, "
-            "beam of a rigid one; total has the sums at the mounts. May be repeated.",
+            "beam of a rigid one; total has the sums at the mounts.",
+            callback=by_comma,
         ),
     ] = None,
     envelope: Annotated[
@@ -65,9 +66,9 @@ def command(
     force: Force = False,
     json: Json = False,
 ) -> None:
-    """Tell forces and moments on every part at its hardpoints, in load cases at rest.
+    """Print forces and moments on every part at its hardpoints, in static load cases.
 
-    Of an axle both sides are told, with the anti-roll bar and the rack between them; of a rigid
+    Of an axle those of both sides, with the anti-roll bar and the rack between them; of a rigid
     axle its rods, springs and dampers, and both wheels.
     The table has the size of each force; --case shows components. Data files have everything. The
     exit code is 1 where a case cannot be carried that is in --cases or, of the usual ones, that

@@ -13,6 +13,11 @@ if TYPE_CHECKING:
     from ..models.model import Model
 
 
+def by_comma(given: list[str] | None) -> list[str] | None:
+    """Return the names of an option that is repeated, or whose value is a list with commas."""
+    return given and [name.strip() for text in given for name in text.split(",")]
+
+
 def complete_file(incomplete: str) -> list[str]:
     """Return packaged names and TOML files that begin like this."""
     from ..data.starter import RIGID_AXLE, packaged, packaged_axles
@@ -70,8 +75,9 @@ RackExtent = Annotated[
 Of = Annotated[
     list[str] | None,
     typer.Option(
-        metavar="NAME",
-        help="Characteristics that are shown, such as bump_steer. May be repeated.",
+        metavar="NAME,...",
+        help="Characteristics that are shown, such as bump_steer,toe.",
+        callback=by_comma,
     ),
 ]
 Which = Annotated[

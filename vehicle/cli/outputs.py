@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, TypedDict
 import typer
 
 from ...terminal.console import progress_bar, say
-from .options import among
+from .options import Force, among, by_comma
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -46,11 +46,38 @@ Formats = Annotated[
     list[str] | None,
     typer.Option(
         "--format",
-        metavar="NAME",
-        help="Of --figures: png, svg or pdf. May be repeated.",
+        metavar="NAME,...",
+        help="Of --figures: png, svg or pdf.",
+        callback=by_comma,
         rich_help_panel="Output",
     ),
 ]
+
+
+@dataclass(frozen=True)
+class OutputOptions:
+    """The options of data files and figures of curves."""
+
+    out: Out = None
+    plot: Plot = None
+    figures: Figures = None
+    formats: Formats = None
+    force: Force = False
+
+    def of(self, inputs: Sequence[str | Path], suffixes: Sequence[str] = ("",)) -> "Outputs":
+        """Return the files, having refused what cannot be written; see `Outputs.of`."""
+        return Outputs.of(
+            self.out,
+            self.plot,
+            self.figures,
+            self.formats,
+            force=self.force,
+            inputs=inputs,
+            suffixes=suffixes,
+        )
+
+
+USUAL_OUTPUT = OutputOptions()
 
 
 class _Rule(TypedDict):

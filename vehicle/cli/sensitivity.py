@@ -9,7 +9,7 @@ from rich.table import Column, Table
 
 from ...core.tabulated import significant
 from ...terminal.console import console, note, print_json, progress_bar
-from .options import File, Force, Json, Of
+from .options import File, Force, Json, Of, by_comma
 from .outputs import Out, Outputs, name_files, title_of
 from .subject import subject_of_file
 from .variation_options import (
@@ -36,7 +36,7 @@ _GREATEST = 4
 EXAMPLES = (
     "kintrafo sensitivity reference_car",
     "kintrafo sensitivity my_car.toml --of bump_steer --plot bars.png",
-    "kintrafo sensitivity my_car.toml --place hardpoints.*.z --place wheel --over rack -o all.nc",
+    "kintrafo sensitivity my_car.toml --place hardpoints.*.z,wheel --over rack -o all.nc",
 )
 
 
@@ -46,9 +46,10 @@ def command(
     place: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="PLACE",
-            help="Values that move: hardpoints.ball_joint.z, a point, a section, or with *. "
-            "Default: all hardpoints. May be repeated.",
+            metavar="PLACE,...",
+            help="Design variables: hardpoints.ball_joint.z, a point, a section, or with *. "
+            "Default: all hardpoints.",
+            callback=by_comma,
         ),
     ] = None,
     of: Of = None,

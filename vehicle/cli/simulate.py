@@ -11,28 +11,16 @@ from rich.table import Table
 from ...core.tabulated import number
 from ...terminal.console import console, print_json, problems, say
 from ...terminal.exits import Exit
-from .options import File, Force, Json
-from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, title_of
-from .scenarios import scenario_of
+from .option_groups import with_groups
+from .options import File, Json
+from .outputs import USUAL_OUTPUT, OutputOptions, Outputs, name_files, title_of
+from .scenarios import USUAL_SCENARIO, ScenarioOptions
 from .simulation_options import (
     Atol,
-    Duration,
-    Height,
     MaxStep,
     MaxSteps,
-    Measured,
     Method,
-    OutputStep,
-    Rack,
-    RackFrequency,
-    RackSine,
-    RoadFrequency,
-    RoadSine,
-    RoadStep,
-    RoadStepAt,
     Rtol,
-    Speed,
-    Spin,
     Step,
     Wheels,
 )
@@ -78,33 +66,19 @@ _DRAWN = (
 )
 
 
+@with_groups
 def command(
     file: File,
     *,
-    height: Height = None,
-    spin: Spin = 0.0,
-    road_step: RoadStep = None,
-    road_step_at: RoadStepAt = 0.1,
-    road_sine: RoadSine = None,
-    road_frequency: RoadFrequency = 1.0,
-    measured: Measured = None,
-    speed: Speed = None,
+    driven: ScenarioOptions = USUAL_SCENARIO,
     wheels: Wheels = None,
-    rack: Rack = None,
-    rack_sine: RackSine = None,
-    rack_frequency: RackFrequency = 1.0,
-    duration: Duration = None,
-    output_step: OutputStep = 1.0,
     method: Method = "BDF",
     step: Step = None,
     rtol: Rtol = None,
     atol: Atol = None,
     max_step: MaxStep = None,
     max_steps: MaxSteps = 10_000_000,
-    out: Out = None,
-    plot: Plot = None,
-    figures: Figures = None,
-    formats: Formats = None,
+    output: OutputOptions = USUAL_OUTPUT,
     loads: Annotated[
         list[Path] | None,
         typer.Option(
@@ -114,7 +88,6 @@ def command(
             rich_help_panel="Output",
         ),
     ] = None,
-    force: Force = False,
     json: Json = False,
 ) -> None:
     """Simulate the suspension over a step, a sine or a measured road, with its rack moving.
@@ -125,25 +98,11 @@ def command(
     from ...core.files import refuse
     from ..corner.wheel_loads import UNITS
 
-    read_here = [Path(file), *([] if measured is None else [measured])]
-    outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=read_here)
-    on_parts = Outputs.of(loads, None, force=force, inputs=read_here)
-    refuse([*outputs.data, *outputs.pages, *on_parts.data], force=force, inputs=read_here)
-    scenario = scenario_of(
-        height=height,
-        spin=spin,
-        road_step=road_step,
-        road_step_at=road_step_at,
-        road_sine=road_sine,
-        road_frequency=road_frequency,
-        measured=measured,
-        speed=speed,
-        rack=rack,
-        rack_sine=rack_sine,
-        rack_frequency=rack_frequency,
-        duration=duration,
-        output_step=output_step,
-    )
+    read_here = [Path(file), *driven.files]
+    outputs = output.of(read_here)
+    on_parts = Outputs.of(loads, None, force=output.force, inputs=read_here)
+    refuse([*outputs.data, *outputs.pages, *on_parts.data], force=output.force, inputs=read_here)
+    scenario = driven.scenario()
     model = model_of(file, wheel_loads=not UNITS.keys().isdisjoint(scenario.inputs))
     run = _Run(model, file, scenario, wheels)
     options = {

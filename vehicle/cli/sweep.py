@@ -10,24 +10,10 @@ from rich.table import Table
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
 from ...terminal.exits import Exit
-from .options import File, Force, Json
+from .option_groups import with_groups
+from .options import File, Force, Json, by_comma
 from .outputs import Out, Outputs, Plot, name_files, title_of
-from .scenarios import scenario_of
-from .simulation_options import (
-    Duration,
-    Height,
-    Measured,
-    OutputStep,
-    Rack,
-    RackFrequency,
-    RackSine,
-    RoadFrequency,
-    RoadSine,
-    RoadStep,
-    RoadStepAt,
-    Speed,
-    Spin,
-)
+from .scenarios import USUAL_SCENARIO, ScenarioOptions
 from .subject import subject_of_file
 
 if TYPE_CHECKING:
@@ -48,6 +34,7 @@ _USUAL = ("wheel_acceleration:rms", "tyre_force:min", "tyre_force:rms")
 _ROWS = 40
 
 
+@with_groups
 def command(
     file: File,
     values: Annotated[
@@ -61,24 +48,13 @@ def command(
     keep: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="SIGNAL:KIND",
-            help="Kept of each motion: max, min, mean, rms, above:LEVEL, percentile:NUMBER. May be "
-            f"repeated. Default: {', '.join(_USUAL)}.",
+            metavar="SIGNAL:KIND,...",
+            help="Kept of each motion: max, min, mean, rms, above:LEVEL, percentile:NUMBER. "
+            f"Default: {','.join(_USUAL)}.",
+            callback=by_comma,
         ),
     ] = None,
-    height: Height = None,
-    spin: Spin = 0.0,
-    road_step: RoadStep = None,
-    road_step_at: RoadStepAt = 0.1,
-    road_sine: RoadSine = None,
-    road_frequency: RoadFrequency = 1.0,
-    measured: Measured = None,
-    speed: Speed = None,
-    rack: Rack = None,
-    rack_sine: RackSine = None,
-    rack_frequency: RackFrequency = 1.0,
-    duration: Duration = None,
-    output_step: OutputStep = 1.0,
+    driven: ScenarioOptions = USUAL_SCENARIO,
     out: Out = None,
     plot: Plot = None,
     force: Force = False,
@@ -93,24 +69,10 @@ def command(
     from .. import studies as variation
     from ..assembly.of import model_of
 
-    inputs = [Path(file), *([] if measured is None else [measured])]
+    inputs = [Path(file), *driven.files]
     outputs = Outputs.of(out, plot, force=force, inputs=inputs)
     suspension = subject_of_file(file)
-    scenario = scenario_of(
-        height=height,
-        spin=spin,
-        road_step=road_step,
-        road_step_at=road_step_at,
-        road_sine=road_sine,
-        road_frequency=road_frequency,
-        measured=measured,
-        speed=speed,
-        rack=rack,
-        rack_sine=rack_sine,
-        rack_frequency=rack_frequency,
-        duration=duration,
-        output_step=output_step,
-    )
+    scenario = driven.scenario()
     grid = dict(map(_numbers, values))
     if len(grid) < len(values):
         raise typer.BadParameter("a place is named twice: write all of its values together")

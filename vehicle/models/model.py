@@ -4,6 +4,9 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ...core.arguments import Arguments, shown
 from ...core.errors import InputError
 from ...systems.allowed import Allowed
@@ -84,6 +87,11 @@ class Model(System):
     def of_another(self, suspension: Suspension) -> "Model":
         """Return the model of another suspension, with the same choices as this."""
         return Model(suspension, free_rack=self.free_rack, wheel_loads=self.wheel_loads)
+
+    def of(self, some: NDArray[np.int64]) -> "Model":
+        """Return the model of some of the rows of an array of positions: this, for all of them."""
+        del some
+        return self
 
     def allowed_lengths(self) -> tuple[Allowed, ...]:
         """Return the lengths that the file allows."""

@@ -102,7 +102,9 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
         table = branch(model, distinct, to_the_end=True)
     _refuse_out_of_reach(model, heights.ravel(), distinct[index], table, index)
     within = np.clip(heights.ravel(), table.height[index, 0], table.height[index, -1])
-    return _solve(model, within, distinct[index], table, index).reshape(heights.shape)
+    found, error, most = solve(model, within[:, None], distinct[index], table.of(index))
+    _refuse_missed(within, distinct[index], error[:, 0], most[:, 0])
+    return found.reshape(heights.shape)
 
 
 def state_at_height(
@@ -237,48 +239,80 @@ def _rounded_inward(ends: Sequence[float]) -> tuple[float, float]:
     return math.ceil(low) / 100.0, math.floor(high) / 100.0
 
 
-def _solve(
-    model: Model, heights: Array, racks: Array, table: Branch, index: NDArray[np.int64]
-) -> Array:
-    """Newton's method with the exact slope, which falls back on halving the bracket.
+def solve(model: Model, heights: Array, racks: Array, table: Branch) -> tuple[Array, Array, Array]:
+    """Return the arm angles at some heights within a table of the reach.
 
-    Beside a dead point the height is no smooth function of the angle, and Newton's step may leave
-    the bracket there. What is found is measured against what was asked.
+    Newton's method with the exact slope, from a cubic between neighbours of the table, which falls
+    back on halving the bracket: beside a dead point the height is no smooth function of the angle,
+    and Newton's step may leave the bracket there.
+
+    Parameters
+    ----------
+    model : Model
+        One, or as many as there are rows.
+    heights : ndarray, shape (rows, positions)
+        Of the wheel centre [m].
+    racks : ndarray, shape (rows,)
+        Displacements of the rack [m].
+    table : Branch
+        Of each row.
+
+    Returns
+    -------
+    angles, errors, allowed : ndarray, shape (rows, positions)
+        [rad]; by how much the heights are missed, and what rounding allows of that [m].
     """
-    points = table.height.shape[1]
-    right = np.clip((table.height[index] < heights[:, None]).sum(axis=1), 1, points - 1)
-    ends = np.stack([right - 1, right])
-    low, high = table.angle[index, ends]
-    errors = np.abs(table.height[index, ends] - heights)
-    found: Array = np.where(errors[0] <= errors[1], low, high)
-    error, angle = errors.min(axis=0), 0.5 * (low + high)
+    angle, ends, at_ends, slopes = _brackets(heights, table)
+    low, high = ends
+    errors = np.abs(at_ends - heights)
+    lower = errors[0] <= errors[1]
+    found: Array = np.where(lower, low, high)
+    error, slope = errors.min(axis=0), np.where(lower, slopes[0], slopes[1])
     # at an end of the bracket, as at design, Newton's step leads out of it by a rounding
-    rows = np.flatnonzero(error > np.spacing(np.abs(heights)))
+    rows = np.flatnonzero((error > np.spacing(np.abs(heights))).any(axis=1))
     for count in range(_MOST_STEPS):
         if rows.size == 0:
             break
         at = angle[rows]
-        height, slope = height_and_slope(model, at, racks[rows])
+        height, by_angle = height_and_slope(model.of(rows), at, racks[rows, None])
         excess = height - heights[rows]
         better = np.abs(excess) < error[rows]
-        found[rows[better]], error[rows[better]] = at[better], np.abs(excess[better])
+        for whole, new in ((found, at), (error, np.abs(excess)), (slope, by_angle)):
+            whole[rows] = np.where(better, new, whole[rows])
         # the height rises as the angle falls
         low[rows] = np.where(excess <= 0.0, at, low[rows])
         high[rows] = np.where(excess >= 0.0, at, high[rows])
-        newton = at - excess / slope
+        newton = at - excess / by_angle
         halve = (newton > low[rows]) | (newton < high[rows])
         if count >= _NEWTON_STEPS:
             halve |= count % 2 == 0
         angle[rows] = np.where(halve, 0.5 * (low[rows] + high[rows]), newton)
-        rows = rows[(excess != 0.0) & (np.abs(angle[rows] - at) > 4.0 * _EPSILON * at)]
-    _refuse_missed(model, heights, racks, found, error)
-    return found
+        moving = np.abs(angle[rows] - at) > 4.0 * _EPSILON * np.abs(at)
+        rows = rows[((excess != 0.0) & moving).any(axis=1)]
+    return found, error, _ROUNDING + _ROUNDINGS * np.spacing(np.abs(found)) * np.abs(slope)
 
 
-def _refuse_missed(model: Model, heights: Array, racks: Array, found: Array, error: Array) -> None:
+def _brackets(heights: Array, table: Branch) -> tuple[Array, Array, Array, Array]:
+    """Return where a cubic has some heights, and angles, heights and slopes of the neighbours."""
+    points = table.height.shape[1]
+    right = np.clip((table.height[:, None] < heights[..., None]).sum(axis=-1), 1, points - 1)
+    ends, at_ends, slopes = (
+        np.stack([np.take_along_axis(values, i, axis=1) for i in (right - 1, right)])
+        for values in (table.angle, table.height, table.slope)
+    )
+    with np.errstate(all="ignore"):  # an end is repeated, and its slope may be none
+        rise, change = at_ends[1] - at_ends[0], ends[1] - ends[0]
+        part = (heights - at_ends[0]) / rise
+        first, last = rise / slopes
+        bend, twist = 3.0 * change - 2.0 * first - last, first + last - 2.0 * change
+        start = ends[0] + part * (first + part * (bend + part * twist))
+        inside = (start <= ends[0]) & (start >= ends[1])
+    return np.where(inside, start, 0.5 * (ends[0] + ends[1])), ends, at_ends, slopes
+
+
+def _refuse_missed(heights: Array, racks: Array, error: Array, most: Array) -> None:
     """Refuse heights that are not met to rounding."""
-    _, slope = height_and_slope(model, found, racks)
-    missed = ~(error <= _ROUNDING + _ROUNDINGS * np.spacing(np.abs(found)) * np.abs(slope))
+    missed = ~(error <= most)
     if not missed.any():
         return
     first = int(missed.argmax())

@@ -9,6 +9,7 @@ angles that are looked at is missed.
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,7 @@ from ...core.arguments import Arguments
 from ...core.errors import KintrafoError
 from ...core.named_types import ArrayLike
 from ...systems.system import System
-from .attitudes import attitudes, iterates
+from .attitudes import Attitudes, attitudes_at, iterates
 from .model import Model
 from .swing import GOAL, UNRESOLVED, Seen, march, margins_stay, resolved
 
@@ -109,32 +110,38 @@ def travel_range(model: Model, rack_position: float = 0.0) -> Range:
 @lru_cache(maxsize=_KEPT)
 def _range(model: Model, rack_position: float) -> Range:
     """Look for the ends once: whoever asks for one position at rest asks for the next."""
-    racks = np.array([rack_position], dtype=np.float64)
-    low, low_limits = _ends(model, racks.tobytes(), +1.0)
-    high, high_limits = _ends(model, racks.tobytes(), -1.0)
+    racks = np.array([rack_position])
+    _refuse_racks(model, racks)
+    (low, low_limits), (high, high_limits) = (ends_of(model, racks, way) for way in (+1.0, -1.0))
     heights, _ = height_and_slope(model, np.append(low, high), rack_position)
     return Range(
         (float(low[0]), float(high[0])),
         (float(heights[0]), float(heights[1])),
-        _in_words(model, low_limits[0]),
-        _in_words(model, high_limits[0]),
+        _in_words(model, int(low_limits[0])),
+        _in_words(model, int(high_limits[0])),
     )
 
 
-@dataclass(frozen=True)
-class Branch:
-    """Arm angles and wheel heights over the reach, for each of several rack positions.
+class Branch(NamedTuple):
+    """Arm angles and wheel heights over the reach, for each of several rack positions or models.
 
     Attributes
     ----------
-    angle : ndarray, shape (racks, points)
+    angle : ndarray, shape (rows, points)
         Falling [rad]; repeated where the reach ends earlier.
-    height : ndarray, shape (racks, points)
+    height : ndarray, shape (rows, points)
         Height of the wheel centre, rising [m].
+    slope : ndarray, shape (rows, points)
+        Its derivative by the angle [m/rad].
     """
 
     angle: Array
     height: Array
+    slope: Array
+
+    def of(self, rows: NDArray[np.int64]) -> "Branch":
+        """Return some of its rows."""
+        return Branch(*(values[rows] for values in self))
 
 
 def branch(
@@ -176,49 +183,69 @@ def branch(
         _tabulated(model, racks[i : i + _CHUNK].tobytes(), steps, to_the_end=to_the_end)
         for i in range(0, racks.size, _CHUNK)
     ]
-    return Branch(
-        np.concatenate([chunk.angle for chunk in chunks]),
-        np.concatenate([chunk.height for chunk in chunks]),
-    )
+    return Branch(*map(np.concatenate, zip(*chunks, strict=True)))
 
 
 def _steps_to(model: Model, racks: Array, covering: tuple[float, float]) -> tuple[int, int]:
     """Return how many steps from design, down and up, some of the racks need, and one more."""
     some = np.quantile(racks, np.linspace(0.0, 1.0, _PROBES), method="nearest")
-    heights = _tabulate(model, some, (ARM_STEPS, ARM_STEPS), to_the_end=False).height
-    below = (heights[:, ARM_STEPS::-1] > covering[0]).sum(axis=1).max()
-    above = (heights[:, ARM_STEPS:] < covering[1]).sum(axis=1).max()
+    _refuse_racks(model, some)
+    whole = tabulated(model, some, (ARM_STEPS, ARM_STEPS), to_the_end=False)
+    return steps_covering(whole.height, covering)
+
+
+def steps_covering(height: Array, covering: tuple[float, float]) -> tuple[int, int]:
+    """Return how many steps from design, down and up, some heights need, and one more."""
+    below = (height[:, ARM_STEPS::-1] > covering[0]).sum(axis=1).max()
+    above = (height[:, ARM_STEPS:] < covering[1]).sum(axis=1).max()
     return min(int(below) + 1, ARM_STEPS), min(int(above) + 1, ARM_STEPS)
 
 
 @lru_cache(maxsize=_KEPT)
 def _tabulated(model: Model, racks: bytes, steps: tuple[int, int], *, to_the_end: bool) -> Branch:
     """Look at steps of the arm once: a report asks for the same racks at a hundred heights."""
-    return _tabulate(model, np.frombuffer(racks), steps, to_the_end=to_the_end)
+    own = np.frombuffer(racks)
+    _refuse_racks(model, own)
+    return tabulated(model, own, steps, to_the_end=to_the_end)
 
 
-def _tabulate(model: Model, racks: Array, steps: tuple[int, int], *, to_the_end: bool) -> Branch:
-    """Look at so many steps down and up from design."""
-    design = steps[0]
-    grid = model.design_state[0] - ARM_STEP * np.arange(-steps[0], steps[1] + 1)
+def tabulated(model: Model, racks: Array, steps: tuple[int, int], *, to_the_end: bool) -> Branch:
+    """Look at steps of the arm from design.
+
+    Parameters
+    ----------
+    model : Model
+        One, or as many as there are racks.
+    racks : ndarray, shape (rows,)
+        Displacements of the rack [m].
+    steps : tuple of int
+        How many down and up.
+    to_the_end : bool
+        As of `branch`; the steps lead there.
+    """
+    grid = model.design_state[..., 0] - ARM_STEP * np.arange(-steps[0], steps[1] + 1)
+    grid = np.broadcast_to(grid, (racks.size, grid.shape[-1]))
     seen = _look(model, grid, racks[:, None])
-    _refuse_racks(model, racks, seen, design)
-    columns = np.arange(grid.size)
-    if to_the_end:
-        low, high = (_ends(model, racks.tobytes(), direction)[0] for direction in (+1.0, -1.0))
-        angles = np.clip(grid, high[:, None], low[:, None])
-        inside = (grid < low[:, None]) & (grid > high[:, None])
-        heights = np.where(
-            grid >= low[:, None],
-            height_and_slope(model, low, racks)[0][:, None],
-            height_and_slope(model, high, racks)[0][:, None],
-        )
-        return Branch(angles, np.where(inside, seen.height, heights))
+    if not to_the_end:
+        return _connected(grid, seen, steps[0])
+    low, high = (ends_of(model, racks, way)[0][:, None] for way in (+1.0, -1.0))
+    at_low, at_high = (height_and_slope(model, end, racks[:, None]) for end in (low, high))
+    inside = (grid < low) & (grid > high)
+    height, slope = (
+        np.where(inside, own, np.where(grid >= low, lower, upper))
+        for own, lower, upper in zip((seen.height, seen.slope), at_low, at_high, strict=True)
+    )
+    return Branch(np.clip(grid, high, low), height, slope)
+
+
+def _connected(grid: Array, seen: Seen, design: int) -> Branch:
+    """Return the part of a grid that nothing separates from design, its ends repeated."""
     fine = resolved(np.array(-ARM_STEP), seen)
     down = np.logical_and.accumulate(fine[:, :design][:, ::-1], axis=1).sum(axis=1)
     up = np.logical_and.accumulate(fine[:, design:], axis=1).sum(axis=1)
-    inner = np.clip(columns, design - down[:, None], design + up[:, None])
-    return Branch(grid[inner], np.take_along_axis(seen.height, inner, axis=1))
+    inner = np.clip(np.arange(grid.shape[1]), design - down[:, None], design + up[:, None])
+    own = (np.take_along_axis(each, inner, axis=1) for each in (grid, seen.height, seen.slope))
+    return Branch(*own)
 
 
 def at_rest(
@@ -277,69 +304,58 @@ def height_and_slope(
     return signals["wheel_center_z"], signals["wheel_velocity"]
 
 
-@lru_cache(maxsize=2 * _KEPT)
-def _ends(model: Model, places: bytes, direction: float) -> tuple[Array, list[int]]:
-    """Swing the arm as far as it goes, for each rack position, of which there are the bytes.
+def ends_of(model: Model, racks: Array, direction: float) -> tuple[Array, NDArray[np.int64]]:
+    """Swing the arm as far as it goes.
+
+    Parameters
+    ----------
+    model : Model
+        One, or as many as there are racks.
+    racks : ndarray, shape (rows,)
+        Displacements of the rack [m].
+    direction : float
+        1 or -1: which way the arm swings.
 
     Returns
     -------
-    angle : ndarray, shape (racks,)
+    angle : ndarray, shape (rows,)
         The last angle within reach [rad].
-    limits : list of int
+    limits : ndarray of int, shape (rows,)
         What ends the reach, as in `_look`.
     """
-    racks = np.frombuffer(places)
-    angles = model.design_state[0] + direction * ARM_STEP * np.arange(ARM_STEPS + 1)
+    angles = model.design_state[..., 0] + direction * ARM_STEP * np.arange(ARM_STEPS + 1)
+    angles = np.broadcast_to(angles, (racks.size, ARM_STEPS + 1))
     seen = _look(model, angles, racks[:, None])
-    _refuse_racks(model, racks, seen, 0)
     fine = np.logical_and.accumulate(resolved(np.array(direction * ARM_STEP), seen), axis=1)
     last = fine.sum(axis=1)
-    ends, limits = angles[last], np.where(seen.usable[:, 0], GOAL, seen.limit[:, 0])
+    ends = angles[np.arange(racks.size), last]
+    limits = np.where(seen.usable[:, 0], GOAL, seen.limit[:, 0])
     rows = np.flatnonzero((last < ARM_STEPS) & seen.usable[:, 0])
-    goals = np.full(rows.size, angles[-1])
     ends[rows], limits[rows] = march(
-        lambda places, which: _look(model, places, racks[rows[which], None]),
+        lambda places, which: _look(model.of(rows[which]), places, racks[rows[which], None]),
         ends[rows],
-        goals,
+        angles[rows, -1],
         ARM_STEP,
     )
-    clearance = clearance_of(model)
 
     def usable(places: Array) -> NDArray[np.bool_]:
         return _look(model, places[:, None], racks[:, None]).usable[:, 0]
 
-    return clear_of(usable, clearance, ends, limits, angles[0], direction), limits.tolist()
+    clearance = _CLEARANCE_OF_ITERATION if iterates(model.equations) else _CLEARANCE
+    return _clear_of(usable, clearance, ends, limits, angles[:, 0], direction), limits
 
 
-def clearance_of(model: System) -> float:
-    """Return by how much a range ends before its limit [rad]."""
-    return _CLEARANCE_OF_ITERATION if iterates(model.equations) else _CLEARANCE
-
-
-def clear_of(
+def _clear_of(
     usable: Callable[[Array], NDArray[np.bool_]],
     clearance: float,
     ends: Array,
     limits: NDArray[np.int64],
-    design: Array | float,
+    design: Array,
     direction: float,
 ) -> Array:
     """Return the last angles within reach, clear of what ends it there.
 
-    Parameters
-    ----------
-    usable : callable
-        Tells which angles can be taken: where roundings decide, the next one cannot.
-    clearance : float
-        [rad]
-    ends : ndarray
-        From `march` [rad].
-    limits : ndarray of int
-        What ends it, from `march`.
-    design : ndarray or float
-        The angle at design [rad].
-    direction : float
-        Which way the arm has swung: 1 or -1.
+    Where roundings decide, the next angle is not `usable`: the clearance is ten times as much then.
     """
     # not past the design position, where a wheel that turns back at once has its end
     swung = direction * (ends - design)
@@ -380,20 +396,40 @@ def _look(model: Model, angles: Array, racks: Array) -> Seen:
     margins = margins_at(model, states, inputs)
     # a NaN behind a failed guard must not pass
     closes = np.asarray((margins > 0.0).all(axis=-1))
-    heights, slopes = np.zeros(closes.shape), np.zeros(closes.shape)
-    signals = model.signals(states[closes], inputs[closes])
-    heights[closes], slopes[closes] = signals["wheel_center_z"], signals["wheel_velocity"]
-    allowed = model.allowed_lengths()
-    left = np.ones((*closes.shape, len(allowed)))
-    for column, one in enumerate(allowed):
-        left[closes, column] = one.left(signals)
-    margins = np.concatenate([margins, left], axis=-1)
+    signals, stand = _where_it_closes(model, states, inputs, closes)
+    allowed = [np.where(closes, one.left(signals), 1.0) for one in model.allowed_lengths()]
+    margins = np.concatenate([margins, *(left[..., None] for left in allowed)], axis=-1)
     failed = ~(margins > 0.0)
     fine = ~failed.any(axis=-1)
     # the arm's angle falls as the wheel rises (Eq. 6)
     limits = np.where(fine, _TURNS_BACK, failed.argmax(axis=-1))
-    stand = attitudes(model, states, inputs, closes)
+    heights, slopes = signals["wheel_center_z"], signals["wheel_velocity"]
     return Seen(fine & (slopes < 0.0), limits, heights, slopes, margins, stand)
+
+
+def _where_it_closes(
+    model: Model, states: Array, inputs: Array, closes: NDArray[np.bool_]
+) -> tuple[dict[str, Array], Attitudes]:
+    """Return signals and attitudes; where loops do not close, those of a place where they do.
+
+    They are not numbers in rows without one. The angles of `states` are set to those looked at.
+    """
+    some = np.flatnonzero(closes.any(axis=1))
+    if not closes.all():
+        angles = states[..., model.state_names.index(model.names.arm)]
+        instead = np.take_along_axis(angles, closes.argmax(axis=1)[:, None], axis=1)
+        angles[...] = np.where(closes, angles, instead)
+    if some.size == len(closes):
+        return model.signals(states, inputs), attitudes_at(model, states, inputs)
+    part, states, inputs = model.of(some), states[some], inputs[some]
+
+    def in_rows(own: Array) -> Array:
+        whole = np.full((len(closes), *own.shape[1:]), np.nan)
+        whole[some] = own
+        return whole
+
+    signals = {name: in_rows(own) for name, own in part.signals(states, inputs).items()}
+    return signals, Attitudes(*map(in_rows, attitudes_at(part, states, inputs)))
 
 
 def margins_at(model: Model, states: Array, inputs: Array) -> Array:
@@ -412,13 +448,14 @@ def _in_words(model: Model, limit: int) -> str:
     return [*closing, *(one.meaning for one in model.allowed_lengths())][limit]
 
 
-def _refuse_racks(model: Model, racks: Array, seen: Seen, column: int) -> None:
+def _refuse_racks(model: Model, racks: Array) -> None:
     """Refuse racks that cannot get where they are with the arm in its design position."""
-    closes = (seen.margins[:, column] > 0.0).all(axis=-1)
+    seen = _look(model, model.design_state[:1], racks[:, None])
+    closes = (seen.margins[:, 0] > 0.0).all(axis=-1)
     first, limit = -1, -1
     if not closes.all():
         first = int(np.flatnonzero(~closes)[0])
-        limit = int(seen.limit[first, column])
+        limit = int(seen.limit[first, 0])
     else:
         for side in (racks.argmin(), racks.argmax()):
             way = way_of_rack(float(racks[side]))

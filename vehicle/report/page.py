@@ -233,8 +233,8 @@ def write_chapters(
 def _sample(
     model: Model,
     tell: Callable[[str], None],
-    without: Collection[str] = (),
-    goals: Sequence[Goal] = (),
+    without: Collection[str],
+    goals: Sequence[Goal],
 ) -> _Samples:
     tell("reach of the mechanism")
     grid = reachable_grid(model)

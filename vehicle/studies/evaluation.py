@@ -25,9 +25,9 @@ Subject = Suspension | Axle | RigidAxle
 _NEEDED = "a kintrafo.Suspension, a kintrafo.Axle or a kintrafo.RigidAxle is needed"
 
 
-def check_subject(given: Arguments, subject: Any, name: str = "suspension") -> None:
+def check_subject(given: Arguments, subject: Any) -> None:
     """Refuse what has no design variables."""
-    given.kind(name, subject, (Suspension, Axle, RigidAxle), _NEEDED)
+    given.kind("suspension", subject, (Suspension, Axle, RigidAxle), _NEEDED)
 
 
 def usual_positions(assembly: Assembly, over: str) -> Array:

@@ -40,7 +40,7 @@ OVER = ("-o", "a.csv", "--plot", "a.png", "--force")
 LONG = (
     ("kinematics", CAR, "--step", "0.05", *OVER),
     ("characteristics", CAR, "--step", "0.5", *OVER),
-    ("characteristics", "reference_axle", "--motion", "roll", *OVER),
+    ("characteristics", "reference_axle", "--over", "roll", *OVER),
     ("simulate", CAR, "--duration", "60", "--road-sine", "5", "--road-frequency", "9", *OVER),
     ("simulate", CAR, "--duration", "5", "--road-step", "20", "--method", "Radau", *OVER),
     ("loads", CAR, *OVER),

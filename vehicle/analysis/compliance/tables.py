@@ -28,6 +28,7 @@ _OF_AXLES = {
     "axle_lateral": "to the left [mm]",
     "axle_longitudinal": "forward [mm]",
 }
+_MOST = 11  # positions in a table
 _BESIDE = {"elastokinematic": "on bushes", "linear": "linear"}
 
 
@@ -123,11 +124,11 @@ def deflections(found: xr.Dataset, title: str) -> list[Tabulated]:
     return [*sheets, _deflections(found[shared], f"{title}, both")] if shared else sheets
 
 
-def _deflections(found: xr.Dataset, title: str, most: int = 11) -> Tabulated:
-    """Return a table of so many positions at most."""
+def _deflections(found: xr.Dataset, title: str) -> Tabulated:
+    """Return a table of eleven positions at most."""
     over = next(str(name) for name in found.sizes if name != "data_set")
     count = found.sizes[over]
-    which = sorted({round(i) for i in np.linspace(0, count - 1, min(count, most))})
+    which = sorted({round(i) for i in np.linspace(0, count - 1, min(count, _MOST))})
     here = found.isel({over: which})
     _, *others = map(str, here["data_set"].values)
     columns = [_heading(over.replace("_", " "), here[over])]

@@ -8,13 +8,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ....core.quantities import variable
 from ...assembly.load import Load
 from ...assembly.poses import wrench_about
-
-Array = NDArray[np.float64]
 
 MOUNT, ALL = "mount", "total"
 """The dimension of totals, and the part that rows of them name."""
