@@ -170,7 +170,9 @@ def _solved(block: Block) -> Any:
     once, n = python(block.once), len(block.unknowns)
     read = {s.name for s in block.once.free_symbols}
     names = [str(s) for s in (*block.estimate.base, *block.estimate.step)]
-    zeros = {str(s): mpmath.mpf(0) for line in block.estimate.held for s in line}
+    place = n + len(block.elements)
+    held = [s for line in block.estimate.held for s in line]
+    zeros = {str(s): mpmath.mpf(0) for s in (*held, *(d.way for d in block.driven))}
 
     def run(*given: Any) -> Any:
         count = len(block.constants)
@@ -187,15 +189,15 @@ def _solved(block: Block) -> Any:
             for _ in range(100):
                 values |= dict(zip(names, estimate, strict=True))
                 results = once({k: v for k, v in values.items() if k in read})
-                side = side or _sign(results[-n - 3])
-                correction = results[-n - 1 : -1]
+                side = side or _sign(results[place])
+                correction = results[place + 2 : place + 2 + n]
                 estimate = [*results[:n], *correction]
                 if max(map(abs, correction)) <= tolerance:
                     break
             else:
                 message = f"{block.name} does not converge"
                 raise AssertionError(message)
-        return [*results[:n], *(side * e for e in results[n : -n - 2]), mpmath.mpf(0)]
+        return [*results[:n], *(side * e for e in results[n : place + 1]), mpmath.mpf(0)]
 
     return run
 

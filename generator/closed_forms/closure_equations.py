@@ -27,6 +27,7 @@ import sympy as sp
 
 from ..declare.joints import Prismatic, Revolute, Spherical, Universal
 from ..kinematics.motion import IDENTITY, Axes, from_axes
+from ..program.functions import Frozen
 from ..program.newton import Derivation, Found, Matrix
 from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
 
@@ -248,14 +249,15 @@ class Position:
 
     def jacobian(self) -> Matrix:
         """Return how the residuals change with the unknowns."""
-        return [
-            [
-                self._element(equation, place)
-                for place, branch in enumerate(self.tree.tree)
-                if not branch.driven
-            ]
-            for equation in self.equations
-        ]
+        return self._columns(driven=False)
+
+    def by_driven(self) -> Matrix:
+        """Return how the residuals change with the driven coordinates of the tree."""
+        return self._columns(driven=True)
+
+    def _columns(self, *, driven: bool) -> Matrix:
+        places = [p for p, branch in enumerate(self.tree.tree) if branch.driven == driven]
+        return [[self._element(equation, p) for p in places] for equation in self.equations]
 
     def _element(self, equation: _Equation, place: int) -> sp.Expr:
         """Return an element of J: zero where both bodies are carried alike, or neither is."""
@@ -414,6 +416,11 @@ def block(
         components = [c for vector in geometry.values() for c in vector]
         staged = iter(derivation.repeated(components))
         here = {n: Vector(next(staged), next(staged), next(staged)) for n in geometry}
+        given = {}
+        for branch in (b for b in tree.tree if b.driven):
+            name = f"{branch.joint.name}_given"
+            given[name] = here[name].x
+            here[name] = Vector(own.define(f"{name}_here", Frozen(given[name])), ZERO.y, ZERO.z)
         own.section("position of this iteration")
         x = [
             own.define(f"{branch.joint.name}_estimate", base + step)
@@ -429,7 +436,7 @@ def block(
             value**2 if isinstance(branch.joint, Prismatic) else 2 - 2 * sp.cos(value)
             for branch, value in zip(tree.unknowns, x, strict=True)
         ]
-        return Found(x, left, now.jacobian(), sp.Add(*apart))
+        return Found(x, left, now.jacobian(), sp.Add(*apart), list(given.values()), now.by_driven())
 
     found = derivation.block(
         name,

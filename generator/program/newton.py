@@ -17,9 +17,12 @@ moves along this way.
 continued), and where J has changed by less than half of itself since the stage before, ``|J0^-1 J -
 1| <= 1/2`` (of more equations than unknowns: J0^-1 is the pseudoinverse). J cannot become singular
 in between then, so that no other branch meets this one; and where J differs from one matrix by less
-than that, g has one root, so that there is no other one to go to. Both are free of scales. What is
-placed before in closed form has to close all the way, too (`Derivation._failing`). A stage that is
-not accepted is tried again, shorter. Where stages become as short as nothing, the branch
+than that, g has one root, so that there is no other one to go to. Both are free of scales. The
+tangents ``-J^-1 g_v`` at both ends of a stage have to lead where the unknowns go: the first one is
+where Newton's method starts, and what the last one misses is at most twice what the first one does,
+or half of itself. A stage over a gap comes back from a dead point, and its last tangent shows that.
+What is placed before in closed form has to close all the way, too (`Derivation._failing`). A stage
+that is not accepted is tried again, shorter. Where stages become as short as nothing, the branch
 ends: a dead point.
 
 After `ITERATIONS`, or where a branch ends, the block says that it is lost (`LOST`) and returns what
@@ -34,7 +37,7 @@ function theorem. So derivatives of the results of a block are zero by definitio
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import combinations
 from typing import TYPE_CHECKING
 
@@ -66,12 +69,16 @@ class Found:
         J.
     apart
         The square of how far the estimate is from the design position; whole turns do not count.
+    given, by_given
+        Quantities that the equations have frozen, and how the misfits change with each.
     """
 
     unknowns: Sequence[sp.Expr]
     misfits: Sequence[sp.Expr]
     rows: Matrix
     apart: sp.Expr
+    given: Sequence[sp.Expr] = ()
+    by_given: Matrix = field(default_factory=list)
 
 
 class Derivation:
@@ -104,6 +111,7 @@ class Derivation:
             )
             for end, start, unit, turns in driven
         }
+        self._ways: dict[sp.Symbol, sp.Expr] = {d.now: d.way for d in self._driven.values()}
         self._copies: dict[sp.Symbol, sp.Expr] = {end: d.now for end, d in self._driven.items()}
         self._needed: set[sp.Symbol] = set()
 
@@ -161,6 +169,13 @@ class Derivation:
         outputs |= dict(zip(places, (e for line in inverse for e in line), strict=True))
         outputs |= {"determinant": scale, "apart": found.apart}
         outputs |= {f"correction_{u}": c for u, c in zip(unknowns, correction, strict=True)}
+        count = len(found.misfits)
+        slopes = program.along(self._ways, [*found.misfits, *found.given], "slope")
+        by_given = times(found.by_given, slopes[count:]) if found.given else [0] * count
+        slopes = [s + more for s, more in zip(slopes[:count], by_given, strict=True)]
+        slopes = [program.define(f"misfit_{i}_slope", s) for i, s in enumerate(slopes, 1)]
+        tangent = [-t / scale for t in times(inverse, slopes)]
+        outputs |= {f"tangent_{u}": t for u, t in zip(unknowns, tangent, strict=True)}
         outputs["changed"] = self._changed(estimate.held, rows)
         once = program.function(name, doc, outputs)
         read = once.free_symbols
@@ -196,10 +211,9 @@ class Derivation:
         """
         steps = [step.expression for step in self.program.steps.values()]
         margins = [_margins(steps), _margins(e for e in steps if not isinstance(e, Frozen))]
-        ways = {d.now: d.way for d in self._driven.values()}
-        slopes = self.program.along(ways, margins[1], "slope")
+        slopes = self.program.along(self._ways, margins[1], "slope")
         slopes = [self.program.define(f"margin_{i}_slope", s) for i, s in enumerate(slopes, 1)]
-        bends = self.program.along(ways, slopes, "bend")
+        bends = self.program.along(self._ways, slopes, "bend")
         back = [m - s - Positive(-b) / 2 for m, s, b in zip(margins[1], slopes, bends, strict=True)]
         return [1 - IsPositive(margin) for margin in dict.fromkeys([*margins[0], *back])]
 

@@ -21,7 +21,7 @@ LONGEST = 0.5
 """Farthest that a coordinate, or all unknowns together, may go in a stage."""
 TURNED = 0.5
 """Most that J may change in a stage, of itself."""
-CLOSE = 0.1
+CLOSE = 0.05
 """Longest correction with which a stage ends, of the stage; the last one converges."""
 SHORTEST = 1e-9
 """Shortest stage, of the way: where it ends, so does the branch."""
@@ -33,6 +33,16 @@ _FULL_TURN = 2.0 * np.pi
 
 def _square(values: Array) -> Any:
     return sum(v * v for v in values)
+
+
+def _even(went: Array, first: Array, last: Array) -> Any:
+    """Return where unknowns have gone as their tangents at both ends of a stage lead.
+
+    At a dead point within it, the last one leads elsewhere by far more than the first one does.
+    """
+    ahead, back = _square(went - first), _square(went - last)
+    bent = np.fmax(4.0 * ahead, _square(last) / 4.0)
+    return back <= np.fmax(bent, STALLED * STALLED)
 
 
 def _follow(
@@ -59,36 +69,36 @@ def _follow(
     started, arrived, at = np.zeros(count, bool), np.zeros(count, bool), np.arange(count)
     for _ in range(ITERATIONS):
         t = target[at]
-        span = end[:, at] - start[:, at]
+        span, passed = end[:, at] - start[:, at], t - part[at]
         now = np.where(t < 1.0, start[:, at] + t * span, end[:, at])
-        way = (t - part[at]) * span
-        out = once(given[:, at], now, way, move[:, at], step[:, at], held[:, at])
+        scale = np.where(passed > 0.0, passed, 1.0)
+        out = once(given[:, at], now, scale * span, move[:, at], step[:, at], held[:, at])
         out = np.array([np.broadcast_to(value, at.shape) for value in out])
-        correction, changed = out[place + 2 : -1], out[-1]
+        correction, tangent, changed = out[place + 2 : -1 - n], out[-1 - n : -1], out[-1]
         change, moved = _square(correction), _square(gone[:, at])
         enough = np.where(t < 1.0, CLOSE * CLOSE * moved, 0.0)
         close = change <= np.fmax(enough, CONVERGED * CONVERGED)
         stalled = (change <= STALLED * STALLED) & (change > before[at] / 4.0)
-        steady = (changed <= TURNED * TURNED) & (moved <= LONGEST * LONGEST)
-        steady = steady & (change <= LONGEST * LONGEST) | ~started[at]
+        short = (moved <= LONGEST * LONGEST) & (change <= LONGEST * LONGEST)
+        steady = (changed <= TURNED * TURNED) & short | ~started[at]
         room = 0.7 * TURNED / np.sqrt(changed)
-        done = steady & (close | stalled)
-        on = ~done & steady & (change <= before[at] / 4.0)
+        went = gone[:, at] + correction - left[:, at]
+        even = _even(went, slope[:, at] * passed, tangent) | ~started[at]
+        done = steady & even & (close | stalled)
+        on = steady & ~close & ~stalled & (change <= before[at] / 4.0)
         again = ~done & ~on & started[at] & (size[at] > SHORTEST)
         # the stage is done
         d, now = at[done], out[:, done]
         side[d] = np.where(started[d], side[d], np.copysign(1.0, now[place]))
-        started[d] = True
-        found[:, d] = now[: place + 2]
+        started[d], found[:, d] = True, now[: place + 2]
         found[n : place + 1, d] *= side[d]
         ends = done & (t >= 1.0)
         arrived[at[ends]] = True
-        passed, went = t[done] - part[d], gone[:, d] + correction[:, done] - left[:, d]
-        slope[:, d] = np.where(passed > 0.0, went / np.where(passed > 0.0, passed, 1.0), 0.0)
-        left[:, d], base[:, d] = correction[:, done], now[:n]
-        held[:, d] = now[n:place] / now[place]
+        slope[:, d] = tangent[:, done] / scale[done]
+        left[:, d], base[:, d], held[:, d] = correction[:, done], now[:n], now[n:place] / now[place]
         grown = np.fmin(size[d] * np.fmin(room[done], 2.0), most[d])
-        size[d], part[d] = np.where(passed > 0.0, grown, size[d]), t[done]
+        size[d], part[d] = np.where(passed[done] > 0.0, grown, size[d]), t[done]
+        size[d] = np.fmin(size[d], 0.95 * LONGEST / np.sqrt(_square(slope[:, d])))
         # on with the same stage
         o = at[on]
         move[:, o], step[:, o], before[o] = out[:n, on], correction[:, on], change[on]

@@ -30,8 +30,9 @@ static bits follow(const struct loops *loops, const real *given, const real *sta
     const real zero = {0.0}, one = SPREAD(1.0);
     real from[UNKNOWNS] = {{0.0}}, step[UNKNOWNS] = {{0.0}}, held[ELEMENTS] = {{0.0}};
     real base[UNKNOWNS] = {{0.0}}, left[UNKNOWNS] = {{0.0}}, slope[UNKNOWNS] = {{0.0}};
-    real gone[UNKNOWNS] = {{0.0}}, now[DRIVEN] = {{0.0}}, way[DRIVEN] = {{0.0}};
-    real out[2 * UNKNOWNS + ELEMENTS + 3];
+    real gone[UNKNOWNS] = {{0.0}}, ahead[UNKNOWNS] = {{0.0}}, back[UNKNOWNS] = {{0.0}};
+    real now[DRIVEN] = {{0.0}}, way[DRIVEN] = {{0.0}};
+    real out[3 * UNKNOWNS + ELEMENTS + 3];
     real farthest = zero, side = one;
     for (int c = 0; c < loops->driven; ++c) {
         farthest = greater(farthest, magnitude(end[c] - start[c]) / unit[c]);
@@ -43,12 +44,13 @@ static bits follow(const struct loops *loops, const real *given, const real *sta
     memset(found, 0, (size_t)(place + 2) * sizeof *found);
     for (int i = 0; i < ITERATIONS && any(lanes); ++i) {
         const bits last = ~(target < 1.0);
+        const real passed = target - part, scale = choose(passed > 0.0, passed, one);
         for (int c = 0; c < loops->driven; ++c) {
             now[c] = choose(last, end[c], start[c] + target * (end[c] - start[c]));
-            way[c] = (target - part) * (end[c] - start[c]);
+            way[c] = scale * (end[c] - start[c]);
         }
         loops->once(given, now, way, from, step, held, out);
-        const real *correction = out + place + 2, changed = correction[n];
+        const real *correction = out + place + 2, *tangent = correction + n, changed = tangent[n];
         const real change = square(correction, n), moved = square(gone, n);
         const real enough = choose(last, zero, CLOSE * CLOSE * moved);
         const bits close = change <= greater(SPREAD(CONVERGED * CONVERGED), enough);
@@ -56,8 +58,15 @@ static bits follow(const struct loops *loops, const real *given, const real *sta
         const bits steady = ~started | ((changed <= TURNED * TURNED) & (moved <= LONGEST * LONGEST)
                                         & (change <= LONGEST * LONGEST));
         const real room = 0.7 * TURNED / root(changed);
-        const bits done = lanes & steady & (close | stalled), further = done & ~last;
-        const bits on = lanes & ~done & steady & (change <= before / 4.0);
+        for (int k = 0; k < n; ++k) {
+            const real went = gone[k] + correction[k] - left[k];
+            ahead[k] = went - slope[k] * passed;
+            back[k] = went - tangent[k];
+        }
+        const real bent = greater(4.0 * square(ahead, n), square(tangent, n) / 4.0);
+        const bits even = ~started | (square(back, n) <= greater(SPREAD(STALLED * STALLED), bent));
+        const bits done = lanes & steady & even & (close | stalled), further = done & ~last;
+        const bits on = lanes & steady & ~close & ~stalled & (change <= before / 4.0);
         const bits again = lanes & ~done & ~on & started & (size > SHORTEST);
 
         /* the stage is done */
@@ -67,10 +76,8 @@ static bits follow(const struct loops *loops, const real *given, const real *sta
             put(done, &found[k], k >= n && k <= place ? out[k] * side : out[k]);
         }
         arrived |= done & last;
-        const real passed = target - part;
         for (int k = 0; k < n; ++k) {
-            const real rate = (gone[k] + correction[k] - left[k]) / passed;
-            put(further, &slope[k], choose(passed > 0.0, rate, zero));
+            put(further, &slope[k], tangent[k] / scale);
             put(further, &left[k], correction[k]);
             put(further, &base[k], out[k]);
         }
@@ -78,6 +85,7 @@ static bits follow(const struct loops *loops, const real *given, const real *sta
             put(further, &held[k], out[n + k] / out[place]);
         }
         put(further & (passed > 0.0), &size, lesser(most, size * lesser(SPREAD(2.0), room)));
+        put(further, &size, lesser(0.95 * LONGEST / root(square(slope, n)), size));
         put(further, &part, target);
 
         /* on with the same stage */
