@@ -30,10 +30,10 @@ EXPECTED = {
     "macpherson": "436f920d469ce559",
     "macpherson_free_rack": "2f92725f6d8e5228",
     "macpherson_general": "907e62cad164c82d",
-    "multi_link": "b4dbed46396c0515",
+    "multi_link": "0501f25d1bf3f358",
     "pull_rod": "49673a5e740a893a",
     "push_rod": "9339d095525faa93",
-    "rigid_axle": "e06750e13eb528ea",
+    "rigid_axle": "80e71287d69921e4",
     "slider_crank": "b449d0661da4e759",
     "trailing_arm": "4140199cf2a82401",
 }
