@@ -5,12 +5,12 @@ import signal
 from pathlib import Path
 
 from kintrafo.ensembles.pieces import queue
-from kintrafo.ensembles.pieces.piece import Common, Found, Piece
+from kintrafo.ensembles.pieces.piece import Chunk, ChunkResult, Common
 
 DO = queue._do
 
 
-def lost_once(flag: str, common: Common, piece: Piece) -> Found:
+def lost_once(flag: str, common: Common, piece: Chunk) -> ChunkResult:
     """Simulate a piece; the first worker that is asked for it is killed."""
     try:
         Path(flag).touch(exist_ok=False)
@@ -20,7 +20,7 @@ def lost_once(flag: str, common: Common, piece: Piece) -> Found:
     raise AssertionError
 
 
-def noted(folder: str, common: Common, piece: Piece) -> Found:
+def noted(folder: str, common: Common, piece: Chunk) -> ChunkResult:
     """Simulate a piece, and note that it was begun."""
     (Path(folder) / str(piece.first)).touch()
     return DO(common, piece)

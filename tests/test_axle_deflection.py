@@ -12,8 +12,8 @@ from kintrafo.vehicle.analysis.compliance.bars import Bars, Foot
 from kintrafo.vehicle.analysis.compliance.on_bushes import on_joints, softs_of
 from kintrafo.vehicle.analysis.compliance.rigid_displacements import Places
 from kintrafo.vehicle.assembly.axle import AxleAssembly
+from kintrafo.vehicle.assembly.axle_kinematics import AxleKinematics
 from kintrafo.vehicle.assembly.by_wheel import flat
-from kintrafo.vehicle.assembly.pair import Pair
 from kintrafo.vehicle.corner.bushes import mirrored_bushings
 from kintrafo.vehicle.models.axle.bar import HalfBar
 from kintrafo.vehicle.report import elastokinematics_chapter
@@ -334,7 +334,7 @@ def test_rates_are_slopes_of_the_loads() -> None:
     stiffness = np.zeros((2, 2, 2))
     for column, moved in enumerate(SIDES):
         found = flat(compliance.elastokinematics(axle, soft, moved, travels))
-        contact = Pair.at(
+        contact = AxleKinematics.at(
             axle, *(travels if side == moved else 0.0 * travels for side in SIDES), 0.0 * travels
         ).corners[moved]
         center, axis, radius = contact.center, contact.axis, contact.vehicle.tyre_radius
@@ -347,7 +347,7 @@ def test_rates_are_slopes_of_the_loads() -> None:
     np.testing.assert_allclose(stiffness[:, 0, 1], stiffness[:, 1, 0], rtol=1e-6)
     assert (stiffness[:, 0, 1] < -1e3).all()  # the bar
     roll = compliance.elastokinematics(axle, soft, "roll", [0.0])
-    pair = Pair.at(axle, 0.0, 0.0, 0.0)
+    pair = AxleKinematics.at(axle, 0.0, 0.0, 0.0)
     y = np.array([_contact(pair.corners[side])[1] for side in SIDES])
     # springs are relaxed, so that on the bushes the contacts are where they are with rigid joints
     expected = np.einsum("i,kij,j->k", y, stiffness, y)

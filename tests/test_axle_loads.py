@@ -18,7 +18,7 @@ from kintrafo import (
     simulate,
 )
 from kintrafo.systems.compile.compiler import find_compiler
-from kintrafo.vehicle.assembly.pair import Pair
+from kintrafo.vehicle.assembly.axle_kinematics import AxleKinematics
 from kintrafo.vehicle.models.points import carried
 from kintrafo.vehicle.models.positions import arm_angles, design_height
 from kintrafo.vehicle.models.reach import at_rest
@@ -86,11 +86,11 @@ def test_links_do_the_work_of_the_bar(axle: Axle) -> None:
     found = loads.static(axle, PUSHED)
     travels = {side: float(found["travel"].sel(wheel=side)[0]) for side in SIDES}
     step = 1e-4  # of travel [m]: its square is the error of a slope, 1e-8 over lengths of 0.1 m
-    here = Pair.at(axle, *([travels[s]] for s in SIDES), [0.008])
+    here = AxleKinematics.at(axle, *([travels[s]] for s in SIDES), [0.008])
     np.testing.assert_allclose(found["bar_torque"], here.torque, rtol=1e-9)
     for side in SIDES:
         ends = [travels[s] + (s == side) * np.array([-step, step]) for s in SIDES]
-        twist = Pair.at(axle, *ends, [0.008, 0.008]).twist
+        twist = AxleKinematics.at(axle, *ends, [0.008, 0.008]).twist
         model, half = axle.models[side], axle.halves[side]
         heights = design_height(model) + ends[SIDES.index(side)]
         state = at_rest(model, arm_angles(model, heights, 0.008), 0.008)

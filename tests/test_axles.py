@@ -28,10 +28,10 @@ from kintrafo.vehicle.analysis.compare import differences
 from kintrafo.vehicle.analysis.scenario import Scenario, by_wheel, run
 from kintrafo.vehicle.assembly import motions, wheel
 from kintrafo.vehicle.assembly.axle import AxleAssembly
+from kintrafo.vehicle.assembly.axle_kinematics import AxleKinematics
 from kintrafo.vehicle.assembly.by_wheel import flat
-from kintrafo.vehicle.assembly.from_model import corner as corner_of
+from kintrafo.vehicle.assembly.corner_kinematics import corner as corner_of
 from kintrafo.vehicle.assembly.measures import pair_rolling as formulas
-from kintrafo.vehicle.assembly.pair import Pair
 from kintrafo.vehicle.models.axle.bar import AntiRollBar
 from kintrafo.vehicle.models.axle.steering import SteeringCurve
 from kintrafo.vehicle.models.positions import arm_angles, design_height
@@ -151,7 +151,7 @@ def without_weight(model: AxleModel) -> AxleModel:
 def test_the_bar_and_the_forces_are_those_of_the_whole_axle(compiled: AxleModel) -> None:
     """Twist, and the wheels' forces by virtual work, against the emitted equations."""
     left, right, racks = somewhere(1)
-    pair = Pair.at(compiled.axle, left, right, racks)
+    pair = AxleKinematics.at(compiled.axle, left, right, racks)
     states, inputs = placed(compiled, pair.travel, racks)
     twist = compiled.signal("bar_angle", states, inputs)
     np.testing.assert_allclose(pair.twist, twist, rtol=0.0, atol=1e-12)
@@ -198,12 +198,14 @@ def test_a_road_under_one_wheel_moves_both(compiled: AxleModel) -> None:
 @pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
 def test_stiffness_is_the_derivative_of_the_forces(axle: Axle) -> None:
     left, right, racks = somewhere(2, size=0.04)
-    pair = Pair.at(axle, left, right, racks)
+    pair = AxleKinematics.at(axle, left, right, racks)
     whole = pair.springs + pair.bar
     step = 1e-4
     for column, moved in enumerate(([1.0, 0.0], [0.0, 1.0])):
         ends = [
-            Pair.at(axle, left + sign * step * moved[0], right + sign * step * moved[1], racks)
+            AxleKinematics.at(
+                axle, left + sign * step * moved[0], right + sign * step * moved[1], racks
+            )
             for sign in (1.0, -1.0)
         ]
         for row, side in enumerate(("left", "right")):
@@ -217,7 +219,7 @@ def test_stiffness_is_the_derivative_of_the_forces(axle: Axle) -> None:
 def test_the_roll_centre_is_where_the_contacts_do_not_slide(axle: Axle) -> None:
     """At the centre of a small roll of the ground both contacts, on their paths, move along it."""
     left, right, racks = somewhere(3, size=0.03)
-    pair = Pair.at(axle, left, right, racks)
+    pair = AxleKinematics.at(axle, left, right, racks)
     lateral, height = formulas.roll_center(pair)
     tilt = -formulas.roll_angle(pair)
     middle = 0.5 * sum(wheel.contact(corner)[:, 1:] for corner in pair.corners.values())
@@ -300,7 +302,7 @@ def test_roll_is_the_inclination_of_the_line_through_the_wheel_centres(
     # places are rounded to 1e-16 of a metre, a track is longer
     np.testing.assert_allclose(before - found, angles, rtol=0.0, atol=1e-14)
     # all doors take these positions
-    pair = Pair.at(axle, left, right, rack)
+    pair = AxleKinematics.at(axle, left, right, rack)
     expected = {s: wheel.camber(corner) for s, corner in pair.corners.items()}
     for side, camber in expected.items():
         told = flat(characteristics.over(axle, "roll", angles, rack_position=rack))[
@@ -326,7 +328,7 @@ def test_the_usual_roll_ends_where_a_wheel_does() -> None:
     length = 1e3 * float(Model(CAR).signal("strut_length", Model(CAR).design_state))
     short = CAR.with_changes({"strut.length_min_mm": length - 40.0})
     axle = Axle.from_dict({"axle": "front", "side": short})
-    most = motions.rolls(axle, motions.Extent())[-1]
+    most = motions.rolls(axle, motions.SweepRange())[-1]
     assert most < motions.USUAL_ROLL
     assert flat(characteristics.over(axle, "roll", [-most, most])).sizes == {"roll_angle": 2}
     low, high = (1e3 * (end - 0.3) for end in travel_range(axle.models["left"]).height)
@@ -375,7 +377,7 @@ def test_anti_features_are_the_slopes_of_paths(end: str, torque_on: str) -> None
     }
     axle, step = Axle.from_dict(data), 1e-4
     found = flat(characteristics.over(axle, "bump", [-step, 0.0, step]))
-    pair = Pair.at(axle, [-step, 0.0, step], [-step, 0.0, step], 0.0)
+    pair = AxleKinematics.at(axle, [-step, 0.0, step], [-step, 0.0, step], 0.0)
     corner = pair.corners["right"]
     path = corner.center
     if torque_on == "carrier":  # a point that is fixed to the carrier, the contact at design
@@ -655,10 +657,10 @@ def test_both_wheels_are_drawn_together() -> None:
 
 
 def test_usual_positions_are_within_reach() -> None:
-    extent = motions.Extent(rebound=0.04, bump=0.03, step=0.01)
+    extent = motions.SweepRange(rebound=0.04, bump=0.03, step=0.01)
     assert motions.travels(AXLE, extent)[[0, -1]].tolist() == [-0.04, 0.03]
     with pytest.raises(InputError, match="roll = -1 rad"):
-        motions.rolls(AXLE, motions.Extent(roll=-1.0))
+        motions.rolls(AXLE, motions.SweepRange(roll=-1.0))
 
 
 def pictured(chapter: Chapter) -> list[str]:
@@ -793,7 +795,7 @@ def test_the_bar_couples_the_wheels_as_the_rig_says(axle: Axle) -> None:
     """Nothing else is soft: the heights of both contacts against rates of springs and bar."""
     travel = 0.02
     found = compliance.linear(axle, {"rack": {"axial_N_per_mm": 1e11}}, [travel], held="spring")
-    pair = Pair.at(axle, [travel], [travel], 0.0)
+    pair = AxleKinematics.at(axle, [travel], [travel], 0.0)
     slopes = [pair.halves["left"].slope[0], -pair.halves["right"].slope[0]]
     stiffness = axle.bar.rate() * np.outer(slopes, slopes)
     rise = []

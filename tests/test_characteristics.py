@@ -28,7 +28,7 @@ from kintrafo import (
 )
 from kintrafo.vehicle.assembly import wheel
 from kintrafo.vehicle.assembly.by_wheel import flat
-from kintrafo.vehicle.assembly.from_model import corner, vehicle
+from kintrafo.vehicle.assembly.corner_kinematics import corner, vehicle
 from kintrafo.vehicle.assembly.measures import ackermann as axle
 from kintrafo.vehicle.corner.corner import RoadWheel
 from oracle.constraints import KNUCKLE

@@ -11,7 +11,7 @@ from kintrafo.generated import four_bar, slider_crank
 from kintrafo.simulation import trust
 from kintrafo.simulation.solvers import native_available, native_methods
 from kintrafo.systems.compile.build import compile_mechanism
-from kintrafo.vehicle.analysis.excitation import Course, excitation
+from kintrafo.vehicle.analysis.excitation import TimeProfile, excitation
 from scipy.integrate import solve_ivp
 
 _EXPLICIT = "Verner" if native_available() else "DOP853"
@@ -40,7 +40,7 @@ def test_scipy_and_c_go_by_the_same_numbers():
 )
 def test_all_methods_end_at_the_same_time(method, car, step, time):
     model = Model(car)
-    road = excitation({"road_height": Course(step=step, step_at=0.1)}, 0.5, None)
+    road = excitation({"road_height": TimeProfile(step=step, step_at=0.1)}, 0.5, None)
     error = ended(model, equilibrium(model), 0.5, method=method, inputs=road)
     # rtol of a state that changes by itself some ten times in this time
     assert error.time == pytest.approx(time, abs=5e-6)

@@ -23,22 +23,22 @@ from kintrafo import (
 )
 from kintrafo.core.arguments import Arguments
 from kintrafo.core.vectors import unit_vector
-from kintrafo.vehicle.analysis.compliance.connections import Soft
-from kintrafo.vehicle.analysis.compliance.equilibrium import Equilibrium, State
+from kintrafo.vehicle.analysis.compliance.connections import CompliantJoints
+from kintrafo.vehicle.analysis.compliance.equilibrium import ElasticEquilibrium, ElasticState
 from kintrafo.vehicle.analysis.compliance.nonlinear import BY_NAME, unit_load
 from kintrafo.vehicle.analysis.compliance.on_bushes import at_height, on_bushes, on_joints, softs_of
 from kintrafo.vehicle.analysis.compliance.rigid_displacements import (
     Angles,
     Distances,
     Lengths,
-    Places,
     Radii,
-    Twists,
+    RigidDisplacements,
+    Torsions,
 )
 from kintrafo.vehicle.assembly import wheel
 from kintrafo.vehicle.assembly.corner import CornerAssembly
 from kintrafo.vehicle.assembly.of import assembly_of
-from kintrafo.vehicle.assembly.poses import Poses
+from kintrafo.vehicle.assembly.part_poses import CornerParts
 from kintrafo.vehicle.input.curve import Curve
 from kintrafo.vehicle.models.positions import design_height
 from kintrafo.vehicle.models.reach import at_rest
@@ -92,7 +92,7 @@ def random_measures(rng: np.random.Generator) -> list[Any]:
         Distances(bodies, *vectors),
         Angles(bodies, *vectors[:2]),
         Lengths(bodies, *vectors[:2]),
-        Twists(bodies, *vectors[:2], *vectors[::2]),
+        Torsions(bodies, *vectors[:2], *vectors[::2]),
         Radii(bodies, *vectors, vectors[1], rng.normal(size=(1, 4, 2))),
     ]
 
@@ -102,7 +102,7 @@ def test_derivatives_are_those_along_screws(seed: int) -> None:
     """Slopes against differences, and the whole second-order polynomial against values."""
     rng = np.random.default_rng(seed)
     turned = Rotation.random(3, rng=rng).as_matrix()[None]
-    places = Places(rng.normal(size=(1, 3, 3)), turned)
+    places = RigidDisplacements(rng.normal(size=(1, 3, 3)), turned)
     by = rng.normal(size=(1, 3, 6))
     by[:, 0] = 0.0
     for measure in random_measures(rng):
@@ -122,14 +122,18 @@ def test_derivatives_are_those_along_screws(seed: int) -> None:
 # -- equilibrium ----------------------------------------------------------------------------------
 
 
-def pushed(car: Suspension, bushes: Any, travel: float, force: list[float]) -> tuple[Any, State]:
+def pushed(
+    car: Suspension, bushes: Any, travel: float, force: list[float]
+) -> tuple[Any, ElasticState]:
     """Return the equilibrium under a force at the wheel centre, the wheel held at its height."""
     model = Model(car)
     with Arguments("test") as given:
         read = model.suspension.bushes(given, bushes)
     angles = arm_angles(model, [design_height(model) + travel])
-    poses = Poses.of(model, *at_rest(model, angles))
-    suspension = Equilibrium([(poses, Soft({bush.point: bush for bush in read}, 0.0, {}))])
+    poses = CornerParts.of(model, *at_rest(model, angles))
+    suspension = ElasticEquilibrium(
+        [(poses, CompliantJoints({bush.point: bush for bush in read}, 0.0, {}))]
+    )
     load = np.array([[[0.0] * 6 + force]])
     base = suspension.under(0.0 * load, "height", suspension.start)
     return suspension, suspension.under(load, "height", base)
@@ -300,7 +304,7 @@ def test_torsion_of_the_arm_adds_to_the_wheel_rate(travel: float) -> None:
     found = compliance.elastokinematics(model, stiffness, along=travels, hardpoints="relaxed")
     np.testing.assert_allclose(*found["toe"].values, rtol=0.0, atol=1e-12)
     angles = arm_angles(model, design_height(model) + travels)
-    poses = Poses.of(model, *at_rest(model, angles))
+    poses = CornerParts.of(model, *at_rest(model, angles))
     # differences of fourth order over 0.1 mm: 1e-16 * 500 mm / 0.1 mm of rounding
     by = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / (12.0 * step)
     lever = (by @ angles) / (by @ poses.points["contact"][:, 2])

@@ -5,8 +5,8 @@ import pytest
 from kintrafo import Model, Suspension, arm_angles
 from kintrafo.core.elimination import eliminated
 from kintrafo.vehicle.analysis.loads.balance import balanced, balanced_at_many, dense
-from kintrafo.vehicle.analysis.loads.reactions import Equations
-from kintrafo.vehicle.assembly.poses import Poses
+from kintrafo.vehicle.analysis.loads.reactions import BalanceEquations
+from kintrafo.vehicle.assembly.part_poses import CornerParts
 from kintrafo.vehicle.models.reach import at_rest
 
 COUNT, SIZE = 300, 12
@@ -82,7 +82,7 @@ def test_many_positions_carry_what_few_do(name):
     states, inputs = at_rest(model, angles)
 
     def carried(rows):
-        equations = Equations(Poses.of(model, states[rows], inputs[rows]))
+        equations = BalanceEquations(CornerParts.of(model, states[rows], inputs[rows]))
         applied = np.random.default_rng(3).uniform(-1e3, 1e3, 6 * len(equations.parts))
         return equations.solve(np.broadcast_to(applied, (len(states[rows]), applied.size)))
 

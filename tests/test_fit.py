@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 from kintrafo import InputError, Model, Suspension, characteristics, compliance, variation
 from kintrafo.core.quantities import display_of
-from kintrafo.vehicle.studies.places import places_of
+from kintrafo.vehicle.studies.design_variables import places_of
 
 CAR = Suspension.load("reference_car")
 ROD = "hardpoints.tie_rod_inner.z"

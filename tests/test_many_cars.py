@@ -9,8 +9,8 @@ from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.models.positions import design_height, travel_range
 from kintrafo.vehicle.studies import batch
 from kintrafo.vehicle.studies.curves import Curves, changed
+from kintrafo.vehicle.studies.design_variables import places_of
 from kintrafo.vehicle.studies.evaluation import available
-from kintrafo.vehicle.studies.places import places_of
 
 ALL = [
     "reference_car",

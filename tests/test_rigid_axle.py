@@ -27,10 +27,10 @@ from kintrafo import (
 )
 from kintrafo.vehicle.analysis.checkup import checkup
 from kintrafo.vehicle.analysis.scenario import Scenario, run
-from kintrafo.vehicle.assembly.beam import Beam
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.measures import beam_rolling as formulas
 from kintrafo.vehicle.assembly.measures.rigid_axle import MEASURES
+from kintrafo.vehicle.assembly.rigid_axle_kinematics import RigidAxleKinematics
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import fsolve
 from scipy.spatial.transform import Rotation
@@ -135,10 +135,10 @@ def slopes(function: Any, at: tuple[float, float], step: float = 1e-3) -> Array:
     )
 
 
-def beam_at(axle: RigidAxle, heave: float, roll: float) -> Beam:
+def beam_at(axle: RigidAxle, heave: float, roll: float) -> RigidAxleKinematics:
     """Return an axle in one position."""
     model = RigidAxleModel(axle)
-    return Beam(model, model.state(heave=heave, roll=roll)[None])
+    return RigidAxleKinematics(model, model.state(heave=heave, roll=roll)[None])
 
 
 # -- where the axle is ----------------------------------------------------------------------------
@@ -213,7 +213,7 @@ def test_rates_at_the_wheels_are_those_of_the_energy() -> None:
     told = flat(characteristics.over(LOPSIDED, "left", [0.05]))
     assert set(told.sizes) == {"wheel_travel"}
     model = RigidAxleModel(LOPSIDED)
-    beam = Beam(model, model.states_at(*at)[None])
+    beam = RigidAxleKinematics(model, model.states_at(*at)[None])
     forces = [beam.wheel_force(side)[0] for side in ("left", "right")]
     np.testing.assert_allclose(forces, slopes(energy, at), rtol=0.0, atol=5e-5)
     second = slopes(lambda a, b: slopes(energy, (a, b)), at)

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, equilibrium, simulate
 from kintrafo.simulation.solvers import native_available
-from kintrafo.vehicle.analysis.excitation import Course, excitation
+from kintrafo.vehicle.analysis.excitation import TimeProfile, excitation
 from kintrafo.vehicle.analysis.measurement import measured
 from kintrafo.vehicle.analysis.roads import sine, step
 from kintrafo.vehicle.analysis.scenario import Scenario, run
@@ -176,10 +176,10 @@ def test_not_text(tmp_path):
 
 def test_an_input_is_given_once(tmp_path):
     road = measured(table(tmp_path, "time_s,road_height_mm\n0,0\n1,1\n"))
-    courses = {"road_height": Course(step=0.01), "rack_position": Course(held=0.02)}
+    courses = {"road_height": TimeProfile(step=0.01), "rack_position": TimeProfile(held=0.02)}
     with pytest.raises(InputError, match="2 ways: step, measured"):
         excitation(courses, 1.0, road)
-    assert excitation({"rack_position": Course(held=0.02)}, 1.0, road)["rack_position"] == 0.02
+    assert excitation({"rack_position": TimeProfile(held=0.02)}, 1.0, road)["rack_position"] == 0.02
 
 
 @given(duration=st.floats(1e-3, 1e2), count=st.integers(1, 1000), part=st.floats(0.0, 0.99))

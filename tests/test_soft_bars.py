@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from kintrafo import Axle, InputError, characteristics, compliance, loads
 from kintrafo.vehicle.assembly.by_wheel import flat
-from kintrafo.vehicle.assembly.rig import Extent
+from kintrafo.vehicle.assembly.rig import SweepRange
 from kintrafo.vehicle.models.axle.bar import AntiRollBar
 
 STRAIGHT: dict[str, Any] = {
@@ -100,7 +100,7 @@ def test_an_axle_rolls_as_much_more() -> None:
     """Roll stiffness, the torque of the bar, and the loads on its links and bearings."""
     assert YIELDING.bar is not None
     share = YIELDING.bar.rate() / YIELDING.bar.rate_of_bar()
-    extent = Extent(roll=0.02)
+    extent = SweepRange(roll=0.02)
     stiff, soft = (
         flat(characteristics.over(axle, "roll", extent=extent)) for axle in (STIFF, YIELDING)
     )

@@ -18,11 +18,11 @@ from kintrafo import (
     variation,
 )
 from kintrafo.core.quantities import display_of
-from kintrafo.vehicle.assembly.from_model import gaps
+from kintrafo.vehicle.assembly.corner_kinematics import gaps
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.data.starter import packaged
 from kintrafo.vehicle.studies.curves import Curves, changed
-from kintrafo.vehicle.studies.places import places_of
+from kintrafo.vehicle.studies.design_variables import places_of
 from numpy.polynomial import Chebyshev
 from scipy.optimize import brentq
 

@@ -11,7 +11,7 @@ import numpy as np
 from kintrafo import Model, Suspension
 from kintrafo.pictures.figures import BLUE, GREEN, ORANGE, STYLE
 from kintrafo.vehicle.assembly import wheel
-from kintrafo.vehicle.assembly.from_model import corner
+from kintrafo.vehicle.assembly.corner_kinematics import corner
 from kintrafo.vehicle.models.points import hardpoints
 from matplotlib import rc_context
 from matplotlib.axes import Axes

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ..simulation.lanes.problem import End, Problem
 from .again import Again
 from .series import frequencies, percentile, spectra
-from .wanted import Asked, Reduced
+from .wanted import OutputSpec, Reduced
 
 Array = NDArray[np.float64]
 
@@ -31,7 +31,7 @@ class Collected:
     """
 
     problem: Problem
-    asked: Asked
+    asked: OutputSpec
     again: Again | None
     samples: Array = field(init=False)
     of_series: dict[Reduced, Array] = field(init=False)
@@ -83,11 +83,11 @@ BEYOND_IT = (End.MANY_STEPS, End.SMALL_STEP, End.STIFF)
 """How systems end that an implicit method may do."""
 
 
-def _shape(reduced: Reduced, asked: Asked) -> tuple[int, ...]:
+def _shape(reduced: Reduced, asked: OutputSpec) -> tuple[int, ...]:
     return (frequencies(asked.times, int(reduced.level)).size,) if reduced.kind == "psd" else ()
 
 
-def _reduced(reduced: Reduced, series: Array, asked: Asked) -> Array:
+def _reduced(reduced: Reduced, series: Array, asked: OutputSpec) -> Array:
     if reduced.kind == "psd":
         return spectra(series, asked.times, int(reduced.level))
     return percentile(series, reduced.level)

@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Drives:
+class InputSets:
     """What inputs do.
 
     Attributes
@@ -42,7 +42,7 @@ def drives_of(
     *,
     held: Array | None,
     max_step: float,
-) -> Drives:
+) -> InputSets:
     """Bring the inputs of many systems into one form.
 
     Parameters
@@ -70,7 +70,7 @@ def drives_of(
         constant = constant[of]
         for name, values in variants.inputs.items():
             constant[:, model.input_names.index(name)] = values
-    return Drives(_alike(different), of.astype(np.int32), constant)
+    return InputSets(_alike(different), of.astype(np.int32), constant)
 
 
 def _combinations(variants: Variants) -> tuple[list[dict[str, Any]], NDArray[np.int64]]:

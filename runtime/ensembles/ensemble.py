@@ -22,14 +22,14 @@ from ..systems.state import inputs_of
 from ..systems.system import System
 from .again import Again
 from .collected import Collected
-from .drives import Drives, drives_of
+from .drives import InputSets, drives_of
 from .pieces.kept import kept_in
 from .pieces.whole import run_in_pieces
 from .pieces.workers import workers_of
 from .results import dataset_of
 from .room import Room
 from .variants import Variants, impossible_sets, variants_of
-from .wanted import Asked, asked_of
+from .wanted import OutputSpec, asked_of
 
 Array = NDArray[np.float64]
 
@@ -219,7 +219,7 @@ def _start(given: Arguments, model: System, y0: Any) -> Array:
 
 
 def _check_together(
-    model: System, y0: Any, courses: Mapping[str, Any], own: Variants, asked: Asked
+    model: System, y0: Any, courses: Mapping[str, Any], own: Variants, asked: OutputSpec
 ) -> None:
     """Refuse arguments that are right each for itself."""
     with Arguments("ensemble") as given:
@@ -241,7 +241,7 @@ def _check_rows(given: Arguments, model: System, y0: Any, told: set[str]) -> Non
             return
 
 
-def _check_results(given: Arguments, asked: Asked, own: Variants) -> None:
+def _check_results(given: Arguments, asked: OutputSpec, own: Variants) -> None:
     """Refuse results that are called as what varies."""
     varied = {*own.parameters, *own.inputs, *own.labels, *map(str, own.coordinates)}
     results = {*asked.signals, *(reduced.name for reduced in asked.reduced)}
@@ -281,7 +281,7 @@ def _width(given: Arguments, model: System, lanes: Any) -> int:
 # -- arrays ---------------------------------------------------------------------------------------
 
 
-def _systems(model: System, own: Variants, state: Array, drives: Drives) -> Systems:
+def _systems(model: System, own: Variants, state: Array, drives: InputSets) -> Systems:
     """Return what the systems have of their own as arrays."""
     names = model.equations.PARAMETERS
     return Systems(

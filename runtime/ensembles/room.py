@@ -7,7 +7,7 @@ from ..core.memory import refuse_beyond
 from ..simulation.lanes.run import SAMPLES
 from ..systems.system import System
 from .series import TOGETHER
-from .wanted import Asked
+from .wanted import OutputSpec
 
 _BYTES = 8
 # Of a system: how it ended, when, why, by what; four times what it has of its own, which is read,
@@ -22,7 +22,7 @@ class Room:
     Attributes
     ----------
     model : System
-    asked : Asked
+    asked : OutputSpec
     threads : int
         How many work at a time.
     width : int
@@ -30,7 +30,7 @@ class Room:
     """
 
     model: System
-    asked: Asked
+    asked: OutputSpec
     threads: int
     width: int
 

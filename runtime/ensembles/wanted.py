@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..core.arguments import Arguments, shown
 from ..core.quantities import display_of
-from ..simulation.lanes.problem import Kind, Outcome, Reduction, Wanted
+from ..simulation.lanes.problem import Kind, LaneOutputs, Outcome, Reduction
 from ..simulation.validity import Bound
 from ..systems.system import System
 from .series import LEAST_SEGMENT, USUAL_SEGMENT, uniform_step
@@ -75,7 +75,7 @@ class Reduced:
 
 
 @dataclass(frozen=True)
-class Asked:
+class OutputSpec:
     """What was asked for, and what is watched.
 
     Attributes
@@ -131,12 +131,12 @@ class Asked:
                 found.setdefault((reduced.signal, kind, reduced.level), len(found))
         return found
 
-    def for_c(self, model: System) -> Wanted:
+    def for_c(self, model: System) -> LaneOutputs:
         """Return the same as C takes it."""
         names = (*model.signal_names, *model.state_names)
         items, places = self.items, self.places()
         limits = [np.atleast_1d(bound.limit) for bound in self.bounds]
-        return Wanted(
+        return LaneOutputs(
             times=self.times,
             items=np.array([names.index(item) for item in items], dtype=np.int32),
             sample_count=len(self.sampled),
@@ -184,7 +184,9 @@ _KEPT = {
 _ORIGIN = dict.fromkeys(Kind, Kind.FIRST) | {Kind.ABOVE: Kind.LAST}
 
 
-def asked_of(given: Arguments, model: System, times: Array, signals: Any, reductions: Any) -> Asked:
+def asked_of(
+    given: Arguments, model: System, times: Array, signals: Any, reductions: Any
+) -> OutputSpec:
     """Check what was asked for; the bounds are not known yet."""
     known = (*model.signal_names, *model.state_names)
     described = {**model.equations.SIGNALS, **model.equations.STATE}
@@ -198,7 +200,7 @@ def asked_of(given: Arguments, model: System, times: Array, signals: Any, reduct
     _check_spectra(given, times, {r.level for r in reduced if r.kind == "psd"})
     if reduced and times.size < 2:
         given.refuse("reductions are over time: t_eval needs two times or more.")
-    return Asked(times, tuple(dict.fromkeys(names)), tuple(dict.fromkeys(reduced)), ())
+    return OutputSpec(times, tuple(dict.fromkeys(names)), tuple(dict.fromkeys(reduced)), ())
 
 
 def _check_spectra(given: Arguments, times: Array, segments: set[float]) -> None:

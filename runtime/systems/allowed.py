@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-class Allowed(NamedTuple):
+class LengthLimit(NamedTuple):
     """What a length may be.
 
     Attributes

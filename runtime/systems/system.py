@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..core.arguments import Arguments, shown
 from ..core.named_types import ArrayLike
-from .allowed import Allowed
+from .allowed import LengthLimit
 from .compile.loader import find
 from .modes import eigenvalues_of
 from .state import StateNames, inputs_of
@@ -196,7 +196,7 @@ class System:
             given.among("signal", name, self.signal_names)
         return self.signals(state, inputs)[name]
 
-    def allowed_lengths(self) -> tuple[Allowed, ...]:
+    def allowed_lengths(self) -> tuple[LengthLimit, ...]:
         """Return lengths that have an end of which the equations know nothing."""
         return ()
 

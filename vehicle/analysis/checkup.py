@@ -14,7 +14,7 @@ from ..assembly.of import given_assembly
 from ..assembly.usual import USUAL_TRAVEL
 from ..models.plausibility import USUAL_HOP
 from ..models.positions import PositionError
-from .wheel_facts import Equilibrium, WheelFacts, facts_of, without_friction
+from .wheel_facts import RestFacts, WheelFacts, facts_of, without_friction
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,7 +24,7 @@ __all__ = [
     "USUAL_RIDE",
     "AxleFacts",
     "Checkup",
-    "Equilibrium",
+    "RestFacts",
     "WheelFacts",
     "as_dict",
     "checkup",

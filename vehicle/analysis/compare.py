@@ -17,7 +17,7 @@ from ..assembly.by_wheel import flat
 from ..assembly.of import given_assemblies
 from ..assembly.quantity import RACK
 from .characteristics.datasets import DATA_SET, dataset, given_motion
-from .compliance.flexibility import HELD, Held
+from .compliance.flexibility import HELD, WheelSupport
 from .compliance.linear import linear
 
 Array = NDArray[np.float64]
@@ -31,7 +31,7 @@ def compare(
     along: ArrayLike | None = None,
     *,
     over: str | None = None,
-    held: Held | None = None,
+    held: WheelSupport | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Return the characteristics of several suspensions or axles over the same positions.
@@ -158,7 +158,11 @@ def _refuse_compliance(given: Arguments, assemblies: Mapping[str, Assembly], mot
 
 
 def with_compliance(
-    found: xr.Dataset, assembly: Assembly, travels: Array, held: Held, rack_position: float = 0.0
+    found: xr.Dataset,
+    assembly: Assembly,
+    travels: Array,
+    held: WheelSupport,
+    rack_position: float = 0.0,
 ) -> xr.Dataset:
     """Return characteristics over wheel travel with compliance beside them.
 

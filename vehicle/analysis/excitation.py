@@ -11,7 +11,7 @@ from .roads import sine, step
 
 
 @dataclass(frozen=True)
-class Course:
+class TimeProfile:
     """The course of one input over time: at most one of `held`, `step` and `sine`.
 
     Attributes
@@ -52,13 +52,13 @@ class Course:
 
 
 def excitation(
-    courses: Mapping[str, Course], end: float, measured: Measurement | None = None
+    courses: Mapping[str, TimeProfile], end: float, measured: Measurement | None = None
 ) -> dict[str, Signal]:
     """Return the inputs of a simulation.
 
     Parameters
     ----------
-    courses : mapping of str to Course
+    courses : mapping of str to TimeProfile
         By the name of the input: ``road_height``, ``rack_position``.
     end : float
         Last time of the simulation [s].
@@ -83,7 +83,7 @@ def excitation(
     with Arguments("simulation") as given:
         end = given.number("duration", end, "s", above=0.0)
         for name, course in given.mapping("courses", courses, "input names, courses").items():
-            given.kind(f"course of {name!r}", course, Course, "a Course is needed")
+            given.kind(f"course of {name!r}", course, TimeProfile, "a Course is needed")
         if measured is not None:
             given.kind("measured", measured, Measurement, "a Measurement is needed")
     inputs: dict[str, Signal] = {} if measured is None else dict(measured.inputs())

@@ -19,7 +19,7 @@ from ..assembly.of import given_assemblies
 from ..assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from .characteristics.datasets import ALONG, DATA_SET, KNOWN, OF_AXLES, dataset
 from .compare import with_compliance
-from .compliance.flexibility import HELD, Held
+from .compliance.flexibility import HELD, WheelSupport
 from .compliance.linear import COMPLIANCES, COMPLIANCES_OF_AXLES
 
 Array = NDArray[np.float64]
@@ -136,7 +136,7 @@ def beside(
     subjects: Mapping[str, Any],
     name: str = "measured",
     *,
-    held: Held = "height",
+    held: WheelSupport = "height",
 ) -> xr.Dataset:
     """Return characteristics at the positions of measured curves, beside these.
 
@@ -213,7 +213,7 @@ def _refuse_other_motions(
         )
 
 
-def _curves(assembly: Assembly, measured: xr.Dataset, held_by: Held) -> xr.Dataset:
+def _curves(assembly: Assembly, measured: xr.Dataset, held_by: WheelSupport) -> xr.Dataset:
     """Return the characteristics at the positions of a measurement."""
 
     def held(quantity: Quantity) -> float:

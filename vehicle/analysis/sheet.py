@@ -18,7 +18,7 @@ from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import flat
 from ..assembly.of import given_assembly
 from .characteristics.datasets import dataset
-from .compliance.flexibility import HELD, Held
+from .compliance.flexibility import HELD, WheelSupport
 from .compliance.linear import linear
 from .loads.sheets import without_side
 
@@ -53,7 +53,7 @@ def sheet(
     subject: Any,
     bushings: Mapping[str, Any] | None = None,
     *,
-    held: Held = "height",
+    held: WheelSupport = "height",
 ) -> xr.Dataset:
     """Return the kinematic and compliance gradients at design, with definitions and signs.
 
@@ -170,14 +170,14 @@ def _curves(assembly: Assembly) -> list[xr.Dataset]:
 
 
 def _compliant(
-    assembly: Assembly, bushings: Mapping[str, Any] | None, held: Held
+    assembly: Assembly, bushings: Mapping[str, Any] | None, held: WheelSupport
 ) -> dict[str, tuple[str, xr.DataArray]]:
     """Return the compliances at design, by the names of their columns."""
     found = flat(linear(assembly, bushings, [0.0], held=held)).drop_dims(["moved", "by"])
     return {str(name): (_COMPLIANCE, data) for name, data in found.items()}
 
 
-def _dataset(rows: Mapping[str, tuple[str, xr.DataArray]], held: Held) -> xr.Dataset:
+def _dataset(rows: Mapping[str, tuple[str, xr.DataArray]], held: WheelSupport) -> xr.Dataset:
     iso = np.array([displayed(data).item() for _, data in rows.values()])
     signs = [str(data.attrs.get("sign", "")) for _, data in rows.values()]
     flipped = [sign.replace(_LEFTWARD, _RIGHTWARD) for sign in signs]

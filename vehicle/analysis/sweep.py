@@ -17,7 +17,7 @@ from ...core.quantities import variable
 from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import by_ending
 from ..assembly.of import given_assembly
-from ..assembly.poses import Assembled
+from ..assembly.part_poses import PartPoses
 from ..assembly.usual import grid, usual_rack, usual_travel
 
 __all__ = ["grid", "positions", "usual_rack", "usual_travel"]
@@ -105,7 +105,7 @@ Columns = dict[str, tuple[Array, str, str]]
 """Values, meaning and unit by name."""
 
 
-def _of_group(assembly: Assembly, suffix: str, poses: Assembled) -> Columns:
+def _of_group(assembly: Assembly, suffix: str, poses: PartPoses) -> Columns:
     """Return everything that the position of a group of parts decides, as columns."""
     model = poses.model
     found: Columns = {}

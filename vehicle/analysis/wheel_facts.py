@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from ...core.arguments import Arguments
 from ...core.vectors import distance_from_line
 from ..assembly import wheel
+from ..assembly.corner_kinematics import corner
 from ..assembly.equilibrium import equilibrium
-from ..assembly.from_model import corner
 from ..corner.facts import Extended
 from ..models.model import Model
 from ..models.plausibility import plausibility
@@ -26,7 +26,7 @@ _FAR_FROM_DESIGN = 0.005
 
 
 @dataclass(frozen=True)
-class Equilibrium:
+class RestFacts:
     """The suspension at rest on level road.
 
     Attributes
@@ -77,7 +77,7 @@ class WheelFacts:
         The same as travel from design: lowest and highest.
     extension_travel : float or None
         Travel at which the strut is fully extended; None if it never is, or there is none.
-    equilibrium : Equilibrium or None
+    equilibrium : RestFacts or None
         None if there is no stable one.
     problems : tuple of str
         What keeps the suspension from working, or is almost surely a mistake.
@@ -91,7 +91,7 @@ class WheelFacts:
     reach: Range
     travel: tuple[float, float]
     extension_travel: float | None
-    equilibrium: Equilibrium | None
+    equilibrium: RestFacts | None
     problems: tuple[str, ...]
     notes: tuple[str, ...]
 
@@ -140,14 +140,14 @@ def facts_of(model: Model) -> WheelFacts:
     )
 
 
-def _equilibrium(model: Model) -> Equilibrium:
+def _equilibrium(model: Model) -> RestFacts:
     state = equilibrium(model)
     signals = {name: float(value) for name, value in model.signals(state).items()}
     mode = paper.rest(model).hop
     smooth = without_friction(model)
     sliding = mode if smooth is model else paper.rest(smooth).hop
     height = signals["wheel_center_z"]
-    return Equilibrium(
+    return RestFacts(
         height=height,
         travel=height - design_height(model),
         signals=signals,
@@ -236,7 +236,7 @@ def _extension_travel(model: Model, reach: Range) -> float | None:
 def _notes(
     extended: Extended | None,
     travel: tuple[float, float],
-    rest: Equilibrium | None,
+    rest: RestFacts | None,
     extension: float | None,
 ) -> list[str]:
     notes = [

@@ -13,17 +13,17 @@ from ...core.quantities import variable
 from ..corner.bushes import Bush
 from ..corner.corner import Array
 from ..input.vehicle import Tyre
-from ..models.axle.file import Held as TorqueHolder
+from ..models.axle.file import TorqueReaction as TorqueHolder
 from ..models.model import Model
 from ..models.plausibility import Plausibility
 from .anti_roll_bar import Bar, RollBar
 from .coupling import BodyPose
-from .held import Held
+from .held import RestConditions
 from .load import Load, known
 from .measures.measure import Measure
-from .poses import Assembled
+from .part_poses import PartPoses
 from .quantity import RACK, Quantity
-from .rig import Extent, RigMotion, RigPosition, WheelReach
+from .rig import RigMotion, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines
 from .wheel_names import WheelNames
 
@@ -146,14 +146,19 @@ class Assembly(ABC):
 
     @abstractmethod
     def usual(
-        self, motion: str, extent: Extent | None = None, *, travel: float = 0.0, rack: float = 0.0
+        self,
+        motion: str,
+        extent: SweepRange | None = None,
+        *,
+        travel: float = 0.0,
+        rack: float = 0.0,
     ) -> Array:
         """Return the usual positions of a motion, zero included, in SI units.
 
         Parameters
         ----------
         motion : str
-        extent : Extent, optional
+        extent : SweepRange, optional
             How far it goes, where that is not the usual.
         travel, rack : float, optional
             What is held meanwhile [m].
@@ -276,7 +281,7 @@ class Assembly(ABC):
         return states, inputs
 
     @abstractmethod
-    def coordinates_at_rest(self, held: Held) -> Array:
+    def coordinates_at_rest(self, held: RestConditions) -> Array:
         """Return the coordinates of the stable state of rest, shape (coordinates,).
 
         Raises
@@ -298,7 +303,7 @@ class Assembly(ABC):
     # -- its parts --------------------------------------------------------------------------------
 
     @abstractmethod
-    def poses(self, position: RigPosition) -> dict[str, Assembled]:
+    def poses(self, position: RigPosition) -> dict[str, PartPoses]:
         """Return its parts with rigid joints, by the suffixes of their names.
 
         Raises
@@ -310,7 +315,7 @@ class Assembly(ABC):
         """
 
     @abstractmethod
-    def soft_lines(self, poses: Mapping[str, Assembled]) -> dict[str, SoftLines]:
+    def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
         """Return how springs and stops give way for a unit force along each.
 
         Raises
@@ -369,7 +374,7 @@ class Assembly(ABC):
         """
 
     @abstractmethod
-    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, Assembled]:
+    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, PartPoses]:
         """Return its parts at rest, by the suffixes of their names.
 
         Parameters
@@ -412,12 +417,12 @@ class Assembly(ABC):
     def rules(self) -> tuple[str, ...]:
         """What decides where statics alone does not."""
 
-    def acting(self, poses: Mapping[str, Assembled]) -> dict[str, list[Load]]:
+    def acting(self, poses: Mapping[str, PartPoses]) -> dict[str, list[Load]]:
         """Return weights, and forces of springs, dampers, stops and of an anti-roll bar."""
         return {suffix: known(each) for suffix, each in poses.items()}
 
     def between(
-        self, poses: Mapping[str, Assembled], loads: Sequence[Load]
+        self, poses: Mapping[str, PartPoses], loads: Sequence[Load]
     ) -> tuple[list[Load], dict[str, BodyPose]]:
         """Return the loads on what is between the groups and the chassis: rack, anti-roll bar.
 
@@ -438,7 +443,7 @@ class Assembly(ABC):
         return [], {}
 
     def further(
-        self, over: str, poses: Mapping[str, Assembled], found: "xr.Dataset"
+        self, over: str, poses: Mapping[str, PartPoses], found: "xr.Dataset"
     ) -> "dict[str, xr.Variable]":
         """Return what follows from all loads: forces of rack and rods, torque of the bar.
 
@@ -459,7 +464,7 @@ class Assembly(ABC):
     @abstractmethod
     def in_motion(
         self, states: Array, inputs: Array
-    ) -> tuple[dict[str, Assembled], dict[str, Array]]:
+    ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
         """Return its parts in states of its equations, and the rates of these, by suffix."""
 
     # -- bushes -----------------------------------------------------------------------------------
@@ -532,17 +537,17 @@ class Assembly(ABC):
         """The anti-roll bar, if it has one."""
         return None
 
-    def bar_loads(self, poses: Mapping[str, Assembled]) -> dict[str, Load]:
+    def bar_loads(self, poses: Mapping[str, PartPoses]) -> dict[str, Load]:
         """Return what a unit torque of the bar does to each group; empty without a bar."""
         del poses
         return {}
 
-    def bar_twist(self, poses: Mapping[str, Assembled]) -> dict[str, Array]:
+    def bar_twist(self, poses: Mapping[str, PartPoses]) -> dict[str, Array]:
         """Return what each group adds to the twist of the bar, (n,) [rad]; empty without one."""
         del poses
         return {}
 
-    def bar_torque(self, poses: Mapping[str, Assembled]) -> Array:
+    def bar_torque(self, poses: Mapping[str, PartPoses]) -> Array:
         """Return the torque of the bar with rigid joints, (n,) [N m]; zero without one."""
         twist = sum(
             self.bar_twist(poses).values(), np.zeros(len(next(iter(poses.values())).states))

@@ -25,18 +25,18 @@ from . import motions
 from .anti_roll_bar import Bar
 from .assembly import Assembly, Bushings
 from .axle_coupling import TWIST_BY_TURN, on_the_bar, pull_of_bar, rules_of, turn_of_half
+from .axle_kinematics import AxleKinematics
 from .corner import CornerAssembly, lines_of, poses_of
 from .coupling import STEERING, BodyPose, on_the_rack
-from .held import Held
+from .held import RestConditions
 from .load import RACK as THE_RACK
 from .load import Load
 from .measures.axle import OVER_STEERING, OVER_TRAVEL
 from .measures.measure import Measure
-from .pair import Pair
-from .poses import Assembled, Poses
+from .part_poses import CornerParts, PartPoses
 from .quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from .rest import settled
-from .rig import Extent, RigMotion, RigPosition, WheelReach
+from .rig import RigMotion, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines
 from .steering_wheel import rack_of
 from .wheel_names import WheelNames
@@ -145,11 +145,16 @@ class AxleAssembly(Assembly):
         return {name: section for name, section in found.items() if section is not None}
 
     def usual(
-        self, motion: str, extent: Extent | None = None, *, travel: float = 0.0, rack: float = 0.0
+        self,
+        motion: str,
+        extent: SweepRange | None = None,
+        *,
+        travel: float = 0.0,
+        rack: float = 0.0,
     ) -> Array:
         """Return the usual positions of a motion, zero included [m] or [rad]."""
         del travel, rack
-        far = extent or Extent()
+        far = extent or SweepRange()
         if motion == "roll":
             return motions.rolls(self.axle, far)
         if motion == "steer":
@@ -202,7 +207,7 @@ class AxleAssembly(Assembly):
         signals = f"{prefix}{self.axle.end}_"
         return WheelNames(prefix, signals, f"{prefix}{names.spin}", f"{prefix}{names.actuator}")
 
-    def coordinates_at_rest(self, held: Held) -> Array:
+    def coordinates_at_rest(self, held: RestConditions) -> Array:
         """Return the arm angles of the state of rest nearest to that of the sides without a bar."""
         alone = held.without_inputs()
         sides = [CornerAssembly(model) for model in self.axle.models.values()]
@@ -251,14 +256,14 @@ class AxleAssembly(Assembly):
         """Return its characteristics over a motion."""
         return OVER_STEERING if motion in _STEERING else OVER_TRAVEL
 
-    def kinematics(self, position: RigPosition) -> Pair:
+    def kinematics(self, position: RigPosition) -> AxleKinematics:
         """Return how both wheels are and how they move first."""
         left, right = (position.travels[side] for side in SIDES)
-        return Pair.at(self.axle, left, right, position.rack, position.per_turn)
+        return AxleKinematics.at(self.axle, left, right, position.rack, position.per_turn)
 
-    def poses(self, position: RigPosition) -> dict[str, Assembled]:
+    def poses(self, position: RigPosition) -> dict[str, PartPoses]:
         """Return the parts of both sides with rigid joints."""
-        found: dict[str, Assembled] = {}
+        found: dict[str, PartPoses] = {}
         for side, model in self.axle.models.items():
             poses = poses_of(model, position.travels[side], position.rack)
             if self.axle.halves:
@@ -267,7 +272,7 @@ class AxleAssembly(Assembly):
             found[f"_{side}"] = poses
         return found
 
-    def soft_lines(self, poses: Mapping[str, Assembled]) -> dict[str, SoftLines]:
+    def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
         """Return how springs and stops of both sides give way."""
         return {suffix: lines_of(each) for suffix, each in poses.items()}
 
@@ -299,7 +304,7 @@ class AxleAssembly(Assembly):
         """Return how far each wheel goes by itself."""
         return [reach for one in self._corners.values() for reach in one.wheel_reach(rack)]
 
-    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, Assembled]:
+    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, PartPoses]:
         """Return its parts at rest; the coordinates are those of the sides."""
         sides = enumerate(self._corners.items())
         return {f"_{side}": one.at_angles(coordinates[:, i], racks) for i, (side, one) in sides}
@@ -333,7 +338,7 @@ class AxleAssembly(Assembly):
         return found
 
     def between(
-        self, poses: Mapping[str, Assembled], loads: Sequence[Load]
+        self, poses: Mapping[str, PartPoses], loads: Sequence[Load]
     ) -> tuple[list[Load], dict[str, BodyPose]]:
         """Return the loads on the anti-roll bar with its drop links, and on the rack."""
         bar, places = on_the_bar(self.axle, poses, loads) if self.axle.halves else ([], {})
@@ -347,7 +352,7 @@ class AxleAssembly(Assembly):
         return unit_vector(self.axle.right.rack.axis)
 
     def further(
-        self, over: str, poses: Mapping[str, Assembled], found: "xr.Dataset"
+        self, over: str, poses: Mapping[str, PartPoses], found: "xr.Dataset"
     ) -> "dict[str, xr.Variable]":
         """Return the force of the steering on the rack, and the torque of the bar."""
         of_bar = super().further(over, poses, found)
@@ -360,11 +365,11 @@ class AxleAssembly(Assembly):
 
     def in_motion(
         self, states: Array, inputs: Array
-    ) -> tuple[dict[str, Assembled], dict[str, Array]]:
+    ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
         """Return the parts of both sides in states of the whole axle, and the rates of these."""
         model = self.model
         by_time = model.evaluate("rhs", states, inputs)
-        poses: dict[str, Assembled] = {}
+        poses: dict[str, PartPoses] = {}
         rates = {}
         for side, corner in model.corners.items():
             columns = [model.state_names.index(f"{side}_{name}") for name in corner.state_names]
@@ -373,7 +378,7 @@ class AxleAssembly(Assembly):
                 model.input_names.index(name if name in model.input_names else shared)
                 for name, shared in zip(own, corner.input_names, strict=True)
             ]
-            poses[f"_{side}"] = Poses.of(corner, states[:, columns], inputs[:, given])
+            poses[f"_{side}"] = CornerParts.of(corner, states[:, columns], inputs[:, given])
             rates[f"_{side}"] = by_time[:, columns]
         return poses, rates
 

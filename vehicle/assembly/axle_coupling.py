@@ -13,7 +13,7 @@ from ..models.axle.axle import LEFT, RIGHT
 from ..models.points import carried
 from .coupling import STILL, BodyPose, on_both, sum_of
 from .load import Load
-from .poses import Poses
+from .part_poses import CornerParts
 
 SIDES = (LEFT, RIGHT)
 TWIST_BY_TURN = {LEFT: 1.0, RIGHT: -1.0}
@@ -31,7 +31,7 @@ def rules_of(axle: Axle) -> tuple[str, ...]:
     return (*of_bar, *of_rack)
 
 
-def turn_of_half(axle: Axle, side: str, poses: Poses) -> tuple[Array, Array]:
+def turn_of_half(axle: Axle, side: str, poses: CornerParts) -> tuple[Array, Array]:
     """Return the foot of a drop link, (n, 3) [m], and the angle of its half, (n,) [rad]."""
     half = axle.halves[side]
     places = {"foot": (half.body, half.foot)}
@@ -39,7 +39,7 @@ def turn_of_half(axle: Axle, side: str, poses: Poses) -> tuple[Array, Array]:
     return foot, half.turn(foot)
 
 
-def pull_of_bar(axle: Axle, side: str, poses: Poses, torque: Array | float = 1.0) -> Load:
+def pull_of_bar(axle: Axle, side: str, poses: CornerParts, torque: Array | float = 1.0) -> Load:
     """Return what a torque of the bar does on a side: against more twist of it."""
     foot, turn = turn_of_half(axle, side, poses)
     half = axle.halves[side]
@@ -56,7 +56,7 @@ def on_the_bar(
     Parameters
     ----------
     axle : Axle
-    poses : mapping of str to Poses
+    poses : mapping of str to CornerParts
         Of both sides, by suffix.
     loads : sequence of Load
         All others; those of the drop links on the sides are among them.

@@ -16,17 +16,17 @@ from ..models.model import Model
 from ..models.positions import PositionError, arm_angles, design_height
 from ..models.reach import at_rest, height_and_slope, travel_range
 from .assembly import Assembly, Bushings
+from .corner_kinematics import corner
 from .coupling import BodyPose, on_the_rack, rules_of
-from .from_model import corner
-from .held import Held
+from .held import RestConditions
 from .load import Load
 from .measures.corner import OF_STEERING, OVER_RACK, OVER_TRAVEL
 from .measures.measure import Measure
-from .poses import Assembled, Poses
+from .mirrored_corner import MirroredCorner
+from .part_poses import CornerParts, PartPoses
 from .quantity import RACK, TRAVEL, Quantity
 from .rest import forces_of, nearest
-from .rig import Extent, RigMotion, RigPosition, WheelReach
-from .single import Single
+from .rig import RigMotion, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines, soft_lines
 from .usual import usual_rack, usual_travel
 from .wheel_names import WheelNames
@@ -79,10 +79,15 @@ class CornerAssembly(Assembly):
         return f"A {self.subject.heading()}, {self.wheels[0]} side."
 
     def usual(
-        self, motion: str, extent: Extent | None = None, *, travel: float = 0.0, rack: float = 0.0
+        self,
+        motion: str,
+        extent: SweepRange | None = None,
+        *,
+        travel: float = 0.0,
+        rack: float = 0.0,
     ) -> Array:
         """Return the usual positions of a motion, zero included [m]."""
-        far = extent or Extent()
+        far = extent or SweepRange()
         if motion == "rack":
             return usual_rack(self.model, extent=far.rack, step=far.step, travel=travel)
         return usual_travel(
@@ -122,7 +127,7 @@ class CornerAssembly(Assembly):
         """Return states and inputs without rates; a free rack is a state."""
         return at_rest(self.model, coordinates[..., 0], rack)
 
-    def coordinates_at_rest(self, held: Held) -> Array:
+    def coordinates_at_rest(self, held: RestConditions) -> Array:
         """Return the arm angle of the stable state of rest that is nearest to design."""
         forces, reach = forces_of(self, held), travel_range(self.model, held.rack)
 
@@ -165,7 +170,7 @@ class CornerAssembly(Assembly):
         """Return its characteristics over a motion."""
         return OVER_RACK if motion == "rack" else OVER_TRAVEL
 
-    def kinematics(self, position: RigPosition) -> Single:
+    def kinematics(self, position: RigPosition) -> MirroredCorner:
         """Return how the wheel is and how it moves first."""
         travel, rack = position.travels[self.wheels[0]], position.rack
 
@@ -175,17 +180,17 @@ class CornerAssembly(Assembly):
             except PositionError:
                 return None
 
-        return Single(
+        return MirroredCorner(
             corner_at(self.model, travel, rack),
             lambda: corner_at(self.model.mirror_image, travel, rack),
             straight,
         )
 
-    def poses(self, position: RigPosition) -> dict[str, Assembled]:
+    def poses(self, position: RigPosition) -> dict[str, PartPoses]:
         """Return its parts with rigid joints."""
         return {"": poses_of(self.model, position.travels[self.wheels[0]], position.rack)}
 
-    def soft_lines(self, poses: Mapping[str, Assembled]) -> dict[str, SoftLines]:
+    def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
         """Return how spring and stops give way."""
         return {suffix: lines_of(each) for suffix, each in poses.items()}
 
@@ -213,13 +218,13 @@ class CornerAssembly(Assembly):
         low, high = (self._sense * angle for angle in found.arm_angle)
         return [WheelReach((low, high), found.height)]
 
-    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, Assembled]:
+    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, PartPoses]:
         """Return its parts at rest; the coordinate is the arm angle, of either sign [rad]."""
         return {"": self.at_angles(coordinates[:, 0], racks)}
 
-    def at_angles(self, coordinates: Array, racks: Array) -> Poses:
+    def at_angles(self, coordinates: Array, racks: Array) -> CornerParts:
         """Return its parts at rest, (n,)."""
-        return Poses.of(self.model, *at_rest(self.model, self._sense * coordinates, racks))
+        return CornerParts.of(self.model, *at_rest(self.model, self._sense * coordinates, racks))
 
     def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
         """Tell whether its wheel has a stop."""
@@ -232,7 +237,7 @@ class CornerAssembly(Assembly):
         return rules_of(self.subject)
 
     def between(
-        self, poses: Mapping[str, Assembled], loads: Sequence[Load]
+        self, poses: Mapping[str, PartPoses], loads: Sequence[Load]
     ) -> tuple[list[Load], dict[str, BodyPose]]:
         """Return what holds the rack."""
         axis = poses[""].rack_axis
@@ -240,9 +245,9 @@ class CornerAssembly(Assembly):
 
     def in_motion(
         self, states: Array, inputs: Array
-    ) -> tuple[dict[str, Assembled], dict[str, Array]]:
+    ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
         """Return its parts in some states, and the rates of these."""
-        poses = Poses.of(self.model, states, inputs)
+        poses = CornerParts.of(self.model, states, inputs)
         return {"": poses}, {"": self.model.evaluate("rhs", states, inputs)}
 
     def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
@@ -277,7 +282,7 @@ def corner_at(model: Model, travels: Array, rack: Array) -> Corner:
     return corner(model, arm_angles(model, design_height(model) + travels, rack), rack)
 
 
-def poses_of(model: Model, travels: Array, rack: Array) -> Poses:
+def poses_of(model: Model, travels: Array, rack: Array) -> CornerParts:
     """Return the parts of a corner with rigid joints at wheel travels and places of the rack [m].
 
     Raises
@@ -286,10 +291,10 @@ def poses_of(model: Model, travels: Array, rack: Array) -> Poses:
         If the wheel cannot be there.
     """
     angles = arm_angles(model, design_height(model) + travels, rack)
-    return Poses.of(model, *at_rest(model, angles, rack))
+    return CornerParts.of(model, *at_rest(model, angles, rack))
 
 
-def lines_of(poses: Assembled) -> SoftLines:
+def lines_of(poses: PartPoses) -> SoftLines:
     """Return how spring and stops of a corner give way."""
     model: Model = poses.model
     angles = poses.states[..., model.state_names.index(model.names.arm)]

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..kinds import Suspension
 from .load import RACK, Load
-from .poses import wrench_about
+from .part_poses import wrench_about
 
 Array = NDArray[np.float64]
 

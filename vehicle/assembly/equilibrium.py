@@ -8,7 +8,7 @@ from ...systems.state import State
 from ..corner.wheel_loads import UNITS
 from . import rest
 from .assembly import Assembly
-from .held import Held
+from .held import RestConditions
 from .of import given_model
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ def equilibrium(
         if wheel_load is not None:
             loads = _by_wheel(given, assembly, "wheel_load", wheel_load, "N")
             _refuse_both(given, loads, roads)
-        held = Held(
+        held = RestConditions(
             _rack(given, assembly, rack_position),
             roads,
             loads,

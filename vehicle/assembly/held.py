@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 
 
 @dataclass(frozen=True)
-class Held:
+class RestConditions:
     """What an assembly is held and loaded by while it comes to rest.
 
     Attributes
@@ -28,6 +28,6 @@ class Held:
     actuators: Mapping[str, float] = field(default_factory=dict)
     inputs: Mapping[str, float] = field(default_factory=dict)
 
-    def without_inputs(self) -> "Held":
+    def without_inputs(self) -> "RestConditions":
         """Return the same without further inputs, which have other names for another assembly."""
         return replace(self, inputs={})

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..corner.structure import Line
-from .poses import Assembled
+from ..corner.structure import ForceElement
+from .part_poses import PartPoses
 
 Array = NDArray[np.float64]
 
@@ -35,7 +35,7 @@ class Load:
     at: Array
 
 
-def known(poses: Assembled) -> list[Load]:
+def known(poses: PartPoses) -> list[Load]:
     """Return what acts without anybody's doing: weights, spring, damper and stops."""
     structure, still = poses.structure, np.zeros(3)
     weights, forces = poses.weights(), poses.forces_along_lines()
@@ -49,7 +49,7 @@ def known(poses: Assembled) -> list[Load]:
     return loads
 
 
-def along_line(poses: Assembled, line: Line, force: Array) -> list[Load]:
+def along_line(poses: PartPoses, line: ForceElement, force: Array) -> list[Load]:
     """Return forces along a line on both of its parts, positive when they push."""
     points = poses.points
     push = force[..., None] * line.direction(points)

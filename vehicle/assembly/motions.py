@@ -8,9 +8,9 @@ from ..corner.corner import Array
 from ..models.axle import Axle
 from ..models.axle.axle import LEFT, RIGHT
 from ..models.positions import PositionError, design_height, travel_range
-from .line import Line
-from .rig import Extent
+from .rig import SweepRange
 from .usual import grid, usual_rack, usual_travel
+from .wheel_centre_line import WheelCentreLine
 
 MOTIONS = {
     "bump": "both wheels rise and fall together",
@@ -39,7 +39,7 @@ def track(axle: Axle) -> float:
     return float(left[1] - right[1])
 
 
-def travels(axle: Axle, extent: Extent, sides: tuple[str, ...] = (LEFT, RIGHT)) -> Array:
+def travels(axle: Axle, extent: SweepRange, sides: tuple[str, ...] = (LEFT, RIGHT)) -> Array:
     """Return usual wheel travels that some wheels reach [m], zero included."""
     found = [
         usual_travel(axle.models[side], rebound=extent.rebound, bump=extent.bump, step=extent.step)
@@ -49,18 +49,18 @@ def travels(axle: Axle, extent: Extent, sides: tuple[str, ...] = (LEFT, RIGHT)) 
     return grid(low, high, extent.step)
 
 
-def rolls(axle: Axle, extent: Extent) -> Array:
+def rolls(axle: Axle, extent: SweepRange) -> Array:
     """Return usual roll angles that both wheels reach [rad], zero included."""
     most = extent.roll
     if most is None:
         ends = (1.0 - _CLEARANCE) * _most_opposite(axle) * np.array([-1.0, 1.0])
-        most = min(USUAL_ROLL, *np.abs(Line.at(axle, -ends, ends).roll))
+        most = min(USUAL_ROLL, *np.abs(WheelCentreLine.at(axle, -ends, ends).roll))
     with Arguments("roll") as given:
         most = given.number("roll", most, "rad", least=0.0, below=_MOST_ROLL)
     return grid(-most, most, USUAL_ROLL_STEP)
 
 
-def racks(axle: Axle, extent: Extent) -> Array:
+def racks(axle: Axle, extent: SweepRange) -> Array:
     """Return usual displacements of the rack that both wheels reach [m], zero included."""
     found = [
         usual_rack(model, extent=extent.rack, step=extent.step) for model in axle.models.values()
@@ -69,7 +69,7 @@ def racks(axle: Axle, extent: Extent) -> Array:
     return grid(-most, most, extent.step)
 
 
-def steering_angles(axle: Axle, extent: Extent) -> Array | None:
+def steering_angles(axle: Axle, extent: SweepRange) -> Array | None:
     """Return angles of the steering wheel for the usual displacements of the rack [rad].
 
     Returns
@@ -137,7 +137,7 @@ def opposite(axle: Axle, angles: Array, rack: float = 0.0) -> tuple[Array, Array
         raise InputError([problem], "axle")
     most = _most_opposite(axle, rack)
     ends = most * np.array([-1.0, 1.0])
-    low, high = Line.at(axle, -ends, ends, rack).roll
+    low, high = WheelCentreLine.at(axle, -ends, ends, rack).roll
     beyond = (angles < low) | (angles > high)
     if beyond.any():
         worst = float(angles[beyond][np.abs(angles[beyond]).argmax()])
@@ -184,7 +184,7 @@ def _half_travels(axle: Axle, angles: Array, rack: float, most: float) -> Array:
     half = np.clip(0.5 * track(axle) * np.sin(angles), -most, most)
     low, high = np.full_like(half, -most), np.full_like(half, most)
     for _ in range(_MOST_STEPS):
-        line = Line.at(axle, -half, half, rack)
+        line = WheelCentreLine.at(axle, -half, half, rack)
         excess = line.roll - angles
         low, high = np.where(excess <= 0.0, half, low), np.where(excess >= 0.0, half, high)
         before, newton = half, half - excess / line.roll_rate

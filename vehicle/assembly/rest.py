@@ -21,7 +21,7 @@ from ...equations.errors import ModelError
 from ..models.positions import road_below
 from ..models.reach import PositionError, Range, refuse_beyond
 from .assembly import Assembly
-from .held import Held
+from .held import RestConditions
 
 Array = NDArray[np.float64]
 Forces = Callable[[ArrayLike], Array]
@@ -33,13 +33,13 @@ _EPSILON = float(np.finfo(np.float64).eps)
 _AT_REST = 1e-9
 
 
-def at(assembly: Assembly, held: Held, coordinates: ArrayLike) -> tuple[Array, Array]:
+def at(assembly: Assembly, held: RestConditions, coordinates: ArrayLike) -> tuple[Array, Array]:
     """Return states and inputs at rest, (..., states) and (..., inputs).
 
     Parameters
     ----------
     assembly : Assembly
-    held : Held
+    held : RestConditions
     coordinates : array_like, shape (..., coordinates)
         Values of `Assembly.coordinates`.
     """
@@ -59,7 +59,7 @@ def at(assembly: Assembly, held: Held, coordinates: ArrayLike) -> tuple[Array, A
     return states, inputs
 
 
-def forces_of(assembly: Assembly, held: Held) -> Forces:
+def forces_of(assembly: Assembly, held: RestConditions) -> Forces:
     """Return what gives the generalised forces of coordinates at rest, shape (..., coordinates)."""
     model = assembly.model
     rows = [model.state_names.index(name) for name in assembly.coordinates]
@@ -71,13 +71,13 @@ def forces_of(assembly: Assembly, held: Held) -> Forces:
     return forces
 
 
-def settled(assembly: Assembly, held: Held, near: Array, message: str) -> Array:
+def settled(assembly: Assembly, held: RestConditions, near: Array, message: str) -> Array:
     """Return the coordinates of a stable state of rest near some others.
 
     Parameters
     ----------
     assembly : Assembly
-    held : Held
+    held : RestConditions
     near : ndarray, shape (coordinates,)
     message : str
         Of the error where there is none.

@@ -63,7 +63,7 @@ class WheelReach:
 
 
 @dataclass(frozen=True)
-class Extent:
+class SweepRange:
     """How far a motion goes, where it is not the usual; all positive.
 
     Attributes

@@ -11,7 +11,7 @@ from ...core.quantities import variable
 from ..corner.bushes import described_bushings
 from ..corner.corner import Array
 from ..input.vehicle import Tyre
-from ..models.axle.file import Held as TorqueHolder
+from ..models.axle.file import TorqueReaction as TorqueHolder
 from ..models.plausibility import Plausibility
 from ..models.reach import PositionError
 from ..models.rigid.axle import RigidAxle
@@ -21,16 +21,16 @@ from ..models.rigid.structure import BEAM
 from .anti_roll_bar import RollBar
 from .assembly import Assembly, Bushings
 from .axle import motions_of_two
-from .beam import SIDES, Beam
-from .held import Held
+from .held import RestConditions
 from .load import Load
 from .measures.measure import Measure
 from .measures.rigid_axle import MEASURES
 from .motions import MOTIONS, USUAL_ROLL, USUAL_ROLL_STEP
-from .parts import Parts
-from .poses import Assembled
+from .part_poses import PartPoses
 from .rest import settled
-from .rig import Extent, RigPosition
+from .rig import RigPosition, SweepRange
+from .rigid_axle_kinematics import SIDES, RigidAxleKinematics
+from .rigid_axle_parts import RigidAxleParts
 from .soft_lines import SoftLines, lines_by_rates, lines_of_beam
 from .usual import USUAL_TRAVEL, grid
 from .wheel_names import WheelNames
@@ -125,11 +125,16 @@ class RigidAxleAssembly(Assembly):
         return f"A {self.axle.heading()} on {len(self.axle.rods)} rods, {rods}."
 
     def usual(
-        self, motion: str, extent: Extent | None = None, *, travel: float = 0.0, rack: float = 0.0
+        self,
+        motion: str,
+        extent: SweepRange | None = None,
+        *,
+        travel: float = 0.0,
+        rack: float = 0.0,
     ) -> Array:
         """Return the usual positions of a motion, zero included [m] or [rad]."""
         del travel, rack
-        far = extent or Extent()
+        far = extent or SweepRange()
         if motion == "roll":
             with Arguments("roll") as given:
                 amount = 0.0 if far.roll is None else far.roll
@@ -194,7 +199,7 @@ class RigidAxleAssembly(Assembly):
             prefix, f"{prefix}axle_", f"{prefix}spin_angle", f"{prefix}spring_actuator"
         )
 
-    def coordinates_at_rest(self, held: Held) -> Array:
+    def coordinates_at_rest(self, held: RestConditions) -> Array:
         """Return heave and roll of the state of rest near the design position [m] and [rad]."""
         heave, roll = found = settled(self, held, np.zeros(2), _NO_REST)
         rise = self.axle.half_track * np.sin(roll)
@@ -219,19 +224,21 @@ class RigidAxleAssembly(Assembly):
         del motion
         return MEASURES
 
-    def kinematics(self, position: RigPosition) -> Beam:
+    def kinematics(self, position: RigPosition) -> RigidAxleKinematics:
         """Return how the axle is and how it moves first."""
         model = self.model if self.moves_rigidly else RigidAxleModel(self.axle)
-        return Beam(model, model.states_at(*(position.travels[side] for side in SIDES)))
+        return RigidAxleKinematics(
+            model, model.states_at(*(position.travels[side] for side in SIDES))
+        )
 
-    def poses(self, position: RigPosition) -> dict[str, Assembled]:
+    def poses(self, position: RigPosition) -> dict[str, PartPoses]:
         """Return its parts with rigid joints."""
         left, right = (position.travels[side] for side in SIDES)
-        return {"": Parts.of(self.model, self.model.states_at(left, right))}
+        return {"": RigidAxleParts.of(self.model, self.model.states_at(left, right))}
 
-    def soft_lines(self, poses: Mapping[str, Assembled]) -> dict[str, SoftLines]:
+    def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
         """Return how springs and stops give way."""
-        beam = Beam(self.model, poses[""].states)
+        beam = RigidAxleKinematics(self.model, poses[""].states)
         return {"": lines_by_rates(beam) if self.axle.overheld else lines_of_beam(beam)}
 
     def require_rigid_motion(self) -> None:
@@ -255,13 +262,13 @@ class RigidAxleAssembly(Assembly):
         """Return None: how far a wheel goes depends on the other one."""
         del rack
 
-    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, Assembled]:
+    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, PartPoses]:
         """Return its parts at rest; the coordinates are the travels of both wheels [m]."""
         del racks
         return {"": self._parts(coordinates)}
 
-    def _parts(self, travels: Array) -> Parts:
-        return Parts.of(self.model, self.model.placed(*travels.T))
+    def _parts(self, travels: Array) -> RigidAxleParts:
+        return RigidAxleParts.of(self.model, self.model.placed(*travels.T))
 
     def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
         """Tell where its rods and dampers reach, with springs and dampers upright."""
@@ -318,10 +325,10 @@ class RigidAxleAssembly(Assembly):
 
     def in_motion(
         self, states: Array, inputs: Array
-    ) -> tuple[dict[str, Assembled], dict[str, Array]]:
+    ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
         """Return its parts in some states, and the rates of these."""
         rates = self.model.evaluate("rhs", states, inputs)
-        return {"": Parts.of(self.model, states, inputs)}, {"": rates}
+        return {"": RigidAxleParts.of(self.model, states, inputs)}, {"": rates}
 
     def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
         """Return bushes as a caller describes them, or those of the file."""

@@ -7,7 +7,7 @@ import numpy as np
 from ...core.errors import InputError
 from ..corner.corner import Array, Corner
 from . import wheel
-from .beam import SIDES, Beam
+from .rigid_axle_kinematics import SIDES, RigidAxleKinematics
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ def soft_lines(there: Corner) -> SoftLines:
     return SoftLines(spring, stops[:, None])
 
 
-def lines_by_rates(beam: Beam) -> SoftLines:
+def lines_by_rates(beam: RigidAxleKinematics) -> SoftLines:
     """Return how springs and stops give way by their rates alone.
 
     Five rods have no motion with which the directions of forces would change.
@@ -65,7 +65,7 @@ def lines_by_rates(beam: Beam) -> SoftLines:
         return SoftLines(np.eye(2) / rates[:, None, :], 1.0 / np.abs(stops))
 
 
-def lines_of_beam(beam: Beam) -> SoftLines:
+def lines_of_beam(beam: RigidAxleKinematics) -> SoftLines:
     """Return how springs and stops give way along their lines, for a unit force along each."""
     growth = np.stack([beam.growth(f"{side}_spring") for side in SIDES], axis=1)
     rates = np.stack([beam.rate_of_stops(side) for side in SIDES], axis=1)

@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..corner.corner import Array, Motion
+from ..corner.corner import Array, CarrierMotion
 
 # Half the distance of the two points that stand for an axis without points of its own [m].
 _HALF = 0.1
@@ -78,14 +78,14 @@ class AxisOfTheScrew:
         return rate / self._rise[..., None]
 
 
-def of_the_screw(center: Array, steering: Motion) -> tuple[Array, Array]:
+def of_the_screw(center: Array, steering: CarrierMotion) -> tuple[Array, Array]:
     """Return two points on the axis of a motion.
 
     Parameters
     ----------
     center : ndarray, shape (..., 3)
         The wheel centre [m].
-    steering : Motion
+    steering : CarrierMotion
         Of the wheel carrier, the spring locked.
 
     Returns

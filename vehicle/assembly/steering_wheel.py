@@ -6,7 +6,7 @@ from ...core.errors import InputError
 from ..corner.corner import Array
 from ..models.axle import Axle
 from . import motions
-from .pair import Pair
+from .axle_kinematics import AxleKinematics
 from .wheel import steer_gradient
 
 
@@ -31,5 +31,5 @@ def rack_of(axle: Axle, angles: Array) -> tuple[Array, Array]:
 
 def _sense_of_rack(axle: Axle) -> float:
     """Return +1 where a positive displacement of the rack steers to the left, or -1."""
-    design = Pair.at(axle, 0.0, 0.0, 0.0)
+    design = AxleKinematics.at(axle, 0.0, 0.0, 0.0)
     return float(np.sign(sum(steer_gradient(corner) for corner in design.corners.values())))

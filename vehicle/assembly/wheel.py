@@ -8,7 +8,7 @@ bound (the length of a swing arm about an instant centre far away) becomes infin
 import numpy as np
 
 from ...core.vectors import cross
-from ..corner.corner import UP, Array, Corner, Motion, RoadWheel, SteeringAxis
+from ..corner.corner import UP, Array, CarrierMotion, Corner, RoadWheel, SteeringAxis
 
 # -- angles of the wheel --------------------------------------------------------------------------
 
@@ -44,13 +44,13 @@ def steer_gradient(corner: Corner) -> Array:
     return -corner.vehicle.side * toe_rate(corner, corner.steering)
 
 
-def camber_rate(corner: RoadWheel, motion: Motion) -> Array:
+def camber_rate(corner: RoadWheel, motion: CarrierMotion) -> Array:
     """Return how fast the camber changes in a motion [rad]."""
     turned = _turned_axis(corner, motion)
     return _angle_rate(_camber_sides(corner, corner.axis), _camber_sides(corner, turned))
 
 
-def toe_rate(corner: RoadWheel, motion: Motion) -> Array:
+def toe_rate(corner: RoadWheel, motion: CarrierMotion) -> Array:
     """Return how fast the toe angle changes in a motion [rad]."""
     turned = _turned_axis(corner, motion)
     return _angle_rate(_toe_sides(corner, corner.axis), _toe_sides(corner, turned))
@@ -265,7 +265,7 @@ def _angle_rate(sides: tuple[Array, Array], rates: tuple[Array, Array]) -> Array
     return (q * p_rate - p * q_rate) / (p**2 + q**2)
 
 
-def _turned_axis(corner: RoadWheel, motion: Motion) -> Array:
+def _turned_axis(corner: RoadWheel, motion: CarrierMotion) -> Array:
     return cross(motion.turning, corner.axis)
 
 

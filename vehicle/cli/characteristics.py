@@ -9,15 +9,7 @@ from ...terminal.console import console, curve_table, print_json, print_table
 from . import goals as wanted
 from .option_groups import with_groups
 from .options import Bump, File, Json, Of, RackExtent, Rebound, Step, among, by_comma, metres
-from .outputs import (
-    USUAL_OUTPUT,
-    OutputOptions,
-    name_files,
-    named,
-    of_both,
-    only,
-    title_of,
-)
+from .outputs import USUAL_OUTPUT, OutputOptions, name_files, named, of_both, only, title_of
 from .subject import assembly_of_file
 
 if TYPE_CHECKING:
@@ -105,7 +97,7 @@ def command(
     """
     from ...datasets import export
     from ..analysis.characteristics import datasets
-    from ..assembly.rig import Extent
+    from ..assembly.rig import SweepRange
 
     if goals and (travel or rack):
         raise typer.BadParameter(wanted.ELSEWHERE)
@@ -117,7 +109,7 @@ def command(
     )
     _refuse_options(assembly, roll=roll, rack_extent=rack_extent, travel=travel, rack=rack)
     aims = _aims(goals, chosen, assembly)
-    extent = Extent(
+    extent = SweepRange(
         rebound=metres(rebound),
         bump=metres(bump),
         roll=None if roll is None else radians(roll),

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
     from ..assembly.assembly import Assembly
-    from ..assembly.rig import Extent
+    from ..assembly.rig import SweepRange
 
 EXAMPLES = (
     "kintrafo compliance my_car.toml bushes.toml",
@@ -137,7 +137,7 @@ class _Rig(NamedTuple):
     bushings: Mapping[str, Any] | None
     at: float
     rack: float
-    extent: "Extent"
+    extent: "SweepRange"
 
     @classmethod
     def of(
@@ -149,14 +149,14 @@ class _Rig(NamedTuple):
     ) -> "_Rig":
         """Return what is on the rig at a travel and a place of the rack, and its ends [mm]."""
         from ..assembly.of import assembly_of
-        from ..assembly.rig import Extent
+        from ..assembly.rig import SweepRange
 
         assembly: Any = assembly_of(described_by(file))
         at, rack = where
         if not assembly.steered:
             refuse_options("files with a rack", {"--rack": rack or None})
         rebound, bump = map(metres, ends)
-        extent = Extent(rebound=rebound, bump=bump)
+        extent = SweepRange(rebound=rebound, bump=bump)
         return cls(file, assembly, described(file, bushes), at / 1e3, rack / 1e3, extent)
 
     def on_bushes(self) -> Any:

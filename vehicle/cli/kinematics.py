@@ -51,13 +51,13 @@ def command(
     from ...datasets import export
     from ..analysis import sweep
     from ..assembly.by_wheel import flat
-    from ..assembly.rig import Extent
+    from ..assembly.rig import SweepRange
 
     if (travel and over != "rack") or (rack and over != "travel"):
         raise typer.BadParameter(f"--travel and --rack are for what is held; --over is {over}")
     outputs = output.of(inputs=[file])
     assembly = assembly_of_file(file)
-    extent = Extent(
+    extent = SweepRange(
         rebound=metres(rebound), bump=metres(bump), rack=metres(rack_extent), step=step / 1e3
     )
     held = {"travel": travel / 1e3, "rack": rack / 1e3}

@@ -7,10 +7,12 @@ from rich.markup import escape
 from rich.table import Table
 
 if TYPE_CHECKING:
-    from ..studies.places import Place
+    from ..studies.design_variables import DesignVariable
 
 
-def moved_table(places: "Iterable[Place]", moved: Mapping[str, float], title: str) -> Table:
+def moved_table(
+    places: "Iterable[DesignVariable]", moved: Mapping[str, float], title: str
+) -> Table:
     """Return a table of what values were, what they are, and by how much they have moved."""
     table = Table(title=escape(title))
     table.add_column("value")

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...systems.system import System
-    from ..analysis.compliance.flexibility import Held
+    from ..analysis.compliance.flexibility import WheelSupport
     from ..models.axle import Axle
     from ..models.model import Model
     from ..models.rigid import RigidAxle
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ..studies.goals import Goal
 
 # What holds the wheels where the chapter of compliance has curves.
-_HELD: "Held" = "height"
+_HELD: "WheelSupport" = "height"
 
 EXAMPLES = (
     "kintrafo report reference_car",

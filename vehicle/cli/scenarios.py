@@ -54,7 +54,7 @@ class ScenarioOptions:
 
     def scenario(self) -> "Scenario":
         """Return the scenario that the options describe."""
-        from ..analysis.excitation import Course, excitation
+        from ..analysis.excitation import TimeProfile, excitation
         from ..analysis.measurement import measured
         from ..analysis.scenario import Scenario
 
@@ -70,13 +70,13 @@ class ScenarioOptions:
         if end is None:
             end = 1.0 if recording is None else recording.duration
         courses: dict[str, Any] = {
-            "road_height": Course(
+            "road_height": TimeProfile(
                 step=metres(self.road_step),
                 step_at=self.road_step_at,
                 sine=metres(self.road_sine),
                 frequency=self.road_frequency,
             ),
-            "rack_position": Course(
+            "rack_position": TimeProfile(
                 held=metres(self.rack),
                 sine=metres(self.rack_sine),
                 frequency=self.rack_frequency,

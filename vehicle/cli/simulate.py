@@ -15,15 +15,7 @@ from .option_groups import with_groups
 from .options import File, Json
 from .outputs import USUAL_OUTPUT, OutputOptions, Outputs, name_files, title_of
 from .scenarios import USUAL_SCENARIO, ScenarioOptions
-from .simulation_options import (
-    Atol,
-    MaxStep,
-    MaxSteps,
-    Method,
-    Rtol,
-    Step,
-    Wheels,
-)
+from .simulation_options import Atol, MaxStep, MaxSteps, Method, Rtol, Step, Wheels
 from .subject import model_of
 
 if TYPE_CHECKING:

@@ -22,7 +22,7 @@ from ...core.columns import number
 from ...core.errors import InputError
 from ...core.suggestions import suggestion
 from ...core.vectors import components, unit_vector
-from ...systems.allowed import Allowed
+from ...systems.allowed import LengthLimit
 from ..data import data_sets, find
 from ..data.starter import DEFAULT, NOT_A_RIGID_AXLE, RIGID_AXLE, RIGID_AXLES, packaged_axles
 from ..input.bodies import Bodies
@@ -38,7 +38,7 @@ from ..input.toml_writer import write_toml
 from ..input.units import in_metres
 from ..input.vehicle import Gravity, Steering, Tyre, Vehicle, Wheel
 from .bushes import Bush, Bushings, bushes_of, mirrored_bushings, softness_of_rack
-from .corner import Array, Motion, Plane, Spring, Stroke
+from .corner import Array, CarrierMotion, Plane, Spring, Stroke
 from .drawing import Drawing
 from .facts import Extended, Names
 from .geometry import geometry_problems
@@ -371,12 +371,12 @@ class Suspension(Section):
         spin = sign * self.wheel.spin_axis(sign)
         return bushes_of(given, described, self.structure(), self.hardpoints.at_design(), spin)
 
-    def allowed_lengths(self) -> tuple[Allowed, ...]:
+    def allowed_lengths(self) -> tuple[LengthLimit, ...]:
         """Return the lengths that positions must keep, besides closing the loops.
 
         Returns
         -------
-        tuple of Allowed
+        tuple of LengthLimit
             Of what can be drawn in or out; empty where the file gives no limit.
         """
         return ()
@@ -411,14 +411,14 @@ class Suspension(Section):
         """Return the joints and the lines of force, for the loads on its parts."""
 
     @abstractmethod
-    def links_at(self, points: Mapping[str, Array], travel: Motion) -> tuple[Plane, Plane]:
+    def links_at(self, points: Mapping[str, Array], travel: CarrierMotion) -> tuple[Plane, Plane]:
         """Return the planes of the links that hold the wheel carrier; see `Corner`.
 
         Parameters
         ----------
         points : mapping
             The hardpoints by name, each of shape (..., 3) [m].
-        travel : Motion
+        travel : CarrierMotion
             How the wheel carrier moves first, per unit of wheel travel.
         """
 

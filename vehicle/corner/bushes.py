@@ -16,7 +16,7 @@ from ..input.bush_curve import curve_of
 from ..input.curve import Curve, Interpolation
 from ..input.toml_file import read_sections
 from ..input.units import unit_of
-from .structure import Fixed, Joint, Points, Structure, Telescope
+from .structure import FixedJoint, Joint, Points, Structure, TelescopeJoint
 
 Array = NDArray[np.float64]
 
@@ -274,7 +274,7 @@ def bushes_of(
             given.refuse(f"{title} {key} is not known. {meant}")
         if not any(key in table for key in _STIFFNESSES):
             given.refuse(f"{title}: one of {', '.join(_STIFFNESSES)} is needed, or it is rigid.")
-        is_bearing = isinstance(joints[point], Fixed)
+        is_bearing = isinstance(joints[point], FixedJoint)
         if "torsion_Nm_per_deg" in table and is_bearing:
             given.refuse(f"{title} torsion_Nm_per_deg: the brake holds the wheel about its axis.")
         torsion, _ = _turning(given, title, table, "torsion_Nm_per_deg")
@@ -388,12 +388,12 @@ def _axes(
     spin: Array,
 ) -> Array:
     """Return the axes of a bush as rows: its own, and the two across it."""
-    usual_axis = spin if isinstance(joint, Fixed) else joint.axis(design)
+    usual_axis = spin if isinstance(joint, FixedJoint) else joint.axis(design)
     if usual_axis is None and "axis" not in table:
         given.refuse(f"{title} axis is needed: no direction there is that of a bush by itself.")
         return np.eye(3)
     along = _direction(given, title, table, "axis", usual_axis)
-    if isinstance(joint, Telescope):
+    if isinstance(joint, TelescopeJoint):
         for key in (key for key in ("axial_N_per_mm", "axial_curve") if key in table):
             given.refuse(f"{title} {key}: a telescope carries nothing along its axis.")
         if "axis" in table:

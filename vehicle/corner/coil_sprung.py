@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Self
 
 from pydantic import Field
 
-from ...systems.allowed import Allowed
+from ...systems.allowed import LengthLimit
 from ..input.curve import WAYS, Interpolation, Numbers
 from ..input.damper import Damper, curve_problems
 from ..input.hardpoints import Pair
@@ -111,12 +111,12 @@ class CoilDamper(Section):
             if end is not None and sense * (length - end) < 0.0
         ]
 
-    def allowed_lengths(self, signal: str) -> tuple[Allowed, ...]:
+    def allowed_lengths(self, signal: str) -> tuple[LengthLimit, ...]:
         """Return the least and the greatest length, where they are given, of a signal."""
         ends = (("min", 1.0, "least"), ("max", -1.0, "greatest"))
         given = ((getattr(self, f"length_{end}_mm"), end, sign, name) for end, sign, name in ends)
         return tuple(
-            Allowed(
+            LengthLimit(
                 signal,
                 sign * in_metres(value, "mm"),
                 "damper",
@@ -189,7 +189,7 @@ class CoilSprung(Suspension):
 
     # -- its geometry ---------------------------------------------------------------------------
 
-    def allowed_lengths(self) -> tuple[Allowed, ...]:
+    def allowed_lengths(self) -> tuple[LengthLimit, ...]:
         """Return the least and the greatest length of the damper, where they are given."""
         return self.damper.allowed_lengths(f"{self.STOPPED}_length")
 

@@ -19,7 +19,7 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
-class Motion:
+class CarrierMotion:
     """How the wheel carrier moves first, per unit of what moves it.
 
     Attributes
@@ -33,18 +33,18 @@ class Motion:
     velocity: Array
     turning: Array
 
-    def minus(self, other: "Motion", times: Array) -> "Motion":
+    def minus(self, other: "CarrierMotion", times: Array) -> "CarrierMotion":
         """Return this motion less a multiple of another."""
-        return Motion(
+        return CarrierMotion(
             **{
                 name: part - times[..., None] * vars(other)[name]
                 for name, part in vars(self).items()
             }
         )
 
-    def per(self, unit: Array) -> "Motion":
+    def per(self, unit: Array) -> "CarrierMotion":
         """Return the motion for one of another unit, given how many of them one of these makes."""
-        return Motion(**{name: part / unit[..., None] for name, part in vars(self).items()})
+        return CarrierMotion(**{name: part / unit[..., None] for name, part in vars(self).items()})
 
     def axis_nearest(self, center: Array) -> Array:
         """Return the point on the axis of this motion, that of a screw, nearest to the wheel's.
@@ -205,9 +205,9 @@ class Corner(RoadWheel):
         As of `RoadWheel`.
     steering_axis : SteeringAxis or None
         About which it is steered; None where nothing steers it.
-    travel : Motion
+    travel : CarrierMotion
         Per unit of wheel travel (height of the wheel centre) with the steering held [per m].
-    steering : Motion or None
+    steering : CarrierMotion or None
         Per unit of rack travel with the wheel centre held at its height [per m]; None where
         nothing steers it.
     links : tuple of Plane
@@ -224,8 +224,8 @@ class Corner(RoadWheel):
     """
 
     steering_axis: SteeringAxis | None
-    travel: Motion
-    steering: Motion | None
+    travel: CarrierMotion
+    steering: CarrierMotion | None
     links: tuple[Plane, Plane]
     spring: Spring
     stops: tuple[Spring, ...]

@@ -101,7 +101,7 @@ class Joint(ABC):
 
 
 @dataclass(frozen=True)
-class Ball(Joint):
+class SphericalJoint(Joint):
     """A ball joint: a force.
 
     Attributes
@@ -122,7 +122,7 @@ class Ball(Joint):
         return _spread(np.eye(6)[:, :3], points[self.at[0]])
 
 
-class Fixed(Joint):
+class FixedJoint(Joint):
     """What holds in every direction, as a wheel bearing with its brake: force and moment."""
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
@@ -144,7 +144,7 @@ class Fixed(Joint):
 
 
 @dataclass(frozen=True)
-class Cross(Joint):
+class UniversalJoint(Joint):
     """A universal joint: a force, and a moment across both of its axes.
 
     Attributes
@@ -183,7 +183,7 @@ class Cross(Joint):
         return first, turned[self.second] @ cross(design[self.shaft] - design[center], first)
 
 
-class Hinge(Joint):
+class HingeJoint(Joint):
     """Two bearings on an axis: forces across it at each, and along it at both alike."""
 
     RULE = "two bearings on an axis share the force along it equally"
@@ -212,7 +212,7 @@ class Hinge(Joint):
 
 
 @dataclass(frozen=True)
-class Telescope(Joint):
+class TelescopeJoint(Joint):
     """A tube and a rod: forces and moments across their axis, about a point on it.
 
     Attributes
@@ -255,7 +255,7 @@ class Telescope(Joint):
 
 
 @dataclass(frozen=True)
-class Line:
+class ForceElement:
     """What pushes two parts apart along the line of two hardpoints: a spring, a damper, a stop.
 
     Attributes
@@ -294,14 +294,14 @@ class Structure:
     Attributes
     ----------
     joints : sequence of Joint
-    lines : sequence of Line
+    lines : sequence of ForceElement
         Those of springs and dampers.
     mounted : mapping of str to str
         Points on the chassis that belong to a mount at another point.
     """
 
     joints: Sequence[Joint]
-    lines: Sequence[Line]
+    lines: Sequence[ForceElement]
     mounted: Mapping[str, str] = field(default_factory=dict)
 
     @property
@@ -330,9 +330,9 @@ def steered(*joints: Joint) -> tuple[Joint, ...]:
     """Return joints with those that every steered wheel has: tie rod and wheel bearing."""
     return (
         *joints,
-        Ball("knuckle", "tie_rod", ("tie_rod_outer",), "tie_rod_inner"),
-        Cross("rack", "tie_rod", ("tie_rod_inner",), "tie_rod_outer", (0.0, 0.0, 1.0)),
-        Fixed("knuckle", "wheel", ("wheel_center",)),
+        SphericalJoint("knuckle", "tie_rod", ("tie_rod_outer",), "tie_rod_inner"),
+        UniversalJoint("rack", "tie_rod", ("tie_rod_inner",), "tie_rod_outer", (0.0, 0.0, 1.0)),
+        FixedJoint("knuckle", "wheel", ("wheel_center",)),
     )
 
 

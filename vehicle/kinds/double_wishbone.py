@@ -16,10 +16,17 @@ from ...core.errors import InputError
 from ...core.vectors import Vector, cross, distance_from_line, unit_vector
 from ...generated import double_wishbone, double_wishbone_general
 from ..corner.coil_sprung import CoilDamper, CoilSprung
-from ..corner.corner import Array, Motion, Plane
+from ..corner.corner import Array, CarrierMotion, Plane
 from ..corner.drawing import Axis, Drawing
 from ..corner.facts import Names
-from ..corner.structure import FORCES_OF_A_DAMPER, Ball, Hinge, Line, Structure, steered
+from ..corner.structure import (
+    FORCES_OF_A_DAMPER,
+    ForceElement,
+    HingeJoint,
+    SphericalJoint,
+    Structure,
+    steered,
+)
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Triple
@@ -257,16 +264,22 @@ damper has a rate or a curve; the stops are touched by its length."""
             joint
             for ball, bearings in self.hardpoints.ARMS.items()
             for arm in [ball.replace("ball_joint", "arm")]
-            for joint in (Hinge("chassis", arm, bearings), Ball(arm, "knuckle", (ball,)))
+            for joint in (
+                HingeJoint("chassis", arm, bearings),
+                SphericalJoint(arm, "knuckle", (ball,)),
+            )
         ]
         ends = ("chassis", "lower_arm", ("spring_top", "spring_seat"))
         damper = (*FORCES_OF_A_DAMPER, self.NAMES.actuator)
-        lines = (Line("spring", ("spring_force",), *ends), Line("damper", damper, *ends))
+        lines = (
+            ForceElement("spring", ("spring_force",), *ends),
+            ForceElement("damper", damper, *ends),
+        )
         return Structure(steered(*arms), lines)
 
     # -- what its characteristics are computed from ---------------------------------------------
 
-    def links_at(self, points: Mapping[str, Array], travel: Motion) -> tuple[Plane, Plane]:
+    def links_at(self, points: Mapping[str, Array], travel: CarrierMotion) -> tuple[Plane, Plane]:
         """Return the planes of the lower and of the upper arm."""
         del travel
         lower, upper = (

@@ -16,22 +16,22 @@ from pydantic import Field
 from ...core.columns import number
 from ...core.vectors import Vector, cross, unit_vector
 from ...generated import macpherson, macpherson_free_rack, macpherson_general
-from ...systems.allowed import Allowed
+from ...systems.allowed import LengthLimit
 from ...systems.compile.build import compile_mechanism, require_generator
 from ..corner.base import Suspension
-from ..corner.corner import Array, Motion, Plane, Stroke
+from ..corner.corner import Array, CarrierMotion, Plane, Stroke
 from ..corner.corner import Spring as SpringStroke
 from ..corner.drawing import Axis, Drawing
 from ..corner.facts import Extended, Names
 from ..corner.strokes import Strokes
 from ..corner.structure import (
     FORCES_OF_A_DAMPER,
-    Ball,
-    Cross,
-    Hinge,
-    Line,
+    ForceElement,
+    HingeJoint,
+    SphericalJoint,
     Structure,
-    Telescope,
+    TelescopeJoint,
+    UniversalJoint,
     steered,
 )
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
@@ -323,13 +323,13 @@ the spring, with a curve in `[spring]`."""
         """Return the strut drawn out."""
         return Extended("strut_length", self.strut.length_max, "strut", "[strut] length_max_mm")
 
-    def allowed_lengths(self) -> tuple[Allowed, ...]:
+    def allowed_lengths(self) -> tuple[LengthLimit, ...]:
         """Return the least length of the strut, where it is given."""
         least = self.strut.length_min_mm
         if least is None:
             return ()
         end = f"least length, [strut] length_min_mm = {least:g} mm"
-        return (Allowed("strut_length", in_metres(least, "mm"), "strut", end),)
+        return (LengthLimit("strut_length", in_metres(least, "mm"), "strut", end),)
 
     def rate_key(self, part: str) -> str:
         """Return where the rate of the spring or the damper stands: with the strut, usually."""
@@ -365,22 +365,26 @@ the spring, with a curve in `[spring]`."""
     def structure(self) -> Structure:
         """Return the joints; the spring stands on the chassis, beside the mount of the strut."""
         joints = (
-            Hinge("chassis", "control_arm", self.hardpoints.ARMS["ball_joint"]),
-            Ball("control_arm", "knuckle", ("ball_joint",)),
-            Cross("chassis", "upper_strut", ("strut_top",), "strut_lower", (1.0, 0.0, 0.0)),
-            Telescope("upper_strut", "knuckle", ("strut_lower",), "strut_top"),
+            HingeJoint("chassis", "control_arm", self.hardpoints.ARMS["ball_joint"]),
+            SphericalJoint("control_arm", "knuckle", ("ball_joint",)),
+            UniversalJoint(
+                "chassis", "upper_strut", ("strut_top",), "strut_lower", (1.0, 0.0, 0.0)
+            ),
+            TelescopeJoint("upper_strut", "knuckle", ("strut_lower",), "strut_top"),
         )
         damper = (*FORCES_OF_A_DAMPER, self.NAMES.actuator)
         lines = (
-            Line("spring", ("spring_force",), "chassis", "knuckle", ("spring_top", "spring_seat")),
-            Line("damper", damper, "upper_strut", "knuckle", ("strut_top", "strut_lower")),
+            ForceElement(
+                "spring", ("spring_force",), "chassis", "knuckle", ("spring_top", "spring_seat")
+            ),
+            ForceElement("damper", damper, "upper_strut", "knuckle", ("strut_top", "strut_lower")),
         )
         # one mount is bolted to the body for both
         return Structure(steered(*joints), lines, {"spring_top": "strut_top"})
 
     # -- what its characteristics are computed from ---------------------------------------------
 
-    def links_at(self, points: Mapping[str, Array], travel: Motion) -> tuple[Plane, Plane]:
+    def links_at(self, points: Mapping[str, Array], travel: CarrierMotion) -> tuple[Plane, Plane]:
         """Return the plane of the control arm and that across the strut through its mount."""
         del travel
         ball, front, rear = points["ball_joint"], points["arm_front"], points["arm_rear"]

@@ -16,10 +16,18 @@ from ...core.errors import InputError
 from ...core.vectors import Vector, components, cross, unit_vector
 from ...generated import multi_link
 from ..corner.coil_sprung import CoilDamper, CoilSprung
-from ..corner.corner import Array, Motion, Plane
+from ..corner.corner import Array, CarrierMotion, Plane
 from ..corner.drawing import Axis, Drawing
 from ..corner.facts import Names
-from ..corner.structure import FORCES_OF_A_DAMPER, Ball, Cross, Line, Structure, frame, steered
+from ..corner.structure import (
+    FORCES_OF_A_DAMPER,
+    ForceElement,
+    SphericalJoint,
+    Structure,
+    UniversalJoint,
+    frame,
+    steered,
+)
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.hardpoints import Hardpoints, Pair
 from ..input.section import Positive, Triple
@@ -332,25 +340,25 @@ force at the design position (`force_at_design_N`). The stops are touched by the
             for link in LINKS
             for outer, inner in [_ends(link)]
             for joint in (
-                Ball("knuckle", link, (outer,), inner),
-                Cross("chassis", link, (inner,), outer, (0.0, 0.0, 1.0)),
+                SphericalJoint("knuckle", link, (outer,), inner),
+                UniversalJoint("chassis", link, (inner,), outer, (0.0, 0.0, 1.0)),
             )
         ]
-        spring = Line(
+        spring = ForceElement(
             "spring",
             ("spring_force", self.NAMES.actuator),
             "chassis",
             "rear_lower_link",
             ("spring_top", "spring_seat"),
         )
-        damper = Line(
+        damper = ForceElement(
             "damper", FORCES_OF_A_DAMPER, "chassis", "knuckle", ("damper_top", "damper_seat")
         )
         return Structure(steered(*links), (spring, damper))
 
     # -- what its characteristics are computed from ---------------------------------------------
 
-    def links_at(self, points: Mapping[str, Array], travel: Motion) -> tuple[Plane, Plane]:
+    def links_at(self, points: Mapping[str, Array], travel: CarrierMotion) -> tuple[Plane, Plane]:
         """Return two planes through the axis about which the knuckle turns over wheel travel.
 
         No two planes hold the links, so that it is the axis of the motion itself, with the toe link

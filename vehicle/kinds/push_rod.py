@@ -16,7 +16,14 @@ from ...core.vectors import Vector, cross, distance_from_line, unit_vector
 from ...generated import push_rod
 from ..corner.coil_sprung import CoilDamper
 from ..corner.drawing import Axis, Drawing
-from ..corner.structure import FORCES_OF_A_DAMPER, Ball, Cross, Hinge, Line, Structure
+from ..corner.structure import (
+    FORCES_OF_A_DAMPER,
+    ForceElement,
+    HingeJoint,
+    SphericalJoint,
+    Structure,
+    UniversalJoint,
+)
 from ..input.bodies import Rack, RigidBody, TieRod
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Triple
@@ -241,9 +248,12 @@ has a rate or a curve; the stops are touched by its length."""
         damper = (*FORCES_OF_A_DAMPER, self.NAMES.actuator)
         joints = (
             *super().structure().joints,
-            Hinge("chassis", "rocker", _ROCKER),
-            Ball(arm, rod, (outer,), inner),
-            Cross("rocker", rod, (inner,), outer, first_axis),
+            HingeJoint("chassis", "rocker", _ROCKER),
+            SphericalJoint(arm, rod, (outer,), inner),
+            UniversalJoint("rocker", rod, (inner,), outer, first_axis),
         )
-        lines = (Line("spring", ("spring_force",), *ends), Line("damper", damper, *ends))
+        lines = (
+            ForceElement("spring", ("spring_force",), *ends),
+            ForceElement("damper", damper, *ends),
+        )
         return Structure(joints, lines)

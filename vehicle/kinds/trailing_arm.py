@@ -16,10 +16,17 @@ from ...core.errors import InputError
 from ...core.vectors import Vector, angle_between_lines, cross, distance_from_line
 from ...generated import trailing_arm
 from ..corner.coil_sprung import CoilDamper, CoilSprung
-from ..corner.corner import Array, Motion, Plane
+from ..corner.corner import Array, CarrierMotion, Plane
 from ..corner.drawing import Axis, Drawing
 from ..corner.facts import Names
-from ..corner.structure import FORCES_OF_A_DAMPER, Fixed, Hinge, Line, Structure, frame
+from ..corner.structure import (
+    FORCES_OF_A_DAMPER,
+    FixedJoint,
+    ForceElement,
+    HingeJoint,
+    Structure,
+    frame,
+)
 from ..input.bodies import Bodies, RigidBody
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Positive, Triple
@@ -214,16 +221,19 @@ length."""
         """Return the two bearings of the arm on one axis, and that of the wheel."""
         ends = ("chassis", "trailing_arm")
         signals = ("spring_force", self.NAMES.actuator)
-        joints = (Hinge(*ends, _BEARINGS), Fixed("trailing_arm", "wheel", ("wheel_center",)))
+        joints = (
+            HingeJoint(*ends, _BEARINGS),
+            FixedJoint("trailing_arm", "wheel", ("wheel_center",)),
+        )
         lines = (
-            Line("spring", signals, *ends, ("spring_top", "spring_seat")),
-            Line("damper", FORCES_OF_A_DAMPER, *ends, ("damper_top", "damper_seat")),
+            ForceElement("spring", signals, *ends, ("spring_top", "spring_seat")),
+            ForceElement("damper", FORCES_OF_A_DAMPER, *ends, ("damper_top", "damper_seat")),
         )
         return Structure(joints, lines)
 
     # -- what its characteristics are computed from ---------------------------------------------
 
-    def links_at(self, points: Mapping[str, Array], travel: Motion) -> tuple[Plane, Plane]:
+    def links_at(self, points: Mapping[str, Array], travel: CarrierMotion) -> tuple[Plane, Plane]:
         """Return two planes through the hinge, about which the arm turns."""
         del travel
         inner, outer = (points[name] for name in _BEARINGS)

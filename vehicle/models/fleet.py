@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ...core.columns import Column, Ledger, stacked
 from ...core.physical import impossible
-from ...systems.allowed import Allowed
+from ...systems.allowed import LengthLimit
 from ..corner.geometry import problems_of_sections
 from ..input.section import Section
 from ..kinds import Suspension
@@ -111,7 +111,7 @@ class Fleet(Model):
         """Take some out of the fleet."""
         self._ledger.there &= ~gone
 
-    def allowed_lengths(self) -> tuple[Allowed, ...]:
+    def allowed_lengths(self) -> tuple[LengthLimit, ...]:
         """Return the lengths that the files allow; limits of shape (count, 1) where they differ."""
         return self._allowed
 
@@ -129,7 +129,7 @@ def _is_reversed(place: str) -> bool:
     return place.endswith(_REVERSED.get(place.partition(".")[0], ()))
 
 
-def _allowed(one: Allowed) -> Allowed:
+def _allowed(one: LengthLimit) -> LengthLimit:
     limit: Any = one.limit
     if not isinstance(limit, Column):
         return one
@@ -137,7 +137,7 @@ def _allowed(one: Allowed) -> Allowed:
     return one._replace(limit=limits)
 
 
-def _allowed_of(one: Allowed, some: NDArray[np.int64]) -> Allowed:
+def _allowed_of(one: LengthLimit, some: NDArray[np.int64]) -> LengthLimit:
     limit: Any = one.limit
     return one._replace(limit=limit[some]) if np.ndim(limit) else one
 

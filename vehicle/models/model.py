@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...core.arguments import Arguments, shown
 from ...core.errors import InputError
-from ...systems.allowed import Allowed
+from ...systems.allowed import LengthLimit
 from ...systems.system import System
 from ..corner.wheel_loads import with_wheel_loads
 from ..kinds import Suspension
@@ -93,7 +93,7 @@ class Model(System):
         del some
         return self
 
-    def allowed_lengths(self) -> tuple[Allowed, ...]:
+    def allowed_lengths(self) -> tuple[LengthLimit, ...]:
         """Return the lengths that the file allows."""
         return self.suspension.allowed_lengths()
 

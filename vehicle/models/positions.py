@@ -12,15 +12,7 @@ from ...core.named_types import ArrayLike
 from ...systems.state import State
 from ..input.vehicle import Tyre
 from .model import Model
-from .reach import (
-    Branch,
-    PositionError,
-    Range,
-    at_rest,
-    branch,
-    height_and_slope,
-    travel_range,
-)
+from .reach import Branch, PositionError, Range, at_rest, branch, height_and_slope, travel_range
 
 __all__ = [
     "PositionError",

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..analysis.characteristics.datasets import over
 from ..analysis.characteristics.groups import group_of
-from ..assembly.from_model import gaps
+from ..assembly.corner_kinematics import gaps
 from ..assembly.measures.corner import AT_STOPS
 from ..models.model import Model
 from ..models.positions import arm_angles, design_height

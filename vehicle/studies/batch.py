@@ -18,18 +18,18 @@ from ...core.threads import shared_out
 from ...equations.errors import ClosureError
 from ...simulation.lanes.run import usual_threads
 from ..analysis.compliance.flexibility import HELD
-from ..assembly.from_model import corner
+from ..assembly.corner_kinematics import corner
 from ..assembly.measures.corner import OVER_RACK, OVER_TRAVEL
 from ..assembly.measures.measure import some_of_axle, values
+from ..assembly.mirrored_corner import MirroredCorner
 from ..assembly.of import assembly_of
-from ..assembly.single import Single
 from ..corner.corner import Corner
 from ..kinds import Suspension
 from ..models.fleet import Fleet
 from ..models.fleet_positions import fleet_angles
 from .curves import Curves, changed
+from .design_variables import DesignVariable, is_factor
 from .evaluation import Subject
-from .places import Place, is_factor
 
 Array = NDArray[np.float64]
 
@@ -44,12 +44,12 @@ _MOST_TRIES = 8
 Finish = Callable[[slice, list[Array], list[str]], None]
 
 
-def moved_by(places: Sequence[Place], off: Array) -> dict[str, Array]:
+def moved_by(places: Sequence[DesignVariable], off: Array) -> dict[str, Array]:
     """Return the values of many files, by place and in its unit there.
 
     Parameters
     ----------
-    places : sequence of Place
+    places : sequence of DesignVariable
     off : ndarray, shape (count, places)
         By how much they are off, SI units.
     """
@@ -213,7 +213,7 @@ def _corners(fleet: Fleet, look: Curves) -> Iterator[Corner]:
 
 def _values(look: Curves, corners: Sequence[Corner]) -> dict[str, Array]:
     own, *others = corners
-    of = Single(own, lambda: others[0], lambda: others[1])
+    of = MirroredCorner(own, lambda: others[0], lambda: others[1])
     measures = OVER_TRAVEL if look.over == "travel" else OVER_RACK
     return values(measures, of, [*of.corners], look.names)
 

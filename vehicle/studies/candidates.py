@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from ...core.errors import KintrafoError
 from ..assembly.of import assembly_of
 from .batch import curves_of_many, moved_by
-from .curves import Together, changed
+from .curves import CurveBundle, changed
+from .design_variables import DesignVariable
 from .evaluation import Subject
 from .goals import Goal
-from .places import Place
 
 Array = NDArray[np.float64]
 
@@ -25,18 +25,18 @@ class Candidates:
     Parameters
     ----------
     suspension : Suspension or RigidAxle
-    reach : mapping of Place to float
+    reach : mapping of DesignVariable to float
         How far values may move to either side [SI].
     goals : sequence of Goal
     """
 
     def __init__(
-        self, suspension: Subject, reach: Mapping[Place, float], goals: Sequence[Goal]
+        self, suspension: Subject, reach: Mapping[DesignVariable, float], goals: Sequence[Goal]
     ) -> None:
         self.suspension = suspension
         self.places, self.reach = tuple(reach), np.array([*reach.values()])
         self.goals = tuple(goals)
-        self._look = Together([goal.curves for goal in self.goals])
+        self._look = CurveBundle([goal.curves for goal in self.goals])
         self._values: dict[bytes, list[Array] | None] = {}
 
     def at(self, x: Array) -> Subject:

@@ -11,11 +11,11 @@ from ...core.arguments import Arguments, shown
 from ...core.named_types import ArrayLike
 from ...core.quantities import variable
 from ...core.suggestions import suggestion
-from ..analysis.compliance.flexibility import Held
+from ..analysis.compliance.flexibility import WheelSupport
 from .batch import curves_of_many
 from .curves import Curves, curves_of, refuse_bushes
+from .design_variables import DesignVariable, places_of
 from .evaluation import Subject, check_subject
-from .places import Place, places_of
 
 Array = NDArray[np.float64]
 
@@ -41,7 +41,7 @@ def cars(
     over: str | None = None,
     positions: ArrayLike | None = None,
     names: Sequence[str] | None = None,
-    held: Held | None = None,
+    held: WheelSupport | None = None,
     reductions: Sequence[str] | None = None,
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
@@ -187,7 +187,7 @@ def _columns(
     return columns, xr.zeros_like(frame, dtype=float).assign_coords(labels)
 
 
-def _places(given: Arguments, suspension: Subject, names: Any) -> dict[str, Place]:
+def _places(given: Arguments, suspension: Subject, names: Any) -> dict[str, DesignVariable]:
     known = places_of(suspension)
     if not names:
         given.refuse("values: one place or more is needed.")

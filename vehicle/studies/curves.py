@@ -12,8 +12,8 @@ from ..analysis.compliance.flexibility import HELD
 from ..assembly.assembly import Assembly
 from ..assembly.of import assembly_of
 from ..assembly.quantity import Quantity
+from .design_variables import DesignVariable, scaled
 from .evaluation import Subject, available, usual_positions, values_of
-from .places import Place, scaled
 from .sweep_axes import sweep_axes_of, sweep_axis
 
 Array = NDArray[np.float64]
@@ -58,7 +58,7 @@ class Curves:
         return np.array([found[name] for name in self.names])
 
 
-class Together:
+class CurveBundle:
     """Curves that are evaluated together: at once over each way."""
 
     def __init__(self, curves: Sequence[Curves]) -> None:
@@ -139,7 +139,7 @@ def _held(given: Arguments, suspension: Subject, over: Any, held: Any) -> Any:
     return given.among("held", held, HELD)
 
 
-def refuse_bushes(given: Arguments, places: Iterable[Place], overs: Iterable[str]) -> None:
+def refuse_bushes(given: Arguments, places: Iterable[DesignVariable], overs: Iterable[str]) -> None:
     """Refuse bushes where no result is one of compliance, so that joints are rigid."""
     soft = [place.name for place in places if place.of_bushes]
     if soft and not any(over in HELD for over in overs):

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ...core.arguments import Arguments
 from ..analysis.characteristics.datasets import dataset, flat_values
 from ..analysis.compare import common_positions as common_to
-from ..analysis.compliance.flexibility import HELD, Held
+from ..analysis.compliance.flexibility import HELD, WheelSupport
 from ..analysis.compliance.linear import linear
 from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import flat
@@ -43,7 +43,7 @@ def common_positions(assemblies: Sequence[Assembly], over: str) -> Array:
 def curves_over(assembly: Assembly, over: str, positions: Array) -> xr.Dataset:
     """Return all characteristics over a motion, or all compliances, to be drawn."""
     if over in HELD:
-        found = linear(assembly, None, positions, held=cast("Held", over))
+        found = linear(assembly, None, positions, held=cast("WheelSupport", over))
         return found.drop_dims(["moved", "by"])
     return dataset(assembly, over, positions)
 

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.quantities import display_of
-from ..analysis.compliance.flexibility import HELD, Held
+from ..analysis.compliance.flexibility import HELD, WheelSupport
+from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
 from .goals import GREATEST, LEAST, Target, check_data
-from .places import Place, amounts
 from .search import Search, in_words, least
 from .sweep_axes import SWEEP_AXES, UNDER_LOADS, sweep_axes_of
 from .tolerance import SIGMAS
@@ -77,7 +77,7 @@ class Fit:
         With the values that explain it best.
     start : Suspension or RigidAxle
         The one that was given.
-    places : tuple of Place
+    places : tuple of DesignVariable
         The values that may be off, as they were.
     moved : dict of str to float
         By how much each is off, in the unit for people.
@@ -98,7 +98,7 @@ class Fit:
 
     suspension: Subject
     start: Subject
-    places: tuple[Place, ...]
+    places: tuple[DesignVariable, ...]
     moved: dict[str, float]
     uncertainty: dict[str, float]
     told: dict[str, float]
@@ -115,7 +115,7 @@ def fit(
     *,
     accuracy: Mapping[str, float] | None = None,
     names: Sequence[str] | None = None,
-    held: Held = "height",
+    held: WheelSupport = "height",
     progress: Callable[[float], None] | None = None,
 ) -> Fit:
     """Find which errors of the input file explain curves that were measured.
@@ -198,7 +198,7 @@ def _targets(
     suspension: Subject,
     measured: xr.Dataset,
     names: Any,
-    how: tuple[Mapping[str, Any], Held],
+    how: tuple[Mapping[str, Any], WheelSupport],
 ) -> list[Target]:
     """Return the measured curves as targets, without the cells that are empty."""
     accuracies, held_by = how

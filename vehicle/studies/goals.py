@@ -14,7 +14,7 @@ from ..analysis.compliance.flexibility import HELD
 from ..assembly.of import assembly_of, given_assembly
 from ..assembly.quantity import Quantity
 from ..input.toml_file import read_sections
-from .curves import Curves, Together
+from .curves import CurveBundle, Curves
 from .evaluation import available
 from .sweep_axes import OF_CORNERS, SWEEP_AXES, compliances_over, sweep_axes_of, sweep_axis
 
@@ -271,7 +271,7 @@ def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
         if not given.refused:
             assembly = assembly_of(suspension)
             check_data(given, assembly, wanted)
-    looks = Together([goal.curves for goal in wanted])
+    looks = CurveBundle([goal.curves for goal in wanted])
     found = looks.of(assembly) if wanted else []
     return [_verdict(goal, values[0]) for goal, values in zip(wanted, found, strict=True)]
 

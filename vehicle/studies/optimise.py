@@ -10,9 +10,9 @@ from scipy.optimize import minimize
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
+from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
 from .goals import Limit, Target, check_data, limits_of, targets_of
-from .places import Place, amounts
 from .search import MOST_STEPS, NOTHING_TO_GAIN, TOO_MANY_STEPS, Search, in_words, least
 from .sweep_axes import sweep_axes_of
 
@@ -39,7 +39,7 @@ class Optimum:
         With the values that were found.
     start : Suspension or RigidAxle
         The one that was given.
-    places : tuple of Place
+    places : tuple of DesignVariable
         The values that were free, as they were.
     moved : dict of str to float
         By how much each has moved, in the unit for people.
@@ -57,7 +57,7 @@ class Optimum:
 
     suspension: Subject
     start: Subject
-    places: tuple[Place, ...]
+    places: tuple[DesignVariable, ...]
     moved: dict[str, float]
     targets: tuple[Target, ...]
     limits: tuple[Limit, ...]

@@ -12,12 +12,12 @@ from ...core.arguments import Arguments
 from ...core.errors import InputError
 from .candidates import Candidates
 from .curves import changed, refuse_bushes
+from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
 from .front import compromise, spread, unbeaten
 from .goals import Limit, check_data, limits_of
 from .nsga import check_installed, evolve
 from .objectives import Objective, objectives_of
-from .places import Place, amounts
 from .search import in_words
 from .sweep_axes import sweep_axes_of
 
@@ -53,7 +53,7 @@ class Front:
         Its objectives [SI].
     keeps_limits : bool
         Whether it keeps the limits.
-    places : tuple of Place
+    places : tuple of DesignVariable
         The values that were free, as they were.
     objectives : tuple of Objective
     limits : tuple of Limit
@@ -74,7 +74,7 @@ class Front:
     start: Subject
     before: dict[str, float]
     keeps_limits: bool
-    places: tuple[Place, ...]
+    places: tuple[DesignVariable, ...]
     objectives: tuple[Objective, ...]
     limits: tuple[Limit, ...]
     moved: tuple[dict[str, float], ...]
@@ -255,7 +255,7 @@ class _Judge:
     Parameters
     ----------
     suspension : Suspension or RigidAxle
-    reach : mapping of Place to float
+    reach : mapping of DesignVariable to float
         How far values may move to either side [SI].
     objectives : sequence of Objective
     limits : sequence of Limit
@@ -268,7 +268,7 @@ class _Judge:
     def __init__(
         self,
         suspension: Subject,
-        reach: Mapping[Place, float],
+        reach: Mapping[DesignVariable, float],
         objectives: list[Objective],
         limits: list[Limit],
         expected: int,

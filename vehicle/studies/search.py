@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from .candidates import Candidates
+from .design_variables import DesignVariable
 from .evaluation import Subject
 from .goals import Limit, Target
-from .places import Place
 from .sensitivity import step_of
 
 Array = NDArray[np.float64]
@@ -33,7 +33,7 @@ class Search(Candidates):
     Parameters
     ----------
     suspension : Suspension or RigidAxle
-    reach : mapping of Place to float
+    reach : mapping of DesignVariable to float
         How far values may move to either side [SI].
     targets : sequence of Target
     limits : sequence of Limit
@@ -47,7 +47,7 @@ class Search(Candidates):
     def __init__(
         self,
         suspension: Subject,
-        reach: Mapping[Place, float],
+        reach: Mapping[DesignVariable, float],
         targets: Sequence[Target],
         limits: Sequence[Limit],
         progress: Callable[[float], None] | None,

@@ -11,12 +11,12 @@ from ...core.arguments import Arguments
 from ...core.errors import InputError, KintrafoError
 from ...core.named_types import ArrayLike
 from ...core.quantities import Display, display_of
-from ..analysis.compliance.flexibility import HELD, Held
+from ..analysis.compliance.flexibility import HELD, WheelSupport
 from ..assembly.of import assembly_of
 from .batch import curves_of_many, moved_by
 from .curves import Curves, changed, curves_of, refuse_bushes
+from .design_variables import DesignVariable, matching
 from .evaluation import Subject, check_subject
-from .places import Place, matching
 from .sweep_axes import SWEEP_AXES, UNDER_LOADS
 
 Array = NDArray[np.float64]
@@ -59,7 +59,7 @@ def sensitivity(
     over: str | None = None,
     positions: ArrayLike | None = None,
     names: Sequence[str] | None = None,
-    held: Held | None = None,
+    held: WheelSupport | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Return by how much values of the input file move the characteristics.
@@ -125,7 +125,7 @@ def sensitivity(
     left_out = dict.fromkeys([p.name for p in wanted if p not in chosen], _RIGID)
     refused: list[InputError] = []
 
-    def alone(suspension: Subject, place: Place, curves: Curves) -> Array:
+    def alone(suspension: Subject, place: DesignVariable, curves: Curves) -> Array:
         try:
             return derivative(suspension, place, curves)
         except InputError as error:
@@ -149,7 +149,7 @@ _RIGID = "nothing here depends on bushes, joints are rigid"
 _NAMED = 3
 
 
-def _is_asked_for(place: Place, patterns: Sequence[str]) -> bool:
+def _is_asked_for(place: DesignVariable, patterns: Sequence[str]) -> bool:
     """Tell whether somebody wants this value, and has not just left it to a pattern or section."""
     return any(
         p == place.name or (place.of_bushes and "bushings" in p.split(".")[:2]) for p in patterns
@@ -168,10 +168,10 @@ def _message(left_out: Mapping[str, str]) -> str:
 
 def derivatives(
     suspension: Subject,
-    places: Sequence[Place],
+    places: Sequence[DesignVariable],
     curves: Curves,
     progress: Callable[[float], None] | None = None,
-    otherwise: Callable[[Subject, Place, Curves], Array] | None = None,
+    otherwise: Callable[[Subject, DesignVariable, Curves], Array] | None = None,
 ) -> Array:
     """Return the derivatives of some curves by values; (places, names, positions), SI units.
 
@@ -202,19 +202,19 @@ def derivatives(
     )
 
 
-def slopes(suspension: Subject, places: Sequence[Place], curves: Curves) -> Array:
+def slopes(suspension: Subject, places: Sequence[DesignVariable], curves: Curves) -> Array:
     """Return what `derivatives` does; NaN for a value whose neighbours cannot be."""
     return derivatives(suspension, places, curves, otherwise=_derivative_or_nan)
 
 
-def _derivative_or_nan(suspension: Subject, place: Place, curves: Curves) -> Array:
+def _derivative_or_nan(suspension: Subject, place: DesignVariable, curves: Curves) -> Array:
     try:
         return derivative(suspension, place, curves)
     except InputError:
         return np.full((len(curves.names), curves.positions.size), np.nan)
 
 
-def derivative(suspension: Subject, place: Place, curves: Curves) -> Array:
+def derivative(suspension: Subject, place: DesignVariable, curves: Curves) -> Array:
     """Return the derivative of some curves by a value; of shape (names, positions), SI units."""
     return _difference(*_neighbours(suspension, place, curves))
 
@@ -236,7 +236,7 @@ def _difference(
 
 
 def _neighbours(
-    suspension: Subject, place: Place, curves: Curves
+    suspension: Subject, place: DesignVariable, curves: Curves
 ) -> tuple[Sequence[Mapping[int, float]], float, dict[int, Array]]:
     """Return the differences that can be taken, their step, and the curves so many steps off."""
     size = step_of(place)
@@ -260,14 +260,14 @@ def _greatest(values: Array) -> Array:
     return greatest
 
 
-def step_of(place: Place) -> float:
+def step_of(place: DesignVariable) -> float:
     """Return the step of a difference, SI units."""
     if place.si_unit in _STEPS:
         return _STEPS[place.si_unit]
     return _RELATIVE_STEP * (abs(place.value) or _SIZE_OF_ZERO.get(place.unit, 1.0)) * place.to_si
 
 
-def _moved(suspension: Subject, place: Place, by: float, curves: Curves) -> Array:
+def _moved(suspension: Subject, place: DesignVariable, by: float, curves: Curves) -> Array:
     try:
         return curves.of(assembly_of(changed(suspension, place.moved(by))))
     except KintrafoError as error:
@@ -278,7 +278,7 @@ def _moved(suspension: Subject, place: Place, by: float, curves: Curves) -> Arra
         raise InputError([problem], "sensitivity") from None
 
 
-def _dataset(curves: Curves, places: Sequence[Place], values: Array) -> xr.Dataset:
+def _dataset(curves: Curves, places: Sequence[DesignVariable], values: Array) -> xr.Dataset:
     along = curves.along
     data = {
         name: xr.Variable((PLACE, along.name), values[:, i], _attributes(curves, name, places))
@@ -296,7 +296,7 @@ def _dataset(curves: Curves, places: Sequence[Place], values: Array) -> xr.Datas
     return xr.Dataset(data, coordinates, {"title": f"sensitivity over {along.long_name}"})
 
 
-def _attributes(curves: Curves, name: str, places: Sequence[Place]) -> dict[str, Any]:
+def _attributes(curves: Curves, name: str, places: Sequence[DesignVariable]) -> dict[str, Any]:
     """Describe a derivative; where the values have several units, it is shown by their SI units."""
     quantity = curves.quantity(name)
     attributes = quantity.attributes()

@@ -19,8 +19,8 @@ from ..models.axle.equations import AxleModel
 from ..models.model import Model
 from ..models.rigid.model import RigidAxleModel
 from .curves import changed, refuse_bushes
+from .design_variables import DesignVariable, matching
 from .evaluation import Subject, check_subject
-from .places import Place, matching
 
 Array = NDArray[np.float64]
 
@@ -110,9 +110,11 @@ def sweep(
     return cars.over_the_grid(found)
 
 
-def _axes(given: Arguments, suspension: Subject, grid: Mapping[Any, Any]) -> dict[Place, Array]:
+def _axes(
+    given: Arguments, suspension: Subject, grid: Mapping[Any, Any]
+) -> dict[DesignVariable, Array]:
     """Return the values of each place in SI units."""
-    axes: dict[Place, Array] = {}
+    axes: dict[DesignVariable, Array] = {}
     for name, along in grid.items():
         places = matching(given, suspension, [name] if isinstance(name, str) else name)
         refuse_bushes(given, places.values(), ())
@@ -138,7 +140,7 @@ class _Cars:
     """Suspensions over a grid, prepared one after the other."""
 
     def __init__(
-        self, suspension: Subject, axes: Mapping[Place, Array], scenario: Scenario
+        self, suspension: Subject, axes: Mapping[DesignVariable, Array], scenario: Scenario
     ) -> None:
         self._suspension, self._scenario, self._axes = suspension, scenario, dict(axes)
         on_wheel = any(name.endswith(tuple(UNITS)) for name in scenario.inputs)

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
 from ...core.quantities import variable
-from ..analysis.compliance.flexibility import Held
+from ..analysis.compliance.flexibility import WheelSupport
 from ..assembly.of import assembly_of
 from .batch import curves_of_many, moved_by
 from .curves import Curves, curves_of, refuse_bushes
+from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
 from .goals import Limit, check_data, limits_of
-from .places import Place, amounts
 from .sensitivity import PLACE, ROUNDING, slopes
 from .sweep_axes import sweep_axes_of
 
@@ -48,7 +48,7 @@ def tolerance(
     over: str | None = None,
     positions: ArrayLike | None = None,
     names: Sequence[str] | None = None,
-    held: Held | None = None,
+    held: WheelSupport | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Return what becomes of the characteristics of many cars whose values differ by chance.
@@ -182,7 +182,7 @@ class _Cars:
     Parameters
     ----------
     suspension : Suspension or RigidAxle
-    places : sequence of Place
+    places : sequence of DesignVariable
         What varies.
     off : ndarray, shape (cars, places)
         By how much, SI units.
@@ -193,7 +193,7 @@ class _Cars:
     def __init__(
         self,
         suspension: Subject,
-        places: Sequence[Place],
+        places: Sequence[DesignVariable],
         off: Array,
         curves: Curves,
         limits: Sequence[Limit],
@@ -225,7 +225,7 @@ class _Cars:
 
 def _parts(
     suspension: Subject,
-    spread: Mapping[Place, float],
+    spread: Mapping[DesignVariable, float],
     root: Array,
     distribution: str,
     curves: Curves,

@@ -22,7 +22,7 @@ from ...core.files import replacing, told
 from ..collected import Collected
 from .cutting import Span
 from .identity import Identity, identity_of
-from .piece import Found, taken
+from .piece import ChunkResult, taken
 
 _NAME = "ensemble.json"
 _FILE = re.compile(r"systems-(\d+)-(\d+)\.npz")
@@ -47,7 +47,7 @@ class Kept:
     ensemble: str
     collected: Collected
 
-    def found(self) -> Iterator[Found]:
+    def found(self) -> Iterator[ChunkResult]:
         """Yield what is there; what is damaged is told of as a warning, and left out.
 
         Raises
@@ -71,7 +71,7 @@ class Kept:
                 )
                 warnings.warn(message, RuntimeWarning, stacklevel=2)
 
-    def keep(self, found: Found) -> None:
+    def keep(self, found: ChunkResult) -> None:
         """Keep what was found of some systems."""
         name = f"systems-{found.first:09d}-{found.last:09d}.npz"
         content = io.BytesIO()
@@ -79,7 +79,7 @@ class Kept:
         with replacing(self.folder / name, force=True) as temporary:
             temporary.write_bytes(content.getvalue() + _digest(content.getvalue()))
 
-    def _arrays(self, found: Found) -> Arrays:
+    def _arrays(self, found: ChunkResult) -> Arrays:
         """Return all that is written to a file, by name."""
         return {
             "ensemble": np.array(self.ensemble),
@@ -91,14 +91,14 @@ class Kept:
             **{f"series {place}": values for place, values in enumerate(found.of_series)},
         }
 
-    def _found(self, span: Span, arrays: Arrays) -> Found:
+    def _found(self, span: Span, arrays: Arrays) -> ChunkResult:
         """Return what was found of some systems; a `ValueError` if it is not exactly that."""
         wanted = self._arrays(taken(self.collected, *span))
         if _layout(arrays) != _layout(wanted):
             raise ValueError(span)
         if (arrays["ensemble"].item(), tuple(arrays["systems"])) != (self.ensemble, span):
             raise ValueError(span)
-        return Found(
+        return ChunkResult(
             *span,
             outcome={
                 name.removeprefix("outcome "): values

@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from ...core.errors import InputError
 from ...simulation.accuracy import Accuracy
 from ...simulation.lanes.library import widths
-from ...simulation.lanes.problem import Problem, Systems, Wanted
+from ...simulation.lanes.problem import LaneOutputs, Problem, Systems
 from ...simulation.lanes.run import run
 from ...simulation.signals import TimeInputs
-from ...systems.compile.shipped import Shipped, shipped
+from ...systems.compile.shipped import SerializedModel, shipped
 from ...systems.system import System
 from ..again import Again
 from ..collected import Collected
-from ..wanted import Asked
+from ..wanted import OutputSpec
 from .versions import differences, versions
 
 Array = NDArray[np.float64]
@@ -33,13 +33,13 @@ class Common:
 
     Attributes
     ----------
-    equations : Shipped
+    equations : SerializedModel
     parameters : dict
         Of the model.
     drives : tuple of TimeInputs
-    wanted : Wanted
+    wanted : LaneOutputs
         Without the limits, which each system has for itself.
-    asked : Asked
+    asked : OutputSpec
     accuracy : Accuracy
     width, stiff_after : int
         As of `Problem`.
@@ -49,11 +49,11 @@ class Common:
         Of the process that asks for it.
     """
 
-    equations: Shipped
+    equations: SerializedModel
     parameters: Mapping[str, float]
     drives: tuple[TimeInputs, ...]
-    wanted: Wanted
-    asked: Asked
+    wanted: LaneOutputs
+    asked: OutputSpec
     accuracy: Accuracy
     width: int
     stiff_after: int
@@ -62,7 +62,7 @@ class Common:
 
 
 @dataclass(frozen=True)
-class Piece:
+class Chunk:
     """Some of the systems.
 
     Attributes
@@ -81,7 +81,7 @@ class Piece:
 
 
 @dataclass(frozen=True)
-class Found:
+class ChunkResult:
     """What was found of some systems.
 
     Attributes
@@ -125,7 +125,7 @@ def common_of(collected: Collected) -> Common:
     )
 
 
-def piece_of(problem: Problem, first: int, last: int) -> Piece:
+def piece_of(problem: Problem, first: int, last: int) -> Chunk:
     """Return some of the systems of a problem."""
     systems = problem.systems
 
@@ -143,10 +143,12 @@ def piece_of(problem: Problem, first: int, last: int) -> Piece:
         drive_of=own(systems.drive_of),
         left_out=own(systems.left_out),
     )
-    return Piece(first, cut, own(problem.wanted.limits))
+    return Chunk(first, cut, own(problem.wanted.limits))
 
 
-def found_of(common: Common, piece: Piece, threads: int, report: Report | None = None) -> Found:
+def found_of(
+    common: Common, piece: Chunk, threads: int, report: Report | None = None
+) -> ChunkResult:
     """Simulate a piece.
 
     Raises
@@ -177,10 +179,10 @@ def found_of(common: Common, piece: Piece, threads: int, report: Report | None =
     )
 
 
-def taken(collected: Collected, first: int, last: int) -> Found:
+def taken(collected: Collected, first: int, last: int) -> ChunkResult:
     """Return what there is of some systems in the whole; `put` brings it back."""
     here = slice(first, last)
-    return Found(
+    return ChunkResult(
         first,
         last,
         outcome={name: values[here] for name, values in vars(collected.problem.outcome).items()},
@@ -191,7 +193,7 @@ def taken(collected: Collected, first: int, last: int) -> Found:
     )
 
 
-def put(found: Found, collected: Collected) -> None:
+def put(found: ChunkResult, collected: Collected) -> None:
     """Put what was found of a piece into the whole."""
     here = slice(found.first, found.last)
     for name, values in found.outcome.items():

@@ -11,7 +11,7 @@ from typing import Any
 from ...core.errors import KintrafoError
 from ...simulation.lanes.problem import Problem
 from .cutting import Span
-from .piece import Common, Found, Piece, found_of, piece_of
+from .piece import Chunk, ChunkResult, Common, found_of, piece_of
 
 # Pieces for each thread that are under way: so many that none waits, so few that they fill no
 # memory here or there.
@@ -26,7 +26,7 @@ class ClusterError(KintrafoError, RuntimeError):
 
 def by_workers(
     client: Any, common: Common, problem: Problem, spans: list[Span]
-) -> Generator[Found | None, None, None]:
+) -> Generator[ChunkResult | None, None, None]:
     """Yield what was found of pieces as they are done; nothing, now and then, between them.
 
     What was lost with a worker is done again by another. When the caller wants no more, what waits
@@ -96,7 +96,7 @@ class _Queue:
                 self.waiting[future] = first, last
                 future.add_done_callback(self.done.put)
 
-    def next(self) -> Found | None:
+    def next(self) -> ChunkResult | None:
         """Return what was found of one; nothing if none is done soon."""
         try:
             future = self.done.get(timeout=_PATIENCE)
@@ -133,13 +133,13 @@ def _same(common: Common) -> Common:
     return common
 
 
-def _result(future: Any, span: Span) -> Found:
+def _result(future: Any, span: Span) -> ChunkResult:
     """Return what was found; where it was lost on its way here, that takes until it is again."""
     from distributed.scheduler import KilledWorker  # noqa: PLC0415 (of an extra)
 
     try:
         with _reached():
-            found: Found = future.result()
+            found: ChunkResult = future.result()
     except KilledWorker as error:
         message = (
             f"systems {span[0]} to {span[1]}: several workers in a row were lost with them. See "
@@ -152,7 +152,7 @@ def _result(future: Any, span: Span) -> Found:
     return found
 
 
-def _do(common: Common, piece: Piece) -> Found:
+def _do(common: Common, piece: Chunk) -> ChunkResult:
     """Simulate a piece in a thread of a worker, which has others for other pieces."""
     from distributed import get_worker  # noqa: PLC0415 (of an extra)
 

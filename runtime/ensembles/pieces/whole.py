@@ -6,7 +6,7 @@ from contextlib import closing, contextmanager
 from ..collected import Collected
 from .cutting import Span, left_of, spans_of
 from .kept import Kept
-from .piece import Found, Report, common_of, found_of, piece_of, put
+from .piece import ChunkResult, Report, common_of, found_of, piece_of, put
 from .queue import by_workers
 from .workers import Workers
 
@@ -57,7 +57,7 @@ def run_in_pieces(
 @contextmanager
 def _pieces(
     collected: Collected, workers: Workers | None, threads: int, left: list[Span]
-) -> Iterator[Iterable[Found | None]]:
+) -> Iterator[Iterable[ChunkResult | None]]:
     """Yield what yields what was found of what is left; what works for it ends with this."""
     if workers is None:
         yield _by_threads(collected, threads, spans_of(collected, left, threads))
@@ -69,7 +69,7 @@ def _pieces(
             yield pieces
 
 
-def _by_threads(collected: Collected, threads: int, spans: list[Span]) -> Iterator[Found]:
+def _by_threads(collected: Collected, threads: int, spans: list[Span]) -> Iterator[ChunkResult]:
     common = common_of(collected)
     for first, last in spans:
         yield found_of(common, piece_of(collected.problem, first, last), threads)

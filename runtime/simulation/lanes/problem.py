@@ -101,7 +101,7 @@ class Systems:
 
 
 @dataclass(frozen=True)
-class Wanted:
+class LaneOutputs:
     """What is kept of each motion.
 
     Attributes
@@ -151,7 +151,7 @@ class Outcome:
         The value furthest beyond a bound; NaN where there is none.
     """
 
-    def __init__(self, systems: Systems, wanted: Wanted, state_count: int) -> None:
+    def __init__(self, systems: Systems, wanted: LaneOutputs, state_count: int) -> None:
         count, bounds = systems.count, wanted.bound_items.size
         self.ends = np.where(systems.left_out, End.PARAMETERS, End.WAITING).astype(np.int32)
         self.codes = np.zeros(count, dtype=np.int32)
@@ -251,7 +251,7 @@ class Problem:
     ----------
     model : System
     systems : Systems
-    wanted : Wanted
+    wanted : LaneOutputs
     accuracy : Accuracy
     width : int
         How many lanes.
@@ -261,7 +261,7 @@ class Problem:
 
     model: System
     systems: Systems
-    wanted: Wanted
+    wanted: LaneOutputs
     accuracy: Accuracy
     width: int
     stiff_after: int = 0
@@ -445,7 +445,7 @@ class _Shown:
     places: Numbers
 
     @classmethod
-    def of(cls, model: System, wanted: Wanted) -> "_Shown":
+    def of(cls, model: System, wanted: LaneOutputs) -> "_Shown":
         described, count = model.equations.SIGNALS, len(model.signal_names)
         ranged = [i for i, name in enumerate(model.signal_names) if described[name].get("ranges")]
         asked = {*wanted.items.tolist(), *wanted.bound_items.tolist()}

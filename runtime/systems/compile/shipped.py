@@ -14,7 +14,7 @@ _OF_PROJECT = "kintrafo."
 
 
 @dataclass(frozen=True)
-class Shipped:
+class SerializedModel:
     """What another process finds equations by.
 
     Attributes
@@ -53,15 +53,17 @@ class Shipped:
         return load(kept)
 
 
-def shipped(equations: ModuleType) -> Shipped:
+def shipped(equations: ModuleType) -> SerializedModel:
     """Return what another process finds equations by."""
     name, file = equations.__name__, str(equations.__file__)
     if name.startswith(_OF_PROJECT):
-        return Shipped(name, file)
+        return SerializedModel(name, file)
     folder = Path(file).parent
     refuse_damaged(folder)
     listed = json.loads((folder / MANIFEST).read_bytes())["files"]
-    return Shipped(name, file, tuple((entry, (folder / entry).read_bytes()) for entry in listed))
+    return SerializedModel(
+        name, file, tuple((entry, (folder / entry).read_bytes()) for entry in listed)
+    )
 
 
 def sources_of(equations: ModuleType) -> dict[str, Path]:

@@ -60,7 +60,7 @@ _RIDE, _ = scenario.run(kintrafo.RigidAxleModel(_RIGID), scenario.Scenario(durat
 _BUSHES = {"arm_rear": {"radial_N_per_mm": 1e3}}
 _SOFT = _CAR.suspension.with_changes({"bushings": _BUSHES})
 _SOFT_AXLE = kintrafo.Axle.from_dict({"axle": "front", "side": _SOFT})
-_EXTENT = characteristics.Extent(rebound=0.01, bump=0.01, roll=0.01, rack=0.01, step=0.01)
+_EXTENT = characteristics.SweepRange(rebound=0.01, bump=0.01, roll=0.01, rack=0.01, step=0.01)
 _ONE_CURVE = _DATASET[["camber"]]
 _MEASURED = characteristics.over(_CAR, "travel", [-0.02, 0.0, 0.02])[["toe", "camber"]]
 
@@ -540,8 +540,10 @@ CALLS = {
         lambda **given: compliance.linear(_AXLE, {"rack": given}, [0.0]),
         {"axial_N_per_mm": 1e3},
     ),
-    "Extent": (
-        lambda **given: characteristics.over(_AXLE, "bump", extent=characteristics.Extent(**given)),
+    "SweepRange": (
+        lambda **given: characteristics.over(
+            _AXLE, "bump", extent=characteristics.SweepRange(**given)
+        ),
         {"rebound": 0.01, "bump": 0.02, "step": 0.01},
     ),
     "Suspension.load": (kintrafo.Suspension.load, {"path_or_name": "reference_car"}),

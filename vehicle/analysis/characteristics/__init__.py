@@ -8,7 +8,7 @@ Formulas, names, units, definitions and signs are in `kintrafo.vehicle.assembly.
 docs/characteristics.md, docs/axles.md, docs/rigid-axle.md.
 """
 
-from ...assembly.rig import Extent
+from ...assembly.rig import SweepRange
 from .datasets import over
 
-__all__ = ["Extent", "over"]
+__all__ = ["SweepRange", "over"]

@@ -14,7 +14,7 @@ from ...assembly.measures import axle, corner, rigid_axle
 from ...assembly.measures.measure import columns, values
 from ...assembly.of import given_assembly
 from ...assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
-from ...assembly.rig import Extent
+from ...assembly.rig import SweepRange
 from ...corner.corner import Array
 
 DATA_SET = "data_set"
@@ -45,7 +45,7 @@ def over(
     motion: str | None = None,
     along: ArrayLike | None = None,
     *,
-    extent: Extent | None = None,
+    extent: SweepRange | None = None,
     travel: float = 0.0,
     rack_position: float = 0.0,
 ) -> xr.Dataset:
@@ -63,7 +63,7 @@ def over(
         angles of the body, positive with the right side down, or angles of the steering wheel,
         positive to the left [rad]. By default the usual range, as far as the wheels go: 80 mm of
         travel and 60 mm of the rack to either side, 4 deg of roll.
-    extent : Extent, optional
+    extent : SweepRange, optional
         How far the motion goes, where that is not the usual.
     travel : float, optional
         Where the rack moves: height of the wheel centres above design [m].
@@ -109,7 +109,9 @@ def over(
         travel = given.number("travel", travel, "m")
         rack = given.number("rack_position", rack_position, "m")
         if extent is not None:
-            given.kind("extent", extent, Extent, "a kintrafo.characteristics.Extent is needed")
+            given.kind(
+                "extent", extent, SweepRange, "a kintrafo.characteristics.SweepRange is needed"
+            )
         if extent is not None and along is not None:
             given.refuse("along and extent are both given. Give one of them.")
     motion = given_motion(assembly, motion)

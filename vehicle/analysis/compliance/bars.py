@@ -11,7 +11,13 @@ from numpy.typing import NDArray
 from ....core.vectors import cross
 from ...corner.corner import UP
 from ...models.axle.bar import HalfBar
-from .rigid_displacements import Angles, Measured, Places, cross_matrix, second_by_rotation
+from .rigid_displacements import (
+    Angles,
+    Measured,
+    RigidDisplacements,
+    cross_matrix,
+    second_by_rotation,
+)
 
 Array = NDArray[np.float64]
 
@@ -45,7 +51,7 @@ class Bars:
     left: Foot
     right: Foot
 
-    def at(self, places: Places) -> Measured:
+    def at(self, places: RigidDisplacements) -> Measured:
         """Return it somewhere [rad]; no number where a drop link does not reach."""
         (one, first, bent), (other, second, also) = (
             _turned(foot, places) for foot in (self.left, self.right)
@@ -74,7 +80,7 @@ class Inclinations:
     body: int
     direction: Array
 
-    def at(self, places: Places) -> Measured:
+    def at(self, places: RigidDisplacements) -> Measured:
         """Return it somewhere [rad]."""
         upward = np.broadcast_to(UP, self.direction.shape)
         pair = np.array([[0, self.body]])
@@ -88,7 +94,7 @@ class Inclinations:
         return Measured(pair, np.arcsin(sine.value), slope, bend)
 
 
-def _turned(foot: Foot, places: Places) -> tuple[Array, Array, Array]:
+def _turned(foot: Foot, places: RigidDisplacements) -> tuple[Array, Array, Array]:
     """Return the angle of a half, and its derivatives by six coordinates of the body."""
     arm = places.of(np.array([foot.body]), foot.arm[:, None])[:, 0]
     at = places.centers[:, foot.body] + arm

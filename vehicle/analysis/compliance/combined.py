@@ -14,7 +14,7 @@ from ...assembly.by_wheel import WHEEL, of_wheels, wheel_coordinate
 from ...assembly.of import given_assembly
 from ...assembly.quantity import TRAVEL
 from ..characteristics.datasets import KNOWN
-from .flexibility import HELD, Held, refuse_without_rate
+from .flexibility import HELD, WheelSupport, refuse_without_rate
 from .nonlinear import (
     LOAD,
     amounts_of,
@@ -44,7 +44,7 @@ def combined(
     *,
     wheels: str | Sequence[float] | None = None,
     rack_position: float = 0.0,
-    held: Held = "height",
+    held: WheelSupport = "height",
     hardpoints: Hardpoints = "loaded",
 ) -> xr.Dataset:
     """Return where the wheels are at each wheel travel under each amount of a load.

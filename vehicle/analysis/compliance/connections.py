@@ -12,14 +12,22 @@ from numpy.typing import NDArray
 
 from ....core.vectors import cross
 from ...assembly.anti_roll_bar import Bar, RollBar
-from ...assembly.poses import Assembled
+from ...assembly.part_poses import PartPoses
 from ...corner.bushes import RACK, Bush
-from ...corner.structure import Fixed, Joint, Line, frame
+from ...corner.structure import FixedJoint, ForceElement, Joint, frame
 from ...models.axle.bar import HalfBar
 from ...models.points import carried as placed
 from .bars import Bars, Foot, Inclinations
-from .laws import Bent, Coil, Law, Stops, Straight
-from .rigid_displacements import Angles, Distances, Lengths, Measured, Places, Radii, Twists
+from .laws import CurvedLaw, Law, LinearLaw, SpringLaw, StopLaw
+from .rigid_displacements import (
+    Angles,
+    Distances,
+    Lengths,
+    Measured,
+    Radii,
+    RigidDisplacements,
+    Torsions,
+)
 
 Array = NDArray[np.float64]
 Pair = tuple[int, int]
@@ -37,7 +45,7 @@ _ACROSS = 2
 
 
 @dataclass(frozen=True)
-class Soft:
+class CompliantJoints:
     """What gives way.
 
     Attributes
@@ -60,7 +68,7 @@ class Connections:
 
     Parameters
     ----------
-    sides : sequence of tuple of Assembled and Soft
+    sides : sequence of tuple of PartPoses and CompliantJoints
         Each in as many positions, with rigid joints. They have one rack: what it gives way and
         carries is that of the first.
     bar : Bar or RollBar, optional
@@ -68,7 +76,7 @@ class Connections:
 
     Attributes
     ----------
-    start : Places
+    start : RigidDisplacements
         Where the bodies are with rigid joints; the ground is the first.
     laws : list of Law or None
         What each measure has of a force; None for a condition.
@@ -81,7 +89,7 @@ class Connections:
     """
 
     def __init__(
-        self, sides: Sequence[tuple[Assembled, Soft]], bar: Bar | RollBar | None = None
+        self, sides: Sequence[tuple[PartPoses, CompliantJoints]], bar: Bar | RollBar | None = None
     ) -> None:
         self._sides: list[_Side] = []
         centers = [np.zeros((len(sides[0][0].states), 3))]
@@ -95,7 +103,7 @@ class Connections:
                 side.bodies[RACK] = len(centers)
             centers.append(sides[0][0].points["tie_rod_inner"])
             self._sides[0].joints.append(_RACK_IN_ITS_GUIDE)
-        self.start = Places.at(np.stack(centers, axis=1))
+        self.start = RigidDisplacements.at(np.stack(centers, axis=1))
         for side in self._sides:
             side.centers = self.start.centers
         self.wheels = [side.bodies[part] for side in self._sides for part in side.poses.wheels]
@@ -117,38 +125,38 @@ class Connections:
         if isinstance(bar, Bar):
             feet = (side.foot(half) for side, half in zip(self._sides, bar.halves, strict=True))
             self._groups.append(Bars(*feet))
-            self.laws.append(Straight(bar.rate, -bar.rate * bar.free_twist))
+            self.laws.append(LinearLaw(bar.rate, -bar.rate * bar.free_twist))
         elif bar is not None:
             self._groups.append(self._sides[0].inclination(bar.body))
-            self.laws.append(Straight(bar.rate))
+            self.laws.append(LinearLaw(bar.rate))
 
     def index(self, side: int, body: str) -> int:
         """Return which body it is; what does not move is the ground."""
         return self._sides[side].index(body)
 
-    def at(self, places: Places) -> Measured:
+    def at(self, places: RigidDisplacements) -> Measured:
         """Return all that is measured somewhere."""
         return Measured.together([group.at(places) for group in self._groups])
 
-    def given_way(self, places: Places) -> dict[str, Array]:
+    def given_way(self, places: RigidDisplacements) -> dict[str, Array]:
         """Return how far bushes are displaced from their hardpoints, the most in any direction [m].
 
         By their hardpoints; of both sides of an axle the farther.
         """
         value, found = self.at(places).value, dict[str, Array]()
         for which, law in enumerate(self.laws):
-            if isinstance(law, Straight | Bent) and law.bush:
+            if isinstance(law, LinearLaw | CurvedLaw) and law.bush:
                 far = np.abs(value[:, which] - law.start)
                 found[law.bush] = np.maximum(far, found.get(law.bush, far))
         return found
 
-    def strokes(self, places: Places) -> list[dict[str, Array]]:
+    def strokes(self, places: RigidDisplacements) -> list[dict[str, Array]]:
         """Return what the stops of each side count by somewhere, by their signals [m]."""
         value = self.at(places).value
         strokes = (
             law.stroke + value[:, which] - law.length
             for which, law in enumerate(self.laws)
-            if isinstance(law, Stops)
+            if isinstance(law, StopLaw)
         )
         return [
             {
@@ -165,18 +173,18 @@ class _Side:
 
     Attributes
     ----------
-    poses : Assembled
+    poses : PartPoses
     bodies : dict of str to int
         Those that move.
     joints : list of Joint
-    lines : sequence of Line
+    lines : sequence of ForceElement
     centers : ndarray, shape (n, bodies, 3)
         Of all bodies, with rigid joints [m].
     """
 
     centers: Array
 
-    def __init__(self, poses: Assembled, soft: Soft, bodies: dict[str, int]) -> None:
+    def __init__(self, poses: PartPoses, soft: CompliantJoints, bodies: dict[str, int]) -> None:
         self.poses, self._soft, self.bodies = poses, soft, bodies
         self.joints, self.lines = list(poses.structure.joints), poses.structure.lines
 
@@ -217,7 +225,7 @@ class _Side:
                 laws = self._laws(bush, joint)[-len(laws) :]
             start, end = (self._arm(body, point) for body in parts)
             for which, law in enumerate(laws):
-                if not isinstance(law, Bent) or which < len(laws) - _ACROSS:
+                if not isinstance(law, CurvedLaw) or which < len(laws) - _ACROSS:
                     yield self._indices(*parts), (rows[:, which], start, end), law
 
     def radii(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
@@ -237,7 +245,7 @@ class _Side:
             yield (
                 parts,
                 (rows[:, 1], rows[:, 2], *arms, before),
-                Bent(curve, bush=bush.point, start=far * size),
+                CurvedLaw(curve, bush=bush.point, start=far * size),
             )
 
     def angles(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
@@ -257,7 +265,7 @@ class _Side:
                 ways = np.broadcast_to(turned @ across, first.shape), first
                 # where the bush stands, in axes that are those of design
                 moment = carried[3:] @ cross(turned[0].T @ first[0], across)
-                law = Straight(1.0 / bush.tilt[1 - which], -float(moment))
+                law = LinearLaw(1.0 / bush.tilt[1 - which], -float(moment))
             yield self._indices(joint.first, joint.second), ways, law
 
     def tilts(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
@@ -270,7 +278,7 @@ class _Side:
                     yield (
                         self._indices(joint.first, joint.second),
                         (rows[:, across], axis),
-                        Straight(stiffness),
+                        LinearLaw(stiffness),
                     )
 
     def twists(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
@@ -281,10 +289,10 @@ class _Side:
                 yield (
                     self._indices(joint.first, joint.second),
                     (first[:, 1], first[:, 2], second[:, 1], second[:, 2]),
-                    Straight(stiffness),
+                    LinearLaw(stiffness),
                 )
 
-    def lengths(self, line: Line) -> Iterator[tuple[Pair, tuple[Array, Array], Law]]:
+    def lengths(self, line: ForceElement) -> Iterator[tuple[Pair, tuple[Array, Array], Law]]:
         """Yield the length of a spring, or of what is beside it."""
         poses = self.poses
         first, second = (poses.points[point] for point in line.at)
@@ -292,9 +300,9 @@ class _Side:
         force, parameters = poses.forces_along_lines()[line.name], poses.parameters_of(line)
         law: Law
         if line.is_spring:
-            law = Coil(length, force, parameters)
+            law = SpringLaw(length, force, parameters)
         else:
-            law = Stops(length, force, poses.signals()[poses.counted_by(line)], parameters)
+            law = StopLaw(length, force, poses.signals()[poses.counted_by(line)], parameters)
         ends = self._arm(line.first, line.at[0]), self._arm(line.second, line.at[1])
         yield self._indices(line.first, line.second), ends, law
 
@@ -329,9 +337,9 @@ class _Side:
         found: list[Law | None] = []
         for soft, curve, force in zip(bush.soft, bush.curves, carried.tolist(), strict=True):
             if curve is not None:
-                found.append(Bent(curve, curve.place(force), name))
+                found.append(CurvedLaw(curve, curve.place(force), name))
             else:
-                found.append(Straight(1.0 / soft, force, name) if soft else None)
+                found.append(LinearLaw(1.0 / soft, force, name) if soft else None)
         return found
 
     # -- bodies -----------------------------------------------------------------------------------
@@ -345,9 +353,9 @@ class _Side:
         return self.index(first), self.index(second)
 
 
-_RACK_IN_ITS_GUIDE = Fixed(GROUND, RACK, GUIDE[2:])
+_RACK_IN_ITS_GUIDE = FixedJoint(GROUND, RACK, GUIDE[2:])
 # What is measured, and which method of a side has it.
 _KINDS: tuple[tuple[Any, str], ...] = (
-    (Distances, "distances"), (Angles, "angles"), (Angles, "tilts"), (Twists, "twists"),
+    (Distances, "distances"), (Angles, "angles"), (Angles, "tilts"), (Torsions, "twists"),
     (Radii, "radii"), (Lengths, "lengths"),
 )  # fmt: skip

@@ -15,10 +15,10 @@ from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import WHEEL, of_wheels, wheel_coordinate
 from ...assembly.of import given_assembly
 from ...assembly.quantity import RACK, STEERING_WHEEL, Quantity
-from ...assembly.rig import Extent
+from ...assembly.rig import SweepRange
 from ...corner.corner import Array, RoadWheel
 from ..characteristics.datasets import DATA_SET, KNOWN
-from .equilibrium import LOADS, Equilibrium, State
+from .equilibrium import LOADS, ElasticEquilibrium, ElasticState
 from .linear import OF_BEAM
 from .on_bushes import (
     HARDPOINTS,
@@ -71,7 +71,7 @@ def elastokinematics(
     motion: str | None = None,
     along: ArrayLike | None = None,
     *,
-    extent: Extent | None = None,
+    extent: SweepRange | None = None,
     travel: float = 0.0,
     rack_position: float = 0.0,
     hardpoints: Hardpoints = "loaded",
@@ -92,7 +92,7 @@ def elastokinematics(
         displacements of the rack [m] where nothing says how the steering wheel moves it. By default
         the usual range. All are those with rigid joints: the road holds the contacts at the heights
         where they then are.
-    extent : Extent, optional
+    extent : SweepRange, optional
         How far the usual range goes.
     travel : float, optional
         Height of the wheel centres above design where the rack moves [m].
@@ -151,7 +151,11 @@ def elastokinematics(
                 assembly.refuse_unsteered(f"the motion {name!r}")
             given.among("motion", name, assembly.motions)
         given.among("hardpoints", hardpoints, HARDPOINTS)
-        far = Extent() if extent is None else given.kind("extent", extent, Extent, "an Extent")
+        far = (
+            SweepRange()
+            if extent is None
+            else given.kind("extent", extent, SweepRange, "a SweepRange")
+        )
         travel = given.number("travel", travel, "m")
         rack_position = given.number("rack_position", rack_position, "m")
         if not given.refused:
@@ -187,8 +191,8 @@ def elastokinematics(
 
 def _over_motion(
     assembly: Assembly,
-    both: Sequence[Equilibrium],
-    states: Sequence[State],
+    both: Sequence[ElasticEquilibrium],
+    states: Sequence[ElasticState],
     over: Quantity,
     along: Array,
 ) -> xr.Dataset:
@@ -222,7 +226,7 @@ def _over_motion(
 
 
 def _forces(
-    both: Sequence[Equilibrium], states: Sequence[State], dims: tuple[str, str]
+    both: Sequence[ElasticEquilibrium], states: Sequence[ElasticState], dims: tuple[str, str]
 ) -> dict[str, xr.Variable]:
     """Return what the wheels carry, and how stiff the road feels them, of some equilibria."""
     rates, stiffness = [], []

@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from ....core.threads import in_one_thread
 from ....core.vectors import cross
 from ...assembly.anti_roll_bar import Bar, RollBar
-from ...assembly.poses import Assembled
+from ...assembly.part_poses import PartPoses
 from ...assembly.wheel import lowest_point
 from ...corner.corner import UP
-from .connections import Connections, Soft
-from .flexibility import Held, rates_of_tyres
-from .rigid_displacements import Measured, Places, cross_matrix
+from .connections import CompliantJoints, Connections
+from .flexibility import WheelSupport, rates_of_tyres
+from .rigid_displacements import Measured, RigidDisplacements, cross_matrix
 
 Array = NDArray[np.float64]
 
@@ -35,19 +35,19 @@ _REPEATED = 1e-9
 # Unknown forces are counted in this many newtons, so that they are of the size of displacements.
 _FORCE = 1e5
 LOADS = 9
-"""Numbers of a load, see `Equilibrium.under`."""
+"""Numbers of a load, see `ElasticEquilibrium.under`."""
 
 # A unit of what the road does to hold a wheel up, as a load.
 _UPWARD = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 
 
 @dataclass(frozen=True)
-class State:
+class ElasticState:
     """Where the parts of a suspension or an axle are, and what holds them there; n positions.
 
     Attributes
     ----------
-    places : Places
+    places : RigidDisplacements
     forces : ndarray, shape (n, conditions)
         Of the conditions [N], [N m].
     road : ndarray, shape (n, wheels)
@@ -58,7 +58,7 @@ class State:
         Whether this is an equilibrium that lasts.
     """
 
-    places: Places
+    places: RigidDisplacements
     forces: Array
     road: Array
     lock: Array
@@ -72,12 +72,12 @@ class _Rest(NamedTuple):
     road: Array
 
 
-class Equilibrium:
+class ElasticEquilibrium:
     """A suspension on bushes in many positions, under loads at the contacts of its wheel.
 
     Parameters
     ----------
-    sides : sequence of tuple of Assembled and Soft
+    sides : sequence of tuple of PartPoses and CompliantJoints
         With rigid joints, and what gives way: of a suspension, of both of an axle, or of a rigid
         axle.
     bar : Bar or RollBar, optional
@@ -85,16 +85,16 @@ class Equilibrium:
 
     Attributes
     ----------
-    poses : list of Assembled
+    poses : list of PartPoses
         By side.
     wheels : list of RoadWheel
         With rigid joints.
-    start : State
+    start : ElasticState
         With rigid joints: no equilibrium.
     """
 
     def __init__(
-        self, sides: Sequence[tuple[Assembled, Soft]], bar: Bar | RollBar | None = None
+        self, sides: Sequence[tuple[PartPoses, CompliantJoints]], bar: Bar | RollBar | None = None
     ) -> None:
         self.poses, self._connections = [poses for poses, _ in sides], Connections(sides, bar)
         self.wheels = [wheel for poses in self.poses for wheel in poses.wheels.values()]
@@ -110,7 +110,7 @@ class Equilibrium:
         nothing = np.zeros((n, len(self.wheels)))
         forces = np.zeros((n, len(self._rigid)))
         never = np.zeros(n, dtype=bool)
-        self.start = State(connections.start, forces, nothing, nothing, never)
+        self.start = ElasticState(connections.start, forces, nothing, nothing, never)
         self._weights = {
             connections.index(side, body): weight
             for side, poses in enumerate(self.poses)
@@ -125,30 +125,32 @@ class Equilibrium:
 
     # -- where a wheel is -------------------------------------------------------------------------
 
-    def axis(self, places: Places, side: int = 0) -> Array:
+    def axis(self, places: RigidDisplacements, side: int = 0) -> Array:
         """Return the spin axis of a wheel, pointing outboard, (n, 3)."""
         wheel = np.array([self._connections.wheels[side]])
         return places.of(wheel, self.wheels[side].axis[:, None])[:, 0]
 
-    def center(self, places: Places, side: int = 0) -> Array:
+    def center(self, places: RigidDisplacements, side: int = 0) -> Array:
         """Return the centre of a wheel, (n, 3) [m]."""
         wheel = self._connections.wheels[side]
         spoke = places.of(np.array([wheel]), self._spokes[side][:, None])[:, 0]
         center: Array = places.centers[:, wheel] + spoke
         return center
 
-    def contact(self, places: Places, side: int = 0) -> Array:
+    def contact(self, places: RigidDisplacements, side: int = 0) -> Array:
         """Return the lowest point of a wheel, (n, 3) [m]."""
         return lowest_point(self.center(places, side), self.axis(places, side), self._radius(side))
 
-    def moved(self, point: Array, since: Places, places: Places, side: int = 0) -> Array:
+    def moved(
+        self, point: Array, since: RigidDisplacements, places: RigidDisplacements, side: int = 0
+    ) -> Array:
         """Return how far a wheel took a point with it, (n, 3) [m].
 
         Parameters
         ----------
         point : ndarray, shape (n, 3)
             Where it was [m].
-        since, places : Places
+        since, places : RigidDisplacements
             Before and after.
         side : int, optional
         """
@@ -158,7 +160,7 @@ class Equilibrium:
         shift: Array = places.centers[:, wheel] + arm - point
         return shift
 
-    def beyond(self, state: State) -> list[str]:
+    def beyond(self, state: ElasticState) -> list[str]:
         """Return which lengths are beyond what the files allow."""
         strokes = self._connections.strokes(state.places)
         return [
@@ -168,7 +170,7 @@ class Equilibrium:
             if (allowed.left(own) < 0.0).any()
         ]
 
-    def overstretched(self, state: State) -> str:
+    def overstretched(self, state: ElasticState) -> str:
         """Return which bush deflects farther than any bush can; empty where none does."""
         far = self._connections.given_way(state.places)
         for bush, amount in sorted(far.items(), key=lambda item: -float(np.nanmax(item[1]))):
@@ -185,13 +187,15 @@ class Equilibrium:
         assert radius is not None  # callers have seen to it
         return radius
 
-    def _contact_heights(self, places: Places) -> Array:
+    def _contact_heights(self, places: RigidDisplacements) -> Array:
         heights = [self.contact(places, side)[:, 2] for side in range(len(self.wheels))]
         return np.stack(heights, axis=1)
 
     # -- equilibrium ------------------------------------------------------------------------------
 
-    def under(self, load: Array, held: Held, near: State, since: State | None = None) -> State:
+    def under(
+        self, load: Array, held: WheelSupport, near: ElasticState, since: ElasticState | None = None
+    ) -> ElasticState:
         """Return the equilibrium under a load.
 
         Parameters
@@ -203,9 +207,9 @@ class Equilibrium:
             What holds a wheel: the road at the height where the contact was with rigid joints, or
             a tyre on a road that stays where it was in `since`; or a force of the road as in
             `near`, the spring as it is or as long as it was in `since`.
-        near : State
+        near : ElasticState
             Where to begin; it need not be an equilibrium.
-        since : State, optional
+        since : ElasticState, optional
             Without the load; by default `near`.
         """
         state = near
@@ -222,12 +226,12 @@ class Equilibrium:
         matrix, _ = self._linear(state, load, held, rest)
         return replace(state, found=found & self._lasts(matrix, held))
 
-    def rate(self, state: State, load: Array) -> Array:
+    def rate(self, state: ElasticState, load: Array) -> Array:
         """Return how the forces of the road rise with the heights, (n, wheels, wheels) [N/m].
 
         Parameters
         ----------
-        state : State
+        state : ElasticState
             An equilibrium under a load, the wheels held by the road.
         load : ndarray, shape (n, wheels, 9)
         """
@@ -240,7 +244,7 @@ class Equilibrium:
             columns.append(_solution(matrix, higher)[:, -wheels:] * _FORCE)
         return np.stack(columns, axis=-1)
 
-    def torque_of_bar(self, state: State) -> Array:
+    def torque_of_bar(self, state: ElasticState) -> Array:
         """Return the torque of the bar, positive with the first half turned the farther [N m]."""
         which = self._connections.bar
         if which is None:
@@ -249,7 +253,9 @@ class Equilibrium:
         assert law is not None
         return law(self._connections.at(state.places).value[:, which])[0]
 
-    def _moved(self, state: State, step: Array, held: Held) -> tuple[State, Array]:
+    def _moved(
+        self, state: ElasticState, step: Array, held: WheelSupport
+    ) -> tuple[ElasticState, Array]:
         """Return the state after a step, and how far that went."""
         size = 6 * (self._count - 1)
         far = np.abs(step[:, :size]).max(axis=1)
@@ -266,11 +272,13 @@ class Equilibrium:
             state = replace(state, **{name: more})
         return state, far
 
-    def _rest(self, since: State) -> _Rest:
+    def _rest(self, since: ElasticState) -> _Rest:
         measured = self._connections.at(since.places).value
         return _Rest(measured[:, self._connections.springs], since.road)
 
-    def _linear(self, state: State, load: Array, held: Held, rest: _Rest) -> tuple[Array, Array]:
+    def _linear(
+        self, state: ElasticState, load: Array, held: WheelSupport, rest: _Rest
+    ) -> tuple[Array, Array]:
         """Return the derivative of what is left of all equations, and what is left."""
         measured = self._connections.at(state.places)
         n, size = len(load), 6 * (self._count - 1)
@@ -301,7 +309,7 @@ class Equilibrium:
             matrix[:, own, own] = np.diag(_FORCE / self._rates)
         return matrix, np.concatenate([(outer - inner) / _FORCE, values], axis=1)
 
-    def _inner(self, state: State, measured: Measured, slopes: Array) -> tuple[Array, Array]:
+    def _inner(self, state: ElasticState, measured: Measured, slopes: Array) -> tuple[Array, Array]:
         """Return what resists displacements and rotations of the parts, and its derivative."""
         laws = self._connections.laws
         forces, rates = np.zeros_like(measured.value), np.zeros_like(measured.value)
@@ -321,7 +329,7 @@ class Equilibrium:
             stiffness[:, rows, rows] -= 0.5 * cross_matrix(total[:, rows])
         return total, stiffness
 
-    def _upward(self, places: Places, load: Array) -> Array:
+    def _upward(self, places: RigidDisplacements, load: Array) -> Array:
         """Return what a unit of the road's force at each wheel does, (n, wheels, unknowns)."""
         found = []
         for side in range(load.shape[1]):
@@ -330,7 +338,7 @@ class Equilibrium:
             found.append(self._outer(places, one)[0] - self._gravity(len(load)))
         return np.stack(found, axis=1)
 
-    def _outer(self, places: Places, load: Array) -> tuple[Array, Array]:
+    def _outer(self, places: RigidDisplacements, load: Array) -> tuple[Array, Array]:
         """Return what pushes and turns the parts from outside, and its derivative."""
         n = len(load)
         total, by = self._gravity(n), np.zeros((n, *2 * (6 * (self._count - 1),)))
@@ -347,7 +355,7 @@ class Equilibrium:
             by[:, rows, rows] -= cross_matrix(force) @ self._contact_by_turn(places, side, spoke)
         return total, by
 
-    def _contact_by_turn(self, places: Places, side: int, spoke: Array) -> Array:
+    def _contact_by_turn(self, places: RigidDisplacements, side: int, spoke: Array) -> Array:
         """Return how the lowest point moves as the wheel turns, (n, 3, 3)."""
         axis = self.axis(places, side)
         turning = -cross_matrix(axis)
@@ -367,7 +375,7 @@ class Equilibrium:
         return total[:, 1:].reshape(n, -1)
 
     @in_one_thread
-    def _lasts(self, matrix: Array, held: Held) -> NDArray[np.bool_]:
+    def _lasts(self, matrix: Array, held: WheelSupport) -> NDArray[np.bool_]:
         """Tell where all that the conditions leave free is resisted."""
         size = 6 * (self._count - 1)
         stiffness, conditions = -matrix[:, :size, :size], matrix[:, size:, :size]

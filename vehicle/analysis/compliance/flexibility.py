@@ -15,16 +15,16 @@ from scipy.optimize import root
 
 from ....core.arguments import Arguments
 from ...assembly.load import Load
-from ...assembly.poses import CONTACT, Assembled, rotated, touching
+from ...assembly.part_poses import CONTACT, PartPoses, rotated, touching
 from ...assembly.soft_lines import SoftLines
 from ...corner.bushes import Bush
 from ...corner.corner import RoadWheel
 from ...corner.structure import GROUND, Joint
 from ...input.vehicle import Tyre
-from ..loads.reactions import Equations
+from ..loads.reactions import BalanceEquations
 
 Array = NDArray[np.float64]
-Held = Literal["height", "tyre", "spring", "locked"]
+WheelSupport = Literal["height", "tyre", "spring", "locked"]
 
 HELD = {
     "height": "the contact stays at its height",
@@ -45,7 +45,7 @@ class Side:
 
     Attributes
     ----------
-    poses : Assembled
+    poses : PartPoses
     bushes : sequence of Bush
     lines : SoftLines or None
         None with locked springs.
@@ -53,13 +53,15 @@ class Side:
         What an anti-roll bar does on it for a unit torque.
     """
 
-    poses: Assembled
+    poses: PartPoses
     bushes: Sequence[Bush]
     lines: SoftLines | None
     bar: Load | None = field(default=None)
 
 
-def flexibility(sides: Sequence[Side], held: Held, *, rack: float = 0.0, bar: float = 0.0) -> Array:
+def flexibility(
+    sides: Sequence[Side], held: WheelSupport, *, rack: float = 0.0, bar: float = 0.0
+) -> Array:
     """Return displacement and rotation of the contacts by loads on them.
 
     Parameters
@@ -109,7 +111,7 @@ def rates_of_tyres(wheels: Sequence[RoadWheel]) -> Array:
     return np.array([wheel.vehicle.tyre_rate or 0.0 for wheel in wheels])
 
 
-def refuse_without_rate(given: Arguments, held: Held, *tyres: Tyre) -> None:
+def refuse_without_rate(given: Arguments, held: WheelSupport, *tyres: Tyre) -> None:
     """Refuse to let a tyre hold its wheel that has no vertical rate."""
     if held == "tyre" and not all(tyre.rate_N_per_m > 0.0 for tyre in tyres):
         given.refuse(
@@ -155,7 +157,7 @@ class _Energy:
             self.on_rack[~acting, :, which] = 0.0
 
 
-def shared(equations: Equations, unknowns: Array, bushes: Sequence[Bush]) -> list[Array]:
+def shared(equations: BalanceEquations, unknowns: Array, bushes: Sequence[Bush]) -> list[Array]:
     """Return what the joints carry in the first position, the parts as they are at design.
 
     What statics does not decide has the least energy of the bushes, however curved they are; what
@@ -163,9 +165,9 @@ def shared(equations: Equations, unknowns: Array, bushes: Sequence[Bush]) -> lis
 
     Parameters
     ----------
-    equations : Equations
+    equations : BalanceEquations
     unknowns : ndarray, shape (n, unknowns)
-        From `Equations.solve`.
+        From `BalanceEquations.solve`.
     bushes : sequence of Bush
 
     Returns
@@ -228,7 +230,7 @@ def _of_least_energy(on_bushes: Sequence[tuple[Bush, Array]], count: int) -> Arr
     return parts
 
 
-def _of_joint(joint: Joint, carried: Array, bushes: Mapping[str, Bush], poses: Assembled) -> Array:
+def _of_joint(joint: Joint, carried: Array, bushes: Mapping[str, Bush], poses: PartPoses) -> Array:
     """Return the energy of the bushes of a joint."""
     total = np.zeros((*carried.shape[:1], *2 * carried.shape[-1:]))
     for i, point in enumerate(joint.at):
@@ -267,7 +269,7 @@ class _Forces:
 
     def __init__(self, side: Side, stopped: Sequence[str]) -> None:
         poses, springs = side.poses, side.poses.structure.springs
-        equations, still = Equations(poses, springs), np.zeros(3)
+        equations, still = BalanceEquations(poses, springs), np.zeros(3)
         loads = []
         for part, on_road in poses.wheels.items():
             at = touching(on_road)

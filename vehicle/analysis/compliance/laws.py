@@ -21,7 +21,7 @@ class Law(Protocol):
 
 
 @dataclass(frozen=True)
-class Straight:
+class LinearLaw:
     """A force in proportion to the displacement.
 
     Attributes
@@ -48,7 +48,7 @@ class Straight:
 
 
 @dataclass(frozen=True)
-class Bent:
+class CurvedLaw:
     """A force over a displacement by a curve.
 
     Attributes
@@ -74,7 +74,7 @@ class Bent:
 
 
 @dataclass(frozen=True)
-class Coil:
+class SpringLaw:
     """The force of a spring over its length.
 
     Attributes
@@ -99,7 +99,7 @@ class Coil:
 
 
 @dataclass(frozen=True)
-class Stops:
+class StopLaw:
     """What damper and stops do over the distance of the damper's ends, at rest.
 
     Attributes

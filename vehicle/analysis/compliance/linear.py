@@ -16,11 +16,11 @@ from ...assembly.assembly import Assembly
 from ...assembly.axle import SIDES
 from ...assembly.by_wheel import WHEEL, of_wheel, of_wheels, wheel_coordinate
 from ...assembly.of import given_assembly
-from ...assembly.poses import touching, wheel_axes
+from ...assembly.part_poses import touching, wheel_axes
 from ...assembly.quantity import TRAVEL, Quantity
 from ...corner.bushes import left_out, refuse_rigid
-from ...corner.corner import Array, Motion, RoadWheel
-from .flexibility import HELD, Held, Side, flexibility, refuse_without_rate
+from ...corner.corner import Array, CarrierMotion, RoadWheel
+from .flexibility import HELD, Side, WheelSupport, flexibility, refuse_without_rate
 from .rig_loads import (
     RIG_LOADS,
     Loading,
@@ -43,7 +43,7 @@ def linear(
     travel: ArrayLike | None = None,
     *,
     rack_position: float = 0.0,
-    held: Held = "height",
+    held: WheelSupport = "height",
 ) -> xr.Dataset:
     """Return how the wheels move per unit of a load, over parallel wheel travel, to first order.
 
@@ -230,7 +230,7 @@ def _of_wheel(test: RigLoad, on_road: RoadWheel, moved: Array, part: float) -> d
     """Return what a wheel does that has a part of a load, by the kind of it."""
     turn = moved[:, 3:]
     shift = moved[:, :3] + cross(turn, where_of(test, on_road) - touching(on_road))
-    motion = Motion(shift, turn)
+    motion = CarrierMotion(shift, turn)
     found = {
         "toe": wheel.toe_rate(on_road, motion),
         "camber": wheel.camber_rate(on_road, motion),

@@ -16,13 +16,13 @@ from ...assembly import wheel
 from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import WHEEL, of_wheels, wheel_coordinate
 from ...assembly.of import given_assembly
-from ...assembly.poses import CENTER, CONTACT
+from ...assembly.part_poses import CENTER, CONTACT
 from ...assembly.quantity import Quantity
 from ...corner.corner import RoadWheel
 from ...models.reach import PositionError
 from ..characteristics.datasets import DATA_SET
-from .equilibrium import Equilibrium, State
-from .flexibility import HELD, Held, refuse_without_rate
+from .equilibrium import ElasticEquilibrium, ElasticState
+from .flexibility import HELD, WheelSupport, refuse_without_rate
 from .linear import OF_BEAM, linear
 from .on_bushes import (
     HARDPOINTS,
@@ -81,7 +81,7 @@ def nonlinear(
     wheels: str | Sequence[float] | None = None,
     travel: float = 0.0,
     rack_position: float = 0.0,
-    held: Held = "height",
+    held: WheelSupport = "height",
     hardpoints: Hardpoints = "loaded",
 ) -> xr.Dataset:
     """Return how far the wheels deflect under loads of any size.
@@ -274,11 +274,16 @@ def unit_load(load: RigLoad, on_road: RoadWheel) -> Array:
 
 
 def under_amounts(
-    suspension: Equilibrium, base: State, unit: Array, held: Held, load: RigLoad, wanted: Array
-) -> list[State]:
+    suspension: ElasticEquilibrium,
+    base: ElasticState,
+    unit: Array,
+    held: WheelSupport,
+    load: RigLoad,
+    wanted: Array,
+) -> list[ElasticState]:
     """Return the equilibria under some amounts of a load, each found from a smaller one."""
     _refuse_on_tyres(suspension, load, wanted)
-    found: dict[float, State] = {}
+    found: dict[float, ElasticState] = {}
     for sense in (1.0, -1.0):
         state, at = base, 0.0
         for amount in sorted({a for a in wanted.tolist() if sense * a >= 0.0}, key=abs):
@@ -290,14 +295,14 @@ def under_amounts(
 
 
 def _towards(
-    suspension: Equilibrium,
-    base: State,
-    state: State,
+    suspension: ElasticEquilibrium,
+    base: ElasticState,
+    state: ElasticState,
     amounts: tuple[float, float],
     unit: Array,
-    held: Held,
+    held: WheelSupport,
     load: RigLoad,
-) -> State:
+) -> ElasticState:
     """Return the equilibrium under a load from that under another one, by steps if need be."""
     at, end = amounts
     step = end - at
@@ -318,7 +323,7 @@ def _towards(
     return state
 
 
-def _refuse_on_tyres(suspension: Equilibrium, load: RigLoad, wanted: Array) -> None:
+def _refuse_on_tyres(suspension: ElasticEquilibrium, load: RigLoad, wanted: Array) -> None:
     """Refuse loads under which a standing tyre would give way farther than one can."""
     soft = max(float(give_of_tyre(load, wheel) or 0.0) for wheel in suspension.wheels)
     worst = float(wanted[np.abs(wanted).argmax()]) if wanted.size else 0.0
@@ -333,7 +338,7 @@ def _refuse_on_tyres(suspension: Equilibrium, load: RigLoad, wanted: Array) -> N
 
 
 def _refuse_beyond(
-    suspension: Equilibrium, states: list[State], load: RigLoad, wanted: Array
+    suspension: ElasticEquilibrium, states: list[ElasticState], load: RigLoad, wanted: Array
 ) -> None:
     """Refuse loads that bring a bush, or damper and strut, farther than it goes."""
     for which in np.argsort(np.abs(wanted), kind="stable"):
@@ -355,9 +360,9 @@ def _refuse_beyond(
 
 
 def _changes_of_wheels(
-    suspension: Equilibrium,
-    base: State,
-    states: list[State],
+    suspension: ElasticEquilibrium,
+    base: ElasticState,
+    states: list[ElasticState],
     load: RigLoad,
     amounts: Array,
     straight: Callable[[str, int | None], Array],
@@ -366,10 +371,10 @@ def _changes_of_wheels(
 
     Parameters
     ----------
-    suspension : Equilibrium
-    base : State
+    suspension : ElasticEquilibrium
+    base : ElasticState
         Without the load.
-    states : list of State
+    states : list of ElasticState
         Under each amount.
     load : RigLoad
     amounts : ndarray, shape (wheels, n)
@@ -396,9 +401,9 @@ def _changes_of_wheels(
 
 
 def _changes_of_wheel(
-    suspension: Equilibrium,
-    base: State,
-    states: list[State],
+    suspension: ElasticEquilibrium,
+    base: ElasticState,
+    states: list[ElasticState],
     load: RigLoad,
     amounts: Array,
     which: int,
@@ -423,9 +428,9 @@ def _changes_of_wheel(
 
 
 def _changes_of_beam(
-    suspension: Equilibrium,
-    base: State,
-    states: list[State],
+    suspension: ElasticEquilibrium,
+    base: ElasticState,
+    states: list[ElasticState],
     straight: Callable[[str, int | None], Array],
 ) -> dict[str, xr.Variable]:
     """Return what the line through the wheel centres of a beam does under a load."""

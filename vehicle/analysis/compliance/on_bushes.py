@@ -11,14 +11,14 @@ from ....core.arguments import Arguments
 from ....core.quantities import display_of
 from ...assembly.assembly import Assembly, Bushings
 from ...assembly.load import Load, known
-from ...assembly.poses import Assembled
+from ...assembly.part_poses import PartPoses
 from ...assembly.quantity import TRAVEL, Quantity
 from ...corner.bushes import RACK, Bush
 from ...corner.corner import RoadWheel
 from ...models.reach import PositionError
-from ..loads.reactions import Equations
-from .connections import GUIDE, Carried, Soft
-from .equilibrium import LOADS, Equilibrium, State
+from ..loads.reactions import BalanceEquations
+from .connections import GUIDE, Carried, CompliantJoints
+from .equilibrium import LOADS, ElasticEquilibrium, ElasticState
 from .flexibility import shared
 from .linear import refuse_without_radius
 
@@ -34,12 +34,12 @@ HARDPOINTS = {
 WHEEL_LOAD = Quantity(
     "wheel_load", "N", "wheel load", "vertical force of the road", "positive upward"
 )
-RIGID = Soft({}, 0.0, {})
+RIGID = CompliantJoints({}, 0.0, {})
 
 
 def softs_of(
     given: Arguments, assembly: Assembly, bushings: Any, hardpoints: Hardpoints
-) -> dict[str, Soft]:
+) -> dict[str, CompliantJoints]:
     """Read the bushes, and what they carry at the hardpoints, by the suffixes of the parts."""
     if given.refused:
         return {}
@@ -50,7 +50,9 @@ def softs_of(
     loaded = hardpoints == "loaded" and not given.refused
     carried = _carried_at_design(assembly, bushes) if loaded else {}
     return {
-        suffix: Soft({bush.point: bush for bush in own}, bushes.rack, carried.get(suffix, {}))
+        suffix: CompliantJoints(
+            {bush.point: bush for bush in own}, bushes.rack, carried.get(suffix, {})
+        )
         for suffix, own in bushes.by_suffix.items()
     }
 
@@ -75,20 +77,20 @@ def _carried_at_design(assembly: Assembly, bushes: Bushings) -> dict[str, Carrie
 
 
 def carried_at(
-    poses: Assembled, pulled: Sequence[Load] = (), bushes: Sequence[Bush] = ()
+    poses: PartPoses, pulled: Sequence[Load] = (), bushes: Sequence[Bush] = ()
 ) -> Carried:
     """Return what the joints carry at design, the first position, the wheel held by the road.
 
     Parameters
     ----------
-    poses : Assembled
+    poses : PartPoses
     pulled : sequence of Load, optional
         What else acts on the parts.
     bushes : sequence of Bush, optional
         Those that share what statics does not decide: the force along the axis of an arm, and what
         holds parts more often than they move.
     """
-    equations = Equations(poses)
+    equations = BalanceEquations(poses)
     unknowns = equations.solve(equations.applied([*known(poses), *pulled]))
     every = shared(equations, unknowns, bushes)
     found = {
@@ -103,32 +105,36 @@ def carried_at(
 
 
 def on_joints(
-    assembly: Assembly, poses: Mapping[str, Assembled], softs: Mapping[str, Soft] | None = None
-) -> Equilibrium:
+    assembly: Assembly,
+    poses: Mapping[str, PartPoses],
+    softs: Mapping[str, CompliantJoints] | None = None,
+) -> ElasticEquilibrium:
     """Return an assembly on its bushes where it is with rigid joints; by default on rigid ones."""
     sides = [(own, softs[suffix] if softs else RIGID) for suffix, own in poses.items()]
-    return Equilibrium(sides, assembly.bar)
+    return ElasticEquilibrium(sides, assembly.bar)
 
 
-def gives_way(softs: Mapping[str, Soft]) -> bool:
+def gives_way(softs: Mapping[str, CompliantJoints]) -> bool:
     """Return whether anything moves that rigid joints hold."""
     return any(
         soft.rack or any(bush.gives_way for bush in soft.bushes.values()) for soft in softs.values()
     )
 
 
-def on_bushes(suspension: Equilibrium, state: State, side: int = 0) -> RoadWheel:
+def on_bushes(suspension: ElasticEquilibrium, state: ElasticState, side: int = 0) -> RoadWheel:
     """Return a wheel where it is on the bushes."""
     center, axis = suspension.center(state.places, side), suspension.axis(state.places, side)
     return replace(suspension.wheels[side], center=center, axis=axis)
 
 
-def at_height(suspension: Equilibrium, along: Array, over: Quantity = TRAVEL) -> State:
+def at_height(
+    suspension: ElasticEquilibrium, along: Array, over: Quantity = TRAVEL
+) -> ElasticState:
     """Return the equilibria on the road without another load.
 
     Parameters
     ----------
-    suspension : Equilibrium
+    suspension : ElasticEquilibrium
     along : ndarray, shape (n,)
         Where that is, for messages.
     over : Quantity, optional
@@ -150,7 +156,7 @@ def at_height(suspension: Equilibrium, along: Array, over: Quantity = TRAVEL) ->
     return base
 
 
-def place_of_beam(suspension: Equilibrium, state: State) -> dict[str, Array]:
+def place_of_beam(suspension: ElasticEquilibrium, state: ElasticState) -> dict[str, Array]:
     """Return where the line through two wheel centres is: its steer angle and middle, (n,)."""
     left, right = (suspension.center(state.places, which) for which in (0, 1))
     line, middle = left - right, 0.5 * (left + right)

@@ -7,7 +7,7 @@ import numpy as np
 
 from ....core.quantities import Display
 from ....core.vectors import cross
-from ...assembly.poses import CENTER, CONTACT, touching, wheel_axes
+from ...assembly.part_poses import CENTER, CONTACT, touching, wheel_axes
 from ...corner.corner import Array, RoadWheel
 
 Vector = tuple[float, float, float]

@@ -23,7 +23,7 @@ _DISPLACED, _ROTATED = (slice(0, 3), slice(6, 9)), (slice(3, 6), slice(9, 12))
 
 
 @dataclass(frozen=True)
-class Places:
+class RigidDisplacements:
     """Where bodies are.
 
     Attributes
@@ -38,16 +38,18 @@ class Places:
     turned: Array
 
     @classmethod
-    def at(cls, centers: Array) -> "Places":
+    def at(cls, centers: Array) -> "RigidDisplacements":
         """Return bodies that have not turned, their centres at some places."""
         return cls(centers, np.broadcast_to(np.eye(3), (*centers.shape, 3)))
 
-    def moved(self, by: Array) -> "Places":
+    def moved(self, by: Array) -> "RigidDisplacements":
         """Return where bodies are after displacements and rotations, (n, bodies, 6)."""
         from scipy.spatial.transform import Rotation  # noqa: PLC0415 (slow to import)
 
         turns: Array = Rotation.from_rotvec(by[..., 3:].reshape(-1, 3)).as_matrix()
-        return Places(self.centers + by[..., :3], turns.reshape(self.turned.shape) @ self.turned)
+        return RigidDisplacements(
+            self.centers + by[..., :3], turns.reshape(self.turned.shape) @ self.turned
+        )
 
     def of(self, bodies: Indices, vectors: Array) -> Array:
         """Return vectors that are fixed to bodies, (n, measures, 3)."""
@@ -119,7 +121,7 @@ class Distances:
     start: Array
     end: Array
 
-    def at(self, places: Places) -> Measured:
+    def at(self, places: RigidDisplacements) -> Measured:
         """Return them somewhere, [m]."""
         first, second = self.bodies.T
         along, start = places.of(first, self.along), places.of(first, self.start)
@@ -160,7 +162,7 @@ class Radii:
     end: Array
     before: Array
 
-    def at(self, places: Places) -> Measured:
+    def at(self, places: RigidDisplacements) -> Measured:
         """Return them somewhere [m]."""
         both = [
             Distances(self.bodies, along, self.start, self.end).at(places)
@@ -197,7 +199,7 @@ class Angles:
     first: Array
     second: Array
 
-    def at(self, places: Places) -> Measured:
+    def at(self, places: RigidDisplacements) -> Measured:
         """Return them somewhere."""
         one, other = (
             places.of(bodies, vectors)
@@ -217,7 +219,7 @@ class Angles:
 
 
 @dataclass(frozen=True)
-class Twists:
+class Torsions:
     """The angle by which a body is turned against another about an axis of both.
 
     Where they are tilted besides, it is that of the rotation before the shortest tilt.
@@ -236,7 +238,7 @@ class Twists:
     second: Array
     second_other: Array
 
-    def at(self, places: Places) -> Measured:
+    def at(self, places: RigidDisplacements) -> Measured:
         """Return them somewhere [rad]."""
 
         def both(a: Array, b: Array, c: Array, d: Array, sign: float) -> Measured:
@@ -279,7 +281,7 @@ class Lengths:
     start: Array
     end: Array
 
-    def at(self, places: Places) -> Measured:
+    def at(self, places: RigidDisplacements) -> Measured:
         """Return them somewhere [m]."""
         first, second = self.bodies.T
         start, end = places.of(first, self.start), places.of(second, self.end)

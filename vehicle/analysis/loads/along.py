@@ -18,12 +18,12 @@ from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import stacked
 from ...assembly.load import Load
 from ...assembly.of import given_assembly
-from ...assembly.poses import CENTER, CONTACT, Assembled, touching, wheel_axes
+from ...assembly.part_poses import CENTER, CONTACT, PartPoses, touching, wheel_axes
 from ...corner.corner import RoadWheel
 from .applied_loads import WHEEL, of_wheel
 from .dataset import loads_of
-from .inertia import Twists
-from .reactions import Equations
+from .inertia import PartTwists
+from .reactions import BalanceEquations
 
 Array = NDArray[np.float64]
 
@@ -144,7 +144,7 @@ def in_motion(assembly: Assembly, states: Array, inputs: Array) -> xr.Dataset:
     poses, rates = assembly.in_motion(states, inputs)
     acting, loads, holding = assembly.acting(poses), {}, []
     for suffix, group in poses.items():
-        equations = Equations(group)
+        equations = BalanceEquations(group)
         own = [*acting[suffix], *_on_wheels(group), *_inertia(group, rates[suffix])]
         unknowns = equations.solve(equations.applied(own))
         loads[suffix] = [*equations.carried(unknowns), *own]
@@ -154,7 +154,7 @@ def in_motion(assembly: Assembly, states: Array, inputs: Array) -> xr.Dataset:
     return loads_of(TIME, assembly, poses, loads).assign(holding_force=held)
 
 
-def _on_wheels(group: Assembled) -> list[Load]:
+def _on_wheels(group: PartPoses) -> list[Load]:
     """Return the forces of the tyres, through the wheel centres, and what inputs exert."""
     tyres, inputs, still = group.tyre_forces(), group.inputs_of_wheels(), np.zeros(3)
     roads, given = [], []
@@ -181,10 +181,10 @@ def _of_inputs(given: Mapping[str, Array], wheel: RoadWheel) -> list[Load]:
     ]
 
 
-def _inertia(group: Assembled, by_time: Array) -> list[Load]:
+def _inertia(group: PartPoses, by_time: Array) -> list[Load]:
     """Return what the acceleration of each part takes, as loads."""
     rates = group.rates_of_inputs()
-    twists = Twists.of(group.model, group.states, group.inputs, by_time, rates)
+    twists = PartTwists.of(group.model, group.states, group.inputs, by_time, rates)
     return [
         twists.load(part, mass, group.turned[part], group.centers[part])
         for part, mass in group.masses().items()

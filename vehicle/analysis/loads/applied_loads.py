@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...assembly.load import Load
-from ...assembly.poses import CENTER, CONTACT, Assembled, touching, wheel_axes
+from ...assembly.part_poses import CENTER, CONTACT, PartPoses, touching, wheel_axes
 from ...corner.corner import RoadWheel
 from .cases import Case
 from .dataset import of_side
@@ -62,7 +62,7 @@ class WheelLoads:
         """Whether a wheel is not held, (n, k)."""
         return np.isnan(self.travels)
 
-    def at(self, poses: Mapping[str, Assembled], rows: NDArray[np.int64]) -> Array:
+    def at(self, poses: Mapping[str, PartPoses], rows: NDArray[np.int64]) -> Array:
         """Return what acts in some positions, as `Case.vector`, (positions, k, 12).
 
         Parameters
@@ -80,7 +80,7 @@ class WheelLoads:
         return found
 
 
-def wheels_of(poses: Mapping[str, Assembled]) -> Iterator[tuple[str, str, RoadWheel]]:
+def wheels_of(poses: Mapping[str, PartPoses]) -> Iterator[tuple[str, str, RoadWheel]]:
     """Yield suffix, part and wheel of each wheel of an assembly, in their order."""
     for suffix, group in poses.items():
         for part, wheel in group.wheels.items():

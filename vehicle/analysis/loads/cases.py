@@ -15,7 +15,7 @@ from ...assembly.assembly import Assembly
 from ...assembly.of import given_assembly
 from ...input.toml_file import read_sections
 from ...models.axle.axle import LEFT, RIGHT
-from ...models.axle.file import Held
+from ...models.axle.file import TorqueReaction
 
 Array = NDArray[np.float64]
 
@@ -265,7 +265,7 @@ _OF_AXLES = _EVEN | {
 }
 
 
-def _with_torque_on(case: Mapping[str, Any], held: Held) -> dict[str, Any]:
+def _with_torque_on(case: Mapping[str, Any], held: TorqueReaction) -> dict[str, Any]:
     """Return a case with its forces along x where they find what holds the torque."""
     if "contact_g" not in case:
         return {side: _with_torque_on(own, held) for side, own in case.items()}

@@ -15,7 +15,7 @@ from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import WHEEL, flat, wheel_coordinate
 from ...assembly.coupling import BodyPose
 from ...assembly.load import Load
-from ...assembly.poses import Assembled
+from ...assembly.part_poses import PartPoses
 from ...corner.structure import GROUND
 from ...models.reach import PositionError
 from .mounts import totals, with_totals
@@ -32,7 +32,7 @@ _NEEDED = "what kintrafo.loads.static or along returns is needed"
 def loads_of(
     over: str,
     assembly: Assembly,
-    poses: Mapping[str, Assembled],
+    poses: Mapping[str, PartPoses],
     loads: Mapping[str, Sequence[Load]],
 ) -> xr.Dataset:
     """Return the loads of an assembly over the positions, with those between its groups.

@@ -20,7 +20,7 @@ _WEIGHTS = {-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12}
 
 
 @dataclass(frozen=True)
-class Twists:
+class PartTwists:
     """How the parts of a system move in many states.
 
     Attributes
@@ -37,7 +37,7 @@ class Twists:
     @classmethod
     def of(
         cls, model: System, states: Array, inputs: Array, by_time: Array, inputs_by_time: Array
-    ) -> "Twists":
+    ) -> "PartTwists":
         """Return them along a motion.
 
         Parameters

@@ -11,7 +11,7 @@ import xarray as xr
 
 from ....core.quantities import variable
 from ...assembly.load import Load
-from ...assembly.poses import wrench_about
+from ...assembly.part_poses import wrench_about
 
 MOUNT, ALL = "mount", "total"
 """The dimension of totals, and the part that rows of them name."""

@@ -7,12 +7,7 @@ from numpy.typing import NDArray
 
 from ....core.vectors import cross
 from ...assembly.load import Load, along_line
-from ...assembly.poses import (
-    CONTACT,
-    Assembled,
-    touching,
-    wrench_about,
-)
+from ...assembly.part_poses import CONTACT, PartPoses, touching, wrench_about
 from ...corner.corner import UP
 from ...corner.structure import GROUND, Joint
 from ...models.reach import PositionError
@@ -24,12 +19,12 @@ Array = NDArray[np.float64]
 _MANY = 200
 
 
-class Equations:
+class BalanceEquations:
     """Equilibrium of all parts in many positions, for any loads.
 
     Parameters
     ----------
-    poses : Assembled
+    poses : PartPoses
     holding : sequence of str, optional
         The lines of what holds the suspension where it is, by a force along each: its springs. By
         default a vertical force on each wheel at its contact does.
@@ -46,7 +41,7 @@ class Equations:
     zero where the loads are in equilibrium.
     """
 
-    def __init__(self, poses: Assembled, holding: Sequence[str] = ()) -> None:
+    def __init__(self, poses: PartPoses, holding: Sequence[str] = ()) -> None:
         self.poses = poses
         structure = poses.structure
         self.joints, self.lines, self.parts = structure.joints, structure.lines, structure.parts
@@ -183,7 +178,7 @@ def _on_both(joint: Joint, point: str, wrench: Array, at: Array) -> list[Load]:
     ]
 
 
-def _about(poses: Assembled, part: str, point: str, units: Array) -> Array:
+def _about(poses: PartPoses, part: str, point: str, units: Array) -> Array:
     """Return unit loads at a point, (6, units, n), as forces and moments about a centre of mass."""
     arm = poses.points[point] - poses.centers[part]
     forces, moments = units[:3], units[3:]

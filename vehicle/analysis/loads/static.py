@@ -14,13 +14,13 @@ from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import stacked
 from ...assembly.load import Load
 from ...assembly.of import given_assembly
-from ...assembly.poses import Assembled
+from ...assembly.part_poses import PartPoses
 from ...corner.corner import UP
 from .applied_loads import WheelLoads, road_and_drive, wheels_of
 from .balance import DEAD_POINT
 from .cases import GREATEST, cases_of, in_parts_of_it, standard_cases
 from .dataset import CASE, loads_of, over_cases, refuse_if_none
-from .reactions import Equations
+from .reactions import BalanceEquations
 from .static_equilibrium import static_equilibrium
 
 Array = NDArray[np.float64]
@@ -213,7 +213,7 @@ def _in_cases(
     return over_cases(found, names, carried.tolist(), reasons)
 
 
-def _outside(poses: Mapping[str, Assembled], vectors: Array) -> dict[str, list[Load]]:
+def _outside(poses: Mapping[str, PartPoses], vectors: Array) -> dict[str, list[Load]]:
     """Return the loads of road and drive by suffix, (n, wheels, 12) as `Case.vector`."""
     found: dict[str, list[Load]] = {suffix: [] for suffix in poses}
     for place, (suffix, part, wheel) in enumerate(wheels_of(poses)):
@@ -239,9 +239,9 @@ class _Balance:
     sound: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, group: Assembled, loads: list[Load]) -> "_Balance":
+    def of(cls, group: PartPoses, loads: list[Load]) -> "_Balance":
         """Return it under some loads."""
-        equations = Equations(group)
+        equations = BalanceEquations(group)
         unknowns, sound = equations.solved(equations.applied(loads))
         return cls(equations.carried(unknowns), unknowns[:, -len(group.wheels) :], sound)
 

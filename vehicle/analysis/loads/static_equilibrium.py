@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ...assembly.assembly import Assembly
 from ...assembly.load import known
-from ...assembly.poses import Assembled
+from ...assembly.part_poses import PartPoses
 from ...assembly.rig import WheelReach
 from ...models.reach import PositionError
 from .applied_loads import WheelLoads, wheels_of
@@ -265,12 +265,12 @@ class _Search:
             away = ((middles - self.assembly.design_wheel_coordinates)[:, free] ** 2).sum(axis=-1)
             yield [(middles[i], sizes) for i in np.argsort(away, kind="stable")[:_TRIES]]
 
-    def _by_torque(self, poses: Mapping[str, Assembled]) -> Array:
+    def _by_torque(self, poses: Mapping[str, PartPoses]) -> Array:
         """Return what each wheel misses by a unit torque of the bar, (n, wheels) [1/m]."""
         unit = {suffix: [load] for suffix, load in self.assembly.bar_loads(poses).items()}
         return VirtualWork.of(poses, unit).missing()
 
-    def _torque(self, poses: Mapping[str, Assembled], shape: tuple[int, ...]) -> Array:
+    def _torque(self, poses: Mapping[str, PartPoses], shape: tuple[int, ...]) -> Array:
         """Return the torque of the bar on a mesh, (..., 1) [N m]."""
         assert self.assembly.bar is not None  # nothing else joins them
         twists = np.stack([*self.assembly.bar_twist(poses).values()], axis=-1)

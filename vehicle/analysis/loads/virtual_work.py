@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ....core.vectors import cross
 from ...assembly.load import Load
-from ...assembly.poses import Assembled, touching, wheel_axes
+from ...assembly.part_poses import PartPoses, touching, wheel_axes
 from ...corner.structure import GROUND
 
 Array = NDArray[np.float64]
@@ -34,7 +34,7 @@ class VirtualWork:
 
     @classmethod
     def of(
-        cls, poses: Mapping[str, Assembled], acting: Mapping[str, Sequence[Load]]
+        cls, poses: Mapping[str, PartPoses], acting: Mapping[str, Sequence[Load]]
     ) -> "VirtualWork":
         """Return the work in the motions of all wheels.
 
@@ -93,14 +93,14 @@ class VirtualWork:
         return np.where(dead[:, None], np.nan, found)
 
 
-def _velocity(group: Assembled, twists: Mapping[str, Array], part: str, at: Array) -> Array:
+def _velocity(group: PartPoses, twists: Mapping[str, Array], part: str, at: Array) -> Array:
     """Return the velocity of a point of a part in each motion, (n, motions, 3)."""
     arm = (at - group.centers[part])[:, None]
     moved: Array = twists[part][..., 3:] + cross(twists[part][..., :3], arm)
     return moved
 
 
-def _power(group: Assembled, twists: Mapping[str, Array], loads: Sequence[Load]) -> Array:
+def _power(group: PartPoses, twists: Mapping[str, Array], loads: Sequence[Load]) -> Array:
     """Return what loads do together in each motion, (n, motions)."""
     total = np.zeros((len(group.states), len(group.wheels)))
     for load in (load for load in loads if load.part not in GROUND):

@@ -4,8 +4,8 @@
     `quantities`   name, unit, definition and sign of each quantity
     `corner`, `axle`, `rigid_axle`  the measures of each assembly
     `rolling`      track, roll moment and roll stiffness of two wheels: the formulas
-    `pair_rolling` roll centre, jacking and the anti-roll bar of two corners
-    `beam_rolling` roll centre, jacking and motion ratios of a rigid axle
+    `axle_rolling` roll centre, jacking and the anti-roll bar of two corners
+    `rigid_axle_rolling` roll centre, jacking and motion ratios of a rigid axle
     `pitching`     anti-dive, anti-lift and anti-squat
     `ackermann`    what compares two wheels that are steered
 

@@ -20,7 +20,7 @@ _STEERED = 1e-4
 
 
 class Steered(Protocol):
-    """Two wheels on one rack: a `Pair`, or a `Single` with its mirror image."""
+    """Two wheels on one rack: an `AxleKinematics`, or a `MirroredCorner` with its mirror image."""
 
     @property
     def left(self) -> Corner:

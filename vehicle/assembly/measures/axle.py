@@ -4,9 +4,9 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from .. import wheel
-from ..pair import Pair
+from ..axle_kinematics import AxleKinematics
 from ..quantity import RACK
-from . import pair_rolling, pitching, rolling
+from . import axle_rolling, pitching, rolling
 from .corner import COMPARED, GROUND, PITCH, PLACE, STEERING, TRAVEL
 from .measure import Measure, of_axle, of_wheel
 
@@ -20,35 +20,35 @@ def _by_themselves(measures: tuple[Measure, ...]) -> tuple[Measure, ...]:
     return tuple(measure for measure in measures if measure.name not in _REPLACED)
 
 
-def _has_bar(pair: Pair) -> bool:
+def _has_bar(pair: AxleKinematics) -> bool:
     return pair.axle.bar is not None
 
 
-def _is(end: str, *, driven: bool = False) -> Callable[[Pair], bool]:
+def _is(end: str, *, driven: bool = False) -> Callable[[AxleKinematics], bool]:
     return lambda pair: pair.end == end and (pair.axle.drive is not None or not driven)
 
 
 PATH = (
     of_axle("track", rolling.track, GROUND),
-    of_axle("track_change", pair_rolling.track_change, GROUND),
-    of_wheel("inclination", pair_rolling.inclination, GROUND),
+    of_axle("track_change", axle_rolling.track_change, GROUND),
+    of_wheel("inclination", axle_rolling.inclination, GROUND),
 )
 """Where the wheels are."""
 
 ROLL = (
-    of_axle("roll_center_height", lambda pair: pair_rolling.roll_center(pair)[1], GROUND),
-    of_axle("roll_center_lateral", lambda pair: pair_rolling.roll_center(pair)[0], GROUND),
-    of_wheel("jacking", pair_rolling.jacking, GROUND),
+    of_axle("roll_center_height", lambda pair: axle_rolling.roll_center(pair)[1], GROUND),
+    of_axle("roll_center_lateral", lambda pair: axle_rolling.roll_center(pair)[0], GROUND),
+    of_wheel("jacking", axle_rolling.jacking, GROUND),
     of_wheel(
         "roll_steer",
-        lambda pair, side: pair_rolling.by_roll(
+        lambda pair, side: axle_rolling.by_roll(
             pair, side, -pair.corners[side].vehicle.side * wheel.bump_steer(pair.corners[side])
         ),
         GROUND,
     ),
     of_wheel(
         "roll_camber",
-        lambda pair, side: pair_rolling.by_roll(
+        lambda pair, side: axle_rolling.by_roll(
             pair, side, wheel.camber_gradient(pair.corners[side])
         ),
         GROUND,
@@ -65,7 +65,7 @@ ROLL = (
     ),
     of_axle("bar_twist", lambda pair: pair.twist, (), _has_bar),
     of_axle("bar_torque", lambda pair: pair.torque, (), _has_bar),
-    of_wheel("link_force", pair_rolling.link_force, (), _has_bar),
+    of_wheel("link_force", axle_rolling.link_force, (), _has_bar),
 )
 """What springs, bar and geometry make of rolling."""
 

@@ -20,8 +20,8 @@ class Measure:
     quantity : Quantity
         Its name, unit, definition and sign.
     formula : callable
-        Takes the kinematics of the assembly (`Single`, `Pair` or `Beam`), of a wheel also its name,
-        and returns an array over the positions.
+        Takes the kinematics of the assembly (`MirroredCorner`, `AxleKinematics` or
+        `RigidAxleKinematics`), of a wheel also its name, and returns an array over the positions.
     scope : {'wheel', 'axle'}
         Whether each wheel has it, or the axle.
     needs : tuple of str

@@ -15,7 +15,7 @@ from ...models.rigid.axle import RigidAxle
 
 
 class Pitching(Protocol):
-    """What moves in a side view: a `Pair` or a `Beam`."""
+    """What moves in a side view: an `AxleKinematics` or a `RigidAxleKinematics`."""
 
     @property
     def axle(self) -> Axle | RigidAxle:
@@ -40,7 +40,7 @@ def braking(of: Pitching, side: str = "") -> Array:
     ----------
     of : Pair or Beam
     side : str, optional
-        Which wheel, of a `Pair`.
+        Which wheel, of an `AxleKinematics`.
     """
     front = of.vehicles[0].front_brake_share
     assert front is not None

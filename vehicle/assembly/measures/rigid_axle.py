@@ -5,8 +5,9 @@ from dataclasses import replace
 
 from ...corner.corner import Array
 from ...models.rigid.model import HEAVE, ROLL
-from ..beam import Beam
-from . import beam_rolling, pitching, rolling
+from ..rigid_axle_kinematics import RigidAxleKinematics
+from . import pitching, rolling
+from . import rigid_axle_rolling as rolls
 from .corner import GROUND, PITCH
 from .measure import Measure, of_axle, of_wheel
 from .quantities import QUANTITIES
@@ -22,11 +23,11 @@ _JACKING = replace(
 )
 
 
-def _is(end: str, *, driven: bool = False) -> Callable[[Beam], bool]:
+def _is(end: str, *, driven: bool = False) -> Callable[[RigidAxleKinematics], bool]:
     return lambda beam: beam.end == end and (beam.axle.drive is not None or not driven)
 
 
-def _signal(name: str) -> Callable[[Beam, str], Array]:
+def _signal(name: str) -> Callable[[RigidAxleKinematics, str], Array]:
     return lambda beam, side: beam.signal(f"{side}_{name}")
 
 
@@ -53,11 +54,11 @@ GUIDANCE = (
 
 ON_THE_ROAD = (
     of_axle(
-        "roll_center_height", beam_rolling.roll_center_height, GROUND,
+        "roll_center_height", rolls.roll_center_height, GROUND,
         definition="point midway between the contacts that does not move along the line through "
         "them as the axle rolls and the middle between the contacts stays on that line",
     ),
-    Measure(_JACKING, beam_rolling.jacking, "axle", GROUND),
+    Measure(_JACKING, rolls.jacking, "axle", GROUND),
     of_axle(
         "anti_dive", pitching.braking, (*PITCH, "front_brake_share"), _is("front"),
         "b (L / h) v_x / v_z under braking: brake share b, wheelbase L, height h of the gravity "
@@ -86,20 +87,20 @@ SPRINGS = (
         "damper_length", _signal("damper_length"), definition="distance of the damper's ends"
     ),
     of_wheel(
-        "motion_ratio", lambda beam, side: beam_rolling.motion_ratio(beam, "spring", side),
+        "motion_ratio", lambda beam, side: rolls.motion_ratio(beam, "spring", side),
         definition="compression of the spring per travel of both wheels",
     ),
     of_wheel(
         "roll_motion_ratio",
-        lambda beam, side: beam_rolling.roll_motion_ratio(beam, "spring", side),
+        lambda beam, side: rolls.roll_motion_ratio(beam, "spring", side),
     ),
     of_wheel(
-        "damper_motion_ratio", lambda beam, side: beam_rolling.motion_ratio(beam, "damper", side),
+        "damper_motion_ratio", lambda beam, side: rolls.motion_ratio(beam, "damper", side),
         definition="compression of the damper per travel of both wheels",
     ),
     of_wheel(
         "damper_roll_motion_ratio",
-        lambda beam, side: beam_rolling.roll_motion_ratio(beam, "damper", side),
+        lambda beam, side: rolls.roll_motion_ratio(beam, "damper", side),
     ),
     of_wheel(
         "wheel_force", lambda beam, side: beam.wheel_force(side),
@@ -107,10 +108,10 @@ SPRINGS = (
         "weight",
     ),
     of_wheel(
-        "wheel_rate", beam_rolling.wheel_rate,
+        "wheel_rate", rolls.wheel_rate,
         definition="derivative of the wheel force by the travel of both wheels, without tyres",
     ),
-    of_wheel("wheel_rate_alone", beam_rolling.wheel_rate_alone),
+    of_wheel("wheel_rate_alone", rolls.wheel_rate_alone),
     of_axle("roll_moment", rolling.moment, GROUND),
     of_axle("roll_moment_gradient", rolling.moment_gradient, GROUND),
     of_axle("roll_stiffness", rolling.stiffness, GROUND),

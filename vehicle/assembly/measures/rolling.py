@@ -1,6 +1,7 @@
 """Track, roll moment and roll stiffness of two wheels: the formulas.
 
-Each takes a `Pair` or a `Beam` and returns an array over its positions, SI units, chassis axes.
+Each takes `AxleKinematics` or `RigidAxleKinematics` and returns an array over its positions, SI
+units, chassis axes.
 Forces of the road are vertical and act on the wheels; unsprung weights are left out. The stiffness
 of both wheels is a matrix K of two rows, the left wheel first: the derivative of the wheels' forces
 by their travels. A roll of the body by phi (positive about the x axis: right side down) moves the
@@ -20,7 +21,7 @@ SIDES = (LEFT, RIGHT)
 
 
 class TwoWheels(Protocol):
-    """Two wheels in n positions: a `Pair` or a `Beam`."""
+    """Two wheels in n positions: an `AxleKinematics` or a `RigidAxleKinematics`."""
 
     @property
     def vehicles(self) -> Sequence[Vehicle]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from ....core.arguments import Arguments
 from ....core.errors import InputError
 from ....core.vectors import components
-from ....systems.allowed import Allowed
+from ....systems.allowed import LengthLimit
 from ....systems.compile.build import compile_mechanism, require_generator
 from ....systems.system import System
 from ..model import Model
@@ -62,7 +62,7 @@ class AxleModel(System):
             return self.axle.models
         return {side: Model(own, wheel_loads=True) for side, own in self.axle.sides.items()}
 
-    def allowed_lengths(self) -> tuple[Allowed, ...]:
+    def allowed_lengths(self) -> tuple[LengthLimit, ...]:
         """Return the lengths that the file of each side allows."""
         return tuple(
             one._replace(signal=f"{side}_{one.signal}", part=f"{side} {one.part}")

@@ -10,7 +10,7 @@ from .bar import AntiRollBar
 from .steering import SteeringCurve
 
 End = Literal["front", "rear"]
-Held = Literal["body", "carrier"]
+TorqueReaction = Literal["body", "carrier"]
 
 SIDES = ("side", "right", "left")
 
@@ -22,7 +22,7 @@ _SIDE = "hardpoint file beside this one, or the name of a packaged data set: "
 class Torque(Section):
     """What holds the torque of brakes or drive."""
 
-    torque_on: Held = Field(
+    torque_on: TorqueReaction = Field(
         description='"carrier": what turns against the torque is on the wheel carrier, as with '
         'brakes or a motor at the wheel; "body": on the chassis, behind a shaft'
     )
@@ -31,7 +31,7 @@ class Torque(Section):
 class Brakes(Torque):
     """The brakes of the axle. Their share is that of ``front_brake_share`` in the side's file."""
 
-    torque_on: Held = Field(
+    torque_on: TorqueReaction = Field(
         default="carrier",
         description='"carrier": brakes at the wheel; "body": inboard brakes, behind a shaft',
     )
@@ -40,7 +40,7 @@ class Brakes(Torque):
 class Drive(Torque):
     """What drives the axle."""
 
-    torque_on: Held = Field(
+    torque_on: TorqueReaction = Field(
         default="body",
         description='"body": the final drive is on the chassis, a shaft leads to the wheel; '
         '"carrier": a motor at the wheel',

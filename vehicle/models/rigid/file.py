@@ -11,7 +11,7 @@ from ...input.bodies import Bodies, RigidBody
 from ...input.hardpoints import Hardpoints, Pair
 from ...input.section import Number, Positive, Range, Section, Triple
 from ...input.vehicle import Share
-from ..axle.file import Drive, Held
+from ..axle.file import Drive, TorqueReaction
 
 _Rate = Annotated[
     Number,
@@ -108,7 +108,7 @@ class RollBar(Section):
 class AxleDrive(Drive):
     """What drives the axle."""
 
-    torque_on: Held = Field(
+    torque_on: TorqueReaction = Field(
         default="carrier",
         description='"carrier": the final drive is in the axle, which holds the torque; "body": it '
         "is on the chassis, and shafts lead to the wheels (de Dion)",

@@ -11,7 +11,7 @@ from ....core.arguments import Arguments, shown
 from ....core.errors import InputError
 from ....core.named_types import ArrayLike
 from ....generated import rigid_axle as equations
-from ....systems.allowed import Allowed
+from ....systems.allowed import LengthLimit
 from ....systems.system import System
 from ...corner.corner import Array
 from ...corner.wheel_loads import with_wheel_loads
@@ -88,7 +88,7 @@ class RigidAxleModel(System):
     def __repr__(self) -> str:
         return f"<RigidAxleModel of a {self.axle.heading()}>"
 
-    def allowed_lengths(self) -> tuple[Allowed, ...]:
+    def allowed_lengths(self) -> tuple[LengthLimit, ...]:
         """Return the lengths of the dampers that the file allows."""
         return tuple(
             one._replace(part=f"{side} {one.part}")

@@ -6,7 +6,15 @@ The parts are the beam, both wheels and the rods by their names. Points of a rod
 
 from collections.abc import Iterable
 
-from ...corner.structure import FORCES_OF_A_DAMPER, Ball, Cross, Fixed, Joint, Line, Structure
+from ...corner.structure import (
+    FORCES_OF_A_DAMPER,
+    FixedJoint,
+    ForceElement,
+    Joint,
+    SphericalJoint,
+    Structure,
+    UniversalJoint,
+)
 from ..axle.axle import LEFT, RIGHT
 
 BEAM, CHASSIS = "beam", "chassis"
@@ -30,9 +38,9 @@ def structure_of(rods: Iterable[str]) -> Structure:
     ----------
     rods : iterable of str
     """
-    bearings = [Fixed(BEAM, f"wheel_{side}", (f"{CENTER}_{side}",)) for side in _SIDES]
+    bearings = [FixedJoint(BEAM, f"wheel_{side}", (f"{CENTER}_{side}",)) for side in _SIDES]
     lines = [
-        Line(
+        ForceElement(
             f"{name}_{side}",
             tuple(f"{side}_{force}" for force in forces),
             CHASSIS,
@@ -48,7 +56,7 @@ def structure_of(rods: Iterable[str]) -> Structure:
 
 def of_a_file(rods: Iterable[str]) -> Structure:
     """Return the joints that a file gives bushes to: those of both bearings are one."""
-    return Structure((*_of_rods(rods), Fixed(BEAM, "wheel", (CENTER,))), ())
+    return Structure((*_of_rods(rods), FixedJoint(BEAM, "wheel", (CENTER,))), ())
 
 
 def _of_rods(rods: Iterable[str]) -> list[Joint]:
@@ -58,7 +66,7 @@ def _of_rods(rods: Iterable[str]) -> list[Joint]:
         for rod in rods
         for inner, outer in [(f"{rod}_{CHASSIS}", f"{rod}_axle")]
         for joint in (
-            Ball(BEAM, rod, (outer,), inner),
-            Cross(CHASSIS, rod, (inner,), outer, _UPWARD),
+            SphericalJoint(BEAM, rod, (outer,), inner),
+            UniversalJoint(CHASSIS, rod, (inner,), outer, _UPWARD),
         )
     ]

@@ -1,6 +1,6 @@
 """Roll centre, jacking and motion ratios of a rigid axle: the formulas.
 
-Each takes a `Beam` and returns an array over its positions, SI units, chassis axes.
+Each takes a `RigidAxleKinematics` and returns an array over its positions, SI units, chassis axes.
 """
 
 import numpy as np
@@ -8,10 +8,10 @@ import numpy as np
 from ...corner.corner import Array
 from ...models.axle.axle import LEFT, RIGHT
 from ...models.rigid.model import HEAVE, ROLL
-from ..beam import SENSE, SIDES, Beam
+from ..rigid_axle_kinematics import SENSE, SIDES, RigidAxleKinematics
 
 
-def roll_center_height(beam: Beam) -> Array:
+def roll_center_height(beam: RigidAxleKinematics) -> Array:
     """Return the height of the roll centre above the line through the contacts [m].
 
     Of the points midway between the contacts, across the line through them as it is seen from the
@@ -30,7 +30,7 @@ def roll_center_height(beam: Beam) -> Array:
     return height
 
 
-def jacking(beam: Beam) -> Array:
+def jacking(beam: RigidAxleKinematics) -> Array:
     """Return the lift of the body by a force on the tyres to the left, over that force [1].
 
     By virtual work the force pushes the axle up, so the body down, where the axle goes to the left
@@ -42,30 +42,30 @@ def jacking(beam: Beam) -> Array:
     return lift
 
 
-def motion_ratio(beam: Beam, part: str, side: str) -> Array:
+def motion_ratio(beam: RigidAxleKinematics, part: str, side: str) -> Array:
     """Return the compression of a spring or damper per travel of both wheels [1]."""
     return beam.compression(f"{side}_{part}", HEAVE)
 
 
-def roll_motion_ratio(beam: Beam, part: str, side: str) -> Array:
+def roll_motion_ratio(beam: RigidAxleKinematics, part: str, side: str) -> Array:
     """Return the same per travel of the side's wheel, the other one moving oppositely [1]."""
     return SENSE[side] * beam.compression(f"{side}_{part}", ROLL) / beam.lever
 
 
-def wheel_rate(beam: Beam, side: str) -> Array:
+def wheel_rate(beam: RigidAxleKinematics, side: str) -> Array:
     """Return the derivative of a wheel's force by the travel of both wheels [N/m]."""
     rates: Array = _of_all(beam)[:, SIDES.index(side), :].sum(-1)
     return rates
 
 
-def wheel_rate_alone(beam: Beam, side: str) -> Array:
+def wheel_rate_alone(beam: RigidAxleKinematics, side: str) -> Array:
     """Return the derivative of a wheel's force by its own travel, the other one at rest [N/m]."""
     place = SIDES.index(side)
     rates: Array = _of_all(beam)[:, place, place]
     return rates
 
 
-def _of_all(beam: Beam) -> Array:
+def _of_all(beam: RigidAxleKinematics) -> Array:
     """Return the stiffness of springs, stops and bar at both wheels [N/m]."""
     return beam.springs + beam.bar
 

@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.vectors import cross, unit_vector
-from ...systems.allowed import Allowed
+from ...systems.allowed import LengthLimit
 from ...systems.inputs import rates_of
 from ...systems.system import System
 from ..corner.corner import UP, RoadWheel
-from ..corner.structure import Line, Structure
+from ..corner.structure import ForceElement, Structure
 from ..models.model import Model
 from ..models.points import hardpoints
-from .from_model import design_axis, vehicle
+from .corner_kinematics import design_axis, vehicle
 from .mass import PartMass
 from .wheel import lowest_point, upward_across
 
@@ -26,7 +26,7 @@ CONTACT, CENTER = "contact", "wheel_center"
 """Where loads act on a wheel: at its lowest point, and at its centre."""
 
 
-class Assembled(Protocol):
+class PartPoses(Protocol):
     """The parts of a suspension, or of a rigid axle, in n positions, and what acts by itself.
 
     Attributes
@@ -80,16 +80,16 @@ class Assembled(Protocol):
     def signals(self) -> Mapping[str, Array]:
         """Return the signals of the equations, (n,)."""
 
-    def parameters_of(self, line: Line) -> Mapping[str, float]:
+    def parameters_of(self, line: ForceElement) -> Mapping[str, float]:
         """Return the parameters of the spring or the stops on a line, as one wheel has them."""
 
-    def counted_by(self, line: Line) -> str:
+    def counted_by(self, line: ForceElement) -> str:
         """Return the signal by which the stops on a line count: a length."""
 
     def carried_by(self, part: str, point: str) -> Array:
         """Return where a part has a hardpoint, apart from others that it is joined to, (n, 3)."""
 
-    def allowed_lengths(self) -> Sequence[Allowed]:
+    def allowed_lengths(self) -> Sequence[LengthLimit]:
         """Return the lengths that the file allows, of these signals."""
 
     def twists(self) -> Mapping[str, Array]:
@@ -118,7 +118,7 @@ class Assembled(Protocol):
 
 
 @dataclass(frozen=True)
-class Poses:
+class CornerParts:
     """A suspension in many positions; arrays have one leading dimension, that of the positions.
 
     Attributes
@@ -143,7 +143,7 @@ class Poses:
     axis: Array
 
     @classmethod
-    def of(cls, model: Model, states: Array, inputs: Array) -> "Poses":
+    def of(cls, model: Model, states: Array, inputs: Array) -> "CornerParts":
         """Return the positions of some states."""
         bodies = model.equations.BODIES
         centers = model.evaluate("positions", states, inputs)
@@ -190,12 +190,12 @@ class Poses:
         suspension = self.model.suspension
         return unit_vector(suspension.rack.axis) if suspension.steered() else None
 
-    def parameters_of(self, line: Line) -> Mapping[str, float]:
+    def parameters_of(self, line: ForceElement) -> Mapping[str, float]:
         """Return the parameters of the spring or the stops on a line."""
         del line
         return self.model.parameters
 
-    def counted_by(self, line: Line) -> str:
+    def counted_by(self, line: ForceElement) -> str:
         """Return the signal by which the stops on a line count: a length."""
         del line
         return f"{self.model.suspension.STOPPED}_length"
@@ -209,7 +209,7 @@ class Poses:
         """Return the signals of the equations, (n,)."""
         return self.model.signals(self.states, self.inputs)
 
-    def allowed_lengths(self) -> Sequence[Allowed]:
+    def allowed_lengths(self) -> Sequence[LengthLimit]:
         """Return the lengths that the file allows."""
         return self.model.suspension.allowed_lengths()
 

@@ -22,7 +22,7 @@ _CENTER = "wheel_center"
 
 
 @dataclass(frozen=True)
-class Line:
+class WheelCentreLine:
     """The line in n positions of both wheels.
 
     Attributes
@@ -40,7 +40,9 @@ class Line:
     design: Array
 
     @classmethod
-    def at(cls, axle: Axle, left: ArrayLike, right: ArrayLike, rack: float = 0.0) -> "Line":
+    def at(
+        cls, axle: Axle, left: ArrayLike, right: ArrayLike, rack: float = 0.0
+    ) -> "WheelCentreLine":
         """Return it at travels of both wheels and a displacement of the rack [m].
 
         Raises

@@ -11,7 +11,7 @@ from .wheel import steer, toe
 
 
 @dataclass(frozen=True)
-class Single:
+class MirroredCorner:
     """A corner in many positions.
 
     Attributes

@@ -28,7 +28,7 @@ COORDINATES = (HEAVE, ROLL)
 
 
 @dataclass(frozen=True)
-class Beam:
+class RigidAxleKinematics:
     """A rigid axle at rest in many positions, of shape (n,).
 
     Attributes

@@ -1,6 +1,6 @@
 """Roll centre, jacking and the anti-roll bar of an axle of two corners: the formulas.
 
-Each takes a `Pair` and returns an array over its positions, SI units, chassis axes.
+Each takes an `AxleKinematics` and returns an array over its positions, SI units, chassis axes.
 """
 
 import numpy as np
@@ -8,29 +8,29 @@ import numpy as np
 from ...corner.corner import Array, Corner
 from ...models.axle.axle import LEFT, RIGHT
 from .. import wheel
-from ..pair import SENSE, Pair
+from ..axle_kinematics import SENSE, AxleKinematics
 
 
-def track_change(pair: Pair) -> Array:
+def track_change(pair: AxleKinematics) -> Array:
     """Return how much farther apart the contacts are than at design [m]."""
     return wheel.half_track_change(pair.corners[LEFT]) + wheel.half_track_change(
         pair.corners[RIGHT]
     )
 
 
-def roll_angle(pair: Pair) -> Array:
+def roll_angle(pair: AxleKinematics) -> Array:
     """Return the angle of the body to the line through the contacts, right side down [rad]."""
     left, right = _contacts(pair)
     across = left - right
     return -np.arctan2(across[..., 2], across[..., 1])
 
 
-def inclination(pair: Pair, side: str) -> Array:
+def inclination(pair: AxleKinematics, side: str) -> Array:
     """Return the camber to the line through the contacts [rad], positive top outboard."""
     return wheel.camber(pair.corners[side]) - SENSE[side] * roll_angle(pair)
 
 
-def roll_center(pair: Pair) -> tuple[Array, Array]:
+def roll_center(pair: AxleKinematics) -> tuple[Array, Array]:
     """Return where the normals to the contacts' paths meet, seen from the front.
 
     Returns
@@ -50,7 +50,7 @@ def roll_center(pair: Pair) -> tuple[Array, Array]:
     return np.cos(tilt) * y + np.sin(tilt) * z, np.cos(tilt) * z - np.sin(tilt) * y
 
 
-def jacking(pair: Pair, side: str) -> Array:
+def jacking(pair: AxleKinematics, side: str) -> Array:
     """Return the lift of the body by an inboard force at the contact, over that force [1]."""
     corner = pair.corners[side]
     velocity = wheel.contact_velocity(corner)
@@ -65,16 +65,16 @@ def _normal(corner: Corner, at: Array) -> tuple[Array, Array, Array]:
     return a, b, a * at[..., 1] + b * at[..., 2]
 
 
-def link_force(pair: Pair, side: str) -> Array:
+def link_force(pair: AxleKinematics, side: str) -> Array:
     """Return the tension of the drop link [N]."""
     # the bar turns the half back by the torque; the link pulls its top towards the foot
     return SENSE[side] * pair.torque / -pair.halves[side].lever
 
 
-def by_roll(pair: Pair, side: str, by_travel: Array) -> Array:
+def by_roll(pair: AxleKinematics, side: str, by_travel: Array) -> Array:
     """Return what changes by wheel travel as a change by roll, both wheels moving as in roll."""
     return -pair.contact(side)[..., 1] * by_travel
 
 
-def _contacts(pair: Pair) -> tuple[Array, Array]:
+def _contacts(pair: AxleKinematics) -> tuple[Array, Array]:
     return pair.contact(LEFT), pair.contact(RIGHT)

@@ -36,7 +36,7 @@ _SCALED = "spring.force_N"
 
 
 @dataclass(frozen=True)
-class Place:
+class DesignVariable:
     """A number of an input file.
 
     Attributes
@@ -95,7 +95,7 @@ class Place:
         return {self.name: (self.value + by / self.to_si) * self.in_file}
 
 
-def places_of(suspension: Subject) -> dict[str, Place]:
+def places_of(suspension: Subject) -> dict[str, DesignVariable]:
     """Return every number of the files of a suspension or an axle, by name."""
     return {
         f"{begin}{place.name}": replace(place, name=f"{begin}{place.name}")
@@ -119,7 +119,7 @@ def _units_of_points(sections: dict[str, Any]) -> dict[str, float]:
     return {"": factors.get("hardpoints", 1.0)} | factors
 
 
-def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, Place]:
+def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, DesignVariable]:
     """Return the numbers that some patterns name, in the order of the file.
 
     Parameters
@@ -160,7 +160,7 @@ def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, 
     return {name: place for name, place in known.items() if name in wanted}
 
 
-def _of_both(pattern: str, known: Mapping[str, Place]) -> str:
+def _of_both(pattern: str, known: Mapping[str, DesignVariable]) -> str:
     """Return a pattern that names a value of a side, of an axle: that of one and its image."""
     both = f"{_SIDE}{pattern}"
     if any(_fits(name, pattern) for name in known):
@@ -168,7 +168,7 @@ def _of_both(pattern: str, known: Mapping[str, Place]) -> str:
     return both if any(_fits(name, both) for name in known) else pattern
 
 
-def _is_meant(name: str, pattern: str, known: Mapping[str, Place]) -> bool:
+def _is_meant(name: str, pattern: str, known: Mapping[str, DesignVariable]) -> bool:
     """Return whether a pattern means a value: of sides that are images, each only by its name."""
     if is_factor(name) and pattern.rpartition(".")[2] != name.rpartition(".")[2]:
         return False  # an amount is meant for numbers of other units
@@ -178,7 +178,7 @@ def _is_meant(name: str, pattern: str, known: Mapping[str, Place]) -> bool:
     return pattern.startswith(side)
 
 
-def _hint(pattern: str, known: Mapping[str, Place]) -> str:
+def _hint(pattern: str, known: Mapping[str, DesignVariable]) -> str:
     """Return what a pattern may have meant that names nothing of a file."""
     has_bushes = any(place.of_bushes for place in known.values())
     if "bushings" in pattern.split(".")[:2] and not has_bushes:
@@ -189,13 +189,13 @@ def _hint(pattern: str, known: Mapping[str, Place]) -> str:
 
 def amounts(
     given: Arguments, suspension: Subject, by_pattern: Mapping[str, Any], what: str
-) -> dict[Place, float]:
+) -> dict[DesignVariable, float]:
     """Return an amount in SI units for every number that a pattern names; later patterns count.
 
     They are in the order of the file, whatever that of the patterns is. A text such as "20 %" is a
     part of each value.
     """
-    found: dict[str, tuple[Place, float]] = {}
+    found: dict[str, tuple[DesignVariable, float]] = {}
     for pattern, amount in by_pattern.items():
         for name, place in matching(given, suspension, [str(pattern)]).items():
             title = f"{what} of {pattern}"
@@ -208,7 +208,7 @@ def amounts(
     return dict(found[name] for name in places_of(suspension) if name in found)
 
 
-def _part_of(given: Arguments, title: str, text: str, place: Place) -> float:
+def _part_of(given: Arguments, title: str, text: str, place: DesignVariable) -> float:
     """Return what a text such as "20 %" is of a value, in its unit."""
     percent = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*%\s*", text)
     if percent is None:
@@ -259,7 +259,9 @@ def _lists(table: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Seq
             yield f"{above}{key}", value
 
 
-def _places(table: Mapping[str, Any], above: str, in_file: Mapping[str, float]) -> Iterator[Place]:
+def _places(
+    table: Mapping[str, Any], above: str, in_file: Mapping[str, float]
+) -> Iterator[DesignVariable]:
     for key, value in table.items():
         name = f"{above}{key}"
         if isinstance(value, Mapping):
@@ -273,8 +275,8 @@ def _places(table: Mapping[str, Any], above: str, in_file: Mapping[str, float]) 
         unit, factor = ("mm", factor) if of_points else (unit_of(key), 1.0)
         if isinstance(value, list) and (of_points or key.endswith("com_mm") or key == "axis"):
             for axis, component in zip("xyz", value, strict=True):
-                yield Place(f"{name}.{axis}", unit, component / factor, factor)
+                yield DesignVariable(f"{name}.{axis}", unit, component / factor, factor)
         elif isinstance(value, list | tuple) and is_factor(name):
-            yield Place(name, "", 1.0)
+            yield DesignVariable(name, "", 1.0)
         elif isinstance(value, float):
-            yield Place(name, unit, value)
+            yield DesignVariable(name, unit, value)

@@ -17,8 +17,8 @@ from ..models.points import carried
 from ..models.positions import PositionError, arm_angles, design_height
 from ..models.reach import at_rest, height_and_slope
 from . import motions, wheel
-from .from_model import corner
-from .line import inclination_rate
+from .corner_kinematics import corner
+from .wheel_centre_line import inclination_rate
 
 SENSE = {LEFT: 1.0, RIGHT: -1.0}
 """In which direction each side's angle twists the bar."""
@@ -50,7 +50,7 @@ class Half:
 
 
 @dataclass(frozen=True)
-class Pair:
+class AxleKinematics:
     """Both wheels of an axle; every array has one leading dimension, that of the positions.
 
     Attributes
@@ -84,7 +84,7 @@ class Pair:
         right: ArrayLike,
         rack: ArrayLike,
         per_turn: Array | None = None,
-    ) -> "Pair":
+    ) -> "AxleKinematics":
         """Return an axle at wheel travels and displacements of the rack [m].
 
         Raises
@@ -226,7 +226,9 @@ class Pair:
         No numbers where the wheels cannot be straight ahead at these heights.
         """
         try:
-            middle = Pair.at(self.axle, self.travel[LEFT][:1], self.travel[RIGHT][:1], 0.0)
+            middle = AxleKinematics.at(
+                self.axle, self.travel[LEFT][:1], self.travel[RIGHT][:1], 0.0
+            )
             static = [wheel.steer(corner) for corner in middle.corners.values()]
         except PositionError:
             static = [np.array([np.nan])] * 2

@@ -12,7 +12,7 @@ from ...core.columns import Column, spread
 from ...core.named_types import ArrayLike
 from ...core.vectors import cross, turned
 from ...systems.inputs import rates_of
-from ..corner.corner import Array, Corner, Motion, SteeringAxis, Vehicle
+from ..corner.corner import Array, CarrierMotion, Corner, SteeringAxis, Vehicle
 from ..corner.strokes import Strokes
 from ..input.units import in_metres
 from ..kinds import Suspension
@@ -144,16 +144,16 @@ class _Pose:
         self.travel = self.by_arm.per(self.by_arm.velocity[..., 2])
 
     @cached_property
-    def by_rack(self) -> Motion:
+    def by_rack(self) -> CarrierMotion:
         """The motion for a unit rate of the rack, the arm held."""
         return self._motion("rack")
 
     @property
-    def steering(self) -> Motion:
+    def steering(self) -> CarrierMotion:
         """The motion per unit of rack travel, the wheel centre held at its height."""
         return self.by_rack.minus(self.travel, self.by_rack.velocity[..., 2])
 
-    def steering_with_spring_locked(self) -> Motion:
+    def steering_with_spring_locked(self) -> CarrierMotion:
         """Return the motion per unit of rack travel with the spring's length held.
 
         No numbers where the spring hardly moves with the wheel: it would lock nothing.
@@ -166,14 +166,14 @@ class _Pose:
         by_arm = np.where(locks, by_arm, np.nan)
         return self.by_rack.minus(self.by_arm, by_rack / by_arm)
 
-    def _motion(self, what: str) -> Motion:
+    def _motion(self, what: str) -> CarrierMotion:
         """Return the motion for a unit rate of the arm angle, or of the rack, the other held."""
         model = self.model
         states, inputs = self._at_unit_rate(what)
         twist = model.evaluate("velocities", states, inputs)[..., self.carrier, :]
         turning, velocity = twist[..., :3], twist[..., 3:]
         arm = self.points["wheel_center"] - self.centers[..., self.carrier, :]
-        return Motion(velocity + cross(turning, arm), turning)
+        return CarrierMotion(velocity + cross(turning, arm), turning)
 
     def _at_unit_rate(self, what: str) -> tuple[Array, Array]:
         """Return states and inputs with a unit rate of the arm angle, or of the rack.

@@ -12,17 +12,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.vectors import cross
-from ...systems.allowed import Allowed
+from ...systems.allowed import LengthLimit
 from ..corner.corner import UP, RoadWheel
-from ..corner.structure import Line, Structure
+from ..corner.structure import ForceElement, Structure
 from ..corner.wheel_loads import UNITS
 from ..models.rigid.axle import RigidAxle
 from ..models.rigid.model import RigidAxleModel
 from ..models.rigid.structure import BEAM, CHASSIS, MIDDLE
-from .beam import COORDINATES, SENSE, SIDES, parameters_of, vehicle_of
 from .load import Load, known
 from .mass import PartMass
-from .poses import CENTER, CONTACT, forces_along, road_axes
+from .part_poses import CENTER, CONTACT, forces_along, road_axes
+from .rigid_axle_kinematics import COORDINATES, SENSE, SIDES, parameters_of, vehicle_of
 from .wheel import lowest_point, upward_across
 
 Array = NDArray[np.float64]
@@ -39,7 +39,7 @@ _LEFTWARD = np.array([0.0, 1.0, 0.0])
 
 
 @dataclass(frozen=True)
-class Parts:
+class RigidAxleParts:
     """A rigid axle in n positions.
 
     Attributes
@@ -62,7 +62,9 @@ class Parts:
     points: dict[str, Array]
 
     @classmethod
-    def of(cls, model: RigidAxleModel, states: Array, inputs: Array | None = None) -> "Parts":
+    def of(
+        cls, model: RigidAxleModel, states: Array, inputs: Array | None = None
+    ) -> "RigidAxleParts":
         """Return the parts in some states, by default without any input."""
         if inputs is None:
             inputs = np.zeros((len(states), len(model.input_names)))
@@ -116,7 +118,7 @@ class Parts:
         """No rack steers it."""
         return None
 
-    def parameters_of(self, line: Line) -> Mapping[str, float]:
+    def parameters_of(self, line: ForceElement) -> Mapping[str, float]:
         """Return the parameters of the spring or the stops on a line, as the right side's are."""
         return parameters_of(self.model, line.name.rpartition("_")[2])
 
@@ -124,7 +126,7 @@ class Parts:
         """Return the signals of the equations, (n,)."""
         return self.model.signals(self.states, self.inputs)
 
-    def counted_by(self, line: Line) -> str:
+    def counted_by(self, line: ForceElement) -> str:
         """Return the signal by which the stops beside a damper count: its length."""
         name, _, side = line.name.rpartition("_")
         return f"{side}_{name}_length"
@@ -140,7 +142,7 @@ class Parts:
         arm = self.turned[part] @ (self.design[point] - 0.5 * (inner + outer))
         return self.centers[part] + arm
 
-    def allowed_lengths(self) -> Sequence[Allowed]:
+    def allowed_lengths(self) -> Sequence[LengthLimit]:
         """Return the lengths of the dampers that the file allows."""
         return self.model.allowed_lengths()
 
