@@ -448,7 +448,10 @@ STOP_CURVE = [
 
 def chronos_force(spring, length):
     """LinearSpringForce::evaluate() of Chrono."""
-    pressed = lambda x: np.interp(x, *np.transpose(STOP_CURVE))  # noqa: E731
+
+    def pressed(x):
+        return np.interp(x, *np.transpose(STOP_CURVE))
+
     force = spring.get("Preload", 0.0)
     force -= spring["Spring Coefficient"] * (length - spring["Free Length"])
     if "Minimum Length" in spring and "Maximum Length" in spring:

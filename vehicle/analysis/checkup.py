@@ -259,7 +259,7 @@ class _AxleLook:
 def _over(assembly: Assembly, motion: str, along: Any = None) -> "xr.Dataset":
     """Return characteristics over a motion as columns."""
     from ..assembly.by_wheel import flat  # noqa: PLC0415 (slow to import)
-    from .characteristics.datasets import over  # noqa: PLC0415
+    from .characteristics.datasets import over  # noqa: PLC0415 (slow to import)
 
     return flat(over(assembly, motion, along))
 
