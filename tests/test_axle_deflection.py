@@ -10,7 +10,7 @@ from kintrafo import Axle, InputError, Model, PositionError, Suspension, charact
 from kintrafo.core.arguments import Arguments
 from kintrafo.vehicle.analysis.compliance.bars import Bars, Foot
 from kintrafo.vehicle.analysis.compliance.on_bushes import on_joints, softs_of
-from kintrafo.vehicle.analysis.compliance.rigid_displacements import Places
+from kintrafo.vehicle.analysis.compliance.rigid_displacements import RigidDisplacements
 from kintrafo.vehicle.assembly.axle import AxleAssembly
 from kintrafo.vehicle.assembly.axle_kinematics import AxleKinematics
 from kintrafo.vehicle.assembly.by_wheel import flat
@@ -56,7 +56,7 @@ def test_derivatives_of_the_twist_are_those_along_screws() -> None:
     rng = np.random.default_rng(5)
     left, right = (axle_of(WISHBONES).halves[side] for side in SIDES)
     turned = np.stack([np.eye(3), *Rotation.random(2, rng=rng).as_matrix()])[None]
-    places = Places(rng.normal(size=(1, 3, 3)), turned)
+    places = RigidDisplacements(rng.normal(size=(1, 3, 3)), turned)
     feet = []
     for body, half in ((1, left), (2, right)):
         at = half.foot + 0.02 * rng.normal(size=3)

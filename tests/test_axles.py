@@ -31,7 +31,7 @@ from kintrafo.vehicle.assembly.axle import AxleAssembly
 from kintrafo.vehicle.assembly.axle_kinematics import AxleKinematics
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.corner_kinematics import corner as corner_of
-from kintrafo.vehicle.assembly.measures import pair_rolling as formulas
+from kintrafo.vehicle.assembly.measures import axle_rolling as formulas
 from kintrafo.vehicle.models.axle.bar import AntiRollBar
 from kintrafo.vehicle.models.axle.steering import SteeringCurve
 from kintrafo.vehicle.models.positions import arm_angles, design_height

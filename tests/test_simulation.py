@@ -187,12 +187,12 @@ def test_bad_arguments_are_refused(arguments, words):
 
 @pytest.mark.parametrize("method", ["DormandPrince", "BDF", "DOP853"])
 def test_time_may_begin_far_from_zero(method):
-    """Ten days: what is left of 1e-10 s of rounding in each of a thousand steps, at 93 rad/s."""
+    """Ten days: times rounded by 1e-10 s in each of a thousand steps, at 93 rad/s: 1e-5 rad."""
     near, far = (
         simulate(MODEL, (start, start + 0.5), START, method=method).y[:, -1]
         for start in (0.0, 864000.0)
     )
-    np.testing.assert_allclose(far, near, rtol=0.0, atol=1e-6)
+    np.testing.assert_allclose(far, near, rtol=0.0, atol=1e-5)
 
 
 def test_loop_that_cannot_close_says_when_where_and_which():

@@ -77,13 +77,13 @@ def excitation(
 
     Examples
     --------
-    >>> excitation({"road_height": Course(held=0.01)}, end=1.0)
+    >>> excitation({"road_height": TimeProfile(held=0.01)}, end=1.0)
     {'road_height': 0.01}
     """
     with Arguments("simulation") as given:
         end = given.number("duration", end, "s", above=0.0)
         for name, course in given.mapping("courses", courses, "input names, courses").items():
-            given.kind(f"course of {name!r}", course, TimeProfile, "a Course is needed")
+            given.kind(f"course of {name!r}", course, TimeProfile, "a TimeProfile is needed")
         if measured is not None:
             given.kind("measured", measured, Measurement, "a Measurement is needed")
     inputs: dict[str, Signal] = {} if measured is None else dict(measured.inputs())

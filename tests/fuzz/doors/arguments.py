@@ -388,13 +388,17 @@ CALLS = {
     "checkup": (checkup.checkup, {"subject": _CAR}),
     "roads.step": (roads.step, {"height": 0.01, "at": 0.1, "end": 1.0}),
     "roads.sine": (roads.sine, {"amplitude": 0.01, "frequency": 1.0, "end": 1.0}),
-    "Course": (
-        lambda end, **given: excitation.Course(**given).signal(end),
+    "TimeProfile": (
+        lambda end, **given: excitation.TimeProfile(**given).signal(end),
         {"held": None, "step": 0.01, "step_at": 0.1, "sine": None, "frequency": 1.0, "end": 1.0},
     ),
     "excitation": (
         excitation.excitation,
-        {"courses": {"road_height": excitation.Course(held=0.01)}, "end": 1.0, "measured": None},
+        {
+            "courses": {"road_height": excitation.TimeProfile(held=0.01)},
+            "end": 1.0,
+            "measured": None,
+        },
     ),
     "measured": (measurement.measured, {"path": "missing.csv", "speed": None}),
     "Scenario": (
