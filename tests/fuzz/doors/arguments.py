@@ -194,7 +194,7 @@ CALLS = {
     ),
     "rig.measured_curves": (rig.measured_curves, {"path": "no.csv"}),
     "rig.beside": (
-        rig.beside, {"measured": None, "models": {"a": _CAR}, "name": "measured"},
+        rig.beside, {"measured": None, "subjects": {"a": _CAR}, "name": "measured"},
     ),
     "loads.along": (loads.along, {"model": _CAR, "result": None}),
     "loads.table": (loads.table, {"dataset": None}),
