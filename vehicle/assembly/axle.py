@@ -18,6 +18,7 @@ from ..input.vehicle import Tyre
 from ..models.axle import Axle
 from ..models.axle.axle import LEFT, RIGHT
 from ..models.axle.equations import AxleModel
+from ..models.axle.file import TorqueReaction as TorqueHolder
 from ..models.model import Model
 from ..models.plausibility import Plausibility
 from ..models.reach import PositionError
@@ -320,6 +321,11 @@ class AxleAssembly(Assembly):
     def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
         """Tell whether a wheel has a stop."""
         return getattr(self.axle.sides[wheel], which) is not None
+
+    def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueHolder | None:
+        """Return what holds the torque of brakes or drive: as its file says, else as usual."""
+        part = getattr(self.axle, what)
+        return super().torque_on(what) if part is None else part.torque_on
 
     @property
     def rules(self) -> tuple[str, ...]:
