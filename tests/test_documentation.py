@@ -1,6 +1,7 @@
 """Pages, links and names of the documentation, without building it (`make docs` does that)."""
 
 import inspect
+import pydoc
 import re
 import runpy
 import tomllib
@@ -78,6 +79,8 @@ def test_every_public_name_is_documented():
         named |= {f"kintrafo.{module}.{name}" for name in names if not name.isupper()}
         assert any(name.startswith(f"kintrafo.{module}.") for name in documented), module
     assert named <= documented
+    for name in documented:
+        assert pydoc.locate(name) is not None, name
 
 
 @pytest.mark.parametrize("name", sorted(kintrafo.__all__))
