@@ -14,7 +14,7 @@ def run() -> None:
 
         interrupts.heed()
         try:
-            from .vehicle.cli import run as run_command_line  # noqa: PLC0415 (the same)
+            from .vehicle.cli import run as run_command_line  # noqa: PLC0415 (inside, to be guarded)
 
             run_command_line()
         finally:

@@ -142,7 +142,7 @@ def random_instants(rng: np.random.Generator, car: Mechanism, count: int) -> lis
 
 
 def is_prescribed(model: ModuleType) -> bool:
-    """Tell whether the rack of a model follows its inputs."""
+    """Return whether the rack of a model follows its inputs."""
     return "rack_position" in model.INPUTS
 
 

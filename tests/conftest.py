@@ -118,7 +118,7 @@ def _circles_of_a_file_are_freed() -> Iterator[None]:
 
 @cache
 def _compares(module: ModuleType | None) -> bool:
-    """Tell whether the module of a test uses an oracle."""
+    """Return whether the module of a test uses an oracle."""
 
     def home(value: object) -> str:
         return str(getattr(value, "__module__", None) or getattr(value, "__name__", ""))

@@ -74,7 +74,7 @@ KNOWN = (sp.sin, sp.cos, sp.atan2, Guarded, SignOf, Positive, IsPositive)
 
 
 def is_written(expression: sp.Expr) -> bool:
-    """Tell whether the expression, as SymPy has simplified it, is one that derivations have.
+    """Return whether the expression, as SymPy has simplified it, is one that derivations have.
 
     SymPy turns angles between numbers into pi and arc tangents, and products into high powers.
     """

@@ -35,7 +35,7 @@ HELD = {"travel_mm": 12.0, "contact_N": [800.0, -500.0, 0.0]}
 
 
 def steered(subject: Any) -> bool:
-    """Tell whether there is a rack."""
+    """Return whether there is a rack."""
     return (
         not isinstance(subject, RigidAxle)
         and (subject.suspension if isinstance(subject, Model) else subject).steered()

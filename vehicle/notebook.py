@@ -28,8 +28,8 @@ def suspension(shown: Suspension) -> str:
 def model(shown: Model) -> str:
     """Return the page of a model: that of its suspension, with its states and inputs."""
     names = {"states": shown.state_names, "inputs": shown.input_names}
-    told = table(("equations", shown.equations.NAME), rows_of(names))
-    return _of_one(shown, _title(shown.suspension)) + told
+    described = table(("equations", shown.equations.NAME), rows_of(names))
+    return _of_one(shown, _title(shown.suspension)) + described
 
 
 def axle(shown: Axle) -> str:

@@ -102,5 +102,5 @@ def _hash(derivation: Derivation) -> str:
 
 
 def reads_given(function: Function | Stage) -> bool:
-    """Tell whether a function takes relative coordinates as an argument of their own."""
+    """Return whether a function takes relative coordinates as an argument of their own."""
     return any(s.name.startswith("given_") for s in function.free_symbols)

@@ -69,7 +69,7 @@ class Coupling:
         return known and idle and not isinstance(joint, Cylindrical)
 
     def _is_driven(self, joint: Joint) -> bool:
-        """Tell whether the coordinate of a joint is given."""
+        """Return whether the coordinate of a joint is given."""
         return isinstance(joint, Revolute | Prismatic) and self._known.unknowns_of(joint) == 0
 
     def _spanning_tree(self) -> nx.MultiGraph:

@@ -117,7 +117,7 @@ class Leg(ABC):
         return self.links
 
     def closes(self, cycle: Cycle) -> bool:
-        """Tell whether it could close a loop."""
+        """Return whether it could close a loop."""
         return set(self.links) <= set(cycle.bodies)
 
     @property

@@ -51,7 +51,7 @@ class _Link:
         return self.far.axis.through.position - self.near.axis.through.position
 
     def waits(self, known: Known) -> bool:
-        """Tell whether nothing says yet how it turns."""
+        """Return whether nothing says yet how it turns."""
         hinges = (self.near, self.far)
         return self.name not in known.placed and all(map(known.unknowns_of, hinges))
 
@@ -61,7 +61,7 @@ class _Link:
             yield its.axis.through.position - own.axis.through.position
 
     def has_pins_of(self, other: _Link, known: Known) -> bool:
-        """Tell whether both have the same hinges at the default parameters."""
+        """Return whether both have the same hinges at the default parameters."""
         hinge, length = self.near, self.design
         return all(is_along(known.mechanism, hinge, way, length) for way in self.off(other))
 

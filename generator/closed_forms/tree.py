@@ -72,7 +72,7 @@ class CutJoint:
         )
 
     def closes(self, cycle: Cycle) -> bool:
-        """Tell whether it could close a loop."""
+        """Return whether it could close a loop."""
         return self.joint in cycle.joints
 
 

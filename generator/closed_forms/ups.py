@@ -206,7 +206,7 @@ class Strut(Leg):
 
 
 def is_strut(pair: GuidedPair, cross: Joint, ball: Joint) -> bool:
-    """Tell whether two links are a strut: a cross holds the first one, a ball joint the other."""
+    """Return whether two links are a strut: a cross holds the first one, a ball joint the other."""
     crossed = isinstance(cross, Universal) and cross.second.name == pair.near
     return crossed and isinstance(ball, Spherical) and pair.along_ends
 

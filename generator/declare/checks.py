@@ -164,7 +164,7 @@ def _weight_problems(mechanism: Assembly) -> list[str]:
 
 
 def _is_across(joint: Joint, normal: Direction) -> bool:
-    """Tell whether a joint moves across a direction only, whatever the parameters are."""
+    """Return whether a joint moves across a direction only, whatever the parameters are."""
     if isinstance(joint, Revolute):
         return joint.axis.vector.cross(normal.components).is_zero
     if isinstance(joint, Prismatic):

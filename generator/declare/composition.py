@@ -132,7 +132,7 @@ class Copy:
         return self._rebuilt(thing)
 
     def _is_common(self, thing: Any) -> bool:
-        """Tell whether the copies have something in common."""
+        """Return whether the copies have something in common."""
         if isinstance(thing, Ground) or thing in self.shared:
             return True
         if isinstance(thing, Force):

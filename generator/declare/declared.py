@@ -293,7 +293,7 @@ def parts(value: object) -> Iterator[Any]:
 
 
 def is_own(kind: type) -> bool:
-    """Tell whether a class is somebody's own, and none that a module of the generator defines."""
+    """Return whether a class is somebody's own, and none that a module of the generator defines."""
     package = __name__.removesuffix("declare.declared")
     found: Any = sys.modules.get(kind.__module__) if kind.__module__.startswith(package) else None
     for name in kind.__qualname__.split("."):

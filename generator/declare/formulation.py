@@ -89,7 +89,7 @@ class Formulation:
         return {entry.name: entry for entry in (*motions, *self.mechanism.inputs)}
 
     def has_mass(self, body: str) -> bool:
-        """Tell whether the inertia of a body enters the equations."""
+        """Return whether the inertia of a body enters the equations."""
         return any(body == massive.name for massive in self.massive)
 
 

@@ -188,5 +188,5 @@ class Line:
         return self.towards.components
 
     def contains(self, point: Point) -> bool:
-        """Tell whether the point lies on the line by declaration."""
+        """Return whether the point lies on the line by declaration."""
         return point in (self.through, self.towards)

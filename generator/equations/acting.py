@@ -72,7 +72,7 @@ def shown_by(force: Force, at: Seen, action: Action) -> Iterator[Shown]:
 
 
 def _has_own_code(force: Force) -> bool:
-    """Tell whether a force, or a law or a path in it, is of a class of somebody's own."""
+    """Return whether a force, or a law or a path in it, is of a class of somebody's own."""
     return any(is_own(type(part)) for part in (force, *parts(force)))
 
 

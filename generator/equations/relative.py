@@ -230,7 +230,7 @@ class RelativeCoordinates:
         return columns
 
     def reaches(self, body: str) -> bool:
-        """Tell whether joints with reported coordinates lead from the ground to a body."""
+        """Return whether joints with reported coordinates lead from the ground to a body."""
         return chain_to(self.mechanism, body) is not None
 
     def _chain(self, body: str) -> list[_Screw]:

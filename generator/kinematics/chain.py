@@ -36,6 +36,6 @@ def chain_to(mechanism: Mechanism, body: str) -> list[Joint] | None:
 
 
 def before_telescope(chain: Sequence[Joint], joint: Joint) -> bool:
-    """Tell whether a telescope is next behind a joint of a chain."""
+    """Return whether a telescope is next behind a joint of a chain."""
     behind = chain[chain.index(joint) + 1 :]
     return bool(behind) and isinstance(behind[0], Cylindrical)

@@ -73,11 +73,11 @@ class Coordinates:
         return joint.gear.ratio.symbol * self.ratio(joint.gear.joint)
 
     def is_given(self, joint: Joint) -> bool:
-        """Tell whether a joint's coordinate is independent or prescribed, or follows such a one."""
+        """Return whether a joint's coordinate is independent, prescribed, or follows such a one."""
         return joint.name in self._given_names
 
     def moves(self, joint: Joint) -> bool:
-        """Tell whether a given joint moves in this variant."""
+        """Return whether a given joint moves in this variant."""
         return self.of(joint) in self.moving
 
     def _symbol(self, joint: Joint) -> str:

@@ -99,7 +99,7 @@ def turning_rates(kin: Kinematics, joint: Revolute) -> dict[str, sp.Expr]:
 
 
 def is_first_axis(kin: Kinematics, joint: Revolute) -> bool:
-    """Tell whether a hinge placed its second body, so that it is the first of the body's axes."""
+    """Return whether a hinge placed its second body, so that it is the first of the body's axes."""
     return kin.placed[joint.second.name].hinge == joint.name
 
 

@@ -38,7 +38,7 @@ class Closing(Protocol):
         """The equation, for the report."""
 
     def closes(self, cycle: Cycle) -> bool:
-        """Tell whether it could close a loop."""
+        """Return whether it could close a loop."""
 
 
 class Solution(PlannedStep):

@@ -261,7 +261,7 @@ class Topology:
         return tuple(sorted(self._numbers[b] for b in cycle.bodies))
 
     def independent(self, cycles: Sequence[Cycle]) -> bool:
-        """Tell whether no cycle is a sum of others (edges modulo two)."""
+        """Return whether no cycle is a sum of others (edges modulo two)."""
         span = CycleSpan(self)
         return all(span.add(cycle) for cycle in cycles)
 
@@ -292,7 +292,7 @@ class _ShortestPaths:
         return self._paths[end]
 
     def all_part_alike(self, one: str, other: str) -> bool:
-        """Tell whether all paths to two bodies go to the same neighbour of the start first."""
+        """Return whether all paths to two bodies go to the same neighbour of the start first."""
         if self.start in (one, other):
             return False
         return len({path[1] for body in (one, other) for path in self.to(body)}) == 1
@@ -309,7 +309,7 @@ class CycleSpan:
         self._rows: dict[int, int] = {}  # by the place of their highest bit
 
     def contains(self, cycle: Cycle) -> bool:
-        """Tell whether a cycle is a sum of those that were added."""
+        """Return whether a cycle is a sum of those that were added."""
         return self._rest(cycle) == 0
 
     def add(self, cycle: Cycle) -> bool:

@@ -52,7 +52,7 @@ class Known:
         return self.placed | self.on_line
 
     def knows(self, joint: Joint, coordinate: str) -> bool:
-        """Tell whether a relative coordinate is given or already solved."""
+        """Return whether a relative coordinate is given or already solved."""
         return (joint.name, coordinate) in self.coordinates
 
     def unknowns_of(self, joint: Joint) -> int:
@@ -64,7 +64,7 @@ class Known:
         return sum(self.unknowns_of(joint) for joint in cycle.joints)
 
     def joins(self, joint: Joint) -> bool:
-        """Tell whether a joint connects two bodies that are placed or on a line."""
+        """Return whether a joint connects two bodies that are placed or on a line."""
         return self.bodies.issuperset(joint.bodies)
 
     def place(self, body: str) -> None:

@@ -71,11 +71,11 @@ class Mobility:
         return columns - _rank(self._closure)
 
     def driven_move(self) -> bool:
-        """Tell whether every driven coordinate can move, whatever the others do."""
+        """Return whether every driven coordinate can move, whatever the others do."""
         return _rank(self._closure) == _rank(self._closure[:, ~self._driven])
 
     def determines(self, coordinates: Iterable[Coordinate]) -> bool:
-        """Tell whether some coordinates stand still when all driven ones do."""
+        """Return whether some coordinates stand still when all driven ones do."""
         free = _null_space(self._closure[:, ~self._driven])
         names = [
             c for c, is_driven in zip(self._coordinates, self._driven, strict=True) if not is_driven

@@ -64,7 +64,7 @@ def ends_of(mechanism: Mechanism, link: str, pair: Collection[str]) -> _Ends | N
 
 
 def is_along(mechanism: Mechanism, hinge: Revolute, off: Vector, length: Vector) -> bool:
-    """Tell whether a way is along a hinge by default, but for rounding of another."""
+    """Return whether a way is along a hinge by default, but for rounding of another."""
     value = AtDefaults(mechanism)
     n, off_at, beside = (np.array([value(c) for c in v]) for v in (hinge.axis.vector, off, length))
     least = float(ROUNDING) * np.linalg.norm(n) * np.linalg.norm(beside)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def turn_alike(known: Known, one: str, other: str) -> bool:
-    """Tell whether two bodies do not turn against each other: guides or parallel links see to it.
+    """Return whether two bodies do not turn against each other: guides or parallel links see to it.
 
     Not asked is whether they do so by their dimensions, as in a parallelogram of four hinges.
     """

@@ -50,7 +50,7 @@ class ConstantStage:
     _collected: int = 0
 
     def contains(self, expression: sp.Expr) -> bool:
-        """Tell whether an expression depends on parameters only."""
+        """Return whether an expression depends on parameters only."""
         return all(s in self.steps or s in self._given for s in symbols_of(expression))
 
     @cached_property
@@ -64,7 +64,7 @@ class ConstantStage:
         return expression.xreplace(self.derived)
 
     def has(self, name: str) -> bool:
-        """Tell whether a name is that of a constant, a parameter, a state or an input.
+        """Return whether a name is that of a constant, a parameter, a state or an input.
 
         Parameters of a copy count, since they are replaced wherever their names are read.
         """

@@ -125,7 +125,7 @@ class _Common:
         return tuple(getattr(self._regrouped.get(expression, expression), "args", ()))
 
     def _is_changed(self, expression: sp.Expr) -> bool:
-        """Tell whether an expression is repeated, or has something in it that is."""
+        """Return whether an expression is repeated, or has something in it that is."""
         if expression not in self._changes:
             self._changes[expression] = expression in self._repeated or any(
                 map(self._is_changed, self._parts(expression))

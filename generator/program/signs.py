@@ -85,7 +85,7 @@ class _Signs:
 
 
 def _is_negative(expression: sp.Expr) -> bool:
-    """Tell whether a sign stands in front of all of an expression."""
+    """Return whether a sign stands in front of all of an expression."""
     if expression.is_Add:
         return all(map(_is_negative, expression.args))
     return bool(expression.is_Mul and expression.as_coeff_Mul()[0].is_negative)

@@ -167,7 +167,7 @@ class _Speller:
 
 
 def _is_computed(e: sp.Expr) -> bool:
-    """Tell whether something is a real number by functions that are not emitted, such as exp(2)."""
+    """Return whether it is a real number by functions that are not emitted, such as exp(2)."""
     whole = e.is_Pow and (2 * e.exp).is_Integer
     written = e.is_Add or e.is_Mul or whole or isinstance(e, _EMITTED)
     return not written and not e.is_Symbol and bool(e.is_number and e.is_real)

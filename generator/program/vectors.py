@@ -57,7 +57,7 @@ class Vector:
 
     @property
     def is_zero(self) -> bool:
-        """Tell whether all components are literally zero."""
+        """Return whether all components are literally zero."""
         return all(component == 0 for component in self)
 
 
@@ -86,7 +86,7 @@ class Twist:
 
     @property
     def is_zero(self) -> bool:
-        """Tell whether the body does not move at all."""
+        """Return whether the body does not move at all."""
         return self.angular.is_zero and self.linear.is_zero
 
 

@@ -118,7 +118,7 @@ def _eliminate(step: _Step, work: dict[tuple[int, int], Array], left: Array) -> 
 
 
 def _fulfilled(entries: Entries, right: Array, found: Array) -> Flags:
-    """Tell where solutions fulfil their equations."""
+    """Return where solutions fulfil their equations."""
     left, terms, term = -right, np.abs(right), np.empty_like(right[0])
     for (row, column), values in entries.items():
         np.multiply(values, found[column], out=term)

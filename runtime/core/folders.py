@@ -114,7 +114,7 @@ def _shared(path: Path) -> str:
 
 
 def _by_owner_alone(found: os.stat_result) -> bool:
-    """Tell whether what a group may write to is of a group in which its owner is alone.
+    """Return whether what a group may write to is of a group in which its owner is alone.
 
     Many systems give every user a group of the same name, and let it write by default.
     """

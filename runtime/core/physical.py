@@ -106,7 +106,7 @@ def rotors_of_no_body(values: Mapping[str, float]) -> list[str]:
 def impossible(
     values: Mapping[str, Any], described: Mapping[str, Mapping[str, Any]], count: int
 ) -> NDArray[np.bool_]:
-    """Tell which of many parameter sets `out_of_range` or `inertia_of_no_body` has a word about.
+    """Return which of many parameter sets `out_of_range` or `inertia_of_no_body` has a word about.
 
     Parameters
     ----------

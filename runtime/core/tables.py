@@ -345,7 +345,7 @@ def _units_row(cells: Sequence[Any], count: int) -> list[str | None] | None:
 
 
 def _names_unit(text: str) -> bool:
-    """Tell whether a text is a unit, and neither a number nor a stroke for nothing."""
+    """Return whether a text is a unit, and neither a number nor a stroke for nothing."""
     return len(text) < 40 and not _STROKE_OR_NUMBER.fullmatch(text) and bool(in_si(text)[0])
 
 

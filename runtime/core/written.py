@@ -46,7 +46,7 @@ def note(target: Path, content: Path) -> None:
 
 
 def known(target: Path) -> bool:
-    """Tell whether a file is as this program wrote it.
+    """Return whether a file is as this program wrote it.
 
     Parameters
     ----------

@@ -106,7 +106,7 @@ def variants_of(
 
 
 def impossible_sets(model: System, variants: Variants) -> NDArray[np.bool_]:
-    """Tell which systems have parameters out of their ranges, as `equations.prepare` would."""
+    """Return which systems have parameters out of their ranges, as `equations.prepare` would."""
     values = {**model.parameters, **variants.parameters}
     return impossible(values, model.equations.PARAMETERS, variants.count)
 

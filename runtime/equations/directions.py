@@ -136,7 +136,7 @@ class Directions:
         return np.split(found, np.cumsum(self._model.widths)[:-1], axis=-1)
 
     def bound(self, parameters: Array) -> NDArray[np.bool_]:
-        """Tell which parameters cannot move alone, (parameters,): only with others."""
+        """Return which parameters cannot move alone, (parameters,): only with others."""
         units = np.eye(parameters.size)
         if not self._zero:
             return np.zeros(parameters.size, dtype=bool)

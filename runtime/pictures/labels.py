@@ -29,14 +29,14 @@ class _Box:
     height: float
 
     def meets(self, other: "_Box") -> bool:
-        """Tell whether two of them overlap."""
+        """Return whether two of them overlap."""
         return (
             abs(self.x - other.x) < 0.5 * (self.width + other.width)
             and abs(self.y - other.y) < 0.5 * (self.height + other.height)
         )  # fmt: skip
 
     def crossed(self, curve: Array) -> bool:
-        """Tell whether a curve passes through it."""
+        """Return whether a curve passes through it."""
         within = np.abs(curve[:, 0] - self.x) < 0.5 * self.width
         return bool(np.any(np.abs(curve[within, 1] - self.y) < 0.5 * self.height))
 

@@ -314,7 +314,7 @@ def _choose_backend(model: System, backend: Backend, options: Options) -> Callab
 
 
 def _could_be_in_c(model: System) -> bool:
-    """Tell whether it is compiled, and has a state: SUNDIALS has no vectors without elements."""
+    """Return whether it is compiled, and has a state: SUNDIALS has no vectors without elements."""
     return bool(model.equations.ADDRESSES and model.state_names)
 
 
@@ -374,7 +374,7 @@ def _tell_once() -> None:
 
 
 def _among(some: Array, times: Array) -> NDArray[np.bool_]:
-    """Tell which of some times are among the times of the output, which are in order."""
+    """Return which of some times are among the times of the output, which are in order."""
     known = times if times[-1] >= times[0] else times[::-1]
     place = np.minimum(np.searchsorted(known, some), known.size - 1)
     found: NDArray[np.bool_] = known[place] == some

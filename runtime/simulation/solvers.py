@@ -127,7 +127,7 @@ def why_not_native() -> str:
 
 
 def native_available() -> bool:
-    """Tell whether SUNDIALS is linked."""
+    """Return whether SUNDIALS is linked."""
     return sundials is not None
 
 
@@ -417,7 +417,7 @@ class _Waiting:
         return np.nan if self.waits else value
 
     def stays(self, steps: list[tuple[float, Array]]) -> bool:
-        """Tell whether it is zero at both ends of a step, after it was not."""
+        """Return whether it is zero at both ends of a step, after it was not."""
         zero = [self.event(*step) == 0.0 for step in steps]
         first = zero.index(False) if False in zero else len(zero)
         return any(a and b for a, b in pairwise(zero[first:]))

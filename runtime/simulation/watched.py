@@ -127,7 +127,7 @@ class _Steps(OdeSolver):
             self._anew(time, state, step)
 
     def _idle(self) -> bool:
-        """Tell whether many steps, one after the other, have gained nothing."""
+        """Return whether many steps, one after the other, have gained nothing."""
         self._taken += 1
         if self._taken % _LOOKED_AT_EVERY:
             return False

@@ -229,8 +229,8 @@ class _AxleLook:
                 continue
             shown = display_of(dataset[name].attrs)
             self.values[name] = float(dataset[name][0])
-            told = words if name == stem or alike else f"{words}, left"
-            self.rows[told] = f"{self.values[name] * shown.factor:.4g} {shown.units}"
+            label = words if name == stem or alike else f"{words}, left"
+            self.rows[label] = f"{self.values[name] * shown.factor:.4g} {shown.units}"
 
     def _in_roll(self) -> None:
         angles = self._assembly.usual("roll")

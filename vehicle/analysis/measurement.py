@@ -151,7 +151,7 @@ def _check(sheet: Table) -> None:
 
 
 def _resembles(name: str) -> bool:
-    """Tell whether a column that is not known was probably meant to be one that is."""
+    """Return whether a column that is not known was probably meant to be one that is."""
     first = re.split(r"[\W_]", name.strip(), maxsplit=1)[0].lower()
     return first in {known.partition("_")[0] for known in _UNITS}
 

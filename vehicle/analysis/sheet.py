@@ -196,9 +196,9 @@ def _dataset(rows: Mapping[str, tuple[str, xr.DataArray]], held: WheelSupport) -
         "iso_8855": xr.Variable(QUANTITY, iso, attributes(f"{words} ISO 8855", "")),
         "sae_j670": xr.Variable(QUANTITY, sae, attributes(f"{words} SAE J670, z down", "")),
     }
-    told = {name: xr.Variable(QUANTITY, each) for name, each in texts.items()}
+    described = {name: xr.Variable(QUANTITY, each) for name, each in texts.items()}
     order = ("part", "iso_8855", "sae_j670", "unit", "meaning", "definition")
-    data = told | values
+    data = described | values
     ordered = {name: data[name] for name in (*order, "iso_8855_sign", "sae_j670_sign")}
     return xr.Dataset(
         ordered, {QUANTITY: [*rows]}, {"title": "K&C sheet at design", "held": HELD[held]}

@@ -386,12 +386,12 @@ class Assembly(ABC):
         """
 
     def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
-        """Tell where parts within the reach of each wheel are together, (n,)."""
+        """Return where parts within the reach of each wheel are together, (n,)."""
         del racks
         return np.ones(len(coordinates), dtype=bool)
 
     def locked(self, coordinates: Array) -> NDArray[np.bool_]:
-        """Tell where a linkage is so near the end of its reach that it carries anything, (n,)."""
+        """Return where a linkage is so near the end of its reach that it carries anything, (n,)."""
         return np.zeros(len(coordinates), dtype=bool)
 
     def require_rigid_motion(self) -> None:  # noqa: B027 (most have nothing to refuse)
@@ -404,7 +404,7 @@ class Assembly(ABC):
 
     @abstractmethod
     def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
-        """Tell whether a wheel has a stop."""
+        """Return whether a wheel has a stop."""
 
     # -- loads ------------------------------------------------------------------------------------
 

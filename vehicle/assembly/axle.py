@@ -311,7 +311,7 @@ class AxleAssembly(Assembly):
         return {f"_{side}": one.at_angles(coordinates[:, i], racks) for i, (side, one) in sides}
 
     def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
-        """Tell where the drop links reach."""
+        """Return where the drop links reach."""
         found = super().reached(coordinates, racks)
         for i, side in enumerate(self.axle.halves):
             poses = self._corners[side].at_angles(coordinates[:, i], racks)
@@ -319,7 +319,7 @@ class AxleAssembly(Assembly):
         return found
 
     def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
-        """Tell whether a wheel has a stop."""
+        """Return whether a wheel has a stop."""
         return getattr(self.axle.sides[wheel], which) is not None
 
     def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueHolder | None:

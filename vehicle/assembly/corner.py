@@ -227,7 +227,7 @@ class CornerAssembly(Assembly):
         return CornerParts.of(self.model, *at_rest(self.model, self._sense * coordinates, racks))
 
     def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
-        """Tell whether its wheel has a stop."""
+        """Return whether its wheel has a stop."""
         del wheel
         return getattr(self.subject, which) is not None
 

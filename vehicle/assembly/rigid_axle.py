@@ -271,7 +271,7 @@ class RigidAxleAssembly(Assembly):
         return RigidAxleParts.of(self.model, self.model.placed(*travels.T))
 
     def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
-        """Tell where its rods and dampers reach, with springs and dampers upright."""
+        """Return where its rods and dampers reach, with springs and dampers upright."""
         del racks
         margins = self.model.margins(self.model.placed(*coordinates.T))
         found = np.asarray((margins > 0.0).all(axis=-1))
@@ -279,7 +279,7 @@ class RigidAxleAssembly(Assembly):
         return found
 
     def locked(self, coordinates: Array) -> NDArray[np.bool_]:
-        """Tell where its rods lock, or where it does not come from design."""
+        """Return where its rods lock, or where it does not come from design."""
         beyond = self.model.parts_of_ways(*coordinates.T) < 1.0
         margins = self.model.margins(self.model.placed(*(_CLEAR * coordinates).T))
         # those of the rods; a damper may be near the end of its length
@@ -287,7 +287,7 @@ class RigidAxleAssembly(Assembly):
         return np.asarray(beyond | ~(closing > 0.0).all(axis=-1))
 
     def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
-        """Tell whether it has a stop, of both wheels."""
+        """Return whether it has a stop, of both wheels."""
         del wheel
         return getattr(self.axle, which) is not None
 

@@ -205,7 +205,7 @@ class RigidAxleParts:
         }
 
     def upright(self) -> NDArray[np.bool_]:
-        """Tell where springs and dampers have turned by less than a right angle from design."""
+        """Return where springs and dampers have turned by less than a right angle from design."""
         fine = np.ones(len(self.states), dtype=bool)
         for side in SIDES:
             design = self.axle.points(side)

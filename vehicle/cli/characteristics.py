@@ -30,8 +30,8 @@ EXAMPLES = (
 )
 # Those of an assembly, where nothing is chosen, are these; what an axle has besides is asked for.
 _USUAL = ("travel", "rack", "bump", "roll", "left", "steer")
-# Curves that stand in tables of motions of an axle; over parallel travel all are told at design.
-_TOLD = {
+# Curves that stand in tables of motions of an axle; over parallel travel all are shown at design.
+_SHOWN = {
     "roll": (
         "roll_moment",
         "roll_moment_gradient",
@@ -211,8 +211,8 @@ def _print(
                 print_table(table)
         else:
             if not of:
-                told = _TOLD.get(motion, _OF_ONE_WHEEL)
-                shown = dataset[[name for name in told if name in dataset]]
+                names = _SHOWN.get(motion, _OF_ONE_WHEEL)
+                shown = dataset[[name for name in names if name in dataset]]
             flattened = flat(shown)
             if flattened.data_vars:
                 words = f"{file}: {assembly.motions[motion].words}"

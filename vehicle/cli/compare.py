@@ -93,8 +93,8 @@ def command(
         dataset, title=title, names=shown if of else (), drawn=drawn, goals=aims
     )
     if json:
-        told = [vars(difference) | {"units": _units(table, difference)} for difference in found]
-        print_json({"differences": told, "goals": judged} if aims else told)
+        rows = [vars(difference) | {"units": _units(table, difference)} for difference in found]
+        print_json({"differences": rows, "goals": judged} if aims else rows)
         return
     for name in others:
         chosen = [difference for difference in found if difference.data_set == name]

@@ -112,11 +112,11 @@ def command(
     if json:
         print_json(export.as_dict(flat(found)))
     else:
-        told = with_totals(found, several=ALL not in parts)
+        with_sums = with_totals(found, several=ALL not in parts)
         for name in shown or ():
-            console.print(_components(told, name, parts, file))
+            console.print(_components(with_sums, name, parts, file))
         if envelope:
-            console.print(_extremes(told, study.envelope(told), parts, file))
+            console.print(_extremes(with_sums, study.envelope(with_sums), parts, file))
         elif not shown:
             print_table(overview(found, f"{file}: sizes of the forces [N]", parts))
         _tell(found)
@@ -126,7 +126,7 @@ def command(
 
 
 def _did_what_was_asked(found: "Dataset", asked: list[str]) -> bool:
-    """Tell whether all cases are carried that somebody asked for; of the usual ones, any at all."""
+    """Return whether all cases that were asked for are carried; of the usual ones, any."""
     if asked:
         return not found["reason"].sel(case=asked).values.any()
     return not all(found["reason"].values)

@@ -215,7 +215,7 @@ def _aims(of: "Model | Axle | RigidAxle", path: Path | None) -> "list[Goal]":
 def _of_wheels(
     of: "Model | Axle | RigidAxle", bushes: Path | None, goals: "Sequence[Goal]"
 ) -> "list[Chapter]":
-    """Return what is told of compliance, of targets and limits, and at design."""
+    """Return the report of compliance, of targets and limits, and of the design position."""
     return [*_of_bushes(of, bushes, goals), *_of_goals(of, bushes, goals), *_of_sheet(of, bushes)]
 
 

@@ -104,8 +104,8 @@ def command(
     console.print(
         _table(dataset, names, f"{file}: {cars} cars, {along(way, at)}", position(way, at))
     )
-    told = f"; {100.0 * dataset.attrs['yield']:.1f} % within all limits."
-    say(f"{dataset.attrs['message']}{told if asked.get('limits') else '.'}")
+    share = f"; {100.0 * dataset.attrs['yield']:.1f} % within all limits."
+    say(f"{dataset.attrs['message']}{share if asked.get('limits') else '.'}")
     name_files(written)
 
 

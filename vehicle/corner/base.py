@@ -281,7 +281,7 @@ class Suspension(Section):
 
     @classmethod
     def steered(cls) -> bool:
-        """Tell whether the wheel can be steered: whether there is a rack."""
+        """Return whether the wheel can be steered: whether there is a rack."""
         return bool(cls.NAMES.rack)
 
     def refuse_without_rack(self, what: str) -> None:

@@ -110,7 +110,7 @@ def subsection(model: type[Section], name: int | str) -> type[Section] | None:
 
 
 def is_named(model: type[Section], name: int | str) -> bool:
-    """Tell whether a key holds sections by names of any choice."""
+    """Return whether a key holds sections by names of any choice."""
     field = model.model_fields.get(str(name))
     return field is not None and get_origin(field.annotation) is dict
 

@@ -71,7 +71,7 @@ def fleet_angles(fleet: Fleet, travel: Array, rack: Array) -> tuple[Array, Flags
 
 
 def _covers(table: Branch, heights: Array) -> Flags:
-    """Tell which rows of a table have all heights, of a reach that is more than a point."""
+    """Return which rows of a table have all heights, of a reach that is more than a point."""
     low, high = table.height[:, :1], table.height[:, -1:]
     return np.asarray(((heights >= low) & (heights <= high) & (low < high)).all(axis=1))
 

@@ -61,7 +61,7 @@ def about(goals: Iterable[Goal], data: xr.DataArray, along: str) -> dict[str, li
 
 
 def _has_like(goals: Iterable[Goal], goal: Goal) -> bool:
-    """Tell whether one of some goals is another in nothing but its name."""
+    """Return whether one of some goals is another in nothing but its name."""
     return any(but_name(other) == but_name(goal) for other in goals)
 
 

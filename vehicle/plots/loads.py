@@ -24,9 +24,9 @@ _VIEWS = {"from behind": (1, 2, -1.0), "from the right": (0, 2, 1.0)}
 _LONGEST, _LEAST_EXTENT = 0.6, 0.15
 # Forces below this part of the greatest on a part are not drawn.
 _SMALL = 0.03
-# More loads than this on a part are told at the sides of its drawing, with room for that.
+# More loads than this on a part are labelled at the sides of its drawing, with room for that.
 _MANY, _ASIDE = 10, 0.3
-# Couples below this are not told [N m].
+# Couples below this have no label [N m].
 _SMALL_MOMENT = 1.0
 
 
@@ -107,7 +107,7 @@ def free_bodies(
 
 
 def _crowded(loads: xr.Dataset) -> bool:
-    """Tell whether so many loads are on a part that their labels would lie on each other."""
+    """Return whether so many loads are on a part that their labels would lie on each other."""
     return loads.sizes["load"] > _MANY
 
 
@@ -133,10 +133,10 @@ def _draw(axes: Axes, loads: xr.Dataset, view: str) -> list[Annotation]:
         tail = place - scale * push
         style: dict[str, Any] = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.4}
         axes.annotate("", xy=(place[0], place[1]), xytext=(tail[0], tail[1]), arrowprops=style)
-        told = [f"{sizes[i]:.0f} N"] if strong[i] else []
-        told += [f"{couples[i]:.0f} N m"] if couples[i] > _SMALL_MOMENT else []
+        amounts = [f"{sizes[i]:.0f} N"] if strong[i] else []
+        amounts += [f"{couples[i]:.0f} N m"] if couples[i] > _SMALL_MOMENT else []
         words = f"{by.replace('_', ' ')}\n" if _crowded(loads) else ""
-        words += ", ".join(told)
+        words += ", ".join(amounts)
         label = axes.annotate(
             words, (tail[0], tail[1]), (0.0, 0.0), textcoords="offset points", fontsize=7.5,
             color=colour, ha="center", path_effects=halo,

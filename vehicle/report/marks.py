@@ -80,7 +80,7 @@ class Marks:
         return float(every.min()), float(every.max())
 
     def about(self, key: str) -> bool:
-        """Tell whether there is something to be said of a chart."""
+        """Return whether there is something to be said of a chart."""
         return key in self.of or key in self.beyond
 
     def kinds(self, key: str) -> list[str]:

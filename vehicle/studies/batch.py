@@ -73,8 +73,8 @@ def curves_of_many(
 
     Parameters
     ----------
-    suspension : Suspension or RigidAxle
-        What they are otherwise; rigid axles are looked at one by one.
+    suspension : Suspension, Axle or RigidAxle
+        What they are otherwise; axles and rigid axles are evaluated one by one.
     values : mapping of str to ndarray, shape (count,)
         What they have of their own, by place, in the unit of the file.
     looks : sequence of Curves

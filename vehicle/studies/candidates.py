@@ -24,7 +24,7 @@ class Candidates:
 
     Parameters
     ----------
-    suspension : Suspension or RigidAxle
+    suspension : Suspension, Axle or RigidAxle
     reach : mapping of DesignVariable to float
         How far values may move to either side [SI].
     goals : sequence of Goal

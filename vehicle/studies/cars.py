@@ -50,7 +50,7 @@ def cars(
 
     Parameters
     ----------
-    suspension : Suspension or RigidAxle
+    suspension : Suspension, Axle or RigidAxle
         What they are otherwise.
     values : mapping or xarray.Dataset
         What they have of their own, by place as in `sensitivity` but without ``*``:
@@ -58,8 +58,9 @@ def cars(
         numbers are over the dimension ``car``; of a dataset, all combinations along its dimensions
         are cars.
     over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
-        What varies along the curves: by default wheel travel, which counts from each car's own
-        design position, of a rigid axle that of both wheels (``bump``); it has the last four ways.
+        What varies along the curves. Of a corner ``travel``, by default, or ``rack``; of axles and
+        rigid axles ``bump`` (both wheels), by default, or one of the last three. Travel counts from
+        each car's own design position.
     positions : array_like, optional
         Wheel travel, or displacement of the rack [m], or roll [rad]; by default the
         usual range of `suspension`.

@@ -73,9 +73,9 @@ class Fit:
 
     Attributes
     ----------
-    suspension : Suspension or RigidAxle
+    suspension : Suspension, Axle or RigidAxle
         With the values that explain it best.
-    start : Suspension or RigidAxle
+    start : Suspension, Axle or RigidAxle
         The one that was given.
     places : tuple of DesignVariable
         The values that may be off, as they were.
@@ -122,7 +122,7 @@ def fit(
 
     Parameters
     ----------
-    suspension : Suspension or RigidAxle
+    suspension : Suspension, Axle or RigidAxle
     measured : xarray.Dataset
         From `kintrafo.rig.measured_curves`; the steering straight ahead, or the wheel at design.
         Compliance by the names of `kintrafo.compliance.linear` may be among the curves over wheel

@@ -104,7 +104,7 @@ class Limit(Goal):
     most: float
 
     def kept(self, values: Array) -> NDArray[np.bool_]:
-        """Tell which of some values are within the limit."""
+        """Return which of some values are within the limit."""
         return (values >= self.least) & (values <= self.most)
 
     @property
@@ -237,7 +237,7 @@ class Verdict:
 
 
 def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
-    """Tell which targets and limits a suspension or an axle meets.
+    """Return which targets and limits a suspension or an axle meets.
 
     Parameters
     ----------

@@ -35,9 +35,9 @@ class Optimum:
 
     Attributes
     ----------
-    suspension : Suspension or RigidAxle
+    suspension : Suspension, Axle or RigidAxle
         With the values that were found.
-    start : Suspension or RigidAxle
+    start : Suspension, Axle or RigidAxle
         The one that was given.
     places : tuple of DesignVariable
         The values that were free, as they were.
@@ -81,7 +81,7 @@ def optimise(
 
     Parameters
     ----------
-    suspension : Suspension or RigidAxle
+    suspension : Suspension, Axle or RigidAxle
     free : mapping of str to float
         How far values may move to either side, in the unit of the input file for people (mm, deg,
         N/m, ...), by their places as `sensitivity` takes them. Everything else stays.

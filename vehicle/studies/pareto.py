@@ -47,7 +47,7 @@ class Front:
     dataset : xarray.Dataset
         Over ``member``, from 1: each objective by its name, and each free value by its place, in SI
         units. Sorted by the first objective.
-    start : Suspension or RigidAxle
+    start : Suspension, Axle or RigidAxle
         The one that was given.
     before : dict of str to float
         Its objectives [SI].
@@ -132,7 +132,7 @@ def pareto(
 
     Parameters
     ----------
-    suspension : Suspension or RigidAxle
+    suspension : Suspension, Axle or RigidAxle
     free : mapping of str to float
         How far values may move to either side, as of `optimise`.
     targets : mapping, optional
@@ -254,7 +254,7 @@ class _Judge:
 
     Parameters
     ----------
-    suspension : Suspension or RigidAxle
+    suspension : Suspension, Axle or RigidAxle
     reach : mapping of DesignVariable to float
         How far values may move to either side [SI].
     objectives : sequence of Objective
@@ -326,7 +326,7 @@ class _Judge:
 
 
 def _alike(several: list[list[Array] | None]) -> bool:
-    """Tell whether values of several cars differ by rounding at most; not where there are none."""
+    """Return whether values of several cars differ by rounding at most; False without values."""
     first, *others = several
     if first is None or any(other is None for other in others):
         return False

@@ -32,7 +32,7 @@ class Search(Candidates):
 
     Parameters
     ----------
-    suspension : Suspension or RigidAxle
+    suspension : Suspension, Axle or RigidAxle
     reach : mapping of DesignVariable to float
         How far values may move to either side [SI].
     targets : sequence of Target
@@ -96,7 +96,7 @@ class Search(Candidates):
         return [b - a for a, b in zip(low, high, strict=True)]
 
     def _matter(self, changes: Sequence[Array]) -> bool:
-        """Tell whether changes of the targets are more than rounding."""
+        """Return whether changes of the targets are more than rounding."""
         pairs = zip(self.targets, changes, strict=False)
         return any((np.abs(change) > _IDLE * target.within).any() for target, change in pairs)
 

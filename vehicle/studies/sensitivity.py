@@ -66,13 +66,13 @@ def sensitivity(
 
     Parameters
     ----------
-    suspension : Suspension or RigidAxle
+    suspension : Suspension, Axle or RigidAxle
     places : sequence of str, optional
         The values: section and key with dots between them, such as ``hardpoints.ball_joint.z``. A
         point or a section stands for all of its numbers, ``*`` for anything.
     over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
-        What varies along the curves: by default wheel travel, of a rigid axle that of both wheels
-        (``bump``), which has no other ways than the last four.
+        What varies along the curves. Of a corner ``travel``, by default, or ``rack``; of axles and
+        rigid axles ``bump`` (both wheels), by default, or one of the last three.
     positions : array_like, optional
         Wheel travel, or displacement of the rack [m], or roll [rad]; by default the usual range.
     names : sequence of str, optional
@@ -150,7 +150,7 @@ _NAMED = 3
 
 
 def _is_asked_for(place: DesignVariable, patterns: Sequence[str]) -> bool:
-    """Tell whether somebody wants this value, and has not just left it to a pattern or section."""
+    """Return whether this value is asked for by name, and not by a pattern or a section."""
     return any(
         p == place.name or (place.of_bushes and "bushings" in p.split(".")[:2]) for p in patterns
     )

@@ -44,7 +44,7 @@ def sweep(
 
     Parameters
     ----------
-    suspension : Suspension or RigidAxle
+    suspension : Suspension, Axle or RigidAxle
     values : mapping of str to array_like
         The values that each place of the input file takes, in its unit for people (mm, deg, N/m,
         ...): ``{"strut.spring_rate_N_per_m": [20e3, 25e3]}``.

@@ -55,7 +55,7 @@ def tolerance(
 
     Parameters
     ----------
-    suspension : Suspension or RigidAxle
+    suspension : Suspension, Axle or RigidAxle
     tolerances : mapping of str to float
         How far values are off to either side, in the unit of the input file for people (mm, deg,
         N/m, ...), by their places as `sensitivity` takes them. Of several that name a value the
@@ -74,8 +74,8 @@ def tolerance(
     seed : int, optional
         Of the generator of random numbers: the same cars for the same seed.
     over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
-        What varies along the curves: by default wheel travel, of a rigid axle that of both wheels
-        (``bump``), which has no other ways than the last four.
+        What varies along the curves. Of a corner ``travel``, by default, or ``rack``; of axles and
+        rigid axles ``bump`` (both wheels), by default, or one of the last three.
     positions : array_like, optional
         Wheel travel, or displacement of the rack [m], or roll [rad]; by default the usual range.
     names : sequence of str, optional
@@ -181,7 +181,7 @@ class _Cars:
 
     Parameters
     ----------
-    suspension : Suspension or RigidAxle
+    suspension : Suspension, Axle or RigidAxle
     places : sequence of DesignVariable
         What varies.
     off : ndarray, shape (cars, places)

@@ -74,7 +74,7 @@ def length_of(whole: Together) -> int:
 
 
 def is_long(steps: Sequence[Assignment]) -> bool:
-    """Tell whether steps that are carried out once for a parameter set are more than a piece."""
+    """Return whether steps that are carried out once for a parameter set are more than a piece."""
     return sum(map(_weight, steps)) > PIECE
 
 

@@ -157,7 +157,7 @@ def _why_not(error: BaseException) -> str:
 
 
 def _is_guarded() -> bool:
-    """Tell whether what workers read does nothing where it is not the main program."""
+    """Return whether what workers read does nothing where it is not the main program."""
     if getattr(current_process(), "_inheriting", False):  # a worker, which reads it just now
         return False
     script = getattr(sys.modules.get("__main__"), "__file__", None)

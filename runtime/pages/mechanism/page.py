@@ -121,7 +121,7 @@ def _modes(system: System) -> dict[str, Any]:
 
 
 def _grows(modes: Sequence[Mode]) -> bool:
-    """Tell whether a mode grows, by more than the rounding of the fastest one."""
+    """Return whether a mode grows, by more than the rounding of the fastest one."""
     values = np.array([value for mode in modes for value in mode.eigenvalues])
     return bool((values.real > _ROUNDING * np.abs(values).max(initial=0.0)).any())
 

@@ -17,7 +17,7 @@ _READER, HEADERS = "model.c", ("follow.h", "vectors.h")
 
 
 def is_own(equations: ModuleType) -> bool:
-    """Tell whether equations were compiled on this machine, and not with the project."""
+    """Return whether equations were compiled on this machine, and not with the project."""
     return not equations.__name__.startswith("kintrafo.")
 
 

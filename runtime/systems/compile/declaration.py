@@ -203,7 +203,7 @@ def _neighbours(folder: Path) -> Iterator[None]:
 
 
 def _is_beside(module: Any, folder: Path) -> bool:
-    """Tell whether a module was found in a folder, or is of a package that was."""
+    """Return whether a module was found in a folder, or is of a package that was."""
     name = getattr(module, "__name__", "").partition(".")[0]
     if name in ("__main__", __name__.partition(".")[0]):
         return False
@@ -213,7 +213,7 @@ def _is_beside(module: Any, folder: Path) -> bool:
 
 
 def _is_inside(path: str, folder: Path) -> bool:
-    """Tell whether a place for modules is in a folder, and not below another such place in it."""
+    """Return whether a place for modules is in a folder, and not below another such place in it."""
     place = Path(path).resolve()
     others = {Path(entry).resolve() for entry in sys.path} - {folder}
     between = [place, *place.parents]

@@ -163,7 +163,7 @@ def _elsewhere(way: str, seed: int) -> str:
 def _told(seed: int, tells: Connection) -> None:
     try:
         tells.send((True, measured(seed, _FEW)))
-    except Exception as error:  # noqa: BLE001 (told to the process that judges)
+    except Exception as error:  # noqa: BLE001 (any error goes to the parent, which fails the attempt)
         tells.send((False, f"{type(error).__name__}: {error}"))
 
 

@@ -232,7 +232,7 @@ def _heights(system: System, state: Array, lapse: float) -> tuple[Array, Array]:
 
 
 def _through_zero(system: System, before: tuple[float, Array], after: tuple[float, Array]) -> bool:
-    """Tell whether a height falls to zero and rises from it within a step, seen from both ends."""
+    """Return whether a height falls to zero and rises again within a step, seen from both ends."""
     step = after[0] - before[0]
     if step == 0.0:
         return True
@@ -330,7 +330,7 @@ def _off(motion: Motion, expected: Reference, ended: Any) -> float:
 
 
 def _mended(motion: Motion, expected: Reference, off: float) -> bool:
-    """Tell whether it was no more than a loose tolerance: a tight one brings it to the reference.
+    """Return whether it was no more than a loose tolerance: a tight one brings it to the reference.
 
     A motion that has bounced off a dead point, or was refused without one, does not come nearer.
     """

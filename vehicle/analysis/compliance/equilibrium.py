@@ -376,7 +376,7 @@ class ElasticEquilibrium:
 
     @in_one_thread
     def _lasts(self, matrix: Array, held: WheelSupport) -> NDArray[np.bool_]:
-        """Tell where all that the conditions leave free is resisted."""
+        """Return where all that the conditions leave free is resisted."""
         size = 6 * (self._count - 1)
         stiffness, conditions = -matrix[:, :size, :size], matrix[:, size:, :size]
         if held == "tyre":  # a spring is no condition

@@ -46,15 +46,15 @@ def compliances(found: xr.Dataset, title: str, at: float = 0.0) -> Tabulated:
     here = flat(found).sel(wheel_travel=at, method="nearest")
     names = [str(name) for name in here.data_vars]
     on_axle = any(without_side(name) != name for name in names)
-    told = [kind for kind in _COMPLIANCES if _by(names, [kind])]
+    kinds = [kind for kind in _COMPLIANCES if _by(names, [kind])]
     rows = []
-    for load in _by(names, told):
-        cells, name = _cells(here, told, load)
+    for load in _by(names, kinds):
+        cells, name = _cells(here, kinds, load)
         words = long_name(here[name]).partition(" by ")[2].removeprefix("a ")
         by, wheel = words.rsplit(", ", 1) if on_axle else (words, "")
         rows.append((by, *[wheel][: int(on_axle)], _per(here[name]), *cells))
     first = ("by", "wheel", "per") if on_axle else ("by", "per")
-    columns = (*first, *(_COMPLIANCES[kind] for kind in told))
+    columns = (*first, *(_COMPLIANCES[kind] for kind in kinds))
     return Tabulated(title, columns, tuple(rows), frozenset(range(len(first))))
 
 
@@ -89,12 +89,12 @@ def compliances_of_beam(found: xr.Dataset, title: str, at: float = 0.0) -> list[
     """
     here = flat(found).sel(wheel_travel=at, method="nearest")
     names = [str(name) for name in here.data_vars]
-    told = [kind for kind in _OF_AXLES if _by(names, [kind])]
+    kinds = [kind for kind in _OF_AXLES if _by(names, [kind])]
     rows = []
-    for load in _by(names, told):
-        cells, name = _cells(here, told, load)
+    for load in _by(names, kinds):
+        cells, name = _cells(here, kinds, load)
         rows.append((long_name(here[name]).partition(" by ")[2], _per(here[name]), *cells))
-    columns = ("by", "per, each wheel", *(_OF_AXLES[kind] for kind in told))
+    columns = ("by", "per, each wheel", *(_OF_AXLES[kind] for kind in kinds))
     return [Tabulated(title, columns, tuple(rows), frozenset({0, 1}))] if rows else []
 
 

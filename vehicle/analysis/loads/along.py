@@ -129,7 +129,7 @@ def _one_after_another(parts: Sequence[xr.Variable]) -> xr.Variable:
 
 
 def is_motion_of(model: System, result: Simulation) -> bool:
-    """Tell whether a result has the signals that the model has in its states."""
+    """Return whether a result has the signals that the model has in its states."""
     if tuple(result.signals) != model.signal_names:
         return False
     again = model.signals(result.y.T, result.inputs)

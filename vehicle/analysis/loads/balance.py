@@ -88,7 +88,7 @@ def _with_probes(applied: Array) -> Array:
 
 
 def _sound(size: Array, found: Array) -> NDArray[np.bool_]:
-    """Tell where equations of some norm mean something; elsewhere solutions become no numbers."""
+    """Return where equations of some norm mean something; elsewhere solutions become no numbers."""
     sound: NDArray[np.bool_] = size * np.abs(found[..., -_PROBES:]).max((-2, -1)) < _WORST_CONDITION
     found[~sound] = np.nan
     return sound

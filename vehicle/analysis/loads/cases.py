@@ -136,7 +136,7 @@ def tables_of(described: Mapping[str, Any]) -> list[Mapping[str, Any]]:
 
 
 def in_parts_of_it(described: Mapping[str, Any]) -> bool:
-    """Tell whether forces are given in parts of the static load."""
+    """Return whether forces are given in parts of the static load."""
     keys = (str(key) for table in tables_of(described) for key in table)
     return any(key.endswith("_g") for key in keys)
 

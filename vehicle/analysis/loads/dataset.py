@@ -162,8 +162,8 @@ def refuse_if_none(names: Sequence[str], carried: Sequence[int], reasons: Sequen
         Rather than an `InputError`: what was given has a meaning, and the suspension cannot do it.
     """
     if not carried:
-        told = [f"{name}: {reason}" for name, reason in zip(names, reasons, strict=True)]
-        raise PositionError("\n  - ".join(["none of the cases can be carried", *told[:3]]))
+        lines = [f"{name}: {reason}" for name, reason in zip(names, reasons, strict=True)]
+        raise PositionError("\n  - ".join(["none of the cases can be carried", *lines[:3]]))
 
 
 def _sum(fields: dict[str, Array], rows: list[int], about: Array) -> tuple[Array, Array]:

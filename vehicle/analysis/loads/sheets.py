@@ -13,7 +13,7 @@ _ACTING = ("spring", "damper", "road", "drive", "steering", "bar")
 
 
 def acts(by: str) -> bool:
-    """Tell whether something acts by itself, not between parts at a joint."""
+    """Return whether something acts by itself, not between parts at a joint."""
     return without_side(by) in _ACTING
 
 

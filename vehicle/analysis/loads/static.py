@@ -174,10 +174,10 @@ def _in_cases(
     missing = np.concatenate([one.missing for one in balance.values()], axis=1)
     refused = _refused(assembly, {s: ~one.sound for s, one in balance.items()}, missing, held)
     if any(refused):
-        told = [*reasons]
+        explained = [*reasons]
         for row, words in zip(carried, refused, strict=True):
-            told[row] = words
-        return _in_cases(assembly, names, loads, coordinates, told)
+            explained[row] = words
+        return _in_cases(assembly, names, loads, coordinates, explained)
     # the road has what holds a wheel that is held; nothing has what is left of others
     vertical = np.where(held, missing, 0.0)
     of_road = iter(vertical.T)

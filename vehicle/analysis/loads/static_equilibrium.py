@@ -318,7 +318,7 @@ class _Search:
         return missing, np.where(both, slopes, _LEAST_RATE * np.eye(size))
 
     def _ended(self, rows: Rows, missing: Array, slopes: Array) -> Booleans:
-        """Tell which cases go no farther, and why those are not carried that are not."""
+        """Return which cases go no farther, and why those are not carried that are not."""
         lost = np.asarray(~np.isfinite(missing).all(axis=-1))
         vectors = self.loads.vectors
         acting = np.zeros(len(rows)) if vectors is None else np.abs(vectors[rows]).max((-2, -1))

@@ -269,7 +269,7 @@ class Axle:
         return {side: self.bar.half(mirrored=side != self.bar_side) for side in self.sides}
 
     def steered(self) -> bool:
-        """Tell whether its wheels can be steered: whether there is a rack."""
+        """Return whether its wheels can be steered: whether there is a rack."""
         return self.right.steered()
 
     def heading(self) -> str:
@@ -284,7 +284,7 @@ def packaged_axles() -> dict[str, Any]:
 
 
 def is_axle(path_or_name: str | Path) -> bool:
-    """Tell whether a file, or a packaged name, is that of an axle.
+    """Return whether a file, or a packaged name, is that of an axle.
 
     What is not there, or cannot be read, is none: whoever reads it then says why.
     """
@@ -396,7 +396,7 @@ def _problems_of_sides(axle: Axle) -> list[str]:
 
 
 def _apart(axle: Axle) -> bool:
-    """Tell whether the racks of both sides go different ways."""
+    """Return whether the racks of both sides go different ways."""
     right, left = (unit_vector(side.rack.axis) for side in (axle.right, axle.left))
     return bool(np.abs(right - left).max() > _SAME_AXIS)
 

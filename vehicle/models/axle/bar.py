@@ -264,7 +264,7 @@ class AntiRollBar(Section):
         return float(1.0 / (twist + bending))
 
     def gives_way(self) -> bool:
-        """Tell whether its bushes or drop links are soft."""
+        """Return whether its bushes or drop links are soft."""
         return self.bush_radial_N_per_mm is not None or self.link_axial_N_per_mm is not None
 
     def free_twist(self) -> float:

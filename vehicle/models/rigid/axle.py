@@ -482,7 +482,7 @@ def packaged_rigid_axles() -> dict[str, Any]:
 
 
 def is_rigid_axle(path_or_name: str | Path) -> bool:
-    """Tell whether a file, or a packaged name, is that of a rigid axle.
+    """Return whether a file, or a packaged name, is that of a rigid axle.
 
     What is not there, or cannot be read, is none: whoever reads it then says why.
     """
