@@ -16,12 +16,12 @@ from ..corner.bushes import described_bushings, mirrored_bushings, softness_of_r
 from ..corner.corner import Array
 from ..input.vehicle import Tyre
 from ..models.axle import Axle
-from ..models.axle.axle import LEFT, RIGHT
 from ..models.axle.equations import AxleModel
 from ..models.axle.file import TorqueReaction as TorqueHolder
 from ..models.model import Model
 from ..models.plausibility import Plausibility
 from ..models.reach import PositionError
+from ..models.sides import LEFT, RIGHT, SIDES
 from . import motions
 from .anti_roll_bar import Bar
 from .assembly import Assembly, Bushings
@@ -45,7 +45,6 @@ from .wheel_names import WheelNames
 if TYPE_CHECKING:
     import xarray as xr
 
-SIDES = (LEFT, RIGHT)
 _NO_REST = (
     "the axle has no stable equilibrium near that of its sides. Check the anti-roll bar's "
     "free_twist_deg and rate, or the heights of the road."

@@ -9,13 +9,12 @@ import numpy as np
 from ...core.vectors import cross
 from ..corner.corner import Array
 from ..models.axle import Axle
-from ..models.axle.axle import LEFT, RIGHT
 from ..models.points import carried
+from ..models.sides import LEFT, RIGHT, SIDES
 from .coupling import STILL, BodyPose, on_both, sum_of
 from .load import Load
 from .part_poses import CornerParts
 
-SIDES = (LEFT, RIGHT)
 TWIST_BY_TURN = {LEFT: 1.0, RIGHT: -1.0}
 """Twist of the bar by the turn of each half."""
 

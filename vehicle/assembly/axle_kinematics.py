@@ -10,12 +10,12 @@ from ...core.named_types import ArrayLike
 from ...core.vectors import cross
 from ..corner.corner import Array, Corner, Vehicle
 from ..models.axle import Axle
-from ..models.axle.axle import LEFT, RIGHT
 from ..models.axle.bar import HalfBar
 from ..models.model import Model
 from ..models.points import carried
 from ..models.positions import PositionError, arm_angles, design_height
 from ..models.reach import at_rest, height_and_slope
+from ..models.sides import LEFT, RIGHT
 from . import motions, wheel
 from .corner_kinematics import corner
 from .wheel_centre_line import inclination_rate

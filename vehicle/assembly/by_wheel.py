@@ -21,8 +21,6 @@ WHEEL, DATA_SET = "wheel", "data_set"
 """The dimension of the wheels, and that of several sets of curves beside each other."""
 
 _ATTRIBUTES = {"long_name": "wheel"} | AS_COLUMNS
-SIDES = ("left", "right")
-"""The wheels of an axle."""
 
 
 def wheel_coordinate(wheels: Sequence[str]) -> xr.Variable:

@@ -6,8 +6,8 @@ from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ..corner.corner import Array
 from ..models.axle import Axle
-from ..models.axle.axle import LEFT, RIGHT
 from ..models.positions import PositionError, design_height, travel_range
+from ..models.sides import LEFT, RIGHT
 from .rig import SweepRange
 from .usual import grid, usual_rack, usual_travel
 from .wheel_centre_line import WheelCentreLine

@@ -18,6 +18,7 @@ from ..models.rigid.axle import RigidAxle
 from ..models.rigid.model import HEAVE, ROLL, RigidAxleModel
 from ..models.rigid.plausibility import plausibility
 from ..models.rigid.structure import BEAM
+from ..models.sides import SIDES
 from .anti_roll_bar import RollBar
 from .assembly import Assembly, Bushings
 from .axle import motions_of_two
@@ -29,7 +30,7 @@ from .motions import MOTIONS, USUAL_ROLL, USUAL_ROLL_STEP
 from .part_poses import PartPoses
 from .rest import settled
 from .rig import RigPosition, SweepRange
-from .rigid_axle_kinematics import SIDES, RigidAxleKinematics
+from .rigid_axle_kinematics import RigidAxleKinematics
 from .rigid_axle_parts import RigidAxleParts
 from .soft_lines import SoftLines, lines_by_rates, lines_of_beam
 from .usual import USUAL_TRAVEL, grid

@@ -16,12 +16,11 @@ from ...core.vectors import cross
 from ..corner.corner import UP, Array, Vehicle
 from ..input.spring_table import rate_at
 from ..input.units import in_metres
-from ..models.axle.axle import LEFT, RIGHT
 from ..models.rigid.axle import RigidAxle
 from ..models.rigid.model import HEAVE, ROLL, RigidAxleModel
+from ..models.sides import LEFT, RIGHT, SIDES
 from .wheel import lowest_point, lowest_point_rate
 
-SIDES = (LEFT, RIGHT)
 SENSE = {LEFT: 1.0, RIGHT: -1.0}
 """Where a wheel is along the axle, in half tracks to the left."""
 COORDINATES = (HEAVE, ROLL)

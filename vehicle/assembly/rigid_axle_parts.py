@@ -19,10 +19,11 @@ from ..corner.wheel_loads import UNITS
 from ..models.rigid.axle import RigidAxle
 from ..models.rigid.model import RigidAxleModel
 from ..models.rigid.structure import BEAM, CHASSIS, MIDDLE
+from ..models.sides import SIDES
 from .load import Load, known
 from .mass import PartMass
 from .part_poses import CENTER, CONTACT, forces_along, road_axes
-from .rigid_axle_kinematics import COORDINATES, SENSE, SIDES, parameters_of, vehicle_of
+from .rigid_axle_kinematics import COORDINATES, SENSE, parameters_of, vehicle_of
 from .wheel import lowest_point, upward_across
 
 Array = NDArray[np.float64]

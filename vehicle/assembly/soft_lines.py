@@ -6,8 +6,9 @@ import numpy as np
 
 from ...core.errors import InputError
 from ..corner.corner import Array, Corner
+from ..models.sides import SIDES
 from . import wheel
-from .rigid_axle_kinematics import SIDES, RigidAxleKinematics
+from .rigid_axle_kinematics import RigidAxleKinematics
 
 
 @dataclass(frozen=True)

@@ -12,11 +12,11 @@ from ...core.named_types import ArrayLike
 from ...core.vectors import cross
 from ..corner.corner import Array
 from ..models.axle import Axle
-from ..models.axle.axle import LEFT, RIGHT
 from ..models.model import Model
 from ..models.points import carried
 from ..models.positions import arm_angles, design_height
 from ..models.reach import at_rest
+from ..models.sides import LEFT, RIGHT
 
 _CENTER = "wheel_center"
 

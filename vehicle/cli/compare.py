@@ -8,6 +8,7 @@ from rich.table import Table
 
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
+from ..models.sides import SIDES
 from . import goals as wanted
 from .compliance import Held
 from .option_groups import with_groups
@@ -80,7 +81,7 @@ def command(
     if outputs.drawn:
         wanted.refuse_beyond(aims, dict.fromkeys(looked_at, dataset))
     judged = wanted.judged(subjects, aims)
-    both = [f"{name}_{side}" for name in of or () for side in ("left", "right")]
+    both = [f"{name}_{side}" for name in of or () for side in SIDES]
     of = [n for n in of or () if n in table or f"{n}_left" not in table] + [
         name for name in both if name in table
     ]

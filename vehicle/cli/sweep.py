@@ -10,6 +10,7 @@ from rich.table import Table
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
 from ...terminal.exits import Exit
+from ..models.sides import SIDES
 from .option_groups import with_groups
 from .options import File, Force, Json, by_comma
 from .outputs import Out, Outputs, Plot, name_files, title_of
@@ -120,7 +121,7 @@ def _usual(model: "System") -> tuple[str, ...]:
     """Return what is kept where nobody says: of a rigid axle that of both wheels."""
     if _USUAL[0].partition(":")[0] in model.signal_names:
         return _USUAL
-    return tuple(f"{side}_axle_{kept}" for kept in _USUAL for side in ("left", "right"))
+    return tuple(f"{side}_axle_{kept}" for kept in _USUAL for side in SIDES)
 
 
 def _reductions(model: "System", kept: tuple[str, ...] | list[str]) -> dict[str, list[Any]]:

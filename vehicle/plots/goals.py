@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from ...core.errors import InputError
 from ...core.quantities import display_of
-from ..assembly.by_wheel import SIDES, WHEEL
+from ..assembly.by_wheel import WHEEL
+from ..models.sides import SIDES
 from ..studies.goals import Goal, Limit, Target
 from ..studies.sweep_axes import sweep_axis
 

@@ -9,7 +9,8 @@ from matplotlib.patches import Ellipse, Rectangle
 
 from ...core.arguments import Arguments
 from ..corner.corner import Array
-from ..models.rigid.axle import SIDES, RigidAxle
+from ..models.rigid.axle import RigidAxle
+from ..models.sides import SIDES
 
 _RODS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7")
 _BEAM, _SPRING, _DAMPER, _WHEEL = "#4a525a", "#e69f00", "#56b4e9", "#cfd6dc"

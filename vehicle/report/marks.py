@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..analysis.characteristics.datasets import KNOWN, over
-from ..assembly.by_wheel import SIDES, WHEEL
+from ..assembly.by_wheel import WHEEL
 from ..models.axle import Axle
+from ..models.sides import SIDES
 from ..plots.goals import but_name
 from ..studies.goals import Goal, Limit, Target, words_of
 from ..studies.sweep_axes import sweep_axis

@@ -9,13 +9,14 @@ from ....core.arguments import Arguments
 from ....core.memory import positions_given
 from ....core.named_types import ArrayLike
 from ...assembly.assembly import Assembly
-from ...assembly.by_wheel import SIDES, of_wheels, wheel_coordinate
+from ...assembly.by_wheel import of_wheels, wheel_coordinate
 from ...assembly.measures import axle, corner, rigid_axle
 from ...assembly.measures.measure import columns, values
 from ...assembly.of import given_assembly
 from ...assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from ...assembly.rig import SweepRange
 from ...corner.corner import Array
+from ...models.sides import SIDES
 
 DATA_SET = "data_set"
 """The dimension of several sets of curves beside each other."""

@@ -13,13 +13,13 @@ from ....core.quantities import Display, display_of, variable
 from ....core.vectors import cross
 from ...assembly import wheel
 from ...assembly.assembly import Assembly
-from ...assembly.axle import SIDES
 from ...assembly.by_wheel import WHEEL, of_wheel, of_wheels, wheel_coordinate
 from ...assembly.of import given_assembly
 from ...assembly.part_poses import touching, wheel_axes
 from ...assembly.quantity import TRAVEL, Quantity
 from ...corner.bushes import left_out, refuse_rigid
 from ...corner.corner import Array, CarrierMotion, RoadWheel
+from ...models.sides import SIDES
 from .flexibility import HELD, Side, WheelSupport, flexibility, refuse_without_rate
 from .rig_loads import (
     RIG_LOADS,

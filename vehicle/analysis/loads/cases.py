@@ -14,12 +14,11 @@ from ....core.suggestions import suggestion
 from ...assembly.assembly import Assembly
 from ...assembly.of import given_assembly
 from ...input.toml_file import read_sections
-from ...models.axle.axle import LEFT, RIGHT
 from ...models.axle.file import TorqueReaction
+from ...models.sides import LEFT, RIGHT, SIDES
 
 Array = NDArray[np.float64]
 
-SIDES = (LEFT, RIGHT)
 _RACK = "rack_mm"
 _SECTIONS = ("static_load_N", "cases")
 _KEYS = (

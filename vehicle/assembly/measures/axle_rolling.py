@@ -6,7 +6,7 @@ Each takes an `AxleKinematics` and returns an array over its positions, SI units
 import numpy as np
 
 from ...corner.corner import Array, Corner
-from ...models.axle.axle import LEFT, RIGHT
+from ...models.sides import LEFT, RIGHT
 from .. import wheel
 from ..axle_kinematics import SENSE, AxleKinematics
 

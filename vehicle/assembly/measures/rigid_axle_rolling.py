@@ -6,9 +6,9 @@ Each takes a `RigidAxleKinematics` and returns an array over its positions, SI u
 import numpy as np
 
 from ...corner.corner import Array
-from ...models.axle.axle import LEFT, RIGHT
 from ...models.rigid.model import HEAVE, ROLL
-from ..rigid_axle_kinematics import SENSE, SIDES, RigidAxleKinematics
+from ...models.sides import LEFT, RIGHT, SIDES
+from ..rigid_axle_kinematics import SENSE, RigidAxleKinematics
 
 
 def roll_center_height(beam: RigidAxleKinematics) -> Array:

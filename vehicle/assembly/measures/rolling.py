@@ -15,9 +15,7 @@ from typing import Protocol
 import numpy as np
 
 from ...corner.corner import Array, Vehicle
-from ...models.axle.axle import LEFT, RIGHT
-
-SIDES = (LEFT, RIGHT)
+from ...models.sides import LEFT, RIGHT, SIDES
 
 
 class TwoWheels(Protocol):

@@ -21,14 +21,14 @@ from ...input.places import put
 from ...input.toml_file import read_toml
 from ...kinds import Suspension
 from ..model import Model
+from ..sides import LEFT, RIGHT
 from .bar import AntiRollBar, HalfBar, mirrored_points
-from .file import SIDES, AxleFile, Brakes, Drive, End
+from .file import SECTIONS_OF_SIDES, AxleFile, Brakes, Drive, End
 from .steering import SteeringCurve
 
 KIND = "axle"
 """The top-level key that says that a file describes an axle."""
 
-RIGHT, LEFT = "right", "left"
 
 # Bodies that no drop link is joined to.
 _NEVER_PULLED = ("tie_rod", "rack")
@@ -234,7 +234,9 @@ class Axle:
             apart = {"side": apart[self.bar_side]}
         elif "anti_roll_bar" in data and self.bar_side == LEFT:  # whose points are the right side's
             data["anti_roll_bar"] = mirrored_points(data["anti_roll_bar"])
-        return self.from_dict({n: v for n, v in data.items() if n not in SIDES} | apart, source)
+        return self.from_dict(
+            {n: v for n, v in data.items() if n not in SECTIONS_OF_SIDES} | apart, source
+        )
 
     def _changed(self, changes: Mapping[str, Mapping[str, Any]]) -> dict[str, Suspension]:
         """Return both sides with changes of one and its image, then of each."""
@@ -315,7 +317,7 @@ def _sides_of(described: AxleFile, folder: Path, source: str) -> dict[str, Suspe
     """Return the suspensions that are given, by the keys that give them."""
     found: dict[str, Suspension] = {}
     problems = []
-    for key in SIDES:
+    for key in SECTIONS_OF_SIDES:
         given = getattr(described, key)
         if given is None:
             continue

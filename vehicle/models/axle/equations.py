@@ -11,7 +11,8 @@ from ....systems.allowed import LengthLimit
 from ....systems.compile.build import compile_mechanism, require_generator
 from ....systems.system import System
 from ..model import Model
-from .axle import LEFT, RIGHT, Axle
+from ..sides import LEFT, RIGHT
+from .axle import Axle
 
 if TYPE_CHECKING:
     from ....generator import Formulation

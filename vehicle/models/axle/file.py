@@ -12,7 +12,7 @@ from .steering import SteeringCurve
 End = Literal["front", "rear"]
 TorqueReaction = Literal["body", "carrier"]
 
-SIDES = ("side", "right", "left")
+SECTIONS_OF_SIDES = ("side", "right", "left")
 
 # What a file can say; from Python a side may also be a suspension, or what is in its file.
 _BY_NAME = WithJsonSchema({"type": "string"})
@@ -69,7 +69,7 @@ class AxleFile(Section):
 
     def problems(self) -> list[str]:
         """See that there are two sides."""
-        given = [name for name in SIDES if getattr(self, name) is not None]
+        given = [name for name in SECTIONS_OF_SIDES if getattr(self, name) is not None]
         if given in (["side"], ["right", "left"]):
             return []
         problem = (

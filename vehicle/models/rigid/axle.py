@@ -27,8 +27,8 @@ from ...input.stop import NO_STOP, Stop
 from ...input.toml_file import read_toml
 from ...input.units import in_metres
 from ...input.vehicle import Gravity, Tyre, Wheel
-from ..axle.axle import LEFT, RIGHT
 from ..axle.file import Brakes, End
+from ..sides import LEFT, RIGHT, SIDES
 from .file import (
     AxleDamper,
     AxleDrive,
@@ -42,7 +42,6 @@ from .file import (
 from .rods import NEEDED, Ends, Hold
 from .structure import CENTER, CHASSIS, of_a_file, structure_of
 
-SIDES = (LEFT, RIGHT)
 # A wheel centre nearer to the vehicle's centre plane than this is on neither side [m].
 _SMALLEST_HALF_TRACK = 0.1
 # Nearer to the vertical than this, a rod stands on its axle and does not guide it [deg].

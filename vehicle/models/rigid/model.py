@@ -17,8 +17,9 @@ from ...corner.corner import Array
 from ...corner.wheel_loads import with_wheel_loads
 from ..attitudes import attitudes
 from ..reach import PositionError
+from ..sides import SIDES
 from ..swing import GOAL, Seen, march
-from .axle import SIDES, RigidAxle
+from .axle import RigidAxle
 
 HEAVE, ROLL = "heave", "roll"
 """The coordinates: height of the middle between the wheels above design [m], inclination [rad]."""

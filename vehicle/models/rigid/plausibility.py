@@ -4,7 +4,6 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from ..axle.axle import LEFT, RIGHT
 from ..plausibility import (
     Plausibility,
     beyond_the_table,
@@ -16,7 +15,8 @@ from ..plausibility import (
     unlikely_wheel,
     unusual_alignment,
 )
-from .axle import SIDES, RigidAxle
+from ..sides import LEFT, RIGHT, SIDES
+from .axle import RigidAxle
 from .file import Rod
 
 # A rod whose axle's end is so much farther from the axle than the other one is swapped [m].

@@ -15,14 +15,13 @@ from ...corner.structure import (
     Structure,
     UniversalJoint,
 )
-from ..axle.axle import LEFT, RIGHT
+from ..sides import SIDES
 
 BEAM, CHASSIS = "beam", "chassis"
 CENTER = "wheel_center"
 MIDDLE = "axle_middle"
 """The point between the wheel centres, at which an anti-roll bar acts."""
 
-_SIDES = (LEFT, RIGHT)
 # The signals and inputs of a side that are the force of a spring or a damper.
 _FORCES = {
     "spring": ("spring_spring_force", "spring_actuator"),
@@ -38,7 +37,7 @@ def structure_of(rods: Iterable[str]) -> Structure:
     ----------
     rods : iterable of str
     """
-    bearings = [FixedJoint(BEAM, f"wheel_{side}", (f"{CENTER}_{side}",)) for side in _SIDES]
+    bearings = [FixedJoint(BEAM, f"wheel_{side}", (f"{CENTER}_{side}",)) for side in SIDES]
     lines = [
         ForceElement(
             f"{name}_{side}",
@@ -48,7 +47,7 @@ def structure_of(rods: Iterable[str]) -> Structure:
             (f"{name}_top_{side}", f"{name}_seat_{side}"),
         )
         for name, forces in _FORCES.items()
-        for side in _SIDES
+        for side in SIDES
     ]
     # how the bar gets to the body is left out
     return Structure((*_of_rods(rods), *bearings), lines, {MIDDLE: ""})

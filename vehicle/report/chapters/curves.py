@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ....core.errors import InputError
 from ....pictures.figures import STYLE
 from ...assembly.assembly import Assembly
-from ...assembly.by_wheel import SIDES
+from ...models.sides import SIDES
 from ...plots.curves import figure
 from ...studies.evaluation import usual_positions
 from ...studies.goals import Goal
