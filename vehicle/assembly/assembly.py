@@ -13,7 +13,7 @@ from ...core.quantities import variable
 from ..corner.bushes import Bush
 from ..corner.corner import Array
 from ..input.vehicle import Tyre
-from ..models.axle.file import TorqueReaction as TorqueHolder
+from ..models.axle.file import TorqueReaction
 from ..models.model import Model
 from ..models.plausibility import Plausibility
 from .anti_roll_bar import Bar, RollBar
@@ -408,7 +408,7 @@ class Assembly(ABC):
 
     # -- loads ------------------------------------------------------------------------------------
 
-    def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueHolder | None:
+    def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueReaction | None:
         """Return what holds the torque of brakes or drive; None where nothing drives it."""
         return "carrier" if what == "brakes" else "body"
 

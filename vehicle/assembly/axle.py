@@ -17,7 +17,7 @@ from ..corner.corner import Array
 from ..input.vehicle import Tyre
 from ..models.axle import Axle
 from ..models.axle.equations import AxleModel
-from ..models.axle.file import TorqueReaction as TorqueHolder
+from ..models.axle.file import TorqueReaction
 from ..models.model import Model
 from ..models.plausibility import Plausibility
 from ..models.reach import PositionError
@@ -321,7 +321,7 @@ class AxleAssembly(Assembly):
         """Return whether a wheel has a stop."""
         return getattr(self.axle.sides[wheel], which) is not None
 
-    def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueHolder | None:
+    def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueReaction | None:
         """Return what holds the torque of brakes or drive: as its file says, else as usual."""
         part = getattr(self.axle, what)
         return super().torque_on(what) if part is None else part.torque_on

@@ -11,7 +11,7 @@ from ...core.quantities import variable
 from ..corner.bushes import described_bushings
 from ..corner.corner import Array
 from ..input.vehicle import Tyre
-from ..models.axle.file import TorqueReaction as TorqueHolder
+from ..models.axle.file import TorqueReaction
 from ..models.plausibility import Plausibility
 from ..models.reach import PositionError
 from ..models.rigid.axle import RigidAxle
@@ -292,7 +292,7 @@ class RigidAxleAssembly(Assembly):
         del wheel
         return getattr(self.axle, which) is not None
 
-    def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueHolder | None:
+    def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueReaction | None:
         """Return what holds the torque of brakes or drive."""
         part = getattr(self.axle, what)
         return None if part is None else part.torque_on
