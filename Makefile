@@ -71,37 +71,37 @@ benchmark: build ## Gear against Runge-Kutta: tables and plots in out/benchmark/
 	@$(PYTHON) -m benchmarks --out out/benchmark
 
 benchmark-page: build ## The same, and its page in docs/
-	@$(PYTHON) -m benchmarks --out out/benchmark --page docs/gear-against-runge-kutta.md
+	@$(PYTHON) -m benchmarks --out out/benchmark --page docs/theory/gear-against-runge-kutta.md
 
 benchmark-peers: build ## The same suspension in CasADi, Exudyn, SymPy and Pinocchio
 	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
-	@PYTHONPATH=tests $(PYTHON) -m benchmarks.peers --out out/benchmark --page docs/other-tools.md
+	@PYTHONPATH=tests $(PYTHON) -m benchmarks.peers --out out/benchmark --page docs/theory/other-tools.md
 
 benchmark-andrews: build ## Andrews' squeezer here and as a differential-algebraic equation
 	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
-	@$(PYTHON) -m benchmarks.andrews --out out/benchmark --page docs/andrews.md
+	@$(PYTHON) -m benchmarks.andrews --out out/benchmark --page docs/theory/andrews.md
 
 benchmark-loops: build ## Loops without a closed form against paths in maximal coordinates
-	@PYTHONPATH=tests $(PYTHON) -m benchmarks.loops --page docs/own-mechanism.md $(ARGS)
+	@PYTHONPATH=tests $(PYTHON) -m benchmarks.loops --page docs/mechanisms/own-mechanism.md $(ARGS)
 
 benchmark-growth: build ## A chain of 1 to 100 loops: derivation, code and run time against its length
-	@$(PYTHON) -m benchmarks.growth --out out/benchmark --page docs/growth.md
+	@$(PYTHON) -m benchmarks.growth --out out/benchmark --page docs/theory/growth.md
 
 benchmark-ensemble: build ## Many cars at once, in lanes and on all cores, and its page in docs/
 	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
-	@PYTHONPATH=tests $(PYTHON) -m benchmarks.ensemble --out out/benchmark --page docs/ensembles.md $(ARGS)
+	@PYTHONPATH=tests $(PYTHON) -m benchmarks.ensemble --out out/benchmark --page docs/simulation/ensembles.md $(ARGS)
 
 benchmark-export: build ## Units of FMI: sizes, seconds, and steps above their arithmetic
-	@$(PYTHON) -m benchmarks.export --page docs/export.md
+	@$(PYTHON) -m benchmarks.export --page docs/simulation/export.md
 
 benchmark-real-time: build ## Steps of one length: errors, and what one takes
-	@$(PYTHON) -m benchmarks.real_time --page docs/real-time.md
+	@$(PYTHON) -m benchmarks.real_time --page docs/simulation/real-time.md
 
 benchmark-stiff: build ## Which cars of an ensemble go to BDF, and what percentiles and spectra cost
-	@$(PYTHON) -m benchmarks.ensemble_stiff --page docs/ensembles.md
+	@$(PYTHON) -m benchmarks.ensemble_stiff --page docs/simulation/ensembles.md
 
 benchmark-cluster: build ## An ensemble by two workers of Dask beside two threads, and its page in docs/
-	@$(PYTHON) -m benchmarks.cluster --page docs/ensembles.md
+	@$(PYTHON) -m benchmarks.cluster --page docs/simulation/ensembles.md
 
 docs: build .venv/.docs ## The documentation as a site: build/docs/index.html
 	@rm -rf build/docs
@@ -120,25 +120,25 @@ report-assets: ## Bundle the HTML report's script and style again (needs Node.js
 	@cd vehicle/report/web && npm ci --silent && npm run --silent build
 
 front-axle-page: build ## The page of the front axle: operations, wheel rates, a bump
-	@$(PYTHON) -m benchmarks.front_axle --page docs/front-axle.md
+	@$(PYTHON) -m benchmarks.front_axle --page docs/mechanisms/composition.md
 
 format-page: build ## The input file's JSON Schema, and its page in docs/
-	@$(PYTHON) -m kintrafo.vehicle.files.schema vehicle/data/suspension.schema.json docs/file-format.md
+	@$(PYTHON) -m kintrafo.vehicle.files.schema vehicle/data/suspension.schema.json docs/reference/file-format.md
 
 benchmark-bits: build ## Which results are the same bits on another processor
-	@$(PYTHON) -m benchmarks.same_bits --page docs/conventions.md
+	@$(PYTHON) -m benchmarks.same_bits --page docs/reference/conventions.md
 
-benchmark-axles: build ## How long the motions of an axle take; the picture of docs/axles.md
+benchmark-axles: build ## How long the motions of an axle take; the picture of docs/suspension/axles.md
 	@$(PYTHON) -m benchmarks.axles
 
-benchmark-loads: build ## How long the loads on all parts take; the picture of docs/loads.md
+benchmark-loads: build ## How long the loads on all parts take; the picture of docs/suspension/loads.md
 	@$(PYTHON) -m benchmarks.loads
 
 benchmark-bushes: build ## Suspensions on bushes beside Exudyn, an independent program
 	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
 	@$(PYTHON) -m benchmarks.bushes
 
-benchmark-studies: build ## How long sensitivity, tolerance and optimise take; the pictures of docs/studies.md
+benchmark-studies: build ## How long sensitivity, tolerance and optimise take; the pictures of docs/suspension/design-studies.md
 	@$(PYTHON) -m benchmarks.studies
 
 benchmark-derivatives: build ## What exact derivatives by parameters cost, and their page in docs/

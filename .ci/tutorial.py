@@ -1,4 +1,4 @@
-"""Run the commands of docs/tutorial.md in a folder, with the `kintrafo` that is on the path."""
+"""Run the commands of docs/get-started/first-car.md with the `kintrafo` that is on the path."""
 
 import re
 import shlex
@@ -7,7 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-PAGE = (Path(__file__).parent.parent / "docs/tutorial.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parent.parent / "docs/get-started/first-car.md").read_text(encoding="utf-8")
 
 
 def main(folder: Path) -> None:

@@ -42,7 +42,7 @@ def run(
     if page is not None:
         fill_page(page, blocks)
         for file in files:
-            shutil.copy(file, page.parent / "images" / file.name)
+            shutil.copy(file, page.parents[1] / "images" / file.name)
     console.print(Markdown(_report({k: v for k, v in blocks.items() if k != "points"})))
     console.print(f"{report} and, beside it, JSON and the diagrams as PNG and SVG")
 

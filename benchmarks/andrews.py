@@ -334,7 +334,7 @@ def run(
     (out / "andrews.md").write_text(text + "\n", encoding="utf-8")
     if page is not None:
         fill_page(page, {"machine": machine_line(machine), "work": text})
-        shutil.copy(picture, page.parent / "images" / picture.name)
+        shutil.copy(picture, page.parents[1] / "images" / picture.name)
     console.print(Markdown(text))
     console.print(f"{out / 'andrews.md'} and, beside it, JSON and the diagram")
 

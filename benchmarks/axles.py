@@ -1,4 +1,4 @@
-"""How long the motions of an axle take: `make benchmark-axles` fills docs/axles.md."""
+"""How long the motions of an axle take: `make benchmark-axles` fills docs/suspension/axles.md."""
 
 import platform
 import shutil
@@ -11,7 +11,7 @@ from kintrafo.vehicle.plots import curves
 from .report import fill_page, milliseconds, seconds_of
 
 ROOT = Path(__file__).parent.parent
-PAGE = ROOT / "docs/axles.md"
+PAGE = ROOT / "docs/suspension/axles.md"
 PICTURE = ROOT / "docs/images/axle.png"
 REFERENCE = Axle.load("reference_axle")
 BAR = {

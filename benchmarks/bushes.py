@@ -1,4 +1,4 @@
-"""Suspensions on bushes beside Exudyn: `make benchmark-bushes` fills docs/loads.md.
+"""Suspensions on bushes beside Exudyn: `make benchmark-bushes` fills docs/suspension/loads.md.
 
 Exudyn is an independent program for flexible multibody systems. There every part is a body with six
 coordinates, every joint a constraint, every bush a spring in three directions; it looks for the
@@ -27,7 +27,7 @@ from .report import fill_page
 
 Array = NDArray[np.float64]
 
-PAGE = Path(__file__).parent.parent / "docs/loads.md"
+PAGE = Path(__file__).parent.parent / "docs/suspension/loads.md"
 QUANTITIES = ("toe_change", "camber_change", "displacement")
 SMALL = 40.0
 AMOUNTS = (-4000.0, -1000.0, SMALL, 1000.0, 4000.0)

@@ -18,7 +18,7 @@ from scipy.optimize import least_squares
 from . import studies
 from .report import fill_page, load, milliseconds
 
-PAGE = Path(__file__).parent.parent / "docs/derivatives.md"
+PAGE = Path(__file__).parent.parent / "docs/simulation/derivatives.md"
 MECHANISMS = ("four_bar", "macpherson", "multi_link")
 TRAVEL = studies.TRAVEL
 FREE = [(point, axis) for point in ("tie_rod_inner", "tie_rod_outer") for axis in "xyz"]

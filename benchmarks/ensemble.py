@@ -512,7 +512,7 @@ def _draw(found: list[Rate], file: Path, page: Path | None) -> None:
     with rc_context(STYLE):
         figure(found).savefig(file, dpi=130)
     if page is not None:
-        shutil.copy(file, page.parent / "images" / file.name)
+        shutil.copy(file, page.parents[1] / "images" / file.name)
 
 
 if __name__ == "__main__":

@@ -167,7 +167,7 @@ def figure() -> Figure:
 
 def run(
     page: Annotated[Path, typer.Option(help="The page that tables and picture go into.")] = Path(
-        "docs/front-axle.md"
+        "docs/mechanisms/composition.md"
     ),
 ) -> None:
     """Count operations, compute wheel rates, drive over a bump, and fill the page."""
@@ -177,7 +177,7 @@ def run(
         console.print(Markdown(block))
     with rc_context(STYLE):
         figure().savefig(
-            page.parent / "images" / "front_axle.png", dpi=130, metadata={"Software": None}
+            page.parents[1] / "images" / "front_axle.png", dpi=130, metadata={"Software": None}
         )
     fill_page(page, blocks)
     console.print(f"written to {page}")

@@ -316,7 +316,7 @@ def _write(points: list[Point], one: large.Large, out: Path, page: Path | None) 
         figure(points).savefig(out / "growth.png", dpi=130)
     if page is not None:
         fill_page(page, blocks)
-        shutil.copy(out / "growth.png", page.parent / "images" / "growth.png")
+        shutil.copy(out / "growth.png", page.parents[1] / "images" / "growth.png")
 
 
 if __name__ == "__main__":

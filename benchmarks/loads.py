@@ -1,4 +1,4 @@
-"""How long the loads on all parts take: `make benchmark-loads` fills docs/loads.md."""
+"""How long the loads on all parts take: `make benchmark-loads` fills docs/suspension/loads.md."""
 
 import os
 import platform
@@ -17,7 +17,7 @@ from kintrafo.vehicle.plots import loads as pictures
 from .report import fill_page, milliseconds
 
 ROOT = Path(__file__).parent.parent
-PAGE = ROOT / "docs/loads.md"
+PAGE = ROOT / "docs/suspension/loads.md"
 IMAGES = ROOT / "docs/images"
 BUSHES = {
     name: {

@@ -1,4 +1,4 @@
-"""How long studies of a suspension take: `make benchmark-studies` fills docs/studies.md."""
+"""How long studies take: `make benchmark-studies` fills docs/suspension/design-studies.md."""
 
 import platform
 import shutil
@@ -17,7 +17,7 @@ from kintrafo.vehicle.plots import variation as pictures
 from .report import fill_page
 
 ROOT = Path(__file__).parent.parent
-PAGE = ROOT / "docs/studies.md"
+PAGE = ROOT / "docs/suspension/design-studies.md"
 IMAGES = ROOT / "docs/images"
 CAR = Suspension.load("reference_car")
 TRAVEL = np.linspace(-0.06, 0.06, 13)

@@ -53,9 +53,9 @@ html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sourcelink = False
 # Pages without others below them.
-html_sidebars = {page: [] for page in ("index", "tutorial", "gallery", "contributing", "changelog")}
+html_sidebars = {page: [] for page in ("index", "contributing", "changelog")}
 html_theme_options = {
-    "header_links_before_dropdown": 7,
+    "header_links_before_dropdown": 8,
     "navbar_align": "left",
     "navigation_depth": 2,
     "show_nav_level": 1,

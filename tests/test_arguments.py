@@ -134,7 +134,7 @@ def test_what_is_long_is_cut():
 DOCUMENTED = sorted(
     {
         name
-        for page in (Path(__file__).parents[1] / "docs/api").glob("*.md")
+        for page in (Path(__file__).parents[1] / "docs/reference/api").glob("*.md")
         for name in re.findall(r"autofunction:: kintrafo\.(\S+)", page.read_text(encoding="utf-8"))
     }
 )

@@ -14,7 +14,7 @@ from kintrafo.simulation.solvers import native_available
 from benchmarks import friction, paper_timing, report, work_precision
 
 NEEDS_SUNDIALS = pytest.mark.skipif(not native_available(), reason="SUNDIALS is not built in")
-PAGE = ROOT / "docs/gear-against-runge-kutta.md"
+PAGE = ROOT / "docs/theory/gear-against-runge-kutta.md"
 
 
 @pytest.fixture(scope="module")
@@ -28,8 +28,9 @@ def columns(table):
 
 @NEEDS_SUNDIALS
 def test_command_writes_everything(tmp_path):
-    page = tmp_path / "docs" / "page.md"
-    (page.parent / "images").mkdir(parents=True)
+    page = tmp_path / "docs/theory/page.md"
+    page.parent.mkdir(parents=True)
+    (page.parents[1] / "images").mkdir()
     shutil.copy(PAGE, page)
     run_module("benchmarks", "--quick", "--out", tmp_path, "--page", page)
     results = json.loads((tmp_path / "gear_against_runge_kutta.json").read_text())
@@ -49,7 +50,7 @@ def test_command_writes_everything(tmp_path):
         "gear_against_runge_kutta.md",
     ):
         assert (tmp_path / name).stat().st_size > 1000
-    assert (page.parent / "images/work_precision.png").exists()
+    assert (page.parents[1] / "images/work_precision.png").exists()
     assert page.read_text().count("| Verner 6(5)") >= 1
 
 
@@ -139,14 +140,15 @@ def test_table_and_page(tmp_path):
 
 @pytest.mark.skipif(not widths(), reason="built without lanes")
 def test_ensemble_writes_everything(tmp_path):
-    page = tmp_path / "docs" / "ensembles.md"
-    (page.parent / "images").mkdir(parents=True)
-    shutil.copy(ROOT / "docs/ensembles.md", page)
+    page = tmp_path / "docs/simulation/ensembles.md"
+    page.parent.mkdir(parents=True)
+    (page.parents[1] / "images").mkdir()
+    shutil.copy(ROOT / "docs/simulation/ensembles.md", page)
     run_module("benchmarks.ensemble", "--quick", "--out", tmp_path, "--page", page)
     found = json.loads((tmp_path / "ensemble.json").read_text())
     assert [call["lanes"] for call in found["calls"]] == [1, *widths()]
     assert all(rate["error"] <= 1e-6 for rate in found["rates"])
-    assert (page.parent / "images/ensemble.png").stat().st_size > 1000
+    assert (page.parents[1] / "images/ensemble.png").stat().st_size > 1000
     assert "µs of a core for a second of motion" in page.read_text()
 
 

@@ -729,7 +729,9 @@ def test_the_module_is_part_of_the_interface():
 
 # -- the page -------------------------------------------------------------------------------------
 
-PAGE = (Path(__file__).parent.parent / "docs" / "characteristics.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parent.parent / "docs/suspension/characteristics.md").read_text(
+    encoding="utf-8"
+)
 
 
 def test_every_characteristic_is_on_the_page():

@@ -13,7 +13,7 @@ from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.models.positions import state_at_height
 from kintrafo.vehicle.models.typical import typical_ranges
 
-PAGE = Path(__file__).parents[1] / "docs/characteristics.md"
+PAGE = Path(__file__).parents[1] / "docs/suspension/characteristics.md"
 
 STEP = 1e-3  # of the wheel's height [m]
 

@@ -41,7 +41,7 @@ def test_every_command_has_help_with_examples(kintrafo, command):
 
 # -- the page of the documentation --------------------------------------------------------------
 
-PAGE = (ROOT / "docs/command-line.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs/reference/command-line.md").read_text(encoding="utf-8")
 
 
 def test_the_change_of_the_tutorial_turns_bump_steer_round():
@@ -121,7 +121,7 @@ def test_the_first_screen_has_no_command_of_few(kintrafo):
 )
 def test_what_does_not_take_a_rigid_axle_says_so(kintrafo, line):
     """Its page and the refusal name the same commands."""
-    page = (ROOT / "docs/rigid-axle.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs/suspension/rigid-axle.md").read_text(encoding="utf-8")
     (listed,) = re.findall(r"All commands take its file but (.*?)\.", page, flags=re.DOTALL)
     named = "export --to points" if line.startswith("export") else "mechanism"
     assert named in NOT_A_RIGID_AXLE

@@ -181,7 +181,7 @@ def test_help_says_all_that_the_function_does(name, monkeypatch):
 
 
 def test_what_documents_name_is_there_after_one_import():
-    documents = [*(Path(__file__).parent.parent / "docs").glob("*.md"), ROOT / "README.md"]
+    documents = [*(Path(__file__).parent.parent / "docs").rglob("*.md"), ROOT / "README.md"]
     named = {
         n for d in documents for n in re.findall(r"`(kintrafo(?:\.\w+)+)", d.read_text("utf-8"))
     }

@@ -1,4 +1,4 @@
-"""The signs that docs/conventions.md states, on both sides: from points that move, not formulas.
+"""The signs of docs/reference/conventions.md, on both sides: from points that move, not formulas.
 
 Points of the wheel are carried along as a person would watch them: its top, its foremost point,
 where the steering axis pierces the ground. Nothing here knows the definitions of the angles.

@@ -752,7 +752,7 @@ def test_the_two_rates_of_a_wheel_have_two_names() -> None:
 
 def _of_page(page: str, name: str) -> dict[str, Any]:
     """Return the bushes that a page of the documentation has."""
-    text = (Path(__file__).parent.parent / "docs" / page).read_text(encoding="utf-8")
+    text = (Path(__file__).parent.parent / "docs/suspension" / page).read_text(encoding="utf-8")
     block = re.search(rf"```toml\n# {name}\n(.*?)```", text, re.DOTALL)
     bushings: dict[str, Any] = tomllib.loads(block[1])["bushings"]
     return bushings

@@ -70,7 +70,7 @@ def test_every_page_is_in_the_table_of_contents_once():
 
 
 def test_every_public_name_is_documented():
-    text = "".join(text_of(page) for page in (DOCS / "api").glob("*.md"))
+    text = "".join(text_of(page) for page in (DOCS / "reference/api").glob("*.md"))
     documented = set(re.findall(r"^\.\. auto\w+:: (\S+)$", text, flags=re.MULTILINE))
     named = {f"kintrafo.{name}" for name in kintrafo.__all__}
     named |= {f"kintrafo.generator.{name}" for name in generator.__all__}

@@ -48,7 +48,7 @@ class Bench:
         self.carrier = Carrier(self.points, np.array(suspension.rack.axis))
         self.radius = suspension.tyre_radius()
         camber, toe = (np.radians(getattr(suspension.wheel, f"{a}_deg")) for a in ("camber", "toe"))
-        # outboard, with the angles of docs/conventions.md
+        # outboard, with the angles of docs/reference/conventions.md
         axis = np.array([np.tan(toe), self.side, -np.tan(camber)])
         self.design_axis = axis / np.linalg.norm(axis)
         self._poses = {}

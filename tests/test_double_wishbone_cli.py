@@ -165,7 +165,9 @@ def test_linearisation_knows_the_wheel_hop_and_the_spinning_wheel():
 
 # -- the page of the documentation ---------------------------------------------------------------
 
-PAGE = (Path(__file__).parent.parent / "docs/double-wishbone.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parent.parent / "docs/suspension/double-wishbone.md").read_text(
+    encoding="utf-8"
+)
 
 
 def test_the_documented_code_prints_what_it_says(capsys):

@@ -17,7 +17,7 @@ from kintrafo.vehicle import cli
 from kintrafo.vehicle.input.toml_writer import write_toml
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     Files = dict[str, Callable[[Path], Any]]
     """By name, how a file comes to be."""
@@ -26,11 +26,13 @@ ROOT = Path(__file__).parents[1]
 DATA = ROOT / "tests/data"
 CAR = Suspension.load("reference_car")
 DOCS = ROOT / "docs"
-PAGES = (
-    "axles", "command-line", "double-wishbone", "loads", "multi-link", "own-mechanism", "report",
-    "rigid-axle", "studies", "trailing-arm", "tutorial",
-)  # fmt: skip
-COMPILED = ("axles", "own-mechanism")
+STUDIES = "suspension/design-studies.md"
+PAGES = tuple(
+    page.relative_to(DOCS).with_suffix("").as_posix()
+    for page in sorted(DOCS.rglob("*.md"))
+    if "\nkintrafo " in page.read_text(encoding="utf-8")
+)
+COMPILED = ("get-started/first-mechanism", "suspension/axles", "mechanisms/own-mechanism")
 BUSHES = "[bushings.arm_rear]\naxial_N_per_mm = 400.0\nradial_N_per_mm = 900.0\n"
 # A crank-rocker, called as the examples call it.
 MECHANISM = """
@@ -44,11 +46,34 @@ MODEL = replace(four_bar.MODELS[0], name="crane")
 WRITERS = ("new", "schema", "import")
 
 
+def text_of(page: str) -> str:
+    return (DOCS / f"{page}.md").read_text(encoding="utf-8")
+
+
 def commands_of(page: str) -> list[str]:
-    """Return the lines of the shell blocks of a page, without their comments."""
-    text = (DOCS / f"{page}.md").read_text(encoding="utf-8")
-    blocks = re.findall(r"```sh\n(.*?)```", text, flags=re.DOTALL)
-    return [line.partition("  #")[0].strip() for block in blocks for line in block.splitlines()]
+    """Return the commands of kintrafo in the shell blocks of a page, without their comments."""
+    return [line for language, text in blocks_of(page) if language == "sh" for line in lines(text)]
+
+
+def lines(block: str) -> list[str]:
+    found = [line.partition("  #")[0].strip() for line in block.splitlines()]
+    return [line for line in found if line.startswith("kintrafo ")]
+
+
+BLOCK = re.compile(r"^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+def blocks_of(page: str) -> list[tuple[str, str]]:
+    """Return language and text of the blocks of code of a page."""
+    return [(found[1], found[2]) for found in BLOCK.finditer(text_of(page))]
+
+
+def shown_by(page: str) -> Iterator[tuple[str, str, str]]:
+    """Yield language, text and shown output: a block of text with nothing but space before it."""
+    text = text_of(page)
+    for block in BLOCK.finditer(text):
+        output = BLOCK.match(text, re.compile(r"\s*").match(text, block.end()).end())  # type: ignore[union-attr]  # the empty match, too
+        yield block[1], block[2], output[2] if output and output[1] == "text" else ""
 
 
 EXAMPLES = [example for module in cli.COMMANDS.values() for example in module.EXAMPLES]
@@ -57,7 +82,7 @@ ON_PAGES = {line for page in PAGES for line in commands_of(page)}
 
 def documented(page: str, name: str) -> str:
     """Return a file that a page of the documentation shows."""
-    text = (ROOT / "docs" / page).read_text(encoding="utf-8")
+    text = (DOCS / page).read_text(encoding="utf-8")
     return re.findall(rf"```toml\n# {re.escape(name)}\n(.*?)```", text, flags=re.DOTALL)[0]
 
 
@@ -92,8 +117,8 @@ def shown(page: str, name: str = "") -> Callable[[Path], Any]:
 
 
 def csv_of_the_page(number: int) -> Callable[[Path], Any]:
-    page = (ROOT / "docs/command-line.md").read_text(encoding="utf-8")
-    tables = re.findall(r"```csv\n(.*?)```", page, flags=re.DOTALL)
+    found = blocks_of("reference/command-line")
+    tables = [text for language, text in found if language == "csv"]
     return lambda path: path.write_text(tables[number], encoding="utf-8")
 
 
@@ -117,17 +142,19 @@ FILES: Files = {
     "cad.csv": csv_of_the_page(0),
     "rig.csv": csv_of_the_page(1),
     "road.csv": csv_of_the_page(2),
-    "cases.toml": shown("loads.md"),
-    "bushes.toml": shown("loads.md"),
-    "axle_bushes.toml": shown("rigid-axle.md"),
-    **dict.fromkeys(("tolerances.toml", "goals.toml", "objectives.toml"), shown("studies.md")),
+    "cases.toml": shown("suspension/loads.md"),
+    "bushes.toml": shown("suspension/loads.md"),
+    "axle_bushes.toml": shown("suspension/rigid-axle.md"),
+    **dict.fromkeys(
+        ("tolerances.toml", "goals.toml", "objectives.toml"), shown("suspension/design-studies.md")
+    ),
     **dict.fromkeys(
         ("MacPhersonStrut.json", "DoubleWishbone.json", "RigidTire.json"), texts("chrono")
     ),
 }
 FILES_OF: dict[str, Files] = {
     "fit": {"rig.csv": measured},
-    "compliance": {"goals.toml": shown("studies.md", "soft_goals.toml")},
+    "compliance": {"goals.toml": shown(STUDIES, "soft_goals.toml")},
 }
 
 
@@ -171,9 +198,7 @@ def test_every_example_of_a_help_text_runs(kintrafo: Any, line: str) -> None:
 
 def lower_rod(path: Path) -> None:
     """Write the file that the reader of the tutorial has changed."""
-    (line,) = re.findall(
-        r"```toml\n(tie_rod_inner .*?)\n```", (DOCS / "tutorial.md").read_text("utf-8")
-    )
+    (line,) = re.findall(r"```toml\n(tie_rod_inner .*?)\n```", text_of("get-started/first-car"))
     text = Path("my_car.toml").read_text(encoding="utf-8")
     text, count = re.subn(r"^tie_rod_inner = .*$", line, text, flags=re.MULTILINE)
     assert count == 1
@@ -193,54 +218,92 @@ def soft_rig(path: Path) -> None:
 
 
 MADE_FOR: dict[str, Files] = {
-    "command-line": {"rig.csv": csv_of_the_page(1)},
-    "own-mechanism": {
+    "reference/command-line": {"rig.csv": csv_of_the_page(1)},
+    "mechanisms/own-mechanism": {
         "pushrod_suspension.py": lambda path: shutil.copy(ROOT / "examples" / path.name, path)
     },
-    "studies": {
+    "suspension/design-studies": {
         "rig.csv": measured,
         "soft_car.toml": lambda path: write_toml(SOFT_CAR, path),
         "soft_rig.csv": soft_rig,
     },
-    "tutorial": {"lower_rod.toml": lower_rod},
+    "get-started/first-car": {"lower_rod.toml": lower_rod},
 }
 # What the files of a page have in them, and what they do not, as patterns.
 WITH: dict[str, dict[str, list[str]]] = {
-    "axles": {"curves_roll.csv": ["^roll_angle"]},
-    "own-mechanism": {f"equations/pushrod_suspension.{end}": [] for end in ("c", "h", "md")},
-    "report": {
+    "suspension/axles": {"curves_roll.csv": ["^roll_angle"]},
+    "mechanisms/own-mechanism": {
+        f"equations/pushrod_suspension.{end}": [] for end in ("c", "h", "md")
+    },
+    "suspension/report": {
         f"{name}.html": ["(?s)MIT License.*MIT License"] for name in ("my_car", "front_axle")
     },
-    "rigid-axle": {"my_rear.html": [r"\[rods\.panhard_rod\]", "roll-centre height"]},
-    "tutorial": {"front_axle.html": ["Front axle, stage 1"]},
+    "suspension/rigid-axle": {"my_rear.html": [r"\[rods\.panhard_rod\]", "roll-centre height"]},
+    "get-started/first-car": {"front_axle.html": ["Front axle, stage 1"]},
 }
 WITHOUT = {
-    "rigid-axle": {"my_rear.html": r'(src|href)="(?!data:|#)'},
-    "trailing-arm": {"my_arm.html": ">tie rod<|>Typical"},
+    "suspension/rigid-axle": {"my_rear.html": r'(src|href)="(?!data:|#)'},
+    "suspension/trailing-arm": {"my_arm.html": ">tie rod<|>Typical"},
 }
 # Of the code of a page, what it leaves.
 CODE: dict[str, Callable[[dict[str, Any]], bool]] = {
-    "loads": lambda _: True,
-    "studies": lambda names: bool(
+    "suspension/loads": lambda _: True,
+    "suspension/design-studies": lambda names: bool(
         abs(names["found"]["bump_steer_share"].sum("place") - 1.0).max() < 1e-12
     ),
 }
 PRINTED = {"kintrafo loads my_car.toml --cases cases.toml": r"wheel travel .* 60.0 "}
 
 
+# Pages whose Python needs what they do not show: test_own_mechanism.py has that.
+RUN_ELSEWHERE = ("mechanisms/own-mechanism",)
+
+
 def write_files(page: str) -> None:
     """Write the files that a page shows."""
-    text = (DOCS / f"{page}.md").read_text(encoding="utf-8")
-    for name, block in re.findall(r"```toml\n# (\w+\.toml)(?::[^\n]*)?\n(.*?)```", text, re.DOTALL):
-        Path(name).write_text(block, encoding="utf-8")
+    for language, block in blocks_of(page):
+        named = re.match(r"# (\w+\.\w+)(?::.*)?\n", block)
+        if named and language in ("toml", "py"):
+            Path(named[1]).write_text(block[named.end() :], encoding="utf-8")
 
 
-def run_code(page: str) -> None:
-    text = (DOCS / f"{page}.md").read_text(encoding="utf-8")
+def same_text(shown: str, printed: str) -> bool:
+    """Return whether all lines are printed, in order; numbers may differ in the last digit."""
+    found = iter([words_of(line) for line in printed.splitlines()])
+    wanted = [words_of(line) for line in shown.splitlines() if line.strip() not in ("", "...")]
+    return all(any(like(one, other) for other in found) for one in wanted)
+
+
+def words_of(line: str) -> list[str]:
+    return re.sub(r"[│┃┏┓┗┛━┳┻┡┩╇└┘─┴┬├┤┼|]", " ", line).split()
+
+
+def like(one: list[str], other: list[str]) -> bool:
+    return len(one) == len(other) and all(map(like_word, one, other))
+
+
+def like_word(one: str, other: str) -> bool:
+    if one == other:
+        return True
+    number = r"-?\d+\.(\d+)"
+    places = re.fullmatch(number, one)
+    if places is None or re.fullmatch(number, other) is None:
+        return False
+    return abs(float(one) - float(other)) < 1.5 * 10.0 ** -len(places[1])
+
+
+def run_code(page: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """Run the Python of a page that is listed, or that shows what it prints."""
     names: dict[str, Any] = {}
-    for block in re.findall(r"```python\n(.*?)```", text, flags=re.DOTALL):
-        exec(block, names)
-    assert CODE[page](names)
+    all_of_it = page in CODE or any(
+        language == "python" and output for language, _, output in shown_by(page)
+    )
+    for language, text, output in shown_by(page):
+        if language == "python" and all_of_it and page not in RUN_ELSEWHERE:
+            exec(compile(text, f"{page}.md", "exec"), names)
+            printed = capsys.readouterr().out
+            assert same_text(output, printed), printed
+    assert CODE.get(page, bool)(names) or page not in CODE
 
 
 def check_files(page: str) -> None:
@@ -249,7 +312,7 @@ def check_files(page: str) -> None:
         assert all(re.search(pattern, found) for pattern in patterns), name
     for name, pattern in WITHOUT.get(page, {}).items():
         assert not re.search(pattern, Path(name).read_text(encoding="utf-8")), name
-    if page == "studies":
+    if page == "suspension/design-studies":
         toes = [toe_at_60_mm(car) for car in (CAR, Suspension.load("better_car.toml"))]
         assert toes[1] < toes[0] / 5
 
@@ -262,21 +325,29 @@ def toe_at_60_mm(car: Suspension) -> float:
 @pytest.mark.parametrize("page", PAGES)
 @pytest.mark.usefixtures("coarse_report", "one_picture", "few_frames", "few_generations")
 def test_the_commands_of_a_page_run(
-    kintrafo: Any, page: str, request: pytest.FixtureRequest
+    kintrafo: Any,
+    page: str,
+    request: pytest.FixtureRequest,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     """In their order, in one folder; one page draws all groups of curves."""
     if page in COMPILED and find_compiler() is None:
         pytest.skip("no C compiler")
-    every = page == "command-line"
+    every = page == "reference/command-line"
     request.getfixturevalue("each_page_of_curves_once" if every else "first_page_of_curves")
     write_files(page)
-    lines = [line for line in commands_of(page) if not line.startswith("cp ")]
-    assert len(lines) > 2
-    for line in lines:
-        out, written = run_line(kintrafo, line, FILES | MADE_FOR.get(page, {}))
-        assert re.search(PRINTED.get(line, ""), out)
-        if re.search(r"characteristics my_car.toml .*-o ", line):
-            assert {path.stem.rpartition("_")[2] for path in written} == {"travel", "rack"}
+    for language, text, output in shown_by(page):
+        if text.startswith("$ kintrafo"):
+            command, _, shown_text = text[2:].partition("\n")
+            _, out, err = kintrafo(*shlex.split(command)[1:])
+            assert same_text(shown_text, out + err), out + err
+        printed = ""
+        for line in lines(text) if language == "sh" else ():
+            out, written = run_line(kintrafo, line, FILES | MADE_FOR.get(page, {}))
+            assert re.search(PRINTED.get(line, ""), out)
+            if re.search(r"characteristics my_car.toml .*-o ", line):
+                assert {path.stem.rpartition("_")[2] for path in written} == {"travel", "rack"}
+            printed += out
+        assert same_text(output if language == "sh" else "", printed), printed
     check_files(page)
-    if page in CODE:
-        run_code(page)
+    run_code(page, capsys)

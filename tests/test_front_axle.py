@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from oracle.constraints import Array
 
 SIDES = ("right", "left")
-PAGE = Path(__file__).parents[1] / "docs" / "front-axle.md"
+PAGE = Path(__file__).parents[1] / "docs/mechanisms/composition.md"
 BASELINE = Path(__file__).with_name("operation_counts.json")
 SEEDS = range(4)  # 0 is the reference car
 AGAINST = {  # of the right side's parameters, those that the left one has with the other sign

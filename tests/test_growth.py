@@ -85,13 +85,14 @@ def test_long_chain_is_planned_loop_by_loop() -> None:
 
 @needs_gcc
 def test_benchmark_writes_everything(tmp_path: Path) -> None:
-    page = tmp_path / "docs" / "page.md"
-    (page.parent / "images").mkdir(parents=True)
-    page.write_text((ROOT / "docs/growth.md").read_text(encoding="utf-8"), encoding="utf-8")
+    page = tmp_path / "docs/theory/page.md"
+    page.parent.mkdir(parents=True)
+    (page.parents[1] / "images").mkdir()
+    page.write_text((ROOT / "docs/theory/growth.md").read_text(encoding="utf-8"), encoding="utf-8")
     run_module("benchmarks.growth", "--quick", "--out", tmp_path, "--page", page)
     points = json.loads((tmp_path / "growth.json").read_text(encoding="utf-8"))["points"]
     assert [p["loops"] for p in points] == [1, 2, 3]
     for point in points:
         assert point["error"] < 1e-6  # a hundred times the tolerance of the integrator
-    assert (page.parent / "images/growth.png").stat().st_size > 10_000
+    assert (page.parents[1] / "images/growth.png").stat().st_size > 10_000
     assert "proportion" in page.read_text(encoding="utf-8")

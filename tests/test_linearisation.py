@@ -336,7 +336,7 @@ def test_what_falls_over_is_no_oscillator(stiffness, damping, text):
 
 
 def test_examples_of_the_page_run(capsys):
-    page = (Path(__file__).parents[1] / "docs/modes.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[1] / "docs/simulation/modes.md").read_text(encoding="utf-8")
     exec("\n".join(re.findall(r"```python\n(.*?)```", page, re.DOTALL)), {})
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "12.35 Hz, damping ratio 0.233"

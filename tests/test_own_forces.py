@@ -404,7 +404,7 @@ def after_jumps(
 
 @pytest.mark.skipif(find_compiler() is None, reason="no compiler")
 def test_many_jumps_are_passed_as_accurately_as_the_page_says(tmp_path: Any) -> None:
-    """docs/own-mechanism.md has the errors; a few times those are allowed of other machines."""
+    """The errors of docs/mechanisms/own-mechanism.md; a few times those on other machines."""
     far, jump = 0.04, 0.08
     moment = -jump * sum(sp.Heaviside(q - (i + 0.5) * far, 1) for i in range(50))
     module = compiled(Own(lambda _: Action({"q_A": moment})), backend="c", folder=tmp_path)

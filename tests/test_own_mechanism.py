@@ -36,7 +36,7 @@ from typer.testing import CliRunner
 ROOT = Path(__file__).parent.parent
 EXAMPLE = ROOT / "examples/pushrod_suspension.py"
 STEERING = ROOT / "examples/steering_gear.py"
-PAGE = (ROOT / "docs/own-mechanism.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs/mechanisms/own-mechanism.md").read_text(encoding="utf-8")
 
 needs_compiler = pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
 

@@ -241,7 +241,9 @@ def test_arguments_are_refused_by_name() -> None:
 def page() -> dict[str, Any]:
     """Return what the examples of the page find."""
     found: dict[str, Any] = {}
-    text = (Path(__file__).parents[1] / "docs/derivatives.md").read_text(encoding="utf-8")
+    text = (Path(__file__).parents[1] / "docs/simulation/derivatives.md").read_text(
+        encoding="utf-8"
+    )
     exec("\n".join(re.findall(r"```python\n(.*?)```", text, re.DOTALL)), found)
     return found
 

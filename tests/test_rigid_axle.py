@@ -39,7 +39,7 @@ Array = np.ndarray
 AXLE = RigidAxle.load("rigid_axle")
 MODEL = RigidAxleModel(AXLE)
 LEFT = np.array([0.0, 1.0, 0.0])
-PAGE = Path(__file__).parent.parent / "docs/rigid-axle.md"
+PAGE = Path(__file__).parent.parent / "docs/suspension/rigid-axle.md"
 # lower links along x, upper ones that meet in a point ahead of the axle
 TRIANGULATED = AXLE.with_changes(
     {

@@ -60,7 +60,7 @@ def test_a_step_is_four_evaluations_and_one_length() -> None:
 
 def loops_of_the_page(language):
     """Return the code of the page that is in a language."""
-    page = (lanes.ROOT / "docs/real-time.md").read_text(encoding="utf-8")
+    page = (lanes.ROOT / "docs/simulation/real-time.md").read_text(encoding="utf-8")
     return re.findall(rf"```{language}\n(.*?)```", page, flags=re.DOTALL)
 
 

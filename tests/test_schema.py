@@ -21,7 +21,7 @@ PUBLISHED = resources.files(data).joinpath("suspension.schema.json").read_text(e
 
 def test_what_is_published_is_what_the_models_say():
     assert schema.schema_text() == PUBLISHED, "make format-page writes it anew"
-    page = (ROOT / "docs/file-format.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs/reference/file-format.md").read_text(encoding="utf-8")
     assert page == schema.page_text(), "make format-page writes it anew"
 
 

@@ -1,6 +1,6 @@
 """Draw docs/images/axle_goals.png: ``python docs/images/axle_goals.py``.
 
-The goals are those of the file that stands on docs/axles.md.
+The goals are those of the file that stands on docs/suspension/axles.md.
 """  # noqa: INP001 (a script beside its picture)
 
 import re

@@ -1,7 +1,7 @@
 """Draw docs/images/pushrod_suspension.png: ``python docs/images/pushrod_suspension.py``.
 
-Left the sketch that docs/own-mechanism.md begins with, right what comes out: the compiled mechanism
-at three heights of the wheel, and its motion after a step of the road.
+Left the sketch of docs/mechanisms/own-mechanism.md, right the compiled mechanism at three heights
+of the wheel, and its motion after a step of the road.
 """  # noqa: INP001 (a script beside its picture)
 
 from pathlib import Path

@@ -1,7 +1,7 @@
 """Draw docs/images/signs.png: ``python docs/images/signs.py``.
 
 Every angle and displacement in its positive sense, on the left and on the right side. Wheels and
-axes are drawn from the definitions in docs/conventions.md, with angles large enough to be seen.
+axes are drawn from the definitions in docs/reference/conventions.md, with large angles.
 """  # noqa: INP001 (a script beside its picture)
 
 from pathlib import Path

@@ -4,7 +4,7 @@ Each strut hangs at a cross of the ground, lengthens along its guide and holds t
 ball joint; the slides of the six guides are the coordinates. ISO 8855 axes, the numbers are this
 project's own. The model is declared with ``allow_iteration=True``: one block finds the pose of the
 platform from six equations. It shows what can be closed like that, and what large equations cost
-(docs/growth.md).
+(docs/theory/growth.md).
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
 """Characteristics of one wheel: the formulas.
 
 Each function takes a `Corner`, or a `RoadWheel` where it needs no more, and returns an array over
-its positions, SI units. Signs are those of docs/characteristics.md. A quantity that grows without
-bound (the length of a swing arm about an instant centre far away) becomes infinite there.
+its positions, SI units. Signs are those of docs/suspension/characteristics.md. A quantity that
+grows without bound (the length of a swing arm about an instant centre far away) becomes infinite
+there.
 """
 
 import numpy as np

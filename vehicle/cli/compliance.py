@@ -83,7 +83,7 @@ def command(
     ] = None,
     held: Annotated[
         Held | None,
-        typer.Option(help="What holds the wheel: see docs/loads.md. Default: height."),
+        typer.Option(help="What holds the wheel: see docs/suspension/loads.md. Default: height."),
     ] = None,
     at: At = 0.0,
     rack: Annotated[float, typer.Option(metavar="MM", help="Rack held there.")] = 0.0,

@@ -22,7 +22,9 @@ def command(
     file: File,
     bushes: Bushes = None,
     *,
-    held: Annotated[Held, typer.Option(help="What holds the wheel: see docs/loads.md.")] = "height",
+    held: Annotated[
+        Held, typer.Option(help="What holds the wheel: see docs/suspension/loads.md.")
+    ] = "height",
     out: Out = None,
     force: Force = False,
     json: Json = False,

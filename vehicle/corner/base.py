@@ -359,7 +359,7 @@ class Suspension(Section):
         return self.from_dict(data, "mirrored suspension")
 
     def bushes(self, given: Arguments, described: Mapping[str, Any]) -> list[Bush]:
-        """Return bushes as they are described by their hardpoints; see `docs/loads.md`.
+        """Return bushes as they are described by their hardpoints; see `docs/suspension/loads.md`.
 
         Parameters
         ----------

@@ -30,7 +30,7 @@ _LIMITS = {
 }
 
 _HEAD = """\
-# The input file
+# Input file
 
 A suspension is a TOML file. The name of a key ends in its unit; `[hardpoints]` has one `unit` for
 all of its points. Points are `[x, y, z]` in chassis axes of ISO 8855 (x forward, y left, z up), at
@@ -42,7 +42,7 @@ first section names the kind; what only one kind has is in its own part below.
 
 Editors that know JSON Schema complete keys, show their meaning and underline what is not allowed.
 `kintrafo schema kintrafo.schema.json` writes
-[the schema](../vehicle/data/suspension.schema.json) of suspensions and axles beside your
+[the schema](../../vehicle/data/suspension.schema.json) of suspensions and axles beside your
 files; a first line
 
 ```toml
@@ -57,9 +57,10 @@ Whether the points make a mechanism that can be assembled is not in the schema: 
 _BUSHINGS = """\
 ### [bushings.POINT] (optional)
 
-What gives way at a hardpoint where parts touch, for [compliance](loads.md#compliance); what is left
-out is rigid. One stiffness or curve is needed. `[bushings.rack]` has `axial_N_per_mm` alone: how
-stiff the steering holds the rack. All else that is computed takes joints as rigid.
+The compliance of the joint at a hardpoint, for [compliance](../suspension/loads.md#compliance). A
+direction without an entry is rigid. One stiffness or curve is needed. `[bushings.rack]` has
+`axial_N_per_mm` alone, the stiffness of the steering at the rack. Analyses other than compliance
+take joints as rigid.
 """
 
 _CURVES = """\
@@ -105,7 +106,7 @@ _AN_AXLE = """\
 ## An axle
 
 A file of its own, which names the hardpoint files of its sides; `kintrafo new FILE --axle` writes
-one. See [Axles](axles.md).
+one. See [Axles](../suspension/axles.md).
 """
 
 _AXLE = "axle"  # the key of a file of an axle, and of no other
@@ -114,7 +115,8 @@ _A_RIGID_AXLE = """\
 ## A rigid axle
 
 A file of its own, of a beam on four rods; `kintrafo new FILE --rigid-axle` writes one. See
-[A rigid axle](rigid-axle.md). What is not described here is as of every suspension: `[tyre]`,
+[Rigid axles](../suspension/rigid-axle.md). The other sections are those of every suspension:
+`[tyre]`,
 `[gravity]`, the stops, and `[wheel]`, which may be left out; and `[bushings.POINT]`, whose points
 are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center` of both wheels.
 """

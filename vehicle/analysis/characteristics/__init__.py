@@ -5,7 +5,7 @@
     `groups`     which belongs beside which others
 
 Formulas, names, units, definitions and signs are in `kintrafo.vehicle.assembly.measures`; see
-docs/characteristics.md, docs/axles.md, docs/rigid-axle.md.
+docs/suspension/characteristics.md, docs/suspension/axles.md, docs/suspension/rigid-axle.md.
 """
 
 from ...assembly.rig import SweepRange

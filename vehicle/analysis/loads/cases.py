@@ -100,8 +100,8 @@ def cases_of(
         Gets what is wrong.
     assembly : Assembly
     described : mapping
-        By name, each with keys of `docs/loads.md`, which count for every wheel. Where there are
-        several, a wheel may have some of its own under its name.
+        By name, each with keys of `docs/suspension/loads.md`, which count for every wheel. Where
+        there are several, a wheel may have some of its own under its name.
     static_loads : sequence of float
         Of each wheel, in parts of which forces may be given [N].
     """

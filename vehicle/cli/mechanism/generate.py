@@ -45,9 +45,9 @@ def command(
 ) -> None:
     """Derive and compile the equations of motion of your own mechanism.
 
-    The file declares it with the classes of kintrafo.generator; docs/own-mechanism.md builds one
-    from a sketch. What was compiled before is found again. Needs the packages of the extra
-    "generator": pip install "kintrafo[generator]".
+    The file declares it with the classes of kintrafo.generator; docs/mechanisms/own-mechanism.md
+    builds one from a sketch. Compiled equations are kept in a cache. Needs the packages of the
+    extra "generator": pip install "kintrafo[generator]".
     """
     from ....systems.compile.build import compile_mechanism
     from ....systems.compile.on_terminal import on_terminal

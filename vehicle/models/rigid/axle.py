@@ -298,7 +298,7 @@ class RigidAxle(Section):
         return structure_of(self.rods)
 
     def bushes(self, given: Arguments, described: Mapping[str, Any]) -> list[Bush]:
-        """Return bushes as they are described by their hardpoints; see `docs/rigid-axle.md`.
+        """Return bushes by their hardpoints; see `docs/suspension/rigid-axle.md`.
 
         Parameters
         ----------
