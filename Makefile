@@ -166,7 +166,7 @@ wheel: package ## A wheel that needs neither compiler nor SUNDIALS, tried in an 
 	@.ci/wheel
 
 baseline: build ## Store the present operation counts as the baseline
-	@$(PYTHON) -m pytest -q tests/test_operation_counts.py --update-baseline
+	@$(PYTHON) -m pytest -q tests/generator/backends/test_operation_counts.py --update-baseline
 
 clean: ## Remove everything that can be made again
 	rm -rf .venv build out dist *.egg-info generated/*.so runtime/*/*.so runtime/*/*/*.so .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -45,7 +45,8 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 Run = Callable[[], tuple[Array, dict[str, int]]]
 """Integrates once; returns the seven angles at the end, and what it took."""
 
-# Known to ten digits in beta and theta; see tests/test_andrews.py for why not to more.
+# Known to ten digits in beta and theta; tests/generator/mechanisms/test_andrews.py says why not to
+# more.
 PUBLISHED = (
     15.81077119629904,
     -15.75637105984298,

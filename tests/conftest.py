@@ -74,7 +74,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--update-baseline",
         action="store_true",
-        help="store the present operation counts in tests/operation_counts.json",
+        help="store the present operation counts in tests/generator/backends/operation_counts.json",
     )
 
 
@@ -250,3 +250,20 @@ def _draw_pages(monkeypatch: pytest.MonkeyPatch, wanted: Callable[[Pages], Pages
         return wanted(pages) or dict([next(iter(pages.items()))])
 
     monkeypatch.setattr("kintrafo.vehicle.plots.curves.grouped", some)
+
+
+@pytest.fixture(scope="module")
+def driver() -> Iterator[Any]:
+    """Return what starts browsers."""
+    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    with playwright.sync_playwright() as running:
+        yield running.chromium
+
+
+@pytest.fixture(scope="module")
+def browser(driver: Any) -> Iterator[Any]:
+    """Return a browser in which the processor draws WebGL, so that it is there on every machine."""
+    from browser import SOFTWARE_GL, running
+
+    with running(driver, *SOFTWARE_GL) as launched:
+        yield launched

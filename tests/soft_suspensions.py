@@ -6,10 +6,16 @@ An oracle for compliance: it shares no code with what it is held against.
 from typing import Any
 
 import numpy as np
-from kintrafo import Model, Suspension, arm_angles
+from kintrafo import (
+    Model,
+    Suspension,
+    arm_angles,
+)
 from kintrafo.vehicle.models.positions import design_height
 from kintrafo.vehicle.models.reach import at_rest
 from oracle.constraints import Assembler, Pose
+from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
+from scipy.spatial.transform import Rotation
 
 # Without preload, as the linear theory has it, and with a stop that just touches.
 FREE = {
@@ -284,3 +290,96 @@ def minimum(stiff: np.ndarray, held: np.ndarray, loads: np.ndarray) -> np.ndarra
     matrix = np.block([[stiff, held.T], [held, np.zeros((len(held), len(held)))]])
     right = np.vstack([loads, np.zeros((len(held), loads.shape[1]))])
     return np.linalg.lstsq(matrix, right, rcond=1e-15)[0][: len(stiff)]
+
+
+UNDER = ["lateral", "braking", "recession", "aligning"]
+# A tenth as stiff, so that parts are displaced by some 10 mm; the bearing, which tilts, is rigid.
+SOFTER = {
+    car: {
+        point: {k: 0.1 * np.array(v) if k.endswith("mm") else v for k, v in bush.items()}
+        | ({"tilt_Nm_per_deg": [3.0, 10.0]} if "axis" in bush else {})
+        for point, bush in bushes.items()
+        if point != "wheel_center"
+    }
+    for car, bushes in BUSHES_OF.items()
+}
+# a spring that has nothing to do at design, and twice its rate in bump
+PRESSED, PUSHING = (
+    np.array([-60.0, -15.0, 0.0, 20.0, 60.0]),
+    np.array([-3e3, -800.0, 0.0, 1300.0, 5500.0]),
+)
+CURVED = WISHBONES.with_changes(
+    {
+        "spring.rate_N_per_m": None,
+        "spring.compression_mm": PRESSED.tolist(),
+        "spring.force_N": PUSHING.tolist(),
+    }
+)
+_SLOPES = PchipInterpolator(PRESSED, PUSHING).derivative()(PRESSED)
+_SLOPES[[0, -1]] = np.diff(PUSHING)[[0, -1]] / np.diff(PRESSED)[[0, -1]]
+BY_CURVE = CubicHermiteSpline(1e-3 * PRESSED, PUSHING, 1e3 * _SLOPES)
+
+
+class Energy(Stiffness):
+    """The potential of a suspension whose parts are anywhere."""
+
+    def __init__(self, car: Suspension, bushes: Any, like: Suspension | None = None) -> None:
+        super().__init__(car, 0.0, 0.0, like)
+        self.bushes = bushes
+        self.soft, _, *self.lines = self.parts(bushes)
+        self.free = [self.length(line) for line in self.lines]
+
+    def length(self, line: Any) -> float:
+        first, start, second, end = line
+        return float(np.linalg.norm(self.placed(end, second) - self.placed(start, first)))
+
+    def stored(self) -> float:
+        total = 0.0
+        for name, first, second in self.soft:
+            if name in self.bushes:
+                gap = self.placed(name, second) - self.placed(name, first)
+                gap = self.turned(first).T @ gap
+                total += 0.5 * gap @ self.matrix(name, self.bushes[name]) @ gap
+                total += self.of_tilt(name, first, second)
+        spring, stop = (
+            self.length(line) - free for line, free in zip(self.lines, self.free, strict=True)
+        )
+        pressed = max(-stop, 0.0)
+        total += 0.5 * 5e4 * pressed**2 + 0.25 * 0.05e9 * pressed**4
+        return float(total + self.of_spring(spring))
+
+    def of_tilt(self, name: str, first: Any, second: Any) -> float:
+        """Return what a bush has stored whose axis has left that of the other part."""
+        rates = np.degrees(self.bushes[name].get("tilt_Nm_per_deg", [0.0, 0.0]))
+        axis, *across = self.axes_of(name, self.bushes[name])
+        away = self.turned(first).T @ self.turned(second) @ axis
+        # the axis goes along the one as it turns about the other
+        return 0.5 * float(rates[0] * (across[1] @ away) ** 2 + rates[1] * (across[0] @ away) ** 2)
+
+    def of_spring(self, stretch: float) -> float:
+        """Return what the spring has stored by how much longer than at design it is."""
+        car = self.car
+        if self.like is not STRUT and car.spring.by_curve:
+            return float(BY_CURVE.antiderivative()(-stretch) - BY_CURVE.antiderivative()(0.0))
+        rate = car.strut.spring_rate_N_per_m if self.like is STRUT else car.spring.rate_N_per_m
+        return 0.5 * float(rate) * stretch**2
+
+    def slopes(self, force: np.ndarray, road: float) -> np.ndarray:
+        """Return the derivatives of the potential by all displacements and rotations."""
+        at, found = self.pose, np.zeros(self.size)
+        for which in range(self.size):
+            values = []
+            for sense in (1e-6, -1e-6):
+                position, rotation = at.position.copy(), at.rotation.copy()
+                body, component = divmod(which, 6)
+                if component < 3:
+                    position[body, component] += sense
+                else:
+                    axis = np.eye(3)[component - 3]
+                    rotation[body] = Rotation.from_rotvec(sense * axis).as_matrix() @ rotation[body]
+                self.pose = Pose(position, rotation)
+                work = force @ self.placed("wheel_center", "wheel") + road * self.contact()[2]
+                values.append(self.stored() - work)
+            found[which] = (values[0] - values[1]) / 2e-6
+        self.pose = at
+        return found

@@ -14,8 +14,8 @@ from decimal import Decimal
 from functools import cache
 from pathlib import Path
 
+import company
 import numpy as np
-import test_copies
 from kintrafo.core.errors import KintrafoError
 from kintrafo.generator import DeclarationError
 from kintrafo.generator.equations.outputs import generate
@@ -50,9 +50,9 @@ def _models():
 def attempt(random):
     """Try a declaration with a mistake."""
     if random.random() < _IN_COMPANY:
-        names = list(test_copies.EVERY)
-        model = test_copies.EVERY[names[random.integers(len(names))]]
-        test_copies.check_in_company(model, random)
+        names = list(company.EVERY)
+        model = company.EVERY[names[random.integers(len(names))]]
+        company.check_in_company(model, random)
         return
     model = _models()[random.integers(len(_models()))]
     words = sorted({w for w in _texts(model) if w.isidentifier()})

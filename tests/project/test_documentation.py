@@ -1,0 +1,120 @@
+"""Pages, links and names of the documentation, without building it (`make docs` does that)."""
+
+import inspect
+import pydoc
+import re
+import runpy
+import tomllib
+from collections import Counter
+
+import kintrafo
+import pytest
+from folders import ROOT
+from kintrafo import generator
+
+DOCS = ROOT / "docs"
+PAGES = sorted(DOCS.rglob("*.md"))
+OTHERS = [ROOT / "README.md", ROOT / "CHANGELOG.md"]
+
+
+def text_of(page):
+    return page.read_text(encoding="utf-8")
+
+
+def without_code(text):
+    """Return a page without its blocks of code, whose comments look like headings."""
+    return re.sub(r"^ *```.*?^ *```$", "", text, flags=re.DOTALL | re.MULTILINE)
+
+
+def slug(heading):
+    """Return the anchor that code hosts give a heading."""
+    return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+
+
+def anchors_of(page):
+    """Return all anchors; of headings that are alike the later ones have a number."""
+    headings = re.findall(r"^#+ (.*)$", without_code(text_of(page)), flags=re.MULTILINE)
+    seen, found = Counter(), set()
+    for name in map(slug, headings):
+        found.add(f"{name}-{seen[name]}" if seen[name] else name)
+        seen[name] += 1
+    return found
+
+
+def listed_by(page):
+    """Return the pages in a page's table of contents."""
+    for block in re.findall(r"```\{toctree\}\n(.*?)```", text_of(page), flags=re.DOTALL):
+        for line in block.splitlines():
+            if line and not line.startswith(":"):
+                name = re.sub(r"^.*<(.*)>$", r"\1", line)
+                yield page.parent / f"{name}.md"
+
+
+@pytest.mark.parametrize("page", [*OTHERS, *PAGES], ids=lambda page: page.stem)
+def test_links_lead_somewhere(page):
+    for link in re.findall(r"\]\(([^)\s]+)\)", without_code(text_of(page))):
+        if "://" in link:
+            continue
+        path, _, anchor = link.partition("#")
+        target = page.parent / path if path else page
+        assert target.exists(), link
+        if anchor:
+            assert anchor in anchors_of(target), link
+
+
+def test_every_page_is_in_the_table_of_contents_once():
+    listed = Counter(target for page in PAGES for target in listed_by(page))
+    assert set(listed) == set(PAGES) - {DOCS / "index.md"}
+    assert set(listed.values()) == {1}
+
+
+def test_every_public_name_is_documented():
+    text = "".join(text_of(page) for page in (DOCS / "reference/api").glob("*.md"))
+    documented = set(re.findall(r"^\.\. auto\w+:: (\S+)$", text, flags=re.MULTILINE))
+    named = {f"kintrafo.{name}" for name in kintrafo.__all__}
+    named |= {f"kintrafo.generator.{name}" for name in generator.__all__}
+    for module in kintrafo._INTERFACES:
+        names = getattr(getattr(kintrafo, module), "__all__", ())
+        named |= {f"kintrafo.{module}.{name}" for name in names if not name.isupper()}
+        assert any(name.startswith(f"kintrafo.{module}.") for name in documented), module
+    assert named <= documented
+    for name in documented:
+        assert pydoc.locate(name) is not None, name
+
+
+@pytest.mark.parametrize("name", sorted(kintrafo.__all__))
+def test_signatures_call_types_by_their_names(name):
+    """What NumPy takes for an array is a word, and not the union of twelve classes that it is."""
+    shown = getattr(kintrafo, name)
+    if inspect.isfunction(shown):
+        assert "_NestedSequence" not in str(inspect.signature(shown))
+        assert shown.__doc__[:1].isupper()
+
+
+def test_changelog_and_citation_are_of_this_version():
+    project = tomllib.loads(text_of(ROOT / "pyproject.toml"))["project"]
+    citation = text_of(ROOT / "CITATION.cff")
+    assert f"\nversion: {project['version']}\n" in citation
+    assert f"\nlicense: {project['license']}\n" in citation
+    newest = re.search(r"^## ([\d.]+)", text_of(ROOT / "CHANGELOG.md"), flags=re.MULTILINE)
+    assert newest.group(1) == project["version"]
+
+
+def test_links_of_the_readme_are_addresses_on_an_index(monkeypatch):
+    """Each path is that of a file, behind the place of the sources; the rest of the text stays."""
+    readme = runpy.run_path(str(ROOT / ".ci/long_description.py"))
+    before = text_of(ROOT / "README.md")
+    monkeypatch.delenv("KINTRAFO_REPOSITORY", raising=False)
+    assert readme["long_description"](ROOT) == before, "nobody has said where the sources are"
+    monkeypatch.setenv("KINTRAFO_REPOSITORY", "https://forge.example/someone/kintrafo")
+    monkeypatch.setenv("KINTRAFO_REVISION", "v1.2.3")
+    after = readme["long_description"](ROOT)
+    links = re.findall(r"(!?)\[[^\]]*\]\(([^)]+)\)", without_code(after))
+    assert len(links) > 50
+    for image, link in links:
+        what = "raw" if image else "blob"
+        place = f"https://forge.example/someone/kintrafo/{what}/v1.2.3/"
+        assert link.startswith(place)
+        assert (ROOT / link.removeprefix(place).partition("#")[0]).exists(), link
+    stripped = re.sub(r"https://forge\.example/someone/kintrafo/(raw|blob)/v1\.2\.3/", "", after)
+    assert stripped == before

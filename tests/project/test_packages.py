@@ -1,0 +1,25 @@
+"""What a wheel has: every folder with modules is one of the packages that are named."""
+
+import tomllib
+
+from folders import ROOT
+
+ROOTS = {
+    "runtime": "kintrafo",
+    "generator": "kintrafo.generator",
+    "generated": "kintrafo.generated",
+    "vehicle": "kintrafo.vehicle",
+}
+
+
+def test_every_folder_of_modules_is_packaged() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    named = project["tool"]["setuptools"]["packages"]
+    folders = {
+        ".".join([package, *module.parent.relative_to(ROOT / root).parts])
+        for root, package in ROOTS.items()
+        for module in (ROOT / root).rglob("*.py")
+        if "node_modules" not in module.parts
+    }
+    assert len(folders) > 30
+    assert folders - {*named} == set()

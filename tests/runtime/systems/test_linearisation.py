@@ -1,0 +1,381 @@
+"""Linearisation: against the oracle, simulated perturbations, a quarter car and SciPy."""
+
+import re
+
+import numpy as np
+import pytest
+import scipy.signal
+from cases import MODELS, Instant
+from folders import ROOT
+from kintrafo import (
+    InputError,
+    Model,
+    Suspension,
+    equilibrium,
+    linearise,
+    simulate,
+    state_at_height,
+)
+from kintrafo.systems.modes import eigenvalues_of, mode_of_states, modes_of
+from oracle.multipliers import solve_free, solve_prescribed
+from oracle.newton import Mechanism, solve_pose
+from oracle.reference import EIGENVALUES_AT_REST, SPIN_RATE, reference_parameters
+
+CAR = Suspension.load("reference_car")
+HELD = Model(CAR)
+FREE = Model(CAR, free_rack=True)
+REST = equilibrium(HELD, spin_rate=SPIN_RATE)
+
+
+def accelerations_of_the_oracle(free: bool, coordinates, rates):
+    """Return the accelerations in maximal coordinates; order: arm, spin, rack."""
+    car = Mechanism(reference_parameters())
+    arm, spin, rack = coordinates
+    pose = solve_pose(car, arm, rack, spin)
+    solve = solve_free if free else solve_prescribed
+    found = solve(car, pose, rates[0], rates[1], rates[2])
+    return np.array([found.beta1_acceleration, found.spin_acceleration, found.rack_acceleration])
+
+
+@pytest.mark.parametrize("model", [HELD, FREE], ids=["held", "free"])
+def test_state_matrix_is_that_of_the_oracle(model):
+    """Accelerations differentiated numerically in a model that shares no code with ours."""
+    size = 3 if model.free_rack else 2
+    state = equilibrium(model, spin_rate=SPIN_RATE)
+    point, rates = np.zeros(3), np.zeros(3)
+    point[:size], rates[:size] = state[:size], state[size:]
+    linear = linearise(model, state)
+    for column in range(2 * size):
+        step = np.zeros(6)
+        step[column if column < size else 3 + column - size] = 1e-4
+
+        def at(factor, step=step):
+            moved = point + factor * step[:3], rates + factor * step[3:]
+            return accelerations_of_the_oracle(model.free_rack, *moved)[:size]
+
+        # five-point formula: error of the order of step**4
+        expected = (8.0 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12.0 * 1e-4)
+        # elements of up to 6e3; the oracle's accelerations are rounded to 1e-10 over a step of 1e-4
+        assert linear.A[size:, column] == pytest.approx(expected, rel=1e-7, abs=2e-5)
+    assert linear.A[:size] == pytest.approx(np.eye(size, 2 * size, k=size), rel=0.0, abs=0.0)
+
+
+def test_wheel_hop_of_the_reference_car():
+    linear = linearise(HELD, REST)
+    hop = linear.mode_of("beta1")
+    # eight decimals are stored
+    assert hop.eigenvalues == pytest.approx(EIGENVALUES_AT_REST, abs=1e-8)
+    assert linear.eigenvalues[0] == pytest.approx(EIGENVALUES_AT_REST[0], abs=1e-8)
+    size = abs(hop.eigenvalues[0])
+    assert hop.natural_frequency == pytest.approx(size / (2 * np.pi), rel=1e-15)
+    assert hop.damping_ratio == pytest.approx(-hop.eigenvalues[0].real / size, rel=1e-15)
+    assert hop.oscillates
+    assert "12.35 Hz, damping ratio 0.233" in hop.text
+
+
+def test_the_other_modes_are_the_zeros_of_the_spin():
+    modes = linearise(HELD, REST).modes
+    assert [len(mode.eigenvalues) for mode in modes] == [2, 1, 1]
+    for mode in modes[1:]:
+        assert mode.eigenvalues == (0.0,)
+        assert np.isnan(mode.damping_ratio)
+        assert np.abs(mode.shape[[0, 2]]).max() == 0.0
+
+
+@pytest.mark.parametrize("model", [HELD, FREE], ids=["held", "free"])
+def test_mode_shapes_are_eigenvectors(model):
+    linear = linearise(model, equilibrium(model, spin_rate=SPIN_RATE))
+    modes = [*linear.modes, linear.mode_of("beta1")]
+    assert sum(len(mode.eigenvalues) for mode in modes[:-1]) == len(linear.A)
+    for mode in modes:
+        residual = linear.A @ mode.shape - mode.eigenvalues[0] * mode.shape
+        # elements of A are up to 6e3 and known to 1e-12
+        assert np.abs(residual).max() < 1e-8
+        assert np.abs(mode.shape).max() == pytest.approx(1.0, rel=1e-15)
+
+
+def test_wheel_hop_with_a_free_rack_is_not_the_steering_mode():
+    linear = linearise(FREE, equilibrium(FREE, spin_rate=SPIN_RATE))
+    hop = linear.mode_of("beta1")
+    # gyroscopic coupling and the rack's mass change it by less than 1 %
+    assert hop.natural_frequency == pytest.approx(12.35, rel=0.01)
+    steering = [mode for mode in linear.modes if mode.oscillates and mode.natural_frequency < 5.0]
+    assert len(steering) == 1
+    names = linear.state_names
+    rack, arm = (abs(steering[0].shape[names.index(n)]) for n in ("beta9_rate", "beta1_rate"))
+    # a rack that moves by 1 m/s turns the arm by less than 1 rad/s in that mode
+    assert rack > arm
+
+
+def test_wheel_hop_is_found_among_overdamped_modes():
+    stiff = Model(CAR.with_changes({"strut.damper_rate_N_s_per_m": 20e3}))
+    linear = linearise(stiff, equilibrium(stiff))
+    hop = linear.mode_of("beta1")
+    assert not hop.oscillates
+    assert sorted(v.real for v in hop.eigenvalues) == sorted(np.linalg.eigvals(linear.A).real)[:2]
+    assert hop.damping_ratio > 1.0
+    assert "overdamped" in hop.text
+
+
+def test_mode_of_states_does_not_depend_on_units():
+    linear = linearise(FREE, equilibrium(FREE, spin_rate=SPIN_RATE))
+    units = np.diag([1e3, 1.0, 1e-3, 1e3, 1.0, 1e-3])  # mrad, rad, km
+    scaled = units @ linear.A @ np.linalg.inv(units)
+    found = mode_of_states(scaled, linear.state_names, ("beta1", "beta1_rate"))
+    assert found.eigenvalues == pytest.approx(linear.mode_of("beta1").eigenvalues, rel=1e-9)
+
+
+def test_a_small_perturbation_moves_as_the_linear_equations_say():
+    """The difference of two simulations, against the matrix exponential."""
+    start = equilibrium(HELD)
+    linear = linearise(HELD, start, outputs=["wheel_center_z", "tyre_force"])
+    size = 1e-5  # rad; the second-order part is of its square
+    moved = start + size * np.eye(4)[0]
+    times = np.linspace(0.0, 0.2, 41)
+    result = simulate(HELD, (0.0, 0.2), moved, t_eval=times, rtol=1e-11, atol=1e-14)
+    _, outputs, states = scipy.signal.lsim(
+        scipy.signal.StateSpace(linear.A, linear.B, linear.C, linear.D),
+        np.zeros((times.size, len(linear.input_names))),
+        times,
+        X0=moved - start,
+    )
+    for row, name in enumerate(HELD.state_names):
+        found = result.y[row] - start[row]
+        scale = np.abs(states[:, row]).max()
+        assert found == pytest.approx(states[:, row], rel=0.0, abs=1e-4 * scale), name
+    for column, name in enumerate(linear.output_names):
+        found = result.signals[name] - linear.outputs[column]
+        scale = np.abs(outputs[:, column]).max()
+        # forces of 4 kN less forces of 4 kN: 1 N is left of them
+        assert found == pytest.approx(outputs[:, column], rel=0.0, abs=1e-4 * scale), name
+
+
+def test_a_small_harmonic_road_is_followed_as_the_frequency_response_says():
+    linear = linearise(HELD, equilibrium(HELD), outputs=["tyre_force", "wheel_center_z"])
+    frequency, amplitude = 11.0, 1e-6
+    # six periods in the decay of the transient by exp(-18 * 1.5)
+    times = 1.5 + np.linspace(0.0, 1.0 / frequency, 9)[:-1]
+
+    def road(t):
+        return amplitude * np.sin(2 * np.pi * frequency * t)
+
+    result = simulate(
+        HELD,
+        (0.0, times[-1]),
+        equilibrium(HELD),
+        inputs={"road_height": road},
+        t_eval=times,
+        rtol=1e-11,
+        atol=1e-14,
+        max_step=1e-3,
+    )
+    response = linear.frequency_response(frequency, "road_height")
+    for name, expected in response.items():
+        values = result.signals[name] - linear.outputs[linear.output_names.index(name)]
+        # the discrete Fourier coefficient of one period, of a sine that began at t = 0
+        found = 2j * np.mean(values * np.exp(-2j * np.pi * frequency * times)) / amplitude
+        # the transient is at exp(-27) = 2e-12; the input's spline and the tolerances are coarser
+        assert abs(found - expected) < 1e-3 * abs(expected), name
+
+
+def test_frequency_response_is_scipys():
+    linear = linearise(HELD, equilibrium(HELD))
+    frequencies = np.array([0.1, 1.0, 12.0, 80.0])
+    # SciPy takes transfer functions that do not vanish at high frequency
+    for source, name in (("road_height", "tyre_force"), ("strut_force", "wheel_acceleration")):
+        found = linear.frequency_response(frequencies, source)
+        column, row = linear.input_names.index(source), linear.output_names.index(name)
+        system = scipy.signal.StateSpace(
+            linear.A, linear.B[:, [column]], linear.C[[row]], linear.D[[row]][:, [column]]
+        )
+        _, expected = scipy.signal.freqresp(system, 2 * np.pi * frequencies)
+        # SciPy goes through the coefficients of polynomials
+        assert found[name] == pytest.approx(expected, rel=1e-7), name
+    space = linear.state_space()
+    for name in "ABCD":
+        assert np.array_equal(getattr(space, name), getattr(linear, name))
+
+
+def test_rack_moves_with_its_velocity_and_acceleration():
+    """At low frequency the wheel follows the rack as the positions do."""
+    linear = linearise(HELD, equilibrium(HELD), outputs=["steer"])
+    slow = linear.frequency_response(1e-3, "rack_position")["steer"]
+    step = 1e-4
+    ends = [
+        HELD.signal("steer", equilibrium(HELD, rack_position=r), HELD.inputs({"rack_position": r}))
+        for r in (step, -step)
+    ]
+    # central difference: error of the order of step**2
+    assert slow.real == pytest.approx((ends[0] - ends[1]) / (2 * step), rel=1e-5)
+    fast = linear.frequency_response(10.0, "rack_position")["steer"]
+    alone = linear.state_space()
+    s = 2j * np.pi * 10.0
+    resolvent = np.linalg.inv(s * np.eye(4) - alone.A)
+    names = linear.input_names
+    columns = [names.index(f"rack_{rate}") for rate in ("position", "velocity", "acceleration")]
+    moving = np.array([1.0, s, s * s])
+    expected = alone.C @ resolvent @ alone.B[:, columns] @ moving + alone.D[:, columns] @ moving
+    assert fast == pytest.approx(expected[0], rel=1e-12)
+
+
+def test_frequency_of_a_quarter_car():
+    """An arm swinging in a vertical plane below a vertical strut far away: m z'' = -(k + kt) z.
+
+    The hinge is along x, all points lie in one transverse plane, the arm is level, and the strut is
+    so long that it neither tilts nor turns the wheel. Masses are at the ball joint's height in the
+    wheel centre.
+    """
+    rate, tyre, mass = 20e3, 150e3, 40.0
+    points = {
+        "unit": "m",
+        "arm_front": [0.2, 0.2, 0.3],
+        "arm_rear": [-0.2, 0.2, 0.3],
+        "ball_joint": [0.0, 0.7, 0.3],
+        "strut_top": [0.0, 0.7, 19.3],
+        "tie_rod_outer": [-0.1, 0.7, 0.3],
+        "tie_rod_inner": [-0.1, 0.2, 0.3],
+        "wheel_center": [0.0, 0.75, 0.3],
+    }
+    data = CAR.to_dict()
+    data["hardpoints"] = points
+    data["vehicle"] = {"side": "left"}
+    data["strut"] = {
+        "length_max_mm": 19500.0,
+        "spring_rate_N_per_m": rate,
+        "spring_free_slide_mm": 500.0,
+        "damper_rate_N_s_per_m": 900.0,
+    }
+    data["tyre"] = {"rate_N_per_m": tyre, "free_height_mm": 300.0}
+    data["gravity"] = {"acceleration_m_per_s2": 0.0}
+    inertia = {"inertia_spin_kg_m2": 1.0, "inertia_diametral_kg_m2": 0.6}
+    data["bodies"] = {
+        "control_arm": {"mass_kg": 0.0},
+        "knuckle": {"mass_kg": 0.0},
+        "wheel": {"mass_kg": mass} | inertia,
+    }
+    model = Model(Suspension.from_dict(data))
+    state = equilibrium(model)
+    assert float(model.signal("wheel_center_z", state)) == pytest.approx(0.3, abs=1e-12)
+    hop = linearise(model, state).mode_of("beta1")
+    frequency = np.sqrt((rate + tyre) / mass) / (2 * np.pi)
+    damping = 900.0 / (2.0 * np.sqrt((rate + tyre) * mass))
+    # the knuckle tilts with the strut by (0.5 m / 19 m) of the arm's turn, once squared in the
+    # inertia and once in the lever of the wheel's 50 mm
+    assert hop.natural_frequency == pytest.approx(frequency, rel=3e-3)
+    assert hop.damping_ratio == pytest.approx(damping, rel=3e-3)
+
+
+def test_a_state_that_is_no_equilibrium_is_said_to_be_none():
+    state = state_at_height(HELD, 0.325)
+    linear = linearise(HELD, state)
+    assert not linear.steady
+    assert linear.rate == pytest.approx(HELD.evaluate("rhs", state), rel=0.0, abs=0.0)
+    assert linearise(HELD, REST).steady
+    assert linearise(HELD, REST).rate[1] == SPIN_RATE
+    # released, the rack would move
+    assert not linearise(FREE, equilibrium(FREE)).steady
+
+
+def test_names_units_and_shapes():
+    linear = linearise(HELD, REST, outputs=["camber", "tyre_force"])
+    assert linear.output_names == ("camber", "tyre_force")
+    assert linear.output_units == ("rad", "N")
+    assert linear.state_units == ("rad", "rad", "rad/s", "rad/s")
+    assert len(linear.input_units) == len(linear.input_names)
+    assert linear.B.shape == (4, len(linear.input_names))
+    assert linear.C.shape == (2, 4)
+    assert linear.D.shape == (2, len(linear.input_names))
+    everything = linearise(HELD, REST)
+    rows = [everything.output_names.index(name) for name in linear.output_names]
+    assert np.array_equal(everything.C[rows], linear.C)
+    assert np.array_equal(everything.outputs[rows], linear.outputs)
+
+
+def test_eigenvalues_of_the_model_are_those_of_the_linearisation():
+    for model in (HELD, FREE):
+        state = equilibrium(model)
+        assert np.array_equal(model.eigenvalues(state), linearise(model, state).eigenvalues)
+    assert eigenvalues_of(np.diag([-1.0, -3.0])).tolist() == [-3.0, -1.0]
+
+
+def test_an_eigenvalue_that_is_zero_has_words():
+    """The turn of the wheel about its axis: nothing holds it, and it has no time constant."""
+    hop, *spin = linearise(HELD, equilibrium(HELD)).modes
+    assert hop.text == "12.35 Hz, damping ratio 0.233"
+    assert {mode.text for mode in spin} == {"neither swings nor returns: an eigenvalue is zero"}
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "damping", "text"),
+    [
+        (3.0, 0.4, "0.28 Hz, damping ratio 0.115"),
+        (3.0, -0.4, "0.28 Hz, damping ratio -0.115"),
+        (3.0, 4.0, "0.28 Hz, damping ratio 1.155: overdamped, time constants 333 ms and 1 s"),
+        (
+            3.0,
+            -4.0,
+            "does not swing: grows by the factor e in 1 s, grows by the factor e in 333 ms",
+        ),
+        (
+            -3.0,
+            2.0,
+            "does not swing: decays by the factor e in 333 ms, grows by the factor e in 1 s",
+        ),
+    ],
+)
+def test_what_falls_over_is_no_oscillator(stiffness, damping, text):
+    """x'' + damping x' + stiffness x = 0: an inverted pendulum has no frequency."""
+    matrix = np.array([[0.0, 1.0], [-stiffness, -damping]])
+    mode = mode_of_states(matrix, ("x", "x_rate"), ("x", "x_rate"))
+    assert mode.text == text
+    assert np.isnan(mode.natural_frequency) == (stiffness < 0.0)
+    assert np.isnan(mode.damping_ratio) == (stiffness < 0.0)
+    for alone in modes_of(matrix, ("x", "x_rate")):
+        grows = alone.eigenvalues[0].real > 0.0
+        assert alone.oscillates or ("grows" in alone.text) == grows
+
+
+def test_examples_of_the_page_run(capsys):
+    page = (ROOT / "docs/simulation/modes.md").read_text(encoding="utf-8")
+    exec("\n".join(re.findall(r"```python\n(.*?)```", page, re.DOTALL)), {})
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "12.35 Hz, damping ratio 0.233"
+    assert float(lines[3].split()[0]) == pytest.approx(12.35, abs=0.01)
+    assert lines[5].startswith("(4, 4)")
+    assert [line.split()[-1] for line in lines[6:]] == ["0.155", "0.233", "0.311"]
+
+
+def test_inputs_change_the_point():
+    raised = HELD.inputs({"road_height": 0.01})
+    linear = linearise(HELD, equilibrium(HELD, road_height=0.01), raised)
+    assert linear.steady
+    assert np.array_equal(linear.inputs, raised)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"outputs": ["tire_force"]}, "'tire_force' is not known. Did you mean tyre_force"),
+        ({"state": np.zeros((3, 4))}, r"state has the shape \(3, 4\): a row"),
+    ],
+)
+def test_what_cannot_be_linearised_is_refused(arguments, message):
+    with pytest.raises(InputError, match=message):
+        linearise(HELD, **({"state": REST} | arguments))
+
+
+def test_unknown_source_and_resonance_of_the_spin_are_refused():
+    linear = linearise(HELD, REST)
+    with pytest.raises(InputError, match=r"'road' is not known. Did you mean road_height"):
+        linear.frequency_response([1.0], "road")
+    with pytest.raises(InputError, match="0 Hz"):
+        linear.frequency_response([0.0], "road_height")
+
+
+def test_instants_and_models_name_the_same_states():
+    """What the oracle's order of coordinates relies on."""
+    for name, model in (("macpherson", HELD), ("macpherson_free_rack", FREE)):
+        instant = Instant(beta1=1.0, spin=2.0, rack=3.0)
+        assert instant.state(MODELS[name])[: len(model.state_names) // 2].tolist() == (
+            [1.0, 2.0, 3.0] if model.free_rack else [1.0, 2.0]
+        )

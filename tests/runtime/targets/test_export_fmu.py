@@ -1,0 +1,643 @@
+"""Functional mock-up units: what an importer sees and computes is what this package has."""
+
+import ctypes
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import kintrafo
+import numpy as np
+import pytest
+from c_text import EMITTED
+from exported import system_named
+from folders import ROOT
+from kintrafo.systems.compile.compiler import find_compiler
+from kintrafo.targets.fmi import binaries
+from kintrafo.targets.fmi.units import powers
+from mockup import DISCARD, ERROR, OK, Unit
+from own_models import STRICT, UNOPTIMISED
+
+pytestmark = pytest.mark.skipif(
+    find_compiler() is None or sys.platform != "linux", reason="no compiler for Linux"
+)
+VERSIONS = (2, 3)
+NAMES = ("four_bar", "reference_car")
+KINDS = ("ModelExchange", "CoSimulation")
+SHORT = {"rocker_pin_x": 0.05, "rocker_pin_y": 0.2}
+"""Of a coupler that is too short for a whole turn of the crank [m]."""
+
+
+@pytest.fixture(scope="module")
+def unit(tmp_path_factory):
+    """Export a system and unpack it, once for each version."""
+    known = {}
+
+    def of(name, version):
+        if (name, version) not in known:
+            folder = tmp_path_factory.mktemp("unit")
+            path = folder / f"{name}.fmu"
+            kintrafo.export_model(system_named(name), path, "fmu", fmi=version, state=start(name))
+            known[name, version] = Unit(path, folder / "unpacked")
+        return known[name, version]
+
+    return of
+
+
+def start(name):
+    system = system_named(name)
+    return kintrafo.equilibrium(system) if name == "reference_car" else system.state()
+
+
+def parameters(values):
+    return {f"parameters.{name}": value for name, value in values.items()}
+
+
+def truth(name, times, **options):
+    """Return the states and signals of a motion, to 1e-12 or so."""
+    given = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-14}
+    span = (times[0], times[-1])
+    return kintrafo.simulate(
+        system_named(name), span, start(name), t_eval=times, **given, **options
+    )
+
+
+def variables(name):
+    """Return names of states, derivatives, inputs and signals in the order of the arrays."""
+    system = system_named(name)
+    rates = [f"der({n})" for n in system.state_names]
+    return list(system.state_names), rates, list(system.input_names), list(system.signal_names)
+
+
+# -- by another importer --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("name", [*NAMES, "slider_crank", "prescribed"])
+def test_fmpy_finds_nothing_wrong(tmp_path, name, version):
+    validation = pytest.importorskip("fmpy.validation")
+    path = tmp_path / "a.fmu"
+    kintrafo.export_model(system_named(name), path, "fmu", fmi=version)
+    assert validation.validate_fmu(str(path)) == []
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("version", VERSIONS)
+def test_fmpy_simulates_as_simulate_does(tmp_path, version, kind):
+    fmpy = pytest.importorskip("fmpy")
+    path = tmp_path / "bar.fmu"
+    kintrafo.export_model(system_named("four_bar"), path, "fmu", fmi=version)
+    times = np.linspace(0.0, 0.2, 5)
+    found = fmpy.simulate_fmu(
+        str(path), stop_time=0.2, output_interval=0.05, fmi_type=kind, relative_tolerance=1e-13,
+        start_values={"crank_torque": 2.0}, output=["crank_angle", "spring_force"],
+    )  # fmt: skip
+    wanted = truth("four_bar", times, inputs={"crank_torque": 2.0})
+    np.testing.assert_allclose(found["time"], times, atol=1e-12)
+    # the accumulated error of both integrations: 1e-13 a step, hundreds of steps
+    np.testing.assert_allclose(found["crank_angle"], wanted.y[0], atol=1e-9)
+    np.testing.assert_allclose(found["spring_force"], wanted.signals["spring_force"], rtol=1e-9)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_fmpy_builds_the_sources(tmp_path, version):
+    build = pytest.importorskip("fmpy.build")
+    if shutil.which("cmake") is None:
+        pytest.skip("no cmake")
+    path = tmp_path / "bar.fmu"
+    kintrafo.export_model(system_named("four_bar"), path, "fmu", fmi=version, platforms=())
+    with zipfile.ZipFile(path) as archive:
+        archive.extractall(tmp_path / "bar")
+    assert not (tmp_path / "bar/binaries").exists()
+    (tmp_path / "build").mkdir()
+    build.build_platform_binary(tmp_path / "bar", tmp_path / "build", configuration="Debug")
+    found = Unit(path, tmp_path / "bar").instance()
+    assert found.initialise() == OK
+    assert found.step(0.0, 0.1) == OK
+    wanted = truth("four_bar", np.array([0.0, 0.1])).y[0, -1]
+    assert found.get("crank_angle")[0] == pytest.approx(wanted, abs=1e-5)  # of the usual tolerance
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_sources_compile_silently(unit, version, tmp_path):
+    sources = sorted(map(str, unit("four_bar", version).folder.glob("sources/**/*.c")))
+    flags = ["-std=c11", UNOPTIMISED, *STRICT, "-fsyntax-only"]
+    subprocess.run(["cc", *flags, *sources], check=True, cwd=tmp_path)
+
+
+# -- values ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("name", NAMES)
+def test_values_are_the_same_bits(unit, name, version):
+    """Derivatives and outputs at the start are what the equations give."""
+    system, at = system_named(name), start(name)
+    inputs = getattr(at, "inputs", system.inputs())
+    instance = unit(name, version).instance("ModelExchange")
+    assert instance.initialise() == OK
+    states, rates, given, signals = variables(name)
+    assert instance.get(*states) == at.tolist()
+    assert instance.get(*given) == inputs.tolist()
+    np.testing.assert_array_equal(instance.get(*rates), system.evaluate("rhs", at, inputs))
+    np.testing.assert_array_equal(instance.get(*signals), system.evaluate("signals", at, inputs))
+    parameters = instance.get(*(f"parameters.{n}" for n in system.parameters))
+    assert parameters == [*system.parameters.values()]
+    instance.free()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_description_tells_units_starts_and_meanings(unit, version):
+    known = unit("reference_car", version)
+    system = system_named("reference_car")
+    for name, entry in system.equations.PARAMETERS.items():
+        told = f"parameters.{name}"
+        assert float(known.attribute(told, "start")) == system.parameters[name]
+        assert known.attribute(told, "description") == entry["meaning"]
+        assert known.attribute(told, "unit") == (None if entry["unit"] == "1" else entry["unit"])
+    assert known.attribute("tyre_force", "causality") == "output"
+    assert known.attribute("road_height", "displayUnit") == "mm"
+    reference = known.references["rack_position"] + (version == 2)
+    assert known.attribute("rack_velocity", "derivative") == str(reference)
+    units = {u.attrib["name"]: u for u in known.root.find("UnitDefinitions")}
+    assert units["N s/m"].find("BaseUnit").attrib == {"kg": "1", "s": "-1"}
+    assert float(units["m"].find("DisplayUnit").attrib["factor"]) == 1000.0
+
+
+@pytest.mark.parametrize(
+    ("unit_text", "wanted"),
+    [
+        ("N m/rad", {"kg": 1, "m": 2, "s": -2, "rad": -1}),
+        ("kg m^2", {"kg": 1, "m": 2}),
+        ("N/m^3", {"kg": 1, "m": -2, "s": -2}),
+        ("1", {}),
+        ("kg m^2 or kg", None),
+    ],
+)
+def test_units_are_powers_of_base_units(unit_text, wanted):
+    assert powers(unit_text) == wanted
+
+
+# -- derivatives ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("name", NAMES)
+def test_derivatives_are_those_of_the_linearisation(unit, name, version):
+    """By differences of central values as well, which share no code with the Jacobians."""
+    system, at = system_named(name), start(name)
+    linear = kintrafo.linearise(system, at, getattr(at, "inputs", None))
+    instance = unit(name, version).instance("ModelExchange")
+    assert instance.initialise() == OK
+    states, rates, given, signals = variables(name)
+    unknowns, knowns = [*rates, *signals], [*states, *given]
+    wanted = np.block([[linear.A, linear.B], [linear.C, linear.D]])
+    found = np.array([instance.derivative(unknowns, knowns, row) for row in np.eye(len(knowns))]).T
+    np.testing.assert_array_equal(found, wanted)
+    seed = np.random.default_rng(5).normal(size=len(unknowns))
+    if version == 3:
+        adjoint = instance.derivative(unknowns, knowns, seed, adjoint=True)
+        # sums of so many products in another order
+        np.testing.assert_allclose(adjoint, seed @ wanted, rtol=1e-12, atol=1e-9)
+    step = 1e-6
+    for column, known in enumerate(knowns):
+        (value,) = instance.get(known)
+        sides = []
+        for sign in (1.0, -1.0):
+            assert instance.set({known: value + sign * step}) == OK
+            sides.append(np.array(instance.get(*unknowns)))
+        instance.set({known: value})
+        # a central difference: rounding over the step, and its square
+        scale = np.abs(wanted[:, column]).max() + np.abs(sides[0]).max()
+        differences = (sides[0] - sides[1]) / (2.0 * step)
+        np.testing.assert_allclose(found[:, column], differences, atol=1e-6 * scale)
+    assert instance.derivative(unknowns, ["time"], [1.0]) == [0.0] * len(unknowns)
+    instance.free()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_derivatives_of_other_variables_are_refused(unit, version):
+    instance = unit("four_bar", version).instance("ModelExchange")
+    instance.initialise()
+    instance.derivative(["parameters.crank_mass"], ["crank_angle"], [1.0])
+    assert instance.status == ERROR
+    assert "neither a derivative of a state" in instance.said
+    instance.derivative(["spring_force"], ["parameters.crank_mass"], [1.0])
+    assert instance.status == ERROR
+    assert "neither a state nor an input" in instance.said
+
+
+# -- Co-Simulation --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("step", [0.0, 1e-4])
+def test_steps_follow_the_motion(unit, version, step):
+    """Of both methods: errors of Dormand and Prince by the tolerance, of RK4 by its step."""
+    instance = unit("reference_car", version).instance()
+    wheel = {"beta1_rate": 0.3, "solver.step": step}
+    assert instance.initialise(tolerance=1e-12, **wheel) == OK
+    times = np.linspace(0.0, 0.3, 31)
+    found = [instance.get("beta1", "tyre_force")]
+    for time, length in zip(times, np.diff(times), strict=False):
+        assert instance.step(time, length) == OK, instance.said
+        found.append(instance.get("beta1", "tyre_force"))
+    at = start("reference_car")
+    at[system_named("reference_car").state_names.index("beta1_rate")] = 0.3
+    wanted = kintrafo.simulate(
+        system_named("reference_car"), (0.0, 0.3), at, t_eval=times, method="DOP853", rtol=1e-12,
+        atol=1e-14,
+    )  # fmt: skip
+    np.testing.assert_allclose(np.array(found)[:, 0], wanted.y[0], atol=1e-9)
+    forces = wanted.signals["tyre_force"]
+    np.testing.assert_allclose(np.array(found)[:, 1], forces, atol=1e-9 * 2e5)  # rate of the tyre
+    instance.free()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_inputs_go_on_by_their_derivatives(unit, version):
+    """A rack that moves is given once, by place and velocity: within a step it goes on so."""
+    instance = unit("reference_car", version).instance()
+    assert instance.initialise(tolerance=1e-12, rack_velocity=0.1) == OK
+    for k in range(5):
+        assert instance.step(0.02 * k, 0.02) == OK
+    times = np.array([0.0, 0.1])
+    rack = ([0.0, 0.1], [0.0, 0.01])
+    wanted = truth("reference_car", times, inputs={"rack_position": rack}).y[0, -1]
+    assert instance.get("beta1")[0] == pytest.approx(wanted, abs=1e-9)
+    assert instance.get("rack_position")[0] == pytest.approx(0.01, abs=1e-15)
+    instance.free()
+
+
+def test_slopes_of_inputs(unit):
+    """FMI 2.0 sets them by order; those that the model takes are inputs themselves."""
+    instance = unit("reference_car", 2).instance()
+    assert instance.initialise(tolerance=1e-12) == OK
+    given = {"road_height": 2, "rack_position": 2}
+    assert instance.slopes(given, [4.0, 0.2]) == OK
+    assert instance.get("rack_acceleration") == [0.2]
+    assert instance.step(0.0, 0.05) == OK
+    found = instance.get("road_height", "rack_position", "rack_velocity")
+    assert found == pytest.approx([0.5 * 4.0 * 0.05**2, 0.5 * 0.2 * 0.05**2, 0.01], abs=1e-15)
+    times = np.linspace(0.0, 0.05, 201)
+    inputs = {
+        "road_height": (times, 0.5 * 4.0 * times**2),
+        "rack_position": (times, 0.5 * 0.2 * times**2),
+    }
+    wanted = truth("reference_car", np.array([0.0, 0.05]), inputs=inputs).y[0, -1]
+    # a cubic through samples of a parabola, whose ends are free
+    assert instance.get("beta1")[0] == pytest.approx(wanted, abs=1e-7)
+    assert instance.slopes({"road_height": 4}, [1.0]) == ERROR
+    assert "order 4 of road_height: 1 to 3" in instance.said
+    assert instance.slopes({"tyre_force": 1}, [1.0]) == ERROR
+    assert "is no input" in instance.said
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_motion_that_ends_is_told(unit, version):
+    """A crank that is driven to its dead point: the step says when and why, nothing crashes."""
+    system = kintrafo.System(system_named("four_bar").equations, SHORT)
+    torque = {"crank_torque": 10.0}
+    with pytest.raises(kintrafo.SimulationError) as refused:
+        kintrafo.simulate(system, (0.0, 2.0), system.state(), inputs=torque, method="DormandPrince")
+    ends = refused.value.time
+    instance = unit("four_bar", version).instance()
+    assert instance.initialise(**torque, **parameters(SHORT)) == OK
+    time, length = 0.0, 0.01
+    while instance.step(time, length) == OK:
+        time += length
+    assert time <= ends <= time + length
+    # of the usual tolerance
+    assert instance.reached.value == pytest.approx(ends, abs=1e-4)
+    assert "cannot close" in instance.said
+    assert instance.step(instance.reached.value, length) == DISCARD
+    assert "has ended" in instance.said
+    assert instance.call("Reset") == OK
+    assert instance.initialise() == OK
+    assert instance.step(0.0, length) == OK
+    instance.free()
+
+
+# -- Model Exchange -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_events_have_indicators(unit, version):
+    known = unit("reference_car", version)
+    names = [n for n in known.references if n.startswith(("events.", "margins."))]
+    system = system_named("reference_car")
+    instance = known.instance("ModelExchange", logging=True)
+    assert instance.initialise() == OK
+    assert not instance.update()
+    found = dict(zip(names, instance.get(*names), strict=True))
+    signals = system.signals(start("reference_car"))
+    assert found["events.wheel_leaves_ground"] == signals["tyre_force"] - 0.001
+    longest = system.parameters["strut_length_max"]
+    assert found["events.strut_fully_extended"] == signals["strut_length"] - longest
+    margins = system.evaluate("margins", start("reference_car"))
+    for (guard, _), margin in zip(system.equations.GUARDS, margins, strict=True):
+        assert found.get(f"margins.{guard}", margin) == margin
+    assert instance.array("GetEventIndicators", None, len(names)) == [*found.values()]
+    assert instance.set({"road_height": -0.5}) == OK  # the ground falls away
+    assert instance.call("EnterContinuousTimeMode") == OK
+    assert instance.call("EnterEventMode") == OK
+    assert not instance.update()
+    assert "events.wheel_leaves_ground at 0 s: the tyre force falls to nothing" in instance.said
+    instance.free()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_state_that_is_refused_is_discarded(unit, version):
+    instance = unit("four_bar", version).instance("ModelExchange")
+    assert instance.initialise(**parameters(SHORT)) == OK
+    assert not instance.update()
+    instance.call("EnterContinuousTimeMode")
+    assert instance.place(0.1, [-1.5, 0.0]) == OK
+    system = kintrafo.System(system_named("four_bar").equations, SHORT)
+    with pytest.raises(kintrafo.ClosureError):
+        system.evaluate("rhs", [-1.5, 0.0])
+    instance.array("GetDerivatives", "GetContinuousStateDerivatives", 2)
+    assert instance.status == DISCARD
+    assert "cannot close" in instance.said
+    assert "rocker_closure = -" in instance.said
+    instance.call("EnterEventMode")
+    assert instance.update()
+    assert "the motion ends at 0.1 s" in instance.said
+    instance.free()
+
+
+# -- saved, reset, many ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_what_is_saved_goes_on_with_the_same_bits(unit, version):
+    instance = unit("reference_car", version).instance()
+    assert instance.initialise(beta1_rate=0.5) == OK
+    assert instance.step(0.0, 0.05) == OK
+    saved = instance.save()
+    content = instance.bytes_of(saved)
+    for k in range(3):
+        assert instance.step(0.05 + 0.01 * k, 0.01) == OK
+    wanted = instance.get("beta1", "beta5", "tyre_force")
+    assert instance.restore(saved) == OK
+    other = unit("reference_car", version).instance()
+    assert other.restore(other.from_bytes(content)) == OK
+    for one in (instance, other):
+        for k in range(3):
+            assert one.step(0.05 + 0.01 * k, 0.01) == OK
+        assert one.get("beta1", "beta5", "tyre_force") == wanted
+    assert other.from_bytes(content[:-1]) is None
+    assert other.from_bytes(b"x" * len(content)) is None
+    assert other.from_bytes(content[:80] + b"\xff" * (len(content) - 80)) is None
+    assert "damaged" in other.said
+    for one in (instance, other):
+        one.free()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_reset_in_the_middle_begins_anew(unit, version):
+    fresh, used = (unit("reference_car", version).instance() for _ in range(2))
+    assert used.initialise(beta1_rate=0.5, **{"parameters.wheel_mass": 30.0}) == OK
+    assert used.step(0.0, 0.03) == OK
+    assert used.call("Reset") == OK
+    for one in (fresh, used):
+        assert one.initialise(beta1_rate=0.2) == OK
+        assert one.step(0.0, 0.05) == OK
+    assert fresh.get("beta1", "tyre_force") == used.get("beta1", "tyre_force")
+    for one in (fresh, used):
+        one.free()
+
+
+def test_a_thousand_instances_need_little_memory(unit):
+    def resident():
+        with Path("/proc/self/statm").open() as file:
+            return int(file.read().split()[1]) * 4096
+
+    before = resident()
+    some = [unit("reference_car", 2).instance() for _ in range(1000)]
+    assert all(one.initialise() == OK for one in some)
+    assert all(one.step(0.0, 0.001) == OK for one in some)
+    used = resident() - before
+    for one in some:
+        one.free()
+    assert used < 50e6
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_parameters_are_those_that_are_set(unit, version):
+    """The library serves any parameter set: constants are made of what is set."""
+    system = kintrafo.System(system_named("four_bar").equations, {"crank_mass": 2.0})
+    instance = unit("four_bar", version).instance("ModelExchange")
+    assert instance.initialise(**{"parameters.crank_mass": 2.0}) == OK
+    _, rates, *_ = variables("four_bar")
+    wanted = system.evaluate("rhs", system.design_state)
+    np.testing.assert_array_equal(instance.get(*rates), wanted)
+    instance.free()
+
+
+# -- what is refused ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"parameters.crank_mass": -1.0}, "crank_mass = -1 kg is out of its range; give 0 kg"),
+        (
+            {"parameters.crank_pin_x": 0.24, "parameters.crank_pin_y": 0.26},
+            "the ends crank_pin and rocker_pin of coupler coincide",
+        ),
+        ({"solver.step": -1.0}, "solver.step = -1 s: a finite number of 0 s or more"),
+    ],
+)
+def test_parameters_out_of_range(unit, version, values, words):
+    instance = unit("four_bar", version).instance()
+    assert instance.initialise(**values) == ERROR
+    assert words in instance.said
+    assert instance.step(0.0, 0.1) == ERROR
+    assert "cannot be called now" in instance.said
+    instance.free()
+
+
+@pytest.mark.parametrize(
+    ("values", "fine"),
+    [({"ixx": 0.05}, True), ({"ixx": 1.0}, False), ({"ixy": 0.5}, False), ({"ixx": -0.01}, False)],
+)
+def test_inertia_of_no_body(unit, values, fine):
+    """As `prepare` of Python refuses it, which looks at the principal moments."""
+    system = system_named("reference_car")
+    body = next(n for n in system.parameters if n.endswith("_inertia_xx")).removesuffix(
+        "_inertia_xx"
+    )
+    named = {f"{body}_inertia_{key[1:]}": value for key, value in values.items()}
+    try:
+        kintrafo.System(system.equations, {**system.parameters, **named})
+        accepted = True
+    except kintrafo.ParameterError:
+        accepted = False
+    assert accepted == fine
+    instance = unit("reference_car", 2).instance("ModelExchange")
+    status = instance.initialise(**{f"parameters.{n}": v for n, v in named.items()})
+    assert (status == OK) == fine, instance.said
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_calls_that_make_no_sense(unit, version):
+    known = unit("four_bar", version)
+    assert known.instance(token="{of another}").handle is None
+    instance = known.instance()
+    assert instance.step(0.0, 0.1) == ERROR
+    assert "the instance is instantiated" in instance.said
+    assert instance.initialise() == OK
+    for time, length, words in (
+        (0.0, 0.0, "a step of 0 s"),
+        (0.0, float("nan"), "a step of nan s"),
+        (0.5, 0.1, "begins at 0.5 s, and the instance is at 0 s"),
+    ):
+        assert instance.step(time, length) == ERROR
+        assert words in instance.said
+    assert instance.set({"spring_force": 1.0}) == ERROR
+    assert "is computed" in instance.said
+    assert instance.set({"crank_torque": 1.0, "parameters.crank_mass": 1.0}) == ERROR
+    assert "crank_mass is fixed" in instance.said
+    assert instance.get("crank_torque") == [0.0]  # all or nothing
+    assert instance.set({"crank_torque": float("inf")}) == ERROR
+    instance.get(10_000)
+    assert instance.status == ERROR
+    assert "no variable with the value reference 10000" in instance.said
+    instance.array("GetDerivatives", "GetContinuousStateDerivatives", 2)
+    assert instance.status == ERROR
+    assert "one for Co-Simulation" in instance.said
+    assert instance.step(0.0, 0.1) == OK
+    assert instance.call("Terminate") == OK
+    assert instance.step(0.1, 0.1) == ERROR
+    instance.free()
+    nobody = known.instance()
+    nobody.free()
+    nobody.handle = None
+    assert nobody.call("Terminate") == ERROR
+
+
+def test_every_function_of_fmi_3_is_there(unit):
+    library = unit("four_bar", 3).library
+    header = (unit("four_bar", 3).folder / "sources/fmi3Functions.h").read_text()
+    names = {line.split()[1] for line in header.splitlines() if line.startswith("#define fmi3")}
+    wanted = {n for n in names if f"fmi3FullName({n})" in header}
+    assert len(wanted) > 70
+    assert all(hasattr(library, name) for name in wanted)
+    library.fmi3InstantiateScheduledExecution.restype = ctypes.c_void_p
+    assert library.fmi3InstantiateScheduledExecution(*[None] * 10) is None
+
+
+def test_what_cannot_be_exported(tmp_path):
+    system = system_named("four_bar")
+    for options, words in (
+        ({"fmi": 1}, "fmi '1' is not known"),
+        ({"platforms": ["amiga"]}, "'amiga' is not known"),
+        ({"speed": 1}, "speed is no option of an export to 'fmu', which has fmi, platforms"),
+    ):
+        with pytest.raises(kintrafo.InputError, match=words):
+            kintrafo.export_model(system, tmp_path / "a.fmu", "fmu", **options)
+    with pytest.raises(kintrafo.InputError, match=r"must end in \.fmu"):
+        kintrafo.export_model(system, tmp_path / "a.zip", "fmu")
+    (tmp_path / "a.fmu").write_text("a year of work")
+    with pytest.raises(kintrafo.InputError, match="there already"):
+        kintrafo.export_model(system, tmp_path / "a.fmu", "fmu")
+    assert [file.name for file in tmp_path.iterdir()] == ["a.fmu"]
+    assert (tmp_path / "a.fmu").read_text() == "a year of work"
+
+
+def test_an_export_again_has_the_same_bytes(tmp_path):
+    paths = [tmp_path / name for name in ("a.fmu", "b.fmu")]
+    for path in paths:
+        kintrafo.export_model(system_named("four_bar"), path, "fmu")
+    assert paths[0].read_bytes() == paths[1].read_bytes()
+
+
+def test_the_command(kintrafo, tmp_path):
+    code, out, err = kintrafo("export", "four_bar", "--to", "fmu", "--fmi", 3)
+    assert (code, out.strip()) == (0, "four_bar.fmu"), err
+    with zipfile.ZipFile(tmp_path / "four_bar.fmu") as archive:
+        assert "binaries/x86_64-linux/four_bar.so" in archive.namelist()
+    code, _, err = kintrafo("export", "four_bar", "--to", "c", "--fmi", 3)
+    assert code == 2
+    assert "fmi is no option" in err
+    code, _, err = kintrafo("export", "four_bar", "--to", "fmu", "--platform", "amiga")
+    assert code == 2
+    assert "'amiga' is not known" in err
+
+
+@pytest.mark.parametrize("name", sorted(EMITTED))
+def test_every_shipped_model_can_be_exported(tmp_path, name):
+    """Its tables compile silently, and FMPy finds nothing wrong with its description."""
+    validation = pytest.importorskip("fmpy.validation")
+    path, folder = tmp_path / "a.fmu", tmp_path / "unpacked"
+    version = VERSIONS[len(name) % 2]
+    kintrafo.export_model(kintrafo.System(EMITTED[name]), path, "fmu", fmi=version, platforms=())
+    assert validation.validate_fmu(str(path)) == []
+    with zipfile.ZipFile(path) as archive:
+        archive.extractall(folder)
+    tables = [str(folder / "sources" / file) for file in ("model.c", "numbers.c")]
+    flags = ["-std=c11", UNOPTIMISED, *STRICT, "-fsyntax-only"]
+    subprocess.run(["cc", *flags, *tables], check=True, cwd=tmp_path)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_casadi_has_the_equations_with_their_derivatives(unit, version):
+    casadi = pytest.importorskip("casadi")
+    system, at, torque = system_named("four_bar"), [0.3, 0.2], [2.0]
+    dae = casadi.DaeBuilder("bar", str(unit("four_bar", version).folder))
+    assert dae.x() == list(system.state_names)
+    assert dae.u() == list(system.input_names)
+    assert dae.y() == list(system.signal_names)
+    function = dae.create("f", ["x", "u"], ["ode", "y"])
+    rates, signals = (np.array(part).ravel() for part in function(at, torque))
+    np.testing.assert_array_equal(rates, system.evaluate("rhs", at, torque))
+    np.testing.assert_array_equal(signals, system.evaluate("signals", at, torque))
+    found, linear = function.jacobian()(x=at, u=torque), kintrafo.linearise(system, at, torque)
+    for name, matrix in (("ode_x", linear.A), ("ode_u", linear.B), ("y_x", linear.C)):
+        np.testing.assert_array_equal(np.array(found[f"jac_{name}"]), matrix)
+
+
+def test_a_platform_without_a_compiler(tmp_path, monkeypatch):
+    """What to install is said, and nothing is written; sources alone need none."""
+    system, path = system_named("four_bar"), tmp_path / "a.fmu"
+    monkeypatch.setattr(binaries.shutil, "which", lambda _: None)
+    monkeypatch.setattr(binaries, "find_spec", lambda _: None)
+    monkeypatch.setattr(binaries, "find_compiler", lambda: None)
+    for platform, words in (("windows", "pip install ziglang"), ("linux", "apt-get install gcc")):
+        with pytest.raises(kintrafo.CompilerError, match=words):
+            kintrafo.export_model(system, path, "fmu", platforms=[platform])
+    assert not [*tmp_path.iterdir()]
+    kintrafo.export_model(system, path, "fmu", platforms=())
+    with zipfile.ZipFile(path) as archive:
+        assert not any(name.startswith("binaries") for name in archive.namelist())
+
+
+@pytest.mark.skipif(shutil.which("x86_64-w64-mingw32-gcc") is None, reason="no compiler for it")
+def test_a_library_for_windows(tmp_path):
+    path = tmp_path / "a.fmu"
+    kintrafo.export_model(system_named("four_bar"), path, "fmu", platforms=["linux", "windows"])
+    with zipfile.ZipFile(path) as archive:
+        content = archive.read("binaries/win64/four_bar.dll")
+    assert content[:2] == b"MZ"
+    assert b"fmi2DoStep\0" in content
+
+
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
+def test_no_access_is_beyond_what_is_kept(unit, tmp_path):
+    """With sanitizers: every access, leak and undefined operation ends the program."""
+    known = unit("four_bar", 2)
+    sources = sorted(map(str, known.folder.glob("sources/**/*.c")))
+    program = tmp_path / "driver"
+    flags = ["-std=c11", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"]
+    include = f"-I{known.folder / 'sources'}"
+    driver = str(ROOT / "tests/unit_driver.c")
+    made = ["gcc", *flags, include, driver, *sources, "-o", str(program), "-lm"]
+    subprocess.run(made, check=True)
+    called = [str(program), known.token, str(len(known.references))]
+    ended = subprocess.run(called, capture_output=True, text=True, check=False)
+    assert ended.returncode == 0, ended.stderr
+    assert ended.stdout.endswith("done\n")
+    assert "damper_rate = -1 N s/m is out of its range" in ended.stdout

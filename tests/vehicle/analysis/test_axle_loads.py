@@ -1,0 +1,226 @@
+"""Loads of whole axles: against those of their sides, balances of the whole, work, and formulas."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from axles import AXLE, BENT, placed
+from kintrafo import (
+    Axle,
+    AxleModel,
+    InputError,
+    Suspension,
+    System,
+    equilibrium,
+    loads,
+    roads,
+    simulate,
+)
+from kintrafo.systems.compile.compiler import find_compiler
+from kintrafo.vehicle.assembly.axle_kinematics import AxleKinematics
+from kintrafo.vehicle.models.points import carried
+from kintrafo.vehicle.models.positions import arm_angles, design_height
+from kintrafo.vehicle.models.reach import at_rest
+from listed_loads import wrench
+
+CAR = Suspension.load("reference_car")
+PLAIN = Axle.from_dict({"axle": "front", "side": CAR})
+LINKED = Axle.from_dict({"axle": "rear", "side": Suspension.load("multi_link_car")})
+SIDES = ("left", "right")
+# Forces at both ends, on both wheels, of different sizes, the rack aside.
+PUSHED: dict[str, Any] = {
+    "pushed": {
+        "rack_mm": 8.0,
+        "left": {"contact_N": [-1500.0, 700.0, 3900.0], "contact_Nm": [20.0, 5.0, -60.0]},
+        "right": {"contact_N": [300.0, 1900.0, 5200.0], "center_N": [600.0, -50.0, 80.0]},
+    }
+}
+
+
+def of(found: xr.Dataset, part: str, by: str = "", point: str = "") -> xr.Dataset:
+    """Return the loads on a part, of its first case."""
+    rows = (found["part"] == part) & found["by"].str.startswith(by)
+    return found.isel(case=0).isel(load=(rows & found["point"].str.startswith(point)).values)
+
+
+@pytest.mark.parametrize("axle", [PLAIN, AXLE, LINKED], ids=["plain", "with a bar", "multi-link"])
+def test_even_loads_are_those_of_each_side(axle: Axle) -> None:
+    """An untwisted bar, or none, leaves each side as it is by itself."""
+    cases = {
+        "brake": {"contact_g": [-1.0, 0.0, 1.2]},
+        "held": {"travel_mm": 20.0, "contact_N": [-800.0, 0.0, 0.0]},
+    }
+    found = loads.static(axle, cases)
+    for side, model in axle.models.items():
+        alone = loads.static(model, cases)
+        # the rack is that of both
+        own = alone.isel(load=~(alone["point"] == "rack_guide").values)
+        for name in map(str, own["load"].values):
+            here = alone.sel(load=name)
+            words = {key: str(here[key].values) for key in ("part", "point", "by")}
+            rows = np.all(
+                [found[key].isin([word, f"{word}_{side}"]) for key, word in words.items()], axis=0
+            )
+            # along the missing force that is left, 1e-6 N, and the last bits of 1e4 N
+            force = found["force"].isel(load=rows)[:, 0]
+            np.testing.assert_allclose(force, here["force"], atol=1e-7)
+        np.testing.assert_allclose(found["travel"].sel(wheel=side), alone["travel"], atol=1e-12)
+        np.testing.assert_allclose(
+            found["wheel_load"].sel(wheel=side), alone["wheel_load"], rtol=1e-9
+        )
+        assert float(abs(found["holding_force"].sel(wheel=side)).max()) < 1e-6
+
+
+def test_mounts_name_what_they_carry() -> None:
+    found = loads.static(AXLE, PUSHED)
+    by = dict(zip(found["mount"].values, found["total_by"].values, strict=True))
+    assert by["rack_middle"] == "steering, rack"
+    assert by["strut_top_left"] == "upper_strut_left, spring_left"
+
+
+@pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
+def test_links_do_the_work_of_the_bar(axle: Axle) -> None:
+    """Virtual work: force of a link on the path of its foot, against the energy of the bar."""
+    found = loads.static(axle, PUSHED)
+    travels = {side: float(found["travel"].sel(wheel=side)[0]) for side in SIDES}
+    step = 1e-4  # of travel [m]: its square is the error of a slope, 1e-8 over lengths of 0.1 m
+    here = AxleKinematics.at(axle, *([travels[s]] for s in SIDES), [0.008])
+    np.testing.assert_allclose(found["bar_torque"], here.torque, rtol=1e-9)
+    for side in SIDES:
+        ends = [travels[s] + (s == side) * np.array([-step, step]) for s in SIDES]
+        twist = AxleKinematics.at(axle, *ends, [0.008, 0.008]).twist
+        model, half = axle.models[side], axle.halves[side]
+        heights = design_height(model) + ends[SIDES.index(side)]
+        state = at_rest(model, arm_angles(model, heights, 0.008), 0.008)
+        feet = carried(model, {"foot": (half.body, half.foot)}, *state)["foot"]
+        (force,) = of(found, f"{half.body}_{side}", "drop_link")["force"].values
+        work = -float(here.torque[0] * (twist[1] - twist[0]))
+        assert force @ (feet[1] - feet[0]) == pytest.approx(work, rel=1e-5)
+        link = of(found, f"drop_link_{side}")
+        along = np.diff(link["at"].values, axis=0)[0]
+        assert np.linalg.norm(np.cross(along, force)) < 1e-9 * np.linalg.norm(force)
+
+
+def test_a_bar_is_a_spring_and_a_lever() -> None:
+    """Levers of 200 mm across, links upright at design, wheels held 30 mm apart."""
+    bar = {
+        "unit": "mm", "bush": [230.0, -300.0, 320.0], "link_top": [30.0, -500.0, 320.0],
+        "link_foot": [30.0, -500.0, 120.0], "link_on": "control_arm", "rate_Nm_per_deg": 20.0,
+    }  # fmt: skip
+    axle = Axle.from_dict({"axle": "front", "side": CAR, "anti_roll_bar": bar})
+    apart = {"apart": {"left": {"travel_mm": 1.0}, "right": {"travel_mm": -1.0}}}
+    found = loads.static(axle, apart)
+    tops = {s: of(found, "anti_roll_bar", point=f"link_top_{s}") for s in SIDES}
+    rise = {s: float(tops[s]["at"].values[0, 2]) - 0.32 for s in SIDES}
+    # a bar whose levers point forward turns by the rise over the lever, by its rate
+    torque = -np.rad2deg(rise["left"] - rise["right"]) / 0.2 * 20.0
+    # the angle is the arcsine of a rise of some 0.5 mm over 200 mm: 1e-6 of it
+    assert abs(float(found["bar_torque"][0])) == pytest.approx(abs(torque), rel=1e-5)
+    for side in SIDES:
+        vertical = float(tops[side]["force"].values[0, 2])
+        # upright but for some thousandths of a radian, whose square is left out
+        assert abs(vertical) == pytest.approx(abs(torque) / 0.2, rel=1e-4)
+        assert vertical * (rise[side] - rise[SIDES[side == "left"]]) > 0.0
+        # lever rule: links 1 m apart, bearings 0.6 m
+        bearing = float(of(found, "anti_roll_bar", point=f"bar_bush_{side}")["force"].values[0, 2])
+        assert bearing == pytest.approx(-vertical * 1.0 / 0.6, rel=1e-4)
+
+
+def test_the_steering_holds_both_tie_rods() -> None:
+    found = loads.static(AXLE, PUSHED)
+    rods = of(found, "rack", "tie_rod")["force"].values
+    assert rods.shape == (2, 3)
+    assert float(found["rack_force"][0]) == pytest.approx(-rods[:, 1].sum(), abs=1e-9)
+    assert wrench(of(found, "rack")) == pytest.approx(np.zeros(6), abs=1e-8)
+
+
+def test_a_bar_bends_where_one_wheel_is_held() -> None:
+    """The free wheel goes along with the held one, less than it, and the road holds the other."""
+    case = {"one": {"left": {"contact_g": [0.0, 0.0, 1.0]}, "right": {"travel_mm": 30.0}}}
+    found = loads.static(AXLE, case)
+    assert float(found["travel"].sel(wheel="right")[0]) == pytest.approx(0.03, abs=1e-9)
+    assert 0.0 < float(found["travel"].sel(wheel="left")[0]) < 0.03
+    alone = loads.static(AXLE.models["right"], {"one": {"travel_mm": 30.0}})
+    assert float(found["wheel_load"].sel(wheel="right")[0]) > float(alone["wheel_load"][0]) + 100.0
+
+
+def test_rest_is_that_of_the_whole_axle() -> None:
+    """A bar that is bent at rest lifts one wheel's load: without cases in newtons."""
+    if find_compiler() is None:
+        pytest.skip("no C compiler")
+    found = loads.static(BENT, {"a": {"contact_g": [0.0, 0.0, 1.0]}})
+    model = AxleModel(BENT)
+    rest = equilibrium(model)
+    for side in SIDES:
+        force = float(model.signal(f"{side}_rear_tyre_force", rest))
+        # the tyre pushes in the plane of the wheel, at most 2 deg from upright
+        assert float(found["wheel_load"].sel(wheel=side)[0]) == pytest.approx(force, rel=1e-3)
+
+
+@pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
+def test_the_whole_axle_stands_where_the_equations_say(axle: Axle) -> None:
+    """Forces of the compiled equations of the whole, by the work of vertical ones at the wheels."""
+    if find_compiler() is None:
+        pytest.skip("no C compiler")
+    push = {"left": 3000.0, "right": 5500.0}
+    case = {"rack_mm": 5.0} | {side: {"center_N": [0.0, 0.0, push[side]]} for side in SIDES}
+    found = loads.static(axle, {"a": case})
+    model = AxleModel(axle)
+    zero = {name: 0.0 for name in model.parameters if name.endswith("tyre_rate")}
+    without_tyres = System(model.equations, model.parameters | zero)
+    travels = {side: found["travel"].sel(wheel=side).values for side in SIDES}
+    states, inputs = placed(model, travels, np.array([0.005]))
+    forces = without_tyres.evaluate("forces", states, inputs)
+    for side, corner in axle.models.items():
+        unit = states.copy()
+        unit[:, model.state_names.index(f"{side}_{corner.names.arm}_rate")] = 1.0
+        rise = model.signal(f"{side}_{axle.end}_wheel_velocity", unit, inputs)
+        left = forces[:, model.state_names.index(f"{side}_{corner.names.arm}")] + push[side] * rise
+        # 1e-12 m of travel by 1e5 N/m and a lever of 0.4 m
+        np.testing.assert_allclose(left, 0.0, atol=1e-5)
+
+
+def test_a_motion_needs_nothing_else() -> None:
+    """The equations of the whole axle and the balance of its parts agree, bar and all."""
+    if find_compiler() is None:
+        pytest.skip("no C compiler")
+    model = AxleModel(AXLE)
+    road = {"left_road_height": roads.step(0.03, at=0.05, end=0.3)}
+    motion = simulate(model, (0.0, 0.3), equilibrium(model), inputs=road)
+    found = loads.along(model, motion)
+    largest = float(abs(found["force"]).max())
+    for side in SIDES:
+        assert float(abs(found["holding_force"].sel(wheel=side)).max()) < 1e-9 * largest
+    assert float(found["residual"].max()) < 1e-9 * largest
+    moment = motion.signals["bar_spring_moment"]
+    np.testing.assert_allclose(found["bar_torque"], -moment, atol=1e-8)
+    assert float(abs(found["bar_torque"]).max()) > 10.0
+    with pytest.raises(InputError, match="not a motion of this model"):
+        loads.along(AxleModel(BENT), motion)
+
+
+def test_the_command_tells_both_sides(kintrafo: Any, tmp_path: Path) -> None:
+    forces = {"left": "[0, 0.5, 0.7]", "right": "[0, 1, 1.3]"}
+    text = "".join(f"[cases.turn.{side}]\ncontact_g = {g}\n" for side, g in forces.items())
+    (tmp_path / "cases.toml").write_text(text, encoding="utf-8")
+    line = "loads reference_axle --cases cases.toml --case turn --part rack --part knuckle_left"
+    code, out, _ = kintrafo(*f"{line} -o loads.csv --plot bodies.png".split())
+    assert code == 0
+    assert "steering" in out
+    assert "knuckle_left" in out
+    table = (tmp_path / "loads.csv").read_text(encoding="utf-8")
+    assert "anti_roll_bar at bar_bush_left by chassis,turn" in table
+    assert (tmp_path / "bodies_turn.png").stat().st_size > 1000
+
+
+def test_a_search_that_leads_out_of_reach_ends_no_other_case() -> None:
+    """Newton's method may step to where the arm or a drop link does not reach."""
+    awkward = {"left": {"contact_g": [0.0, 0.0, 0.2]}, "right": {"contact_g": [0.0, 1.5, 0.5]}}
+    still = {"contact_g": [0.0, 0.0, 1.0]}
+    found = loads.static(Axle.load("reference_axle"), {"awkward": awkward, "still": still})
+    assert found["reason"].sel(case="still") == ""
+    far = {"left": {"travel_mm": 400.0}, "right": still}
+    found = loads.static(Axle.load("reference_axle"), {"far": far, "still": still})
+    assert str(found["reason"].sel(case="far").values).startswith("left: ")

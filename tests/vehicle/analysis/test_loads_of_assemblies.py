@@ -1,0 +1,255 @@
+"""Loads of corners, axles and rigid axles: what holds for every assembly."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from axles import AXLE, BENT
+from kintrafo import Axle, InputError, Model, PositionError, RigidAxle, Suspension, loads
+from listed_loads import wrench
+from rigid_axles import AXLES as RIGID
+
+Array = np.ndarray
+KINDS = ("reference_car", "offset_strut_car", "double_wishbone_car", "push_rod_car",
+         "pull_rod_car", "multi_link_car", "trailing_arm_car")  # fmt: skip
+CORNERS = {name: Model(name) for name in KINDS}
+AXLES = {
+    "without a bar": Axle.from_dict({"axle": "front", "side": Suspension.load("reference_car")}),
+    "with a bar": AXLE,
+    "uneven, bent": BENT,
+    "multi-link": Axle.from_dict({"axle": "rear", "side": Suspension.load("multi_link_car")}),
+}
+EVERY: dict[str, Any] = {**CORNERS, **AXLES, **RIGID}
+SHORT = {"corner": CORNERS["reference_car"], "axle": AXLE, "rigid": RIGID["lopsided"]}
+each = pytest.mark.parametrize("subject", EVERY.values(), ids=EVERY)
+SIDES = ("left", "right")
+
+# Forces and moments at both places of the wheels, all of them different.
+LEFT = {"contact_N": [-1500.0, 700.0, 3900.0], "contact_Nm": [20.0, 5.0, -60.0]}
+RIGHT = {
+    "contact_N": [300.0, 1900.0, 5200.0],
+    "center_N": [600.0, -50.0, 80.0],
+    "center_Nm": [10.0, -90.0, 30.0],
+}
+HELD = {"travel_mm": 12.0, "contact_N": [800.0, -500.0, 0.0]}
+
+
+def steered(subject: Any) -> bool:
+    """Return whether there is a rack."""
+    return (
+        not isinstance(subject, RigidAxle)
+        and (subject.suspension if isinstance(subject, Model) else subject).steered()
+    )
+
+
+def cases_of(subject: Any) -> dict[str, Any]:
+    """Return cases with free wheels, with held ones, and with one of each."""
+    rack = {"rack_mm": 8.0} if steered(subject) else {}
+    if isinstance(subject, Model):
+        return {"held": HELD | {"center_N": [-300.0, 20.0, 10.0]} | rack}
+    return {
+        "pushed": {"left": LEFT, "right": RIGHT} | rack,
+        "one_held": {"left": HELD, "right": RIGHT} | rack,
+        "held": {"travel_mm": -20.0, "contact_N": [0.0, 1000.0, 0.0]},
+    }
+
+
+@each
+def test_every_part_is_in_equilibrium(subject: Any) -> None:
+    """By all loads that are listed; the chassis has what acts from outside."""
+    found = loads.static(subject, cases_of(subject))
+    assert not found["reason"].values.any()
+    by = found["by"].str.split(dim="word", sep="_").isel(word=0)
+    outside = wrench(found.isel(load=by.isin(["road", "drive", "gravity"]).values))
+    for part in np.unique(found["part"].values):
+        own = wrench(found.isel(load=(found["part"] == part).values))
+        # sums of some tens of terms of 1e4 N and, about the origin, 1e4 N m
+        expected = outside if part == "chassis" else np.zeros_like(own)
+        np.testing.assert_allclose(own, expected, atol=1e-7, err_msg=str(part))
+    for name in ("residual", "residual_moment", "holding_force"):
+        assert float(abs(found[name]).max()) < 1e-7, name
+
+
+@each
+def test_what_two_parts_exert_on_each_other_is_there_twice(subject: Any) -> None:
+    found = loads.static(subject, cases_of(subject))
+    names = {str(name) for name in found["load"].values}
+    parts = {str(name) for name in found["part"].values} - {"chassis"}
+    for part, point, by in zip(*(found[key].values for key in ("part", "point", "by")),
+                               strict=True):  # fmt: skip
+        if by not in parts:
+            continue
+        one, back = f"{part} at {point} by {by}", f"{by} at {point} by {part}"
+        assert back in names
+        for name in ("force", "moment"):
+            pair = (found[name].sel(load=load).values for load in (one, back))
+            np.testing.assert_array_equal(next(pair), -next(pair))
+
+
+@each
+def test_mounts_carry_together_what_the_chassis_does(subject: Any) -> None:
+    """But for the couple of a rigid axle's bar, which has no place on the body."""
+    found = loads.static(subject, cases_of(subject))
+    assert "axle_middle" not in found["mount"].values
+    force, moment, at = (found[f"total_{name}"].values for name in ("force", "moment", "at"))
+    together = np.concatenate([force.sum(1), (moment + np.cross(at, force)).sum(1)], axis=-1)
+    own = (found["part"] == "chassis") & (found["by"] != "bar")
+    np.testing.assert_allclose(together, wrench(found.isel(load=own.values)), atol=1e-7)
+
+
+def other(name: str) -> str:
+    """Return a name with its sides exchanged."""
+    return name.replace("left", "?").replace("right", "left").replace("?", "right")
+
+
+def image_of(subject: Any) -> Any:
+    """Return the mirror image of an assembly whose sides are alike but for its rods."""
+    if not isinstance(subject, RigidAxle):
+        return subject.mirror_image if isinstance(subject, Model) else subject
+    rods = {
+        other(rod): {end: [x, -y, z] for end, (x, y, z) in ends.items()}
+        for rod, ends in subject.to_dict()["rods"].items()
+    }
+    return RigidAxle.from_dict(subject.to_dict() | {"rods": rods})
+
+
+def mirrored(case: dict[str, Any]) -> dict[str, Any]:
+    """Return the mirror image of what a case says of a wheel."""
+    signs = {"N": [1.0, -1.0, 1.0], "Nm": [-1.0, 1.0, -1.0]}
+    return {
+        key: np.multiply(value, signs[key.rpartition("_")[2]]).tolist()
+        for key, value in case.items()
+    }
+
+
+EVEN = {"corner": CORNERS["double_wishbone_car"], "axle": AXLE} | {
+    name: axle for name, axle in RIGID.items() if name != "lopsided"
+}
+
+
+@pytest.mark.parametrize("subject", EVEN.values(), ids=EVEN)
+def test_the_mirror_image_of_a_case_is_carried_alike(subject: Any) -> None:
+    case, image = LEFT, mirrored(LEFT)
+    if not isinstance(subject, Model):
+        case = {"left": LEFT, "right": RIGHT}
+        image = {"left": mirrored(RIGHT), "right": mirrored(LEFT)}
+    here, there = loads.static(subject, {"a": case}), loads.static(image_of(subject), {"a": image})
+    for name in ("travel", "wheel_load"):
+        np.testing.assert_allclose(here[name].values, there[name].values[::-1], rtol=1e-9)
+    names = [str(name) for name in here["load"].values]
+    assert {*names} == {other(str(name)) for name in there["load"].values}
+    for data, signs in (("force", [1.0, -1.0, 1.0]), ("moment", [-1.0, 1.0, -1.0])):
+        ours, theirs = here[data].sel(load=names), there[data].sel(load=[*map(other, names)])
+        # forces of 1e4 N; what is missing in the equilibrium is some 1e-7 N
+        np.testing.assert_allclose(ours, theirs * signs, atol=1e-5)
+
+
+# -- what is refused ------------------------------------------------------------------------------
+
+# Of every assembly, of those with two wheels, and of one of them.
+WRONG: list[tuple[str, Any, str]] = [
+    *(
+        (name, cases, words)
+        for name in SHORT
+        for cases, words in (
+            ({}, "one or more are needed"),
+            (3, "a dict of names and load cases is needed"),
+            ({"a": 3}, "must be a section"),
+            ({"a b": {"contact_N": [0, 0, 1]}}, "a name is a text of letters"),
+            ({"../a": {"contact_g": [0, 0, 1]}}, "a name is a text of letters"),
+            ({1: {"contact_g": [0, 0, 1]}, "1": {"contact_g": [0, 0, 1]}}, "text of letters"),
+            ({"a": {"contact": [0, 0, 1]}}, "Did you mean contact_"),
+            ({"a": {"contact_N": [0, 1]}}, "three numbers are needed"),
+            ({"a": {"contact_N": [0, np.nan, 1]}}, "a finite number is needed"),
+            ({"a": {"contact_N": [0, 0, -1]}}, "a road only pushes"),
+            ({"a": {"contact_N": [0, 0, 1e12]}}, "each below 1e"),
+            ({"a": {"contact_N": [0, 0, 1], "travel_mm": 3.0}}, "cannot be given besides"),
+            ({"a": {"travel_mm": "far"}}, "travel_mm = 'far'"),
+        )
+    ),
+    *(
+        (name, {"a": case}, words)
+        for name in ("axle", "rigid")
+        for case, words in (
+            ({"left": 3}, r"\[cases.a\] left must be a section"),
+            ({"contact_N": [0, 0, 1], "left": {"contact_N": [0, 0, 1]}}, "that of both wheels"),
+            ({"left": {"contact_K": [0, 0, 1]}}, r"\[cases.a\] left contact_K is not known"),
+            ({"travel_mm": 1.0, "left": {"contact_N": [0, 0, 1]}}, "cannot be given besides"),
+        )
+    ),
+    ("corner", {"a": {"left": {"contact_N": [0, 0, 1]}}}, "left is not known"),
+    ("axle", {"a": {"left": {"rack_mm": 3.0}}}, "one rack"),
+    ("rigid", {"a": {"rack_mm": 3.0}}, r"\[cases.a\] rack_mm: no rack steers it. Leave it out"),
+    ("rigid", {"a": {"left": {"rack_mm": 3.0}}}, "no rack steers it"),
+]
+FAR = {"travel_mm": 900.0}
+BEYOND: list[tuple[str, Any, str]] = [
+    ("corner", FAR, "wheel height 1200 mm is out of reach"),
+    ("corner", {"rack_mm": 900.0}, "the rack cannot be at 900 mm"),
+    ("axle", {"left": FAR}, "left: wheel height 1200 mm is out of reach"),
+    ("axle", {"rack_mm": 900.0}, "the rack cannot be at 900 mm"),
+    ("rigid", FAR, "the axle cannot be with its left wheel at"),
+    ("rigid", {"travel_mm": 1e8}, "the axle cannot be with its left wheel at"),
+    *(
+        (name, {"contact_N": [0.0, 0.0, 9e5]}, "N too much for spring and stops")
+        for name in SHORT
+    ),
+    ("corner", {"travel_mm": 0.0, "center_N": [0, 0, 9e3]}, "the road would have to pull"),
+    *(
+        (name, {"travel_mm": 0.0, "right": {"center_N": [0, 0, 9e3]}},
+         "right: the road would have to pull the wheel there")
+        for name in ("axle", "rigid")
+    ),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "cases", "words"), WRONG)
+def test_cases_that_cannot_be_used(name: str, cases: Any, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        loads.static(SHORT[name], cases, static_load=6000.0)
+
+
+@pytest.mark.parametrize(("name", "case", "words"), BEYOND)
+def test_a_case_that_is_not_carried_ends_no_other(name: str, case: Any, words: str) -> None:
+    with pytest.raises(PositionError, match=rf"none of the cases can be carried\s+- a: .*{words}"):
+        loads.static(SHORT[name], {"a": case})
+    found = loads.static(SHORT[name], {"still": {"contact_g": [0.0, 0.0, 1.0]}, "a": case})
+    assert str(found["reason"].sel(case="still").values) == ""
+    assert words in str(found["reason"].sel(case="a").values)
+    assert found.attrs["message"] == "1 of 2 cases are carried"
+    lost = found.sel(case="a").drop_vars(["reason", "total_by"])
+    assert not any(np.isfinite(lost[key]).any() for key in lost if "case" in found[key].dims)
+
+
+def test_usual_cases_of_an_axle_act_where_its_file_holds_the_torque() -> None:
+    usual = loads.standard_cases(AXLE)
+    assert usual["brake"] == {"contact_g": [-1.3, 0.0, 1.3]}
+    assert usual["drive"] == {"contact_g": [0.0, 0.0, 0.9], "center_g": [0.5, 0.0, 0.0]}
+    inboard = loads.standard_cases(AXLE.with_changes({"brakes.torque_on": "body"}))
+    assert inboard["brake"] == {"contact_g": [0.0, 0.0, 1.3], "center_g": [-1.3, 0.0, 0.0]}
+    assert inboard["trail_brake"]["right"]["center_g"] == [-0.9, 0.0, 0.0]
+    at_the_wheel = loads.standard_cases(AXLE.with_changes({"drive.torque_on": "carrier"}))
+    assert at_the_wheel["drive"] == {"contact_g": [0.5, 0.0, 0.9]}
+    assert [*inboard, *at_the_wheel] == [*usual, *usual]
+
+
+@pytest.mark.parametrize("subject", SHORT.values(), ids=SHORT)
+def test_arguments_that_cannot_be_used(subject: Any) -> None:
+    for load in (0.0, -3.0, np.inf, "much"):
+        with pytest.raises(InputError, match="static_load"):
+            loads.static(subject, static_load=load)  # type: ignore[arg-type]
+    for function in (loads.static, loads.standard_cases):
+        with pytest.raises(InputError, match="a RigidAxle is needed"):
+            function("rigid_axle")
+    with pytest.raises(InputError, match="AxleModel or RigidAxleModel is needed"):
+        loads.along(Suspension.load("reference_car"), 3)  # type: ignore[arg-type]
+
+
+def test_dead_points_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As if all equations were at one."""
+    monkeypatch.setattr("kintrafo.vehicle.analysis.loads.balance._WORST_CONDITION", 1.0)
+    for name, subject in SHORT.items():
+        for case in ({"contact_N": [0.0, 0.0, 6000.0]}, {"travel_mm": 0.0}):
+            where = "left and right: " if name == "axle" else ""
+            with pytest.raises(PositionError, match=f"a: {where}the linkage is at a dead point"):
+                loads.static(subject, {"a": case})

@@ -1,0 +1,538 @@
+"""Loads of rigid axles: against work that a root finder sees, momentum, balances, and levers.
+
+The root finder of `test_rigid_axle` shares nothing with the equations or the balance of the parts.
+"""
+
+import itertools
+import math
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from kintrafo import (
+    InputError,
+    PositionError,
+    RigidAxle,
+    RigidAxleModel,
+    equilibrium,
+    loads,
+    roads,
+    simulate,
+)
+from kintrafo.vehicle.analysis.loads.sheets import overview
+from kintrafo.vehicle.analysis.scenario import Scenario, run
+from kintrafo.vehicle.plots.loads import free_bodies
+from listed_loads import wrench
+from rigid_axles import AXLE, LEFT, LOPSIDED, MODEL, Found, each_axle, slopes
+
+Array = np.ndarray
+SIDES = ("left", "right")
+STOPPED = AXLE.with_changes(
+    {
+        "bump_stop": {"clearance_mm": 60.0, "rate_N_per_m": 6e4, "progression_N_per_mm3": 0.1},
+        "rebound_stop": {"clearance_mm": 80.0, "rate_N_per_m": 1.2e5},
+    }
+)
+# Forces and moments at both places of both wheels, all of them different.
+PUSHED: dict[str, Any] = {
+    "pushed": {
+        "left": {"contact_N": [-1500.0, 700.0, 5900.0], "contact_Nm": [20.0, 5.0, -60.0]},
+        "right": {
+            "contact_N": [300.0, 1900.0, 8200.0],
+            "center_N": [600.0, -50.0, 80.0],
+            "center_Nm": [10.0, -90.0, 30.0],
+        },
+    },
+    "held": {
+        "left": {"travel_mm": 12.0, "contact_N": [800.0, -500.0, 0.0]},
+        "right": {"contact_N": [-900.0, 400.0, 7000.0]},
+    },
+    "both held": {"travel_mm": -20.0, "contact_N": [0.0, 1000.0, 0.0]},
+}
+PUSHED = {name.replace(" ", "_"): case for name, case in PUSHED.items()}
+each_case = pytest.mark.parametrize("case", PUSHED)
+
+
+def on(found: xr.Dataset, part: str, by: str = "") -> xr.Dataset:
+    """Return the loads on a part."""
+    rows = (found["part"] == part) & found["by"].str.startswith(by)
+    return found.isel(load=rows.values)
+
+
+def where(axle: RigidAxle, found: xr.Dataset) -> tuple[float, float]:
+    """Return heave and roll of one case."""
+    left, right = (float(found["travel"].sel(wheel=side)) for side in SIDES)
+    return 0.5 * (left + right), math.asin(0.5 * (left - right) / axle.half_track)
+
+
+class Held(Found):
+    """The root finder with one rod longer than it is."""
+
+    def __init__(self, axle: RigidAxle, rod: int = 0, longer: float = 0.0) -> None:
+        super().__init__(axle)
+        self.lengths = self.lengths + longer * np.eye(4)[rod]
+
+
+def outside(found: xr.Dataset) -> xr.Dataset:
+    """Return what acts on the wheels from outside."""
+    rows = found["by"].str.startswith("road") | found["by"].str.startswith("drive")
+    return found.isel(load=rows.values)
+
+
+def work_of(axle: RigidAxle, here: xr.Dataset, at: tuple[float, float]) -> Any:
+    """Return what takes poses and tells energy less the work of the outside from one pose on."""
+    middle, turn = Found(axle).pose(*at)
+    pushes = outside(here)
+    places = pushes["at"].values
+    local = turn.inv().apply(places - middle)
+
+    def potential(finder: Found, heave: float, roll: float) -> float:
+        moved, turned = finder.pose(heave, roll)
+        ways = moved + turned.apply(local) - places
+        # a small turn from the pose; its square is odd, and even ones the differences leave out
+        angle = (turned * turn.inv()).as_rotvec()
+        work = (pushes["force"].values * ways).sum() + (pushes["moment"].values @ angle).sum()
+        return float(finder.energy(heave, roll) - work)
+
+    return potential
+
+
+# -- against work ---------------------------------------------------------------------------------
+
+
+@each_axle
+@each_case
+def test_loads_do_as_much_work_as_springs_weight_and_bar(axle: RigidAxle, case: str) -> None:
+    """In heave and roll, of the road, held wheels and all."""
+    here = loads.static(axle, {case: PUSHED[case]}).sel(case=case)
+    at = where(axle, here)
+    potential = work_of(axle, here, at)
+    finder = Found(axle)
+    # 1e-13 m of the root finder, by forces of 1e4 N, over the step of 1e-3, some of them
+    left = slopes(lambda heave, roll: potential(finder, heave, roll), at)
+    np.testing.assert_allclose(left, 0.0, atol=5e-5)
+
+
+@each_axle
+def test_a_rod_does_the_work_of_all_that_it_holds(axle: RigidAxle) -> None:
+    """Each rod cut in turn: its force over its growth, heave and roll held."""
+    here = loads.static(axle, {"pushed": PUSHED["pushed"]}).sel(case="pushed")
+    at = where(axle, here)
+    potential = work_of(axle, here, at)
+    step, weights = 1e-3, {-2: 1.0, -1: -8.0, 1: 8.0, 2: -1.0}
+    for number, name in enumerate(axle.rods):
+        by_length = sum(
+            weight * potential(Held(axle, number, times * step), *at)
+            for times, weight in weights.items()
+        ) / (12.0 * step)
+        # the fourth power of the step over lengths of half a metre, by forces of 1e4 N
+        assert float(here["rod_force"].sel(rod=name)) == pytest.approx(-by_length, abs=2e-3)
+
+
+# -- balances -------------------------------------------------------------------------------------
+
+
+def test_a_rod_carries_a_force_along_it_and_no_moment() -> None:
+    found = loads.static(LOPSIDED, PUSHED)
+    for rod in LOPSIDED.rods:
+        names = [
+            f"{rod} at {rod}_{end} by {by}" for end, by in (("axle", "beam"), ("chassis",) * 2)
+        ]
+        # a cross could carry a moment about both of its axes: 1e-16 of 1e4 N m is left
+        np.testing.assert_allclose(found["moment"].sel(load=names), 0.0, atol=1e-10)
+        inner, outer = (found["at"].sel(load=name).values for name in names)
+        along = (outer - inner) / np.linalg.norm(outer - inner, axis=-1, keepdims=True)
+        pull = found["rod_force"].sel(rod=rod).values[:, None] * along
+        np.testing.assert_allclose(found["force"].sel(load=names[1]), pull, rtol=1e-12, atol=1e-9)
+
+
+def test_components_in_the_axes_of_a_part_are_turned() -> None:
+    found = loads.static(LOPSIDED, PUSHED).sel(case="pushed")
+    turn = Found(LOPSIDED).pose(*where(LOPSIDED, found))[1]
+    beam = on(found, "beam")
+    back = turn.apply(beam["force_in_part"].values)
+    np.testing.assert_allclose(back, beam["force"].values, rtol=0.0, atol=1e-7)
+
+
+# -- by hand --------------------------------------------------------------------------------------
+
+LEVEL = AXLE.with_changes(
+    {
+        "rods.left_link": {"chassis": [620.0, 500.0, 310.0], "axle": [20.0, 500.0, 310.0]},
+        "rods.right_link": {"chassis": [620.0, -500.0, 310.0], "axle": [20.0, -500.0, 310.0]},
+        "rods.upper_link": {"chassis": [480.0, 0.0, 530.0], "axle": [-20.0, 0.0, 530.0]},
+        "rods.panhard_rod": {"chassis": [0.0, -460.0, 400.0], "axle": [0.0, 460.0, 400.0]},
+        "hardpoints.spring_top": [0.0, -500.0, 700.0],
+        "hardpoints.spring_seat": [0.0, -500.0, 360.0],
+        "spring.force_at_design_N": 0.0,
+        "gravity.acceleration_m_per_s2": 0.0,
+    }
+)
+
+
+def test_a_panhard_rod_carries_the_lateral_force_at_its_height() -> None:
+    """No roll where the wheel loads balance the force about the rod: F h = dF w for a track w."""
+    lateral, height, track = 4000.0, 0.4, 1.56
+    uneven = lateral * height / track
+    case = {
+        "left": {"contact_N": [0.0, 0.5 * lateral, 0.0], "center_N": [0.0, 0.0, -uneven]},
+        "right": {"contact_N": [0.0, 0.5 * lateral, uneven]},
+    }
+    found = loads.static(LEVEL, {"a": case}).sel(case="a")
+    for side in SIDES:
+        assert float(found["travel"].sel(wheel=side)) == pytest.approx(0.0, abs=1e-11)
+    pulls = found["rod_force"].to_series().to_dict()
+    # from its end on the axle, at the left, the rod leads to the right
+    assert pulls["panhard_rod"] == pytest.approx(lateral, rel=1e-9)
+    assert [pulls[name] for name in list(AXLE.rods)[:3]] == pytest.approx([0.0] * 3, abs=1e-6)
+    # without these loads at the wheels the springs and the bar take the moment
+    lateral = 40.0
+    plain = {"contact_N": [0.0, 0.5 * lateral, 0.0]}
+    rolled = loads.static(LEVEL, {"a": plain}).sel(case="a")
+    stiffness = 0.5 * 48000.0 * 1.0**2 + math.degrees(180.0)
+    angle = where(LEVEL, rolled)[1]
+    # its end on the axle lifts the rod by some 0.0005 of its length, and so the axle by its force
+    assert angle == pytest.approx(lateral * height / stiffness, rel=5e-4)
+    assert float(rolled["bar_torque"]) == pytest.approx(math.degrees(180.0) * angle, rel=1e-9)
+
+
+@pytest.mark.parametrize(("place", "height"), [("contact", 0.0), ("center", 0.36)])
+def test_links_carry_braking_by_their_levers(place: str, height: float) -> None:
+    """Lower links at 310 mm, an upper one at 530 mm, all level."""
+    force = 3000.0
+    case = {f"{place}_N": [-force, 0.0, 0.0]}
+    found = loads.static(LEVEL, {"a": case}).sel(case="a")
+    pulls = found["rod_force"].to_series().to_dict()
+    upper = -2.0 * force * (0.31 - height) / (0.53 - 0.31)
+    assert pulls["upper_link"] == pytest.approx(upper, rel=1e-9)
+    assert pulls["left_link"] == pytest.approx(0.5 * (2.0 * force - upper), rel=1e-9)
+    assert pulls["right_link"] == pytest.approx(pulls["left_link"], rel=1e-9)
+    assert pulls["panhard_rod"] == pytest.approx(0.0, abs=1e-6)
+    # a brake on the axle is what the bearing carries: the force at the radius
+    bearing = on(found, "wheel_left", "beam")["moment"].values[0]
+    assert bearing[1] == pytest.approx(-force * (0.36 - height), abs=1e-6)
+
+
+def test_a_stop_carries_what_the_spring_does_not() -> None:
+    """Upright dampers that end under the wheels: the rest of the load over the spring's."""
+    axle = LEVEL.with_changes(
+        {
+            "hardpoints.damper_top": [0.0, -780.0, 800.0],
+            "hardpoints.damper_seat": [0.0, -780.0, 360.0],
+            "hardpoints.spring_top": [0.0, -780.0, 700.0],
+            "hardpoints.spring_seat": [0.0, -780.0, 360.0],
+            "bump_stop": {"clearance_mm": 20.0, "rate_N_per_m": 1e5},
+        }
+    )
+    found = loads.static(axle, {"a": {"contact_N": [0.0, 0.0, 6000.0]}}).sel(case="a")
+    travel = float(found["travel"].sel(wheel="left"))
+    # seats that move by some 3 mm incline the springs by 1 %, times the slope of the links, 9 %
+    assert 48000.0 * travel + 1e5 * (travel - 0.02) == pytest.approx(6000.0, rel=3e-3)
+    push = float(on(found, "beam", "damper_left")["force"].sel(axis="z").item())
+    assert push == pytest.approx(-1e5 * (travel - 0.02), rel=1e-3)
+
+
+@pytest.mark.parametrize("pressed", [-1e-7, 0.0, 1e-8, 1e-6, 1e-3])
+@pytest.mark.parametrize("rate", [1e5, 1e8])
+def test_a_stop_that_is_hardly_touched_is_found(pressed: float, rate: float) -> None:
+    """What the road gives where it holds both wheels is a case that ends there."""
+    travel = 0.05
+    model = RigidAxleModel(LEVEL)
+    lengths = [
+        float(model.signal("left_damper_length", model.states_at(way, way)))
+        for way in (0.0, travel)
+    ]
+    clearance = 1e3 * (lengths[0] - lengths[1] - pressed)
+    axle = LEVEL.with_changes({"bump_stop": {"clearance_mm": clearance, "rate_N_per_m": rate}})
+    held = loads.static(axle, {"a": {"travel_mm": 1e3 * travel}}).sel(case="a")
+    road = {
+        side: {"contact_N": [0.0, 0.0, float(held["wheel_load"].sel(wheel=side))]} for side in SIDES
+    }
+    free = loads.static(axle, {"a": road}).sel(case="a")
+    for side in SIDES:
+        assert float(free["travel"].sel(wheel=side)) == pytest.approx(travel, abs=1e-10)
+
+
+def test_rest_on_the_road_is_the_static_load() -> None:
+    found = loads.static(AXLE).sel(case="static")
+    rest = equilibrium(MODEL)
+    for side in SIDES:
+        force = float(MODEL.signal(f"{side}_axle_tyre_force", rest))
+        # but for the cosine of what rounding of its file inclines it
+        assert float(found["wheel_load"].sel(wheel=side)) == pytest.approx(force, rel=1e-9)
+        # where it rests, but that the tyres push across with what it is inclined by, some 2e-5
+        travel = rest[0] + (0.78 if side == "left" else -0.78) * math.sin(rest[1])
+        assert float(found["travel"].sel(wheel=side)) == pytest.approx(travel, abs=1e-5)
+    given = loads.static(AXLE, static_load=6000.0).sel(case="static")
+    assert float(given["wheel_load"].sel(wheel="left")) == pytest.approx(6000.0, rel=1e-12)
+
+
+def test_forces_along_x_act_where_the_torque_is_held() -> None:
+    usual = loads.standard_cases(AXLE)
+    assert usual["brake"] == {"contact_g": [-1.3, 0.0, 1.3]}
+    assert usual["drive"] == {"contact_g": [0.5, 0.0, 0.9]}
+    inboard = loads.standard_cases(AXLE.with_changes({"brakes.torque_on": "body"}))
+    assert inboard["brake"] == {"contact_g": [0.0, 0.0, 1.3], "center_g": [-1.3, 0.0, 0.0]}
+    assert inboard["corner"] == usual["corner"]
+    assert inboard["trail_brake"]["right"]["center_g"] == [-0.9, 0.0, 0.0]
+    dion = loads.standard_cases(AXLE.with_changes({"drive.torque_on": "body"}))
+    assert dion["drive"] == {"contact_g": [0.0, 0.0, 0.9], "center_g": [0.5, 0.0, 0.0]}
+    assert "drive" not in loads.standard_cases(AXLE.with_changes({"drive": None}))
+    found = loads.static(STOPPED)
+    assert [*found["case"].values] == [*usual]
+    assert found["reason"].values.tolist() == [""] * len(usual)
+
+
+# -- along a motion -------------------------------------------------------------------------------
+
+# between two outputs [s]
+APART = 2e-4
+
+
+@pytest.fixture(scope="module")
+def motion() -> tuple[RigidAxleModel, Any, xr.Dataset]:
+    """A lopsided axle with spinning wheels, one of which meets a step."""
+    axle = LOPSIDED.with_changes({"damper.friction_N": 60.0})
+    model = RigidAxleModel(axle)
+    inputs = {"left_road_height": roads.step(0.03, at=0.02, end=0.08)}
+    rest = equilibrium(model, spin_rate=40.0)
+    times = np.arange(0.0, 0.08, APART)
+    moving = simulate(model, (0.0, 0.08), rest, inputs=inputs, t_eval=times, rtol=1e-11, atol=1e-13)
+    return model, moving, loads.along(model, moving)
+
+
+def test_momentum_changes_by_the_forces_along_a_motion(motion: Any) -> None:
+    """Momentum and its moment by differences of recorded states, placed by the root finder."""
+    model, moving, found = motion
+    axle, finder = model.axle, Found(model.axle)
+    names, bodies = model.state_names, model.axle.bodies
+    states = dict(zip(names, moving.y, strict=True))
+    com = bodies.beam.centre_of_mass(axle.hardpoints)
+    beam_inertia = np.diag([14.0, 1.1, 14.5])
+    # shortly after the step, between reversals of the damper, whose friction bends the course
+    middle, window = 130, 4
+    rows = range(middle - window, middle + window + 1)
+    poses = {i: finder.pose(states["heave"][i], states["roll"][i]) for i in rows}
+    masses = [(com, bodies.beam.mass_kg, None)]
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        masses.append((axle.center + sign * axle.half_track * LEFT, bodies.wheel.mass_kg, side))
+
+    def rate(values: dict[int, Array], i: int) -> Array:
+        weights = {-2: 1.0, -1: -8.0, 1: 8.0, 2: -1.0}
+        return sum(w * values[i + k] for k, w in weights.items()) / (12.0 * APART)
+
+    momentum: dict[int, Array] = {}
+    for i in range(middle - 2, middle + 3):
+        turn = poses[i][1]
+        turning = rate({j: (poses[j][1] * turn.inv()).as_rotvec() for j in rows}, i)
+        total = np.zeros(6)
+        for place, mass, side in masses:
+            places = {j: poses[j][0] + poses[j][1].apply(place - axle.center) for j in rows}
+            velocity = rate(places, i)
+            local, omega = beam_inertia, turning
+            if side is not None:
+                axis = axle.wheel.spin_axis(1.0 if side == "left" else -1.0)
+                local = 0.85 * np.eye(3) + (1.6 - 0.85) * np.outer(axis, axis)
+                omega = turning + states[f"{side}_spin_angle_rate"][i] * turn.apply(axis)
+            inertia = turn.as_matrix() @ local @ turn.as_matrix().T
+            own = inertia @ omega + np.cross(places[i], mass * velocity)
+            total += np.concatenate([mass * velocity, own])
+        momentum[i] = total
+    here = found.isel(time=middle)
+    inner = ("beam", "wheel_left", "wheel_right")
+    rows_ = here["part"].isin(inner) & ~here["by"].isin([*inner, "inertia"])
+    sums = wrench(here.isel(load=rows_.values))
+    changes = rate(momentum, middle)
+    assert np.abs(sums[:3]).max() > 100.0
+    # 1e-12 of an angle over 2e-4 s twice, by 14 kg m^2, and the fourth power of 80/s times 2e-4 s
+    np.testing.assert_allclose(sums, changes, rtol=1e-5, atol=0.05)
+
+
+def test_a_motion_needs_nothing_else(motion: Any) -> None:
+    """The equations of motion and the balance of the parts agree; wheels spin freely."""
+    model, moving, found = motion
+    largest = float(abs(found["force"]).max())
+    for name in ("holding_force", "residual", "residual_moment"):
+        assert float(abs(found[name]).max()) < 1e-9 * largest, name
+    np.testing.assert_allclose(found["bar_torque"], -moving.signals["bar_spring_moment"], atol=1e-9)
+    assert float(abs(found["bar_torque"]).max()) > 10.0
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        bearing = on(found, f"wheel_{side}", "beam")["moment"].values[:, 0]
+        angles = dict(zip(model.state_names, moving.y, strict=True))
+        for i in (0, 150, 399):
+            turn = Found(model.axle).pose(angles["heave"][i], angles["roll"][i])[1]
+            axis = turn.apply(model.axle.wheel.spin_axis(sign))
+            assert bearing[i] @ axis == pytest.approx(0.0, abs=1e-7)
+    friction = on(found, "beam", "damper_left")["force"].values
+    pushes = sum(
+        moving.signals[f"left_damper_{name}"]
+        for name in ("damper_force", "friction_force", "bump_stop_force", "rebound_stop_force")
+    )
+    np.testing.assert_allclose(np.linalg.norm(friction[:, 0], axis=-1), abs(pushes), atol=1e-9)
+
+
+def test_a_motion_of_another_axle_is_refused(motion: Any) -> None:
+    _, moving, _ = motion
+    with pytest.raises(InputError, match="not a motion of this model"):
+        loads.along(MODEL, moving)
+    with pytest.raises(InputError, match=r"kintrafo\.simulate returns"):
+        loads.along(MODEL, 3)  # type: ignore[arg-type]
+
+
+# -- what is not carried, and what is refused -----------------------------------------------------
+
+
+def test_a_case_that_cannot_be_carried_ends_no_other() -> None:
+    cases = {
+        "still": {"contact_g": [0.0, 0.0, 1.0]},
+        "too_much": {"contact_g": [0.0, 0.0, 9.0]},
+        "lifted": {"center_N": [0.0, 0.0, -90e3]},
+        "pulled": {"travel_mm": 0.0, "right": {"center_N": [0.0, 0.0, 9e3]}},
+        "far": {"left": {"travel_mm": 900.0}, "right": {"contact_g": [0.0, 0.0, 1.0]}},
+    }
+    found = loads.static(AXLE, cases)
+    reasons = {str(case): str(found["reason"].sel(case=case).values) for case in cases}
+    assert reasons["still"] == ""
+    assert re.search(r"N too much for spring and stops.*\[bump_stop\]", reasons["too_much"])
+    assert re.search(r"at the end of its reach.*\[rebound_stop\]", reasons["lifted"])
+    assert re.search(r"^right: the road would have to pull the wheel there", reasons["pulled"])
+    assert "the axle cannot be with its left wheel at +900 mm" in reasons["far"]
+    assert found.attrs["message"] == "1 of 5 cases are carried"
+    lost = found.sel(case="far")
+    assert not np.isfinite(lost["force"]).any()
+    assert not np.isfinite(lost["rod_force"]).any()
+    assert np.isfinite(found["rod_force"].sel(case="still")).all()
+
+
+def test_no_spring_is_turned_upside_down() -> None:
+    """Without stops a great load leads over a spring that lies across, which would carry it."""
+    found = loads.static(AXLE, static_load=6350.0)
+    for case in ("bump", "pothole"):
+        reason = str(found["reason"].sel(case=case).values)
+        assert "a spring or a damper has turned by a right angle" in reason
+    assert (loads.static(STOPPED, static_load=6350.0)["reason"] == "").all()
+
+
+def test_a_motion_through_a_dead_point_is_refused(
+    monkeypatch: pytest.MonkeyPatch, motion: Any
+) -> None:
+    monkeypatch.setattr("kintrafo.vehicle.analysis.loads.balance._WORST_CONDITION", 1.0)
+    with pytest.raises(PositionError, match=r"at a wheel height of .* mm and .* mm: the linkage"):
+        loads.along(*motion[:2])
+
+
+def test_what_the_wheels_need_is_named() -> None:
+    low = {"hardpoints.wheel_center.z": 50.0, "tyre.free_height_mm": 77.6}
+    with pytest.raises(InputError, match=r"\[tyre\] radius_mm is needed"):
+        loads.static(AXLE.with_changes(low))
+    soft = AXLE.with_changes({"tyre.rate_N_per_m": 0.0, "spring.rate_N_per_m": 1.0})
+    with pytest.raises(InputError, match=r"static_load is needed, \[N\]: no stable rest"):
+        loads.static(soft)
+
+
+@pytest.mark.parametrize(
+    "name", ["chassis", "beam", "wheel_left", "spring", "damper_right", "bar", "gravity", "road"]
+)
+def test_a_rod_is_not_called_like_another_part(name: str) -> None:
+    data = AXLE.to_dict()
+    data["rods"][name] = data["rods"].pop("upper_link")
+    with pytest.raises(InputError, match=rf"\[rods\] '{name}' is the name of another part"):
+        RigidAxle.from_dict(data)
+
+
+# -- tables, pictures and commands ----------------------------------------------------------------
+
+
+def test_each_rod_has_a_row_with_its_sign() -> None:
+    found = loads.static(STOPPED)
+    rows = {row[0]: row[1:] for row in overview(found, "").rows}
+    column = [*found["case"].values].index("brake")
+    assert int(rows["upper_link, pull"][column]) < -20000
+    assert "upper_link_axle" not in rows
+    assert "axle_middle" not in rows
+    assert {"spring_left", "damper_right", "road_left", "wheel_center_right"} <= {*rows}
+    part = {row[0] for row in overview(found, "", ["beam"]).rows}
+    assert "upper_link_axle" in part
+    ends = loads.envelope(found)
+    extremes = ends["force_max"].sel(load="beam at upper_link_axle by upper_link", axis="x")
+    assert float(extremes) == float(
+        found["force"].sel(load="beam at upper_link_axle by upper_link", axis="x").max()
+    )
+    assert "reason" in loads.table(found)
+
+
+@pytest.mark.parametrize(
+    ("axle", "case"),
+    [(STOPPED, "brake"), (STOPPED, "corner"), (LOPSIDED, "trail_brake")],
+    ids=["stopped brake", "stopped corner", "lopsided trail brake"],
+)
+def test_labels_of_free_bodies_do_not_overlap(axle: RigidAxle, case: str) -> None:
+    usual = {name: found for name, found in loads.standard_cases(axle).items()
+             if name == case}  # fmt: skip
+    figure = free_bodies(loads.static(axle, usual), case)
+    figure.draw_without_rendering()
+    assert len(figure.axes) == 6
+    for axes in figure.axes[:2]:
+        labels = [text for text in axes.texts if text.get_text()]
+        assert len(labels) > 6
+        boxes = [text.get_window_extent() for text in labels]
+        for one, other in itertools.combinations(boxes, 2):
+            assert not one.overlaps(other)
+        frame = axes.get_window_extent().padded(1.0)
+        assert all(frame.contains(*end) for box in boxes for end in (box.p0, box.p1))
+
+
+def test_commands_tell_the_loads(kintrafo: Any, tmp_path: Path) -> None:
+    forces = {"left": "[0, 0.5, 0.7]", "right": "[0, 1, 1.3]"}
+    text = "".join(f"[cases.turn.{side}]\ncontact_g = {g}\n" for side, g in forces.items())
+    (tmp_path / "cases.toml").write_text(text, encoding="utf-8")
+    line = "loads rigid_axle --cases cases.toml --case turn --part beam"
+    code, out, _ = kintrafo(*f"{line} -o loads.csv --plot bodies.png".split())
+    assert code == 0
+    assert "panhard_rod" in out
+    table = (tmp_path / "loads.csv").read_text(encoding="utf-8")
+    assert "beam at panhard_rod_axle by panhard_rod,turn" in table
+    assert (tmp_path / "bodies_turn.png").stat().st_size > 1000
+    code, out, err = kintrafo("loads", "rigid_axle")
+    assert code == 0, err
+    assert "panhard_rod, pull" in out
+    assert "bump_stop" in err + out
+    simulated = ["simulate", "rigid_axle", "--duration", "0.02", "--loads", "along.nc"]
+    code, _, err = kintrafo(*simulated)
+    assert code == 0, err
+    with xr.open_dataset(tmp_path / "along.nc") as along:
+        assert along["rod_force"].sizes["rod"] == 4
+        assert "beam at mass by inertia" in along["load"].values
+
+
+@pytest.mark.usefixtures("first_page_of_curves")
+def test_the_report_has_the_load_cases(kintrafo: Any, tmp_path: Path) -> None:
+    text = "[cases.stop]\ncontact_g = [-1.0, 0.0, 1.2]\n"
+    (tmp_path / "cases.toml").write_text(text, encoding="utf-8")
+    soft = "[bushings.panhard_rod_chassis]\naxial_N_per_mm = 5000.0\n"
+    (tmp_path / "soft.toml").write_text(soft, encoding="utf-8")
+    given = ["--cases", "cases.toml", "--bushes", "soft.toml"]
+    code, _, err = kintrafo("report", "rigid_axle", "one.html", *given)
+    assert code == 0, err
+    page = (tmp_path / "one.html").read_text(encoding="utf-8")
+    assert "Load cases" in page
+    assert "Free bodies in the load case stop" in page
+    assert "panhard_rod, pull" in page
+    assert ">Compliance<" in page
+    assert ">Elastokinematics<" in page
+
+
+def test_a_ride_has_its_loads() -> None:
+    moving, _ = run(MODEL, Scenario(duration=0.02))
+    found = loads.along(MODEL, moving)
+    heave, roll = moving.y[0, -1], moving.y[1, -1]
+    ways = {"left": heave + 0.78 * math.sin(roll), "right": heave - 0.78 * math.sin(roll)}
+    held = {side: {"travel_mm": 1e3 * way} for side, way in ways.items()}
+    still = loads.static(AXLE, {"a": held})
+    # at rest tyres of 6.3 kN each push in planes that are inclined by some 2e-5
+    np.testing.assert_allclose(
+        found["rod_force"].isel(time=-1), still["rod_force"].isel(case=0), atol=0.3
+    )

@@ -1,0 +1,356 @@
+"""The commands of ``kintrafo``: results, files, exit codes, and what a script reads."""
+
+import json
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import xarray as xr
+from folders import ROOT
+from kintrafo import Model, Suspension, characteristics
+from kintrafo.core.tabulated import number, significant
+from kintrafo.vehicle import cli
+from kintrafo.vehicle.data.starter import NOT_A_RIGID_AXLE
+from matplotlib.image import imread
+
+CAR = "reference_car"
+CAR_FILE = ROOT / "vehicle/data/reference_car.toml"
+
+
+def test_help_is_quick():
+    program = (
+        "import sys; from typer.testing import CliRunner; from kintrafo.vehicle.cli import app;"
+        "result = CliRunner().invoke(app, ['--help']); assert result.exit_code == 0;"
+        "print(*sorted({n.partition('.')[0] for n in sys.modules}))"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True)
+    loaded = set(done.stdout.decode().split())
+    assert "typer" in loaded
+    assert not loaded & {"matplotlib", "xarray", "scipy", "pandas", "pydantic", "sympy", "numpy"}
+
+
+@pytest.mark.parametrize("command", sorted(cli.COMMANDS))
+def test_every_command_has_help_with_examples(kintrafo, command):
+    code, out, _ = kintrafo(*command.split(), "--help")
+    assert code == 0
+    assert f"kintrafo {command}" in out.partition("Examples:")[2]
+
+
+# -- the page of the documentation --------------------------------------------------------------
+
+PAGE = (ROOT / "docs/reference/command-line.md").read_text(encoding="utf-8")
+
+
+def test_the_change_of_the_tutorial_turns_bump_steer_round():
+    car = Suspension.load("reference_car")
+    lower = car.with_changes({"hardpoints.tie_rod_inner.z": 272.0})
+    before, after = (
+        float(characteristics.over(Model(c), "travel", np.zeros(1))["bump_steer"][0])
+        for c in (car, lower)
+    )
+    assert after < 0.0 < before
+
+
+def test_some_characteristics_are_compared(kintrafo, tmp_path):
+    kintrafo("new", "my_car.toml")
+    code, out, _ = kintrafo(
+        "compare",
+        CAR,
+        "my_car.toml",
+        "--of",
+        "toe",
+        "--of",
+        "camber",
+        "--plot",
+        "a.png",
+        "-o",
+        "a.csv",
+    )
+    assert code == 0
+    assert "toe angle" in out
+    assert "caster" not in out
+    assert "caster" in (tmp_path / "a.csv").read_text(encoding="utf-8")
+    height, width, _ = imread(tmp_path / "a.png").shape
+    assert width > height  # two curves beside each other
+    code, _, err = kintrafo("compare", CAR, "my_car.toml", "--of", "too")
+    assert code == 2
+    assert "Did you mean toe" in err
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "characteristics reference_axle --over bump,roll --bump 20 --rebound 20",
+        "characteristics reference_car --bump 20 --rebound 20 --of toe,camber",
+        "loads reference_car --case static,brake --part knuckle,chassis",
+        "sensitivity reference_car --of toe --place hardpoints.ball_joint.z,wheel.toe_deg",
+    ],
+)
+def test_a_list_with_commas_is_a_repeated_option(kintrafo, line):
+    repeated = re.sub(r"(--[a-z]+) ([\w.]+),([\w.]+)", r"\1 \2 \1 \3", line)
+    assert repeated != line
+    code, out, err = kintrafo(*line.split())
+    assert (code, kintrafo(*repeated.split())[:2]) == (0, (0, out)), err
+    assert kintrafo(*line.replace(",", ",,").split())[0] == 2
+
+
+def test_the_documentation_names_every_command():
+    (table,) = re.findall(r"\| command \|.*?\n\n", PAGE, flags=re.DOTALL)
+    named = re.findall(r"^\| `(mechanism \w+|\w+)", table, flags=re.MULTILINE)
+    assert sorted(named) == sorted(cli.COMMANDS)
+
+
+def test_the_first_screen_has_no_command_of_few(kintrafo):
+    _, out, _ = kintrafo("--help")
+    listed = set(re.findall(r"^│ (\w+)", out, flags=re.MULTILINE))
+    assert {"schema", "paper"} == {name for name in cli.COMMANDS if " " not in name} - listed
+    assert "mechanism" in listed
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "mechanism topology rear.toml",
+        "mechanism derivation rear.toml -o x.tex",
+        "mechanism animate rear.toml x.gif",
+        "export rear.toml --to points",
+    ],
+)
+def test_what_does_not_take_a_rigid_axle_says_so(kintrafo, line):
+    """Its page and the refusal name the same commands."""
+    page = (ROOT / "docs/suspension/rigid-axle.md").read_text(encoding="utf-8")
+    (listed,) = re.findall(r"All commands take its file but (.*?)\.", page, flags=re.DOTALL)
+    named = "export --to points" if line.startswith("export") else "mechanism"
+    assert named in NOT_A_RIGID_AXLE
+    assert f"`{named}`" in listed
+    kintrafo("new", "rear.toml", "--rigid-axle")
+    code, _, err = kintrafo(*line.split())
+    assert code == 2
+    assert "the file of a rigid axle" in " ".join(err.split())
+
+
+# -- check and new ------------------------------------------------------------------------------
+
+
+def test_new_refuses_to_overwrite(kintrafo, tmp_path):
+    assert kintrafo("new", "my_car.toml")[0] == 0
+    (tmp_path / "my_car.toml").write_text("# mine", encoding="utf-8")
+    code, _, err = kintrafo("new", "my_car.toml")
+    assert code == 2
+    assert "there already" in err
+    assert (tmp_path / "my_car.toml").read_text(encoding="utf-8") == "# mine"
+    assert kintrafo("new", "my_car.toml", "--force")[0] == 0
+    assert kintrafo("check", "my_car.toml")[0] == 0
+    assert kintrafo("new", "my_car.yaml")[0] == 2
+    assert kintrafo("new", "x.toml", "--template", "reference_cat")[0] == 2
+
+
+def test_check_sums_up(kintrafo):
+    code, out, _ = kintrafo("check", CAR, "--json")
+    found = json.loads(out)
+    assert code == 0
+    # the file places the equilibrium at 300 mm; the tyre is compressed by 19 mm there
+    assert found["equilibrium"]["height"] == pytest.approx(0.3, abs=1e-9)
+    assert found["equilibrium"]["signals"]["tyre_force"] == pytest.approx(0.019 * 200e3, rel=1e-9)
+    points = Model(CAR).suspension.hardpoints
+    rod = np.subtract(points.tie_rod_outer, points.tie_rod_inner) / 1e3
+    assert found["geometry"]["tie_rod_length"] == pytest.approx(np.linalg.norm(rod), rel=1e-14)
+    assert "12.35 Hz" in kintrafo("check", CAR)[1]
+
+
+def test_check_lists_problems(kintrafo, tmp_path):
+    text = (ROOT / "vehicle/data/reference_car.toml").read_text(encoding="utf-8")
+    bad = text.replace("spring_rate_N_per_m", "sprng_rate_N_per_m").replace("= 22.0", "= -22.0")
+    (tmp_path / "bad.toml").write_text(bad, encoding="utf-8")
+    code, out, _ = kintrafo("check", "bad.toml")
+    assert code == 1
+    assert "[strut] sprng_rate_N_per_m is not a known key" in out
+    code, out, _ = kintrafo("check", "bad.toml", "--json")
+    assert code == 1
+    assert len(json.loads(out)["problems"]) == 2
+    # a file that is not there is a mistake in the arguments
+    assert kintrafo("check", "no_such.toml")[0] == 2
+
+
+def test_check_finds_no_equilibrium(kintrafo, tmp_path):
+    text = (ROOT / "vehicle/data/reference_car.toml").read_text(encoding="utf-8")
+    # a spring that pushes the wheel down wherever it is, and a tyre that does not hold against it
+    pushed = re.sub(r"(spring_free_slide_mm) = \S+", r"\1 = -5000.0", text)
+    pushed = re.sub(r"^(rate_N_per_m) = \S+", r"\1 = 0.0", pushed, flags=re.MULTILINE)
+    (tmp_path / "pushed.toml").write_text(pushed, encoding="utf-8")
+    code, out, _ = kintrafo("check", "pushed.toml")
+    assert code == 1
+    assert "no stable equilibrium" in out
+
+
+# -- results ------------------------------------------------------------------------------------
+
+
+def test_kinematics_prints_a_table_and_writes_what_it_prints(kintrafo, tmp_path):
+    code, out, _ = kintrafo("kinematics", CAR, "--bump", 20, "--rebound", 10, "-o", "path.csv")
+    assert code == 0
+    names, *rows = (tmp_path / "path.csv").read_text(encoding="utf-8").splitlines()
+    assert names.startswith("wheel_travel [mm],rack_position [mm],strut_length [mm]")
+    heights = [float(row.split(",")[names.split(",").index("wheel_center_z [mm]")]) for row in rows]
+    assert heights == pytest.approx(np.arange(290.0, 321.0, 2.0), abs=1e-6)
+    assert "320.000" in out
+
+
+def test_kinematics_on_a_grid(kintrafo, tmp_path):
+    assert kintrafo("kinematics", CAR, "--over", "both", "--step", 20, "-o", "map.nc")[0] == 0
+    grid = xr.load_dataset(tmp_path / "map.nc", engine="scipy")
+    assert dict(grid.sizes) == {"wheel_travel": 9, "rack_position": 7}
+    assert grid["rack_position"].values == pytest.approx(np.arange(-0.06, 0.061, 0.02))
+
+
+def test_characteristics_at_design(kintrafo):
+    code, out, _ = kintrafo("characteristics", CAR, "--step", 20)
+    assert code == 0
+    assert re.search(r"caster angle\s+│\s+2\.9517 │ deg", out)
+    code, out, _ = kintrafo("characteristics", CAR, "--step", 20, "--json")
+    found = json.loads(out)
+    assert found["over_travel"]["variables"]["camber"]["units"] == "rad"
+    assert len(found["over_travel"]["coordinates"]["wheel_travel"]["values"]) == 9
+
+
+def test_compare_with_itself_differs_by_nothing(kintrafo):
+    code, out, _ = kintrafo("compare", CAR, CAR, "--json")
+    assert code == 0
+    found = json.loads(out)
+    assert {entry["data_set"] for entry in found} == {f"{CAR} (2)"}
+    assert {entry["largest"] for entry in found} == {0.0}
+    code, _, err = kintrafo("compare", CAR)
+    assert code == 2
+    assert "two or more" in err
+
+
+def test_simulation_settles_where_statics_says(kintrafo, tmp_path):
+    arguments = ("simulate", CAR, "--road-step", 20, "--duration", 2, "--json", "-o", "step.nc")
+    code, out, _ = kintrafo(*arguments, "--plot", "step.png")
+    assert code == 0
+    last = {name: entry["last"] for name, entry in json.loads(out)["statistics"].items()}
+    from kintrafo import equilibrium
+
+    model = Model(CAR)
+    rest = model.signals(equilibrium(model, road_height=0.02))
+    # 2 s are 30 time constants of the wheel-hop mode; the integration is good to 1e-6
+    assert last["wheel_center_z"] == pytest.approx(float(rest["wheel_center_z"]), abs=1e-6)
+    assert xr.load_dataset(tmp_path / "step.nc", engine="scipy").sizes["time"] == 2001
+    assert imread(tmp_path / "step.png").std() > 0.01
+
+
+def test_steering_with_mass_leaves_the_rack_free(kintrafo, tmp_path):
+    text = (ROOT / "vehicle/data/reference_car.toml").read_text(encoding="utf-8")
+    heavy = re.sub(r"(\[bodies.tie_rod\][^=]*=) 0.0", r"\1 1.0", text)
+    assert heavy != text
+    (tmp_path / "heavy.toml").write_text(heavy, encoding="utf-8")
+    code, out, err = kintrafo("simulate", "heavy.toml", "--json")
+    assert code == 0
+    assert "rack moves freely" in err
+    assert "beta9" in json.loads(out)["statistics"]
+    code, _, err = kintrafo("simulate", "heavy.toml", "--rack", 3)
+    assert code == 2
+    assert "cannot be prescribed" in err
+    assert kintrafo("check", "heavy.toml")[0] == 0
+    assert kintrafo("kinematics", "heavy.toml", "--over", "rack")[0] == 0
+
+
+def test_wheel_that_leaves_the_ground_is_told(kintrafo):
+    code, out, err = kintrafo("simulate", CAR, "--road-step", -60)
+    assert code == 1  # its tyre holds on to the road
+    assert "The wheel leaves the ground" in out
+    assert "the tyre pulls at the road" in err
+
+
+def test_unfinished_simulation_keeps_what_it_has(kintrafo, tmp_path):
+    # the rack moves away until the tie rod cannot reach the knuckle
+    code, _, err = kintrafo("simulate", CAR, "--rack-sine", 200, "-o", "part.csv")
+    assert code == 1
+    assert "cannot close" in err
+    rows = (tmp_path / "part.csv").read_text(encoding="utf-8").splitlines()
+    assert 80 < len(rows) < 1001
+
+
+def test_topology_needs_no_sympy(kintrafo, monkeypatch):
+    monkeypatch.setitem(sys.modules, "sympy", None)
+    code, out, _ = kintrafo("mechanism", "topology", "--json")
+    assert code == 0
+    found = json.loads(out)
+    assert found["mobility"] == 3
+    assert [joint["type"] for joint in found["joints"]].count("spherical") == 2
+    assert "universal joint" not in kintrafo("mechanism", "topology")[2]
+
+
+# -- mistakes -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "words"),
+    [
+        (["kinematics", CAR, "--bump", "400"], 1, "out of reach"),
+        (["kinematics", CAR, "--bump", "-4"], 2, "without a sign"),
+        (["kinematics", CAR, "--step", "0"], 2, "step"),
+        (["kinematics", CAR, "--step", "1e-9"], 2, "larger step"),
+        (["kinematics", CAR, "-o", "curves.ods"], 2, "Use .csv"),
+        (["kinematics", CAR, "--plot", "curves.bmp"], 2, ".png"),
+        (["kinematics", CAR, "--rack", "900"], 1, "rack"),
+        (["kinematics", CAR, "--travel", "x"], 2, "number"),
+        (["characteristics", CAR, "--figures", "f", "--format", "gif"], 2, "gif"),
+        (["simulate", CAR, "--height", "9999"], 1, "out of reach"),
+        (["simulate", CAR, "--duration", "-1"], 2, "above 0 s"),
+        (["simulate", CAR, "--duration", "0", "--road-sine", "3"], 2, "above 0 s"),
+        (["simulate", CAR, "--speed", "50"], 2, "--measured"),
+        (["kinematics", CAR, "--travel", "20"], 2, "--over"),
+        (["kinematics", CAR, "--over", "both", "--rack", "20"], 2, "--over"),
+        (["simulate", CAR, "--output-step", "0"], 2, "above 0 s"),
+        (["simulate", CAR, "--output-step", "1e-9"], 2, "larger output step"),
+        (["simulate", CAR, "--method", "Euler"], 2, "Euler"),
+        (["simulate", CAR, "--rtol", "2"], 2, "rtol"),
+        (["simulate", CAR, "--road-step", "9", "--road-sine", "9"], 2, "2 ways"),
+        (["simulate", CAR, "--road-step", "9", "--road-step-at", "7"], 2, "ends at 1 s"),
+        (["simulate", CAR, "--road-sine", "9", "--road-frequency", "0"], 2, "0 Hz"),
+        (["simulate", CAR, "--measured", "none.csv"], 2, "none.csv"),
+        (["simulate", CAR, "--road-step", "nan"], 2, "finite"),
+        (["characteristics", CAR, "--bump", "1e400"], 2, "a finite number in mm"),
+        (["mechanism", "topology", "no_such_car"], 2, "no_such_car"),
+        (["compare", CAR, "no_such_car"], 2, "no_such_car"),
+        (
+            ["mechanism", "animate", CAR, "x.gif", "--start", "beta1=1", "--start", "beta1=2"],
+            2,
+            "given twice",
+        ),
+        (["mechanism", "generate", CAR_FILE], 2, "kintrafo check"),
+    ],
+)
+def test_mistakes_end_with_a_message(kintrafo, arguments, code, words, tmp_path):
+    found, out, err = kintrafo(*arguments)
+    assert found == code, err
+    assert words in " ".join(err.split())
+    assert out == ""
+    assert not list(tmp_path.iterdir())
+
+
+def test_missing_packages_are_named_with_the_remedy(kintrafo, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    monkeypatch.setitem(sys.modules, "pyarrow.parquet", None)
+    code, _, err = kintrafo("kinematics", CAR, "-o", "path.parquet")
+    assert code == 3
+    assert 'pip install "kintrafo[parquet]"' in err
+    monkeypatch.setitem(sys.modules, "sympy", None)
+    code, _, err = kintrafo("mechanism", "generate", __file__)
+    assert code == 3
+    assert 'pip install "kintrafo[generator]"' in err
+
+
+def test_a_folder_in_the_way_is_refused(kintrafo, tmp_path):
+    (tmp_path / "path.csv").mkdir()
+    code, _, err = kintrafo("kinematics", CAR, "-o", "path.csv")
+    assert code == 2
+    assert "not a file" in err
+
+
+def test_numbers_in_tables():
+    assert [number(v) for v in (-1e-9, 1.23456, np.nan)] == ["0.000", "1.235", "-"]
+    assert [significant(v) for v in (-1e-12, 0.0045141, np.inf)] == ["0", "0.0045141", "infinite"]

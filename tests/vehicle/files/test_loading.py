@@ -1,0 +1,37 @@
+"""`kintrafo.load` returns what a file describes; anything else is refused as a suspension is."""
+
+from pathlib import Path
+
+import kintrafo
+import pytest
+from folders import ROOT
+from kintrafo.vehicle.data.starter import packaged, packaged_axles
+
+DATA = ROOT / "vehicle/data"
+
+
+@pytest.mark.parametrize(
+    ("names", "kind"),
+    [
+        (packaged(), kintrafo.Suspension),
+        (packaged_axles(), kintrafo.Axle),
+        (("rigid_axle",), kintrafo.RigidAxle),
+    ],
+)
+def test_a_name_and_its_file_are_the_same(names: tuple[str, ...], kind: type) -> None:
+    for name in names:
+        found = kintrafo.load(name)
+        assert isinstance(found, kind)
+        (file,) = DATA.rglob(f"{name}.toml")
+        assert kintrafo.load(file) == found == kintrafo.load(str(file))
+
+
+def test_what_describes_nothing_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(kintrafo.InputError, match="path of a file"):
+        kintrafo.load(3)
+    with pytest.raises(kintrafo.InputError, match="no_such_car"):
+        kintrafo.load("no_such_car")
+    file = tmp_path / "empty.toml"
+    file.write_text("", encoding="utf-8")
+    with pytest.raises(kintrafo.InputError, match="hardpoints"):
+        kintrafo.load(file)

@@ -1,0 +1,238 @@
+"""Studies of values of a rigid axle: against where a root finder puts the beam of other values.
+
+The root finder of `test_rigid_axle` shares nothing with the equations.
+"""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from kintrafo import Axle, InputError, Model, RigidAxle, characteristics, rig, roads, variation
+from kintrafo.vehicle.analysis.scenario import Scenario, run
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.models.rigid.model import RigidAxleModel
+from rigid_axles import AXLE, Found
+
+Array = np.ndarray
+ROLLS = np.deg2rad([-3.0, 2.0])
+GOALS: dict[str, Any] = {
+    "targets": {"axle_steer": {"over": "roll", "at_deg": [-3.0, 2.0], "value": 0.0, "within": 0.1}},
+    "limits": {"roll_center_height": {"at_mm": [0.0, 20.0], "least": 390.0, "most": 420.0}},
+}
+
+
+def steer(axle: RigidAxle) -> Array:
+    """Return the steer angle of an axle in some rolls of the body, by the root finder."""
+    found = Found(axle)
+    turns = [found.pose(0.0, -roll)[1] for roll in ROLLS]
+    return np.array([turn.as_euler("ZXY")[0] for turn in turns])
+
+
+def test_sensitivities_are_differences_of_what_the_root_finder_finds() -> None:
+    """Of ends of rods in mm, of a wheel's place that does not count, in metres of the file, too."""
+    places = ["rods.panhard_rod.axle.z", "rods.left_link.chassis.z", "hardpoints.damper_top.z"]
+    ours = variation.sensitivity(AXLE, places, over="roll", positions=ROLLS, names=["axle_steer"])
+    assert ours["axle_steer"].dims == ("place", "roll_angle")
+    for place in places[:2]:
+        at = {"rods.panhard_rod.axle.z": 400.0, "rods.left_link.chassis.z": 305.0}[place]
+        beside = [steer(AXLE.with_changes({place: at + by})) for by in (-1.0, 1.0)]
+        # (1 mm / 300 mm)^2 of them
+        slope = (beside[1] - beside[0]) / 2e-3
+        np.testing.assert_allclose(ours["axle_steer"].sel(place=place), slope, rtol=2e-4)
+    assert (ours["axle_steer"].sel(place=places[2]) == 0.0).all()
+    metres = AXLE.to_dict()
+    metres["hardpoints"] = {
+        name: "m" if name == "unit" else [x / 1e3 for x in point]
+        for name, point in metres["hardpoints"].items()
+    }
+    metres["rods"] = {
+        name: {end: [x / 1e3 for x in point] for end, point in rod.items()}
+        for name, rod in metres["rods"].items()
+    }
+    of_metres = variation.sensitivity(
+        RigidAxle.from_dict(metres), places[:1], over="roll", positions=ROLLS, names=["axle_steer"]
+    )
+    nominal = ours["axle_steer"].sel(place=places[0])
+    np.testing.assert_allclose(of_metres["axle_steer"][0], nominal, rtol=1e-8)
+
+
+def test_cars_of_a_tolerance_are_where_the_root_finder_puts_them() -> None:
+    limits = {"axle_steer": {"over": "roll", "at_deg": 2.0, "least": 0.0, "most": 0.0525}}
+    found = variation.tolerance(
+        AXLE, {"rods.panhard_rod": 3.0, "rods.left_link.axle.z": 2.0}, limits=limits,
+        over="roll", positions=ROLLS, names=["axle_steer"], count=12,
+    )  # fmt: skip
+    within = []
+    for car in range(12):
+        row = found["value_of"].isel(car=car)
+        values = {str(p): 1e3 * float(v) for p, v in zip(row["place"].values, row, strict=True)}
+        steered = steer(AXLE.with_changes(values))
+        within.append(0.0 <= math.degrees(steered[1]) <= 0.0525)
+        if car == 0:
+            least = greatest = steered
+        least, greatest = np.minimum(least, steered), np.maximum(greatest, steered)
+    bands = found["axle_steer"]
+    np.testing.assert_allclose(bands.sel(quantile=0.0), least, atol=1e-11)
+    np.testing.assert_allclose(bands.sel(quantile=1.0), greatest, atol=1e-11)
+    assert found["within_limits"].values.tolist() == within
+    assert 0 < sum(within) < 12
+    # errors of some mm of rods of some 600 mm: shares of first order tell nearly all
+    np.testing.assert_allclose(found["axle_steer_share"].sum("place"), 1.0, rtol=1e-9)
+    assert abs(float(found["axle_steer_first_order"][1]) - 1.0) < 0.6
+
+
+def test_an_optimum_and_a_fit_find_the_axle_that_was_meant() -> None:
+    moved = {"rods.panhard_rod.axle.z": 12.0, "rods.left_link.chassis.z": -7.0}
+    meant = AXLE.with_changes({"rods.panhard_rod.axle.z": 412.0, "rods.left_link.chassis.z": 298.0})
+    height = 1e3 * characteristics.over(meant, "bump", [-0.04, 0.04])["roll_center_height"].values
+    targets = {
+        "axle_steer": {"over": "roll", "at_deg": np.rad2deg(ROLLS), "within": 1e-3,
+                       "value": np.rad2deg(steer(meant))},
+        "roll_center_height": {"at_mm": [-40.0, 40.0], "value": height, "within": 0.01},
+    }  # fmt: skip
+    free = dict.fromkeys(moved, 30.0)
+    found = variation.optimise(AXLE, free, targets)
+    assert found.success
+    for place, by in moved.items():
+        assert found.moved[place] == pytest.approx(by, abs=0.02)
+    rig = flat(characteristics.over(meant, "roll", np.deg2rad(np.linspace(-4.0, 4.0, 9))))
+    fitted = variation.fit(AXLE, rig[["axle_steer", "roll_center_height"]], free)
+    assert fitted.success
+    for place, by in moved.items():
+        assert fitted.moved[place] == pytest.approx(by, abs=0.3)
+
+
+def test_what_a_rig_measured_is_explained(kintrafo: Any, tmp_path: Path) -> None:
+    """Curves over roll in deg, of the root finder."""
+    meant = AXLE.with_changes({"rods.left_link.chassis.z": 298.0})
+    rolls = np.linspace(-3.0, 3.0, 5)
+    steered = np.rad2deg(
+        [Found(meant).pose(0.0, -r)[1].as_euler("ZXY")[0] for r in np.deg2rad(rolls)]
+    )
+    rows = [f"{roll},{angle}" for roll, angle in zip(rolls, steered, strict=True)]
+    text = "\n".join(["roll_angle [deg],axle_steer [deg]", *rows])
+    (tmp_path / "rig.csv").write_text(text, encoding="utf-8")
+    errors = '[tolerances]\n"rods.left_link.chassis.z" = 20.0\n'
+    (tmp_path / "errors.toml").write_text(errors, encoding="utf-8")
+    given = ["rig.csv", "errors.toml", "-o", "built.toml", "--plot", "fit.svg"]
+    code, _, err = kintrafo("fit", "rigid_axle", *given)
+    assert code == 0, err
+    built = RigidAxle.load("built.toml").rods["left_link"].chassis[2]
+    # of a curve that is known to 2 %, and an error that is more likely small
+    assert built == pytest.approx(298.0, abs=0.5)
+    code, _, err = kintrafo("fit", "reference_car", "rig.csv", "errors.toml")
+    assert code != 0
+    assert "over wheel_travel or rack_position" in err
+    with pytest.raises(InputError, match="curves over roll_angle, which"):
+        rig.beside(rig.measured_curves("rig.csv"), {"car": Model("reference_car")})
+
+
+def test_a_front_of_axles_and_many_of_them() -> None:
+    front = variation.pareto(
+        AXLE, {"rods.panhard_rod.axle.z": 40.0, "rods.left_link.chassis.z": 20.0},
+        minimise={"roll_center_height": {}},
+        maximise={"axle_steer": {"over": "roll", "at_deg": 2.0}}, population=8, generations=2,
+    )  # fmt: skip
+    assert front.success
+    member = front.suspension(1)
+    assert isinstance(member, RigidAxle)
+    told = float(front.dataset["axle_steer_over_roll_least"][0])
+    assert told == pytest.approx(steer(member)[1], abs=1e-12)
+    many = variation.cars(
+        AXLE, {"rods.panhard_rod.axle.z": [390.0, 410.0]}, over="roll", positions=ROLLS,
+        names=["axle_steer"],
+    )  # fmt: skip
+    for row, z in zip(many["axle_steer"].values, (390.0, 410.0), strict=True):
+        changed = AXLE.with_changes({"rods.panhard_rod.axle.z": z})
+        np.testing.assert_allclose(row, steer(changed), atol=1e-12)
+
+
+def test_motions_over_a_road_are_those_of_one_after_the_other() -> None:
+    bump = Scenario(inputs={"road_height": roads.step(0.02, at=0.1, end=0.4)}, duration=0.4)
+    place, signal, rates = "damper.rate_N_s_per_m", "left_axle_wheel_acceleration", [2e3, 4e3]
+    found = variation.sweep(AXLE, {place: rates}, bump, reductions={signal: "max"})
+    assert found["success"].all()
+    for rate in rates:
+        model = RigidAxleModel(AXLE.with_changes({place: rate}))
+        _, alone = run(model, bump, rtol=1e-6, atol=1e-9)
+        ours = float(found[f"{signal}_max"].sel({place: rate}))
+        # the tolerances of both, of stiff tyres
+        assert ours == pytest.approx(float(alone[signal].max()), rel=1e-4)
+
+
+def test_goals_are_judged_of_axles_too() -> None:
+    wanted = variation.goals(GOALS, ["bump", "roll"])
+    of_steer, of_height = variation.judge(AXLE, wanted)
+    steered = np.rad2deg(steer(AXLE))
+    worst = int(np.abs(steered).argmax())
+    assert (of_steer.met, of_height.met) == (np.abs(steered).max() <= 0.1, True)
+    assert of_steer.beyond == pytest.approx(np.deg2rad(np.abs(steered).max() - 0.1), abs=1e-12)
+    assert of_steer.at == pytest.approx(ROLLS[worst])
+    axle = Axle.load("reference_axle")
+    limits = {"limits": {"camber_left": {"over": "left", "at_mm": 50.0, "most": 0.0},
+                         "roll_stiffness": {"over": "roll", "least": 1e5}}}  # fmt: skip
+    camber, stiffness = variation.judge(axle, variation.goals(limits, ["bump", "roll", "left"]))
+    assert (camber.met, camber.at, stiffness.met) == (True, 0.05, False)
+
+
+WRONG: list[tuple[Any, str]] = [
+    (lambda: variation.sensitivity(AXLE, over="travel"), "over 'travel' is not known"),
+    (lambda: variation.sensitivity(AXLE, ["rods.panhard"]), "rods.panhard is no number"),
+    (lambda: variation.sensitivity(AXLE, names=["scrub_radius"]), "scrub_radius"),
+    (
+        lambda: variation.sweep(AXLE, {"wheel.toe_deg": 0.0}, Scenario(height=0.3)),
+        "starts from rest",
+    ),
+    (lambda: variation.judge(AXLE, variation.goals({"limits": {"toe": {"most": 0.0}}})),
+     "has curves over bump, roll"),
+    (lambda: variation.goals({"limits": {"axle_steer": {"at_mm": 2.0, "most": 1.0}}}, ["roll"]),
+     "at_mm is not known: there are at_deg"),
+    (lambda: variation.optimise(AXLE, {"rods": 1.0}, {"bar_twist": {"value": 0.0, "within": 1.0}}),
+     "has not the data"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("study", "words"), WRONG, ids=[words for _, words in WRONG])
+def test_what_cannot_be_studied_is_refused_by_name(study: Any, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        study()
+
+
+def test_what_no_rods_allow_has_no_neighbour() -> None:
+    with pytest.raises(InputError, match=r"no neighbour .*less than 45 deg"):
+        variation.sensitivity(AXLE, over="roll", positions=[0.9])
+    found = variation.cars(AXLE, {"rods.panhard_rod.axle.y": [-459.9999, 460.0]}, positions=[0.0])
+    assert "[rods.panhard_rod] stands upright" in str(found["reason"].values[0])
+    assert str(found["reason"].values[1]) == ""
+
+
+def test_the_commands_take_it(kintrafo: Any, tmp_path: Path) -> None:
+    goals = """
+[free]
+"rods.panhard_rod.axle.z" = 20.0
+[tolerances]
+"rods.panhard_rod" = 2.0
+[targets.roll_center_height]
+value = 420.0
+within = 1.0
+[limits.axle_steer]
+over = "roll"
+at_deg = 2.0
+most = 0.1
+"""
+    (tmp_path / "goals.toml").write_text(goals, encoding="utf-8")
+    lines = [
+        ["sensitivity", "--place", "rods", "--of", "roll_steer", "--over", "roll", "--at", "2"],
+        ["tolerance", "goals.toml", "--cars", "5", "--of", "axle_lateral", "--plot", "bands.svg"],
+        ["optimise", "goals.toml", "-o", "better.toml", "--plot", "goals.svg"],
+        ["characteristics", "--goals", "goals.toml", "--over", "bump,roll"],
+    ]
+    words = ["at 2 deg of roll", "5 of 5 cars", "found", "limit: steer angle of the axle"]
+    for (command, *rest), told in zip(lines, words, strict=True):
+        code, out, err = kintrafo(command, "rigid_axle", *rest)
+        assert code == 0, err
+        assert told in " ".join(out.split())
+    better = characteristics.over(RigidAxle.load("better.toml"), "bump", [0.0])
+    assert float(better["roll_center_height"][0]) == pytest.approx(0.42, abs=1e-5)
