@@ -110,7 +110,7 @@ def test_links_of_the_readme_are_addresses_on_an_index(monkeypatch):
     monkeypatch.setenv("KINTRAFO_REVISION", "v1.2.3")
     after = readme["long_description"](ROOT)
     links = re.findall(r"(!?)\[[^\]]*\]\(([^)]+)\)", without_code(after))
-    assert len(links) > 50
+    assert len(links) > 15
     for image, link in links:
         what = "raw" if image else "blob"
         place = f"https://forge.example/someone/kintrafo/{what}/v1.2.3/"

@@ -27,10 +27,14 @@ DATA = ROOT / "tests/data"
 CAR = Suspension.load("reference_car")
 DOCS = ROOT / "docs"
 STUDIES = "suspension/design-studies.md"
-PAGES = tuple(
-    page.relative_to(DOCS).with_suffix("").as_posix()
-    for page in sorted(DOCS.rglob("*.md"))
-    if "\nkintrafo " in page.read_text(encoding="utf-8")
+README = "../README"  # as the others, from the folder of the pages
+PAGES = (
+    README,
+    *(
+        page.relative_to(DOCS).with_suffix("").as_posix()
+        for page in sorted(DOCS.rglob("*.md"))
+        if re.search(r"\nkintrafo |\n```\n\n```text", page.read_text(encoding="utf-8"))
+    ),
 )
 COMPILED = ("get-started/first-mechanism", "suspension/axles", "mechanisms/own-mechanism")
 BUSHES = "[bushings.arm_rear]\naxial_N_per_mm = 400.0\nradial_N_per_mm = 900.0\n"

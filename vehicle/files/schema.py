@@ -32,26 +32,32 @@ _LIMITS = {
 _HEAD = """\
 # Input file
 
-A suspension is a TOML file. The name of a key ends in its unit; `[hardpoints]` has one `unit` for
-all of its points. Points are `[x, y, z]` in chassis axes of ISO 8855 (x forward, y left, z up), at
-the design position. What a file says is checked as a whole: every problem is reported at once, with
-the value, the unit, what is allowed and what to do.
+A suspension is a TOML file. `kintrafo new FILE` writes an annotated one to begin with. The name of
+a key ends in its unit; `[hardpoints]` has one `unit` for all of its points. Points are `[x, y, z]` in
+chassis axes of ISO 8855 (x forward, y left, z up), at the design position. The line
+`suspension = "..."` above the first section names the type of the suspension; the keys of one type
+only are in a part of their own below.
 
-`kintrafo new FILE` writes an annotated file to begin with. The line `suspension = "..."` above the
-first section names the kind; what only one kind has is in its own part below.
+The file is checked as a whole. Every problem is reported at once, with the value, the unit, the
+allowed range and what to do:
 
-Editors that know JSON Schema complete keys, show their meaning and underline what is not allowed.
+```text
+my_car.toml: 1 problem
+  - [strut] sprng_rate_N_per_m is not a known key. Did you mean spring_rate_N_per_m?
+```
+
+Editors that know JSON Schema complete keys, show their meaning and underline errors.
 `kintrafo schema kintrafo.schema.json` writes
 [the schema](../../vehicle/data/suspension.schema.json) of suspensions and axles beside your
-files; a first line
+files; the first line
 
 ```toml
 #:schema ./kintrafo.schema.json
 ```
 
-says so to editors with a TOML language server, such as Even Better TOML for Visual Studio Code.
-Whether the points make a mechanism that can be assembled is not in the schema: that is what
-`kintrafo check FILE` says. The schema and this page are written by `make format-page`.
+names it for editors with a TOML language server, such as Even Better TOML for Visual Studio Code.
+The schema does not contain whether the points make a mechanism that can be assembled; `kintrafo
+check FILE` tests that. The schema and this page are written by `make format-page`.
 """
 
 _BUSHINGS = """\
