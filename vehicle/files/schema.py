@@ -33,8 +33,8 @@ _HEAD = """\
 # Input file
 
 A suspension is a TOML file. `kintrafo new FILE` writes an annotated one to begin with. The name of
-a key ends in its unit; `[hardpoints]` has one `unit` for all of its points. Points are `[x, y, z]` in
-chassis axes of ISO 8855 (x forward, y left, z up), at the design position. The line
+a key ends in its unit; `[hardpoints]` has one `unit` for all of its points. Points are `[x, y, z]`
+in chassis axes of ISO 8855 (x forward, y left, z up), at the design position. The line
 `suspension = "..."` above the first section names the type of the suspension; the keys of one type
 only are in a part of their own below.
 
