@@ -176,6 +176,7 @@ _INTERFACES = {
     "starter": ".vehicle.data.starter",
     "sweep": ".vehicle.analysis.sweep",
     "topology": ".systems.topology",
+    "tyres": ".vehicle.tyres",
     "variation": ".vehicle.studies",
 }
 

@@ -1,6 +1,7 @@
 """The application: what a vehicle engineer asks of a suspension, an axle, a car.
 
 `data`      data sets that come with the project, and the file that a new project begins with
+`tyres`     tyres from files, evaluated on arrays
 `input`     the sections of an input file, each with its checks
 `corner`    what every kind of suspension has
 `kinds`     a file for each kind of suspension

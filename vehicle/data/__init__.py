@@ -12,10 +12,10 @@ from ...core.suggestions import suggestion
 _ENDING = ".toml"
 
 
-def data_sets(package: str = __package__) -> dict[str, Traversable]:
+def data_sets(package: str = __package__, ending: str = _ENDING) -> dict[str, Traversable]:
     """Return the files of the data sets, by their names in order."""
     files = sorted(resources.files(package).iterdir(), key=lambda file: file.name)
-    return {f.name.removesuffix(_ENDING): f for f in files if f.name.endswith(_ENDING)}
+    return {f.name.removesuffix(ending): f for f in files if f.name.endswith(ending)}
 
 
 def find(

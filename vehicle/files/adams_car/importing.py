@@ -10,6 +10,7 @@ import tomlkit
 from ....core.arguments import Arguments
 from ....core.errors import InputError
 from ....core.legible import legible
+from ...input.teim_values import shown
 from ...kinds import KINDS, Suspension
 from ..fitting import Point, Side, differences, fresh, ground, move_along, put, to_side
 from ..point_names import assumed_of, known, listed, matched, points_of
@@ -17,7 +18,6 @@ from ..point_table import Merged, put_points
 from .rest import Rest, rest_of
 from .springs import Spring, force_at_design, put_spring, spring_of
 from .subsystem import ANGLES, Subsystem
-from .values import shown
 
 SMOOTH = "spring: a monotone cubic through the points of its curve, and straight beyond them"
 _SCHEMA = "#:schema"  # editors look for it in the first line

@@ -16,10 +16,10 @@ import tomlkit
 
 from ....core.errors import InputError
 from ...input.curve import SEGMENTS
+from ...input.teim_orbit import Block, read_blocks
+from ...input.teim_values import MILLIMETRES, NEWTONS, Values, number, shown, unit_of
 from ..fitting import Side, fewer
-from ..teim_orbit import Block, read_blocks
 from .subsystem import Subsystem
-from .values import MILLIMETRES, NEWTONS, Values, number, shown, unit_of
 
 _STRAIGHT = 1e-3  # of the greatest force: so far a curve may be from a line
 _FOLDER = "springs.tbl"

@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import NamedTuple, TypeVar
 
 from ....core.errors import InputError
+from ...input.teim_orbit import Block, read_blocks
+from ...input.teim_values import DEGREES, MILLIMETRES, Values, number, shown, unit_of
 from ..fitting import Point, Side
-from ..teim_orbit import Block, read_blocks
-from .values import DEGREES, MILLIMETRES, Values, number, shown, unit_of
 
 _Value = TypeVar("_Value", float, Point)
 

@@ -4,7 +4,6 @@ The format is that of Chrono::Vehicle (https://projectchrono.org): points and ve
 the axes of the vehicle (ISO 8855), for the *left* side; the right one is its mirror image. What its
 files leave open is assumed, and each assumption is told; what is not read of them is listed.
 
-`json_file`                       JSON with comments
 `keys`                            keys that are read, those that are not, slips of the hand
 `parts`, `forces`, `stops`        bodies, springs, dampers and stops of the templates
 `suspension_file`                 what all templates have

@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 
 from ....core.arguments import Arguments
 from ....core.errors import InputError
+from ...input.commented_json import content
 from ...kinds import Suspension
 from ..fitting import ground
 from .double_wishbone import DoubleWishbone, WishbonePoints
-from .json_file import content
 from .keys import Unread, checked, listed, others, shown
 from .macpherson import MacPhersonStrut, StrutPoints
 from .points_only import with_points

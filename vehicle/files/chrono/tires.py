@@ -12,9 +12,9 @@ from pydantic import Field, ValidationError
 from ....core.errors import InputError
 from ....core.legible import legible, short
 from ...input.bodies import impossible_inertia
-from ..adams_car.values import MILLIMETRES, Values, number, unit_of
-from ..teim_orbit import read_blocks
-from .json_file import content
+from ...input.commented_json import content
+from ...input.teim_orbit import read_blocks
+from ...input.teim_values import MILLIMETRES, Values, number, unit_of
 from .keys import Part, Place, Unread, leaves, listed, meant, problem_of, shown, slip
 from .parts import Finite, Point
 

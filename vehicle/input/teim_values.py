@@ -1,12 +1,12 @@
-"""Values of keys in files of Adams/Car: texts, numbers and units."""
+"""Values of keys in files in the TeimOrbit format: texts, numbers and units."""
 
 import math
 import re
 from collections.abc import Iterable, Mapping
 
-from ....core.errors import InputError
-from ....core.legible import legible, short
-from ..teim_orbit import Block
+from ...core.errors import InputError
+from ...core.legible import legible, short
+from .teim_orbit import Block
 
 MILLIMETRES = {
     **dict.fromkeys(("mm", "millimeter", "millimetre"), 1.0),

@@ -6,10 +6,10 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
-from ....core.arguments import Arguments
-from ....core.errors import InputError
-from ....core.legible import legible, short, strange
-from ....core.reading import text_of
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...core.legible import legible, short, strange
+from ...core.reading import text_of
 
 # A text, a comment to the end of the line, a comment between marks. Each of them matches up to the
 # end of the file where it is not closed, and never goes back: the time is linear in the length.

@@ -1,0 +1,38 @@
+"""Reading a tyre, whatever file it is in."""
+
+from pathlib import Path
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ..data import data_sets
+from .magic_formula import MagicFormula
+from .tyre import Tyre
+
+_PACKAGED = f"{__package__.rpartition('.')[0]}.data.tyres"
+
+
+def load(path_or_name: str | Path) -> Tyre:
+    """Return the tyre of a file.
+
+    Parameters
+    ----------
+    path_or_name : str or pathlib.Path
+        A property file (.tir); or, as a string, the name of a tyre that comes with kintrafo, such
+        as ``"passenger_205_55"``.
+
+    Returns
+    -------
+    Tyre
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or no tyre can be like this; it lists everything that is wrong.
+    """
+    with Arguments("load") as given:
+        given.path("path_or_name", path_or_name)
+    path = Path(str(data_sets(_PACKAGED, ".tir").get(str(path_or_name), path_or_name)))
+    if path.suffix.lower() == ".tir":
+        return MagicFormula.load(path)
+    problem = f"a file that ends in .tir is needed; this ends in {path.suffix or 'nothing'}."
+    raise InputError([problem], str(path_or_name))

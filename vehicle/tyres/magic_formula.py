@@ -1,0 +1,258 @@
+"""Tyres of the Magic Formula: PAC2002, MF 6.1 and MF 6.2, from property files."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+
+from ...core.errors import InputError
+from ...formulas import magic_formula, vertical
+from ...formulas.arithmetic import ARRAYS
+from ...formulas.magic_formula import Contact, Form
+from . import coefficients as known
+from .tir_file import read
+from .tyre import LOWEST_SPEED, USUAL_SPEED, States, Tyre
+
+_OTHER_SIDE = {"left": "right", "right": "left", "": ""}
+
+
+@dataclass(frozen=True)
+class MagicFormula(Tyre):
+    """A tyre of the Magic Formula.
+
+    Attributes
+    ----------
+    coefficients : dict of str to float
+        By their names in property files, in SI units; those that a file leaves out have the value
+        that does nothing.
+    form : Form
+        Which formulas they are of.
+    """
+
+    coefficients: Mapping[str, float]
+    form: Form
+    name: str = "MF 6.1"
+    side: str = ""
+    left_out: tuple[str, ...] = ()
+    assumed: tuple[str, ...] = ()
+    source: str = field(default="", compare=False)
+
+    def __post_init__(self) -> None:
+        filled = {**known.DEFAULTS, "VERTICAL_STIFFNESS": 0.0, **self.coefficients}
+        object.__setattr__(self, "coefficients", filled)
+        problems = [*self._impossible()] or [*self._implausible()]
+        if problems:
+            raise InputError(problems, self.source or self.name)
+
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Return the tyre of a property file (.tir).
+
+        Parameters
+        ----------
+        path : str or pathlib.Path
+
+        Raises
+        ------
+        InputError
+            If the file cannot be read, something is missing, or no tyre can be like this.
+        """
+        found = read(path)
+        return cls(
+            found.numbers,
+            found.form,
+            found.name,
+            found.side,
+            found.left_out,
+            found.assumed,
+            str(path),
+        )
+
+    # -- what it is --
+
+    @property
+    def nominal_load(self) -> float:  # type: ignore[override]
+        """Load at which the coefficients are the values of their curves [N]."""
+        return self.coefficients["FNOMIN"] * self.coefficients["LFZO"]
+
+    @property
+    def radius(self) -> float:  # type: ignore[override]
+        """Radius without load [m]."""
+        return self.coefficients["UNLOADED_RADIUS"]
+
+    @property
+    def ranges(self) -> dict[str, tuple[float, float]]:  # type: ignore[override]
+        """Where the tyre is known, by argument of `evaluate`."""
+        return {
+            name: (self.coefficients.get(low, -np.inf), self.coefficients.get(high, np.inf))
+            for name, (low, high) in known.LIMITS.items()
+            if low in self.coefficients or high in self.coefficients
+        }
+
+    @property
+    def usual_speed(self) -> float:  # type: ignore[override]
+        """Speed of the measurement [m/s]."""
+        return self.coefficients.get("LONGVL", USUAL_SPEED)
+
+    @property
+    def lowest_speed(self) -> float:  # type: ignore[override]
+        """Speed below which slips are smoothed in equations of motion [m/s]."""
+        return self.coefficients.get("VXLOW", LOWEST_SPEED)
+
+    @property
+    def usual_pressure(self) -> float:  # type: ignore[override]
+        """Inflation pressure [Pa]; zero where the tyre does not depend on it."""
+        return self.coefficients.get("INFLPRES", self._nominal_pressure)
+
+    @property
+    def _nominal_pressure(self) -> float:
+        return self.coefficients.get("NOMPRES", 0.0)
+
+    def with_changes(self, changes: Mapping[str, float]) -> Self:
+        """Return the tyre with other coefficients.
+
+        Parameters
+        ----------
+        changes : mapping of str to float
+            By name, such as ``{"LMUY": 0.8}``.
+
+        Raises
+        ------
+        InputError
+            If a name is not known, or no tyre can be like this.
+        """
+        unknown = [k for k in changes if k not in known.USED]
+        if unknown:
+            raise InputError([f"{k} is no coefficient that is used." for k in unknown], self.name)
+        return replace(self, coefficients={**self.coefficients, **changes})
+
+    def mirrored(self) -> Self:
+        """Return the mirror image: the same tyre on the other side of the vehicle."""
+        return replace(
+            self, coefficients=known.mirrored(self.coefficients), side=_OTHER_SIDE[self.side]
+        )
+
+    # -- what it does --
+
+    def _contact(self, at: States) -> Contact:
+        tangent = np.tan(at.slip_angle)
+        nominal = self._nominal_pressure
+        pressure = at.pressure / nominal - 1.0 if nominal else np.zeros(())
+        rolling = np.sign(at.speed)
+        return Contact(
+            load=at.load,
+            longitudinal=at.slip,
+            lateral=at.slip_angle if self.form.angle else tangent,
+            inclination=np.sin(at.camber),
+            direction=np.cos(at.slip_angle) * rolling,
+            rolling=rolling,
+            speed=at.speed / self.usual_speed,
+            pressure=pressure,
+        )
+
+    def _state(self, at: States) -> dict[str, Any]:
+        p, c = self.coefficients, self._contact(at)
+        found = magic_formula.forces(ARRAYS, p, c, self.form)
+        spin = at.speed * (1.0 + at.slip) / self.usual_speed
+        moved = vertical.factor(ARRAYS, p, found.fx, found.fy, spin, c.pressure)
+        deflection, stiffness = vertical.deflection(ARRAYS, p, at.load, c.inclination, moved)
+        nominal = vertical.factor(ARRAYS, p, 0.0, 0.0, 0.0, c.pressure)
+        _, at_nominal = vertical.deflection(ARRAYS, p, p["FNOMIN"], 0.0, nominal)
+        free = vertical.free_radius(p, spin)
+        along, across = self._relaxation(at, c, found)
+        return {
+            "fx": found.fx,
+            "fy": found.fy,
+            "mx": found.mx,
+            "my": found.my,
+            "mz": found.mz,
+            "slip_stiffness": found.slip_stiffness,
+            "cornering_stiffness": -found.cornering_stiffness,
+            "trail": found.trail,
+            "relaxation_x": along,
+            "relaxation_y": across,
+            "loaded_radius": free - deflection,
+            "effective_radius": vertical.effective_radius(ARRAYS, p, at.load, at_nominal, free),
+            "vertical_stiffness": stiffness,
+        }
+
+    def _relaxation(self, at: States, c: Contact, found: magic_formula.Forces) -> tuple[Any, Any]:
+        """Return both relaxation lengths [m]; NaN where the file does not say them."""
+        p, dfz = self.coefficients, at.load / self.nominal_load - 1.0
+        unknown = np.full(at.load.shape, np.nan)
+        along = across = unknown
+        if p["PTX1"]:
+            along, _ = vertical.relaxation_by_load(ARRAYS, {**p, "PTY2": 1.0}, at.load, dfz, 0.0)
+        if p["PTY1"] and p["PTY2"]:
+            _, across = vertical.relaxation_by_load(ARRAYS, p, at.load, dfz, c.inclination)
+        stiff = {"LONGITUDINAL_STIFFNESS": 1.0, "LATERAL_STIFFNESS": 1.0, **p}
+        by_stiffness = vertical.relaxation_by_stiffness(
+            stiff, dfz, c.pressure, found.slip_stiffness, found.cornering_stiffness
+        )
+        if self.form.newer and "LONGITUDINAL_STIFFNESS" in p:
+            along = by_stiffness[0]
+        if self.form.newer and "LATERAL_STIFFNESS" in p:
+            across = by_stiffness[1]
+        return along, across
+
+    # -- whether it can be --
+
+    def _impossible(self) -> list[str]:
+        """Say which numbers no tyre has."""
+        p = self.coefficients
+        positive = ("UNLOADED_RADIUS", "FNOMIN", "LFZO", "PCX1", "PCY1", "LCX", "LCY", "LMUX",
+                    "LMUY", "LCZ", "PKY2", "Q_RE0", "LONGVL", "VXLOW", "NOMPRES", "INFLPRES",
+                    "LONGITUDINAL_STIFFNESS", "LATERAL_STIFFNESS")  # fmt: skip
+        problems = [
+            f"{key} = {p[key]:g}: more than zero is needed."
+            for key in positive
+            if key in p and not p[key] > 0.0
+        ]
+        if not (p["Q_FZ1"] > 0.0 or p["VERTICAL_STIFFNESS"] > 0.0):
+            problems.append("VERTICAL_STIFFNESS or Q_FZ1: more than zero is needed.")
+        for name, (low, high) in self.ranges.items():
+            if not low < high:
+                ends = " and ".join(known.LIMITS[name])
+                problems.append(f"{ends} are {low:g} and {high:g}: the second must be greater.")
+        return problems
+
+    def _implausible(self) -> list[str]:
+        """Say what is wrong with the curves within the range of load, without slip and camber."""
+        p = self.coefficients
+        low, high = self.ranges.get("load", (0.0, np.inf))
+        ends = (max(low, 0.0), self.nominal_load, min(high, 2.0 * self.nominal_load))
+        problems = []
+        for load in dict.fromkeys(ends):
+            dfz = load / self.nominal_load - 1.0
+            for axis in "XY":
+                peak = p[f"PD{axis}1"] + p[f"PD{axis}2"] * dfz
+                if not peak > 0.0:
+                    problems.append(
+                        f"the friction PD{axis}1 + PD{axis}2 dfz is {peak:g} at {load:g} N: more "
+                        "than zero is needed. Correct them, or the range FZMIN to FZMAX."
+                    )
+            slope = p["PKX1"] + p["PKX2"] * dfz
+            if not slope * p["LKX"] > 0.0:
+                problems.append(
+                    f"the slip stiffness PKX1 + PKX2 dfz is {slope:g} at {load:g} N: more than "
+                    "zero is needed."
+                )
+        turned = p["PKY4"] * np.arctan(ends[-1] / (p["PKY2"] * self.nominal_load))
+        if not 0.0 < turned < np.pi:
+            problems.append(
+                f"the cornering stiffness vanishes within {ends[-1]:g} N. Correct PKY4 and PKY2."
+            )
+        if not p["PKY1"] * p["LKY"] < 0.0:
+            problems.append(
+                f"PKY1 = {p['PKY1']:g}: it is negative in the axes of property files (ISO 8855: y "
+                "to the left). Convert a tyre of other axes."
+            )
+        stiff = p["VERTICAL_STIFFNESS"] * p["UNLOADED_RADIUS"] / p["FNOMIN"]
+        if not p["Q_FZ1"] and stiff * stiff <= 4.0 * p["Q_FZ2"]:
+            problems.append(
+                f"Q_FZ2 = {p['Q_FZ2']:g} is too great for the vertical stiffness: less than "
+                f"{0.25 * stiff * stiff:g} is needed."
+            )
+        return problems

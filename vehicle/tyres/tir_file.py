@@ -1,0 +1,302 @@
+"""Property files of tyres (.tir): sections, units, keys that are used and keys that are not."""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+
+from ...core.errors import InputError
+from ...core.legible import legible, short
+from ...formulas.magic_formula import Form
+from ..input.teim_orbit import Block, read_blocks
+from ..input.teim_values import NEWTONS, number
+from . import coefficients as known
+
+_LENGTHS = {
+    **dict.fromkeys(("m", "meter", "metre", "meters", "metres"), 1.0),
+    **dict.fromkeys(("cm", "centimeter", "centimetre"), 0.01),
+    **dict.fromkeys(("mm", "millimeter", "millimetre"), 0.001),
+    **dict.fromkeys(("in", "inch", "inches"), 0.0254),
+    **dict.fromkeys(("ft", "foot", "feet"), 0.3048),
+}
+_UNITS: Mapping[str, Mapping[str, float]] = {
+    "LENGTH": _LENGTHS,
+    "FORCE": NEWTONS,
+    "ANGLE": {
+        **dict.fromkeys(("rad", "radian", "radians"), 1.0),
+        **dict.fromkeys(("deg", "degree", "degrees"), math.pi / 180.0),
+    },
+    "TIME": {
+        **dict.fromkeys(("s", "sec", "second", "seconds"), 1.0),
+        **dict.fromkeys(("ms", "millisecond", "milliseconds"), 0.001),
+    },
+    "PRESSURE": {
+        **dict.fromkeys(("pa", "pascal", "newton/meter**2", "n/m^2"), 1.0),
+        **dict.fromkeys(("kpa", "kilopascal"), 1e3),
+        "bar": 1e5,
+        "psi": 6894.757293168361,
+    },
+}
+_COMMENTS = ("$", "!")
+_OPTIONAL = "PRESSURE"  # in pascal where the file does not say
+_OLDER, _NEWER = (6, 21), (61, 62)
+_OF_TEXT = frozenset(("UNITS", "MODEL", "MDI_HEADER"))
+_OF_TABLES = frozenset(("SHAPE", "DEFLECTION_LOAD_CURVE", "BOTTOMING_CURVE"))
+_SIMILAR = 0.9  # of two keys of which one is a slip of the hand, as `difflib` has it
+_LONGEST = 60
+
+
+@dataclass(frozen=True)
+class TirFile:
+    """What a property file says.
+
+    Attributes
+    ----------
+    numbers : dict of str to float
+        In SI units, by the names of the keys.
+    form : Form
+        Which formulas it needs.
+    name : str
+        What it calls its formulas, such as ``"PAC2002"`` or ``"MF 6.1"``.
+    side : str
+        ``"left"``, ``"right"`` or empty: the side of the vehicle that it was measured for.
+    left_out, assumed : tuple of str
+        Keys that are not used, and what it leaves open: a sentence each.
+    """
+
+    numbers: dict[str, float]
+    form: Form
+    name: str
+    side: str
+    left_out: tuple[str, ...]
+    assumed: tuple[str, ...]
+
+
+def read(path: str | Path) -> TirFile:
+    """Return what a property file says.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+        PAC2002 (also MF 5.2), MF 6.1 or MF 6.2.
+
+    Raises
+    ------
+    InputError
+        If it is another file, or something is missing, twice or no number; with all problems.
+    """
+    return _Reader(read_blocks(path), str(path)).read()
+
+
+class _Reader:
+    def __init__(self, blocks: list[Block], source: str) -> None:
+        self._source = source
+        self._problems: list[str] = []
+        self._blocks = [(block.name.strip().upper(), block) for block in blocks]
+
+    def read(self) -> TirFile:
+        newer, name = self._version()  # of another kind of file nothing else is worth telling
+        scales = self._scales()
+        texts, unused = self._found()
+        numbers = {key: self._number(key, text) for key, text in texts.items()}
+        self._see_sliding(unused)
+        self._see_slips(texts, unused)
+        self._see_missing(numbers)
+        numbers = {key: value * scales(key) for key, value in numbers.items()}
+        if self._problems:
+            raise InputError(self._problems, self._source)
+        weighted = any(numbers.get(key) for key in known.OF_COMBINED_SLIP)
+        form = Form(newer=newer, weighted=weighted, angle=not newer)
+        assumed = tuple(self._assumed(numbers, form))
+        if numbers.get("QSY7") == 0.0:
+            del numbers["QSY7"]
+        return TirFile(numbers, form, name, self._side(), tuple(_listed(unused)), assumed)
+
+    # -- what it is --
+
+    def _text(self, section: str, key: str) -> str:
+        """Return the value of a key as it was written; empty if there is none."""
+        for name, block in self._blocks:
+            if name == section:
+                found = dict(block.values()).get(key.lower(), "")
+                if found:
+                    return found
+        return ""
+
+    def _version(self) -> tuple[bool, str]:
+        """Return whether the formulas are those of MF 6, and what they are called."""
+        kind, fit = self._text("MODEL", "PROPERTY_FILE_FORMAT"), self._text("MODEL", "FITTYP")
+        version = number(fit) if fit else math.nan
+        if kind.upper() == "PAC2002" and (not fit or version in _OLDER):
+            return False, "PAC2002"
+        of_formula = kind.upper().replace("_", "-") in {"", "MF-TYRE", "MF-TIRE", "MF-SWIFT", "MF"}
+        if of_formula and version in _NEWER:
+            return True, f"MF 6.{int(version) % 10}"
+        if of_formula and version in _OLDER:
+            return False, "MF 5.2"
+        if not (kind or fit):
+            problem = "[MODEL] has neither PROPERTY_FILE_FORMAT nor FITTYP"
+        else:
+            told = f"PROPERTY_FILE_FORMAT = '{_shown(kind)}'" if kind else ""
+            told += " and " if kind and fit else ""
+            problem = f"[MODEL] {told}{f'FITTYP = {_shown(fit)}' if fit else ''} cannot be read"
+        readable = "PROPERTY_FILE_FORMAT = 'PAC2002', or FITTYP = 6, 21 (MF 5.2), 61 or 62"
+        raise InputError([f"{problem}; {readable} can. Convert the tyre."], self._source)
+
+    def _side(self) -> str:
+        given = self._text("MODEL", "TYRESIDE").lower()
+        return given if given in {"left", "right"} else ""
+
+    # -- units --
+
+    def _scales(self) -> "_Scales":
+        """Return what numbers are multiplied with to be in SI units."""
+        found = {}
+        if not any(name == "UNITS" for name, _ in self._blocks):
+            self._problems.append(
+                "[UNITS] is missing. Write it with LENGTH = 'meter', FORCE = 'newton', "
+                "ANGLE = 'radians', TIME = 'second'."
+            )
+            return _Scales(dict.fromkeys(_UNITS, 1.0))
+        for quantity, units in _UNITS.items():
+            given = self._text("UNITS", quantity)
+            if quantity == _OPTIONAL and not given:
+                found[quantity] = 1.0
+                continue
+            if given.lower() not in units:
+                told = f"= '{_shown(given)}' is not known" if given else "is missing"
+                self._problems.append(
+                    f"[UNITS] {quantity} {told}. Write one of: {', '.join(units)}."
+                )
+            found[quantity] = units.get(given.lower(), 1.0)
+        return _Scales(found)
+
+    # -- keys --
+
+    def _found(self) -> tuple[dict[str, str], dict[str, dict[str, str]]]:
+        """Return keys that are used, and by section those that are not."""
+        used: dict[str, str] = {}
+        unused: dict[str, dict[str, str]] = {}
+        for section, block in self._blocks:
+            if section == "UNITS":
+                continue
+            for given, written in block.values():
+                key, text = given.upper(), "" if written[:1] in _COMMENTS else written
+                key = known.ALIASES.get(key, key)
+                if key not in known.USED or section in _OF_TABLES:
+                    self._see_text(section, key, text, unused)
+                elif text and used.setdefault(key, text) != text:
+                    self._problems.append(
+                        f"[{section}] {key} is {_shown(used[key])} and {_shown(text)}. "
+                        "Keep one of them."
+                    )
+            if section in _OF_TABLES and any(True for _ in block.rows()):
+                unused.setdefault(section, {})["a table"] = ""
+        return used, unused
+
+    @staticmethod
+    def _see_text(section: str, key: str, text: str, unused: dict[str, dict[str, str]]) -> None:
+        if (section, key) not in {
+            ("MODEL", "FITTYP"),
+            ("MODEL", "PROPERTY_FILE_FORMAT"),
+            ("MODEL", "TYRESIDE"),
+        }:
+            unused.setdefault(section, {})[key] = text
+
+    def _number(self, key: str, text: str) -> float:
+        value = number(text)
+        if not math.isfinite(value):
+            self._problems.append(f"{key} = {_shown(text)}: a finite number is needed.")
+        return value
+
+    def _see_sliding(self, unused: Mapping[str, Mapping[str, str]]) -> None:
+        """Refuse friction that depends on the speed of sliding, which is left out."""
+        for section, keys in unused.items():
+            if keys.get("LMUV") and number(keys["LMUV"]) != 0.0:
+                self._problems.append(
+                    f"[{section}] LMUV = {_shown(keys['LMUV'])}: friction that falls with the "
+                    "speed of sliding is left out. Set it to 0."
+                )
+
+    def _see_slips(self, used: Mapping[str, str], unused: dict[str, dict[str, str]]) -> None:
+        """Refuse keys that seem to be others: their values would be lost."""
+        open_keys = sorted(known.USED - set(used))
+        for section, keys in unused.items():
+            if section in _OF_TEXT or section in _OF_TABLES:
+                continue
+            for key in keys:
+                plain = {k.replace("_", ""): k for k in open_keys}
+                near = plain.get(key.replace("_", "").replace("-", ""), "")
+                if not near and len(key) > 6:
+                    near = next(iter(get_close_matches(key, open_keys, 1, _SIMILAR)), "")
+                if near:
+                    self._problems.append(
+                        f"[{section}] {_shown(key)} is not known. Is it {near}? Correct it, or "
+                        "remove it."
+                    )
+
+    def _see_missing(self, numbers: Mapping[str, float]) -> None:
+        """Refuse a file without what every tyre has."""
+        sections = {name for name, _ in self._blocks}
+        for section, keys in known.missing(numbers).items():
+            there = "" if section in sections else f"The section [{section}] is missing; "
+            needed = ", ".join(keys)
+            self._problems.append(
+                f"{there}[{section}] needs {needed}. Give the whole file of the tyre."
+            )
+        for several, needed in ((known.OF_PRESSURE, "NOMPRES"), (known.OF_SPEED, "LONGVL")):
+            having = next((key for key in several if numbers.get(key)), "")
+            if having and needed not in numbers:
+                self._problems.append(f"{having} needs {needed}, which is missing. Add it.")
+
+    @staticmethod
+    def _assumed(numbers: Mapping[str, float], form: Form) -> Iterator[str]:
+        """Yield what the file leaves open."""
+        if not form.weighted:
+            yield (
+                "combined slip: by the friction ellipse, since RBX1 and RBY1 are missing or zero"
+            )
+        for what, start in (
+            ("the overturning moment", "QSX"),
+            ("rolling resistance", "QSY"),
+        ):
+            if not any(value for key, value in numbers.items() if key.startswith(start)):
+                yield f"{what} is zero, since its coefficients are missing or zero"
+        if numbers.get("QSY7") == 0.0:
+            yield "QSY7: 1 and not 0, since rolling resistance vanishes with the load"
+        for key, usual in (("LONGVL", "16.7 m/s"), ("VXLOW", "1 m/s")):
+            if key not in numbers:
+                yield f"{key}: {usual}, since it is missing"
+
+
+@dataclass(frozen=True)
+class _Scales:
+    """SI units of one unit of a file."""
+
+    of: Mapping[str, float]
+
+    def __call__(self, key: str) -> float:
+        """Return what the number of a key is multiplied with."""
+        length, force, time = self.of["LENGTH"], self.of["FORCE"], self.of["TIME"]
+        return {
+            "m": length,
+            "N": force,
+            "N/m": force / length,
+            "N s/m": force * time / length,
+            "m/s": length / time,
+            "Pa": self.of["PRESSURE"],
+            "rad": self.of["ANGLE"],
+        }.get(known.DIMENSIONS.get(key, "1"), 1.0)
+
+
+def _listed(unused: Mapping[str, Mapping[str, str]]) -> Iterator[str]:
+    """Yield a line for each section with keys that are not used, and why."""
+    for section, keys in unused.items():
+        reason = known.REASONS.get(section, "not known")
+        names = ", ".join(_shown(key) for key in keys)
+        yield f"[{_shown(section)}] {names}: {reason}"
+
+
+def _shown(text: str) -> str:
+    return short(legible(text), _LONGEST)
