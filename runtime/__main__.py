@@ -3,6 +3,8 @@
 What the command line imports takes a part of a second, in which Ctrl-C ends it as quietly as later.
 """
 
+import sys
+
 INTERRUPTED = 130
 """What a shell is told by a program that ended for Ctrl-C."""
 
@@ -13,6 +15,8 @@ def run() -> None:
         from .core import interrupts  # noqa: PLC0415 (inside, to be guarded)
 
         interrupts.heed()
+        # where dask is installed, xarray imports it for 0.3 s to see whether it has arrays of it
+        sys.modules.setdefault("dask", None)  # type: ignore[arg-type]  # None: not there
         try:
             from .vehicle.cli import run as run_command_line  # noqa: PLC0415 (inside, to be guarded)
 

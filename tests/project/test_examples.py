@@ -349,7 +349,7 @@ def test_the_commands_of_a_page_run(
         for line in lines(text) if language == "sh" else ():
             out, written = run_line(kintrafo, line, FILES | MADE_FOR.get(page, {}))
             assert re.search(PRINTED.get(line, ""), out)
-            if re.search(r"characteristics my_car.toml .*-o ", line):
+            if re.search(r"characteristics my_car.toml (?!--positions).*-o ", line):
                 assert {path.stem.rpartition("_")[2] for path in written} == {"travel", "rack"}
             printed += out
         assert same_text(output if language == "sh" else "", printed), printed

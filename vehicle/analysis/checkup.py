@@ -1,23 +1,22 @@
 """A first look at a corner, an axle or a rigid axle."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.quantities import display_of
 from ...systems.linearisation import linearise
 from ..assembly.assembly import Assembly
 from ..assembly.equilibrium import equilibrium
+from ..assembly.measures.measure import columns
 from ..assembly.of import given_assembly
 from ..assembly.usual import USUAL_TRAVEL
 from ..models.plausibility import USUAL_HOP
 from ..models.positions import PositionError
 from .wheel_facts import RestFacts, WheelFacts, facts_of, without_friction
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 __all__ = [
     "USUAL_HOP",
@@ -218,50 +217,41 @@ class _AxleLook:
             )
 
     def _at_design(self) -> None:
-        from ...core.quantities import display_of  # noqa: PLC0415 (slow to import)
-
-        assembly, dataset = self._assembly, _over(self._assembly, "bump", [0.0])
+        assembly = self._assembly
+        found = assembly.values("bump", np.zeros(1))
+        known = columns(assembly.measures("bump"), assembly.wheels)
         left_out = _NOT_ON_A_BEAM if assembly.on_a_beam else _NOT_OF_CORNERS
         alike = len(assembly.corners) < len(assembly.wheels)
         for stem, words in _WORDS.items():
-            name = stem if stem in dataset else f"{stem}_left"
-            if stem in left_out or name not in dataset:
+            name = stem if stem in found else f"{stem}_left"
+            if stem in left_out or name not in found:
                 continue
-            shown = display_of(dataset[name].attrs)
-            self.values[name] = float(dataset[name][0])
+            shown = display_of(known[name].attributes())
+            self.values[name] = float(found[name][0])
             label = words if name == stem or alike else f"{words}, left"
             self.rows[label] = f"{self.values[name] * shown.factor:.4g} {shown.units}"
 
     def _in_roll(self) -> None:
-        angles = self._assembly.usual("roll")
+        assembly, angles = self._assembly, self._assembly.usual("roll")
         # that drop links reach is seen over all of the usual travel, too
-        _over(self._assembly, "bump")
-        dataset = _over(self._assembly, "roll", angles[[0, -1]])
-        if "roll_moment" in dataset:
-            moment = float(dataset["roll_moment"][-1])
+        assembly.values("bump", assembly.usual("bump"))
+        moments = assembly.values("roll", angles[[0, -1]]).get("roll_moment")
+        if moments is not None:
+            moment = float(moments[-1])
             self.rows[f"roll moment at {np.degrees(angles[-1]):.3g} deg"] = f"{moment:.4g} N m"
 
     def _in_steering(self) -> None:
-        dataset = _over(self._assembly, "steer")
-        if self._assembly.subject.end == "rear":
+        assembly, along = self._assembly, self._assembly.usual("steer")
+        found = assembly.values("steer", along)
+        if assembly.subject.end == "rear":
             return
-        (along,) = dataset.sizes
-        ends = np.degrees([dataset["steer_left"].values.min(), dataset["steer_left"].values.max()])
+        ends = np.degrees([found["steer_left"].min(), found["steer_left"].max()])
         self.rows["left wheel steers"] = f"{ends[0]:.1f} deg to {ends[1]:.1f} deg"
-        if "steering_ratio" in dataset:
-            middle = int(np.abs(dataset[along].values).argmin())
-            ratio = float(dataset["steering_ratio"][middle])
+        if "steering_ratio" in found:
+            ratio = float(found["steering_ratio"][np.abs(along).argmin()])
             self.rows["steering ratio"] = f"{ratio:.2f}, in the middle"
-        if "turning_circle" in dataset:
-            self.rows["turning circle"] = f"{float(dataset['turning_circle'].min()):.2f} m"
-
-
-def _over(assembly: Assembly, motion: str, along: Any = None) -> "xr.Dataset":
-    """Return characteristics over a motion as columns."""
-    from ..assembly.by_wheel import flat  # noqa: PLC0415 (slow to import)
-    from .characteristics.datasets import over  # noqa: PLC0415 (slow to import)
-
-    return flat(over(assembly, motion, along))
+        if "turning_circle" in found:
+            self.rows["turning circle"] = f"{float(found['turning_circle'].min()):.2f} m"
 
 
 def as_dict(found: Checkup) -> dict[str, Any]:

@@ -1,7 +1,7 @@
 """The protocol that every analysis is written for: an assembly has wheels."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
@@ -20,7 +20,7 @@ from .anti_roll_bar import Bar, RollBar
 from .coupling import BodyPose
 from .held import RestConditions
 from .load import Load, known
-from .measures.measure import Measure
+from .measures.measure import Measure, values
 from .part_poses import PartPoses
 from .quantity import RACK, Quantity
 from .rig import RigMotion, RigPosition, SweepRange, WheelReach
@@ -251,6 +251,27 @@ class Assembly(ABC):
         InputError
             If it does not move with rigid joints, or a drop link does not reach.
         """
+
+    def values(
+        self, motion: str, along: Array, names: Container[str] | None = None
+    ) -> dict[str, Array]:
+        """Return characteristics over a motion by the names of their columns, all or some.
+
+        Parameters
+        ----------
+        motion : str
+        along : ndarray, shape (n,)
+            As of `position`.
+        names : container of str, optional
+            Of columns: ``camber``, of an axle ``camber_left``.
+
+        Returns
+        -------
+        dict of str to ndarray, each of shape (n,)
+            SI units.
+        """
+        of = self.kinematics(self.position(motion, along))
+        return values(self.measures(motion), of, self.wheels, names)
 
     # -- its equations of motion ------------------------------------------------------------------
 

@@ -16,7 +16,6 @@ from . import (
     export,
     fit,
     import_,
-    kinematics,
     loads,
     mechanism,
     new,
@@ -32,6 +31,7 @@ from . import (
     tolerance,
 )
 from .numbers import explained
+from .option_groups import with_groups
 
 __all__ = ["COMMANDS", "app", "run"]
 
@@ -81,7 +81,7 @@ class _Command(TyperCommand):
 # In the order in which an engineer needs them.
 _PANELS = {
     "Begin": (new, import_, check),
-    "Compute": (kinematics, characteristics, simulate, loads, compliance, sheet, compare),
+    "Compute": (characteristics, simulate, loads, compliance, sheet, compare),
     "Design": (sensitivity, tolerance, optimise, pareto, fit, sweep),
     "Hand over": (report, export),
 }
@@ -98,7 +98,7 @@ def _add(to: typer.Typer, module: ModuleType, group: str = "", **options: Any) -
     examples = "\n\n".join(("Examples:", *module.EXAMPLES))
     words = _flowing(module.command.__doc__ or "")
     made = to.command(name, cls=_Command, help=words, epilog=escape(examples), **options)
-    made(explained(module.command))
+    made(explained(with_groups(module.command)))
     COMMANDS[f"{group}{name}"] = module
 
 

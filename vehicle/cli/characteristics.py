@@ -1,16 +1,15 @@
-"""``kintrafo characteristics``: all characteristics over the motions of a rig."""
+"""``kintrafo characteristics``: characteristics, or positions, over the motions of a rig."""
 
 from math import radians
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ...terminal.console import console, curve_table, print_json, print_table
+from ...terminal.console import console, curve_table, print_json, print_table, say
 from . import goals as wanted
-from .option_groups import with_groups
-from .options import Bump, File, Json, Of, RackExtent, Rebound, Step, among, by_comma, metres
-from .outputs import USUAL_OUTPUT, OutputOptions, name_files, named, of_both, only, title_of
-from .subject import assembly_of_file
+from .loading import assembly_of_file
+from .options import Bump, File, Of, Rebound, among, metres, option, refuse_options
+from .outputs import CurveOptions, Outputs, name_files, named, of_both, only, title_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
     from ..assembly.assembly import Assembly
+    from ..assembly.rig import SweepRange
     from ..studies.goals import Goal
 
 EXAMPLES = (
@@ -27,6 +27,8 @@ EXAMPLES = (
     "kintrafo characteristics my_car.toml --figures figures --format svg",
     "kintrafo characteristics my_car.toml --goals goals.toml --plot curves.png",
     "kintrafo characteristics reference_axle --over bump,roll -o axle.csv",
+    "kintrafo characteristics my_car.toml --positions --bump 60 --rebound 90 -o path.csv",
+    "kintrafo characteristics my_car.toml --positions --over both --step 10 -o map.nc",
 )
 # Those of an assembly, where nothing is chosen, are these; what an axle has besides is asked for.
 _USUAL = ("travel", "rack", "bump", "roll", "left", "steer")
@@ -55,60 +57,60 @@ _OF_ONE_WHEEL = (
 )
 
 
-@with_groups
+_POSITIONS = ("wheel_center_x", "wheel_center_y", "wheel_center_z", "camber", "toe", "steer")
+_BOTH = "both"
+
+
 def command(
     file: File,
     *,
     rebound: Rebound = None,
     bump: Bump = None,
-    rack_extent: RackExtent = None,
+    rack_extent: Annotated[
+        float | None, option("Rack to either side. Default: 60, if reached.", "MM")
+    ] = None,
     over: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="NAME,...",
-            help="Motions of the rig: of a suspension travel and rack, the default; of an axle "
-            "bump, roll, left, right, steer and rack, by default bump,roll,left,steer. What is not "
-            "steered has no rack and no steer.",
-            callback=by_comma,
+        option(
+            "Motions of the rig: of a suspension travel and rack, the default; of an axle bump, "
+            "roll, left, right, steer and rack, by default bump,roll,left,steer. What is not "
+            "steered has no rack and no steer. With --positions travel (of an axle bump), the "
+            "default, rack, or both, which make a grid.",
+            "NAME,...",
         ),
     ] = None,
     roll: Annotated[
-        float | None,
-        typer.Option(
-            metavar="DEG", help="Of an axle: roll to either side. Default: 4, if reached."
-        ),
+        float | None, option("Of an axle: roll to either side. Default: 4, if reached.", "DEG")
     ] = None,
-    step: Step = 2.0,
-    travel: Annotated[
-        float, typer.Option(metavar="MM", help="Wheel travel, where the rack varies.")
-    ] = 0.0,
-    rack: Annotated[
-        float, typer.Option(metavar="MM", help="Rack displacement, where the travel varies.")
-    ] = 0.0,
+    step: Annotated[float, option("Distance of the positions.", "MM")] = 2.0,
+    travel: Annotated[float, option("Wheel travel, where the rack varies.", "MM")] = 0.0,
+    rack: Annotated[float, option("Rack displacement, where the travel varies.", "MM")] = 0.0,
     of: Of = None,
     goals: wanted.Goals = None,
-    output: OutputOptions = USUAL_OUTPUT,
-    json: Json = False,
+    positions: Annotated[
+        bool,
+        option(
+            "Where wheels, joints and coordinates are, in place of characteristics.",
+            None,
+            "--positions",
+        ),
+    ] = False,
+    output: CurveOptions,
 ) -> None:
     """All characteristics over the motions of a rig; tables of them at design.
 
     Data files and pages are written once for each motion, with its name behind theirs: _travel and
-    _rack of a suspension, _bump, _roll, _left and _steer of an axle.
+    _rack of a suspension, _bump, _roll, _left and _steer of an axle. With --positions both wheels
+    of an axle travel in parallel.
     """
-    from ...datasets import export
-    from ..analysis.characteristics import datasets
     from ..assembly.rig import SweepRange
 
     if goals and (travel or rack):
         raise typer.BadParameter(wanted.ELSEWHERE)
     assembly = assembly_of_file(file)
-    chosen = _motions(assembly, over)
-    outputs = output.of(
-        inputs=[file, *([goals] if goals else [])],
-        suffixes=[f"_{name}" for name in chosen],
-    )
+    chosen = _motions(assembly, over, positions=positions)
+    outputs = output.files(file, goals, suffixes=[f"_{name}" for name in chosen])
     _refuse_options(assembly, roll=roll, rack_extent=rack_extent, travel=travel, rack=rack)
-    aims = _aims(goals, chosen, assembly)
     extent = SweepRange(
         rebound=metres(rebound),
         bump=metres(bump),
@@ -116,11 +118,39 @@ def command(
         rack=metres(rack_extent),
         step=step / 1e3,
     )
+    held = {"travel": travel / 1e3, "rack": rack / 1e3}
+    if positions:
+        if of or goals:
+            raise typer.BadParameter("--of and --goals are about characteristics, not --positions")
+        _positions(assembly, file, chosen, extent, held, outputs, json=output.json)
+    else:
+        _characteristics(
+            assembly, file, chosen, extent, held, outputs, of=of, goals=goals, json=output.json
+        )
+
+
+def _characteristics(
+    assembly: "Assembly",
+    file: str,
+    motions: list[str],
+    extent: "SweepRange",
+    held: "Mapping[str, float]",
+    outputs: Outputs,
+    *,
+    of: list[str] | None,
+    goals: "Path | None",
+    json: bool,
+) -> None:
+    """Write and print characteristics over some motions."""
+    from ...datasets import export
+    from ..analysis.characteristics import datasets
+
+    aims = _aims(goals, motions, assembly)
     curves = {}
-    for name in chosen:
+    for name in motions:
         steers = name in {"rack", "steer"}
-        held = {"travel": travel / 1e3} if steers else {"rack_position": rack / 1e3}
-        curves[name] = datasets.over(assembly, name, extent=extent, **held)
+        still = {"travel": held["travel"]} if steers else {"rack_position": held["rack"]}
+        curves[name] = datasets.over(assembly, name, extent=extent, **still)
     assembly.refuse_of_steering(of or ())
     # both wheels of an axle are drawn together
     drawn = named(of_both(of) if len(assembly.wheels) > 1 else of, curves)
@@ -148,6 +178,52 @@ def command(
     name_files(written)
 
 
+def _positions(
+    assembly: "Assembly",
+    file: str,
+    motions: list[str],
+    extent: "SweepRange",
+    held: "Mapping[str, float]",
+    outputs: Outputs,
+    *,
+    json: bool,
+) -> None:
+    """Write and print where the wheels and the joints are over travel, the rack, or both."""
+    from ...datasets import export
+    from ..analysis import sweep
+    from ..assembly.by_wheel import flat
+
+    if (held["travel"] and "rack" not in motions) or (
+        held["rack"] and assembly.usual_motion not in motions
+    ):
+        over = ", ".join(motions)
+        raise typer.BadParameter(f"--travel and --rack are for what is held; --over is {over}")
+    found, written = {}, []
+    for motion in motions:
+        along = {
+            name: assembly.usual(name, extent, **held)
+            for name in ([assembly.usual_motion, "rack"] if motion == _BOTH else [motion])
+        }
+        travels = along.get(assembly.usual_motion, held["travel"])
+        found[motion] = sweep.positions(assembly, travels, along.get("rack", held["rack"]))
+        written += outputs.write(found[motion], title=title_of(file), suffix=f"_{motion}")
+    if json:
+        print_json({f"over_{name}": export.as_dict(dataset) for name, dataset in found.items()})
+        return
+    for motion, dataset in found.items():
+        if motion == _BOTH:
+            sizes = {name: size for name, size in dataset.sizes.items() if name != "wheel"}
+            counts = " x ".join(f"{size} {name}" for name, size in sizes.items())
+            say(f"{counts}, {len(flat(dataset))} variables; write them with --out")
+            continue
+        for wheel in assembly.wheels:
+            own, title = dataset, f"{file}: positions over {motion}"
+            if "wheel" in dataset.dims:
+                own, title = dataset.sel(wheel=wheel, drop=True), f"{title}, {wheel}"
+            console.print(curve_table(own, [name for name in _POSITIONS if name in own], title))
+    name_files(written)
+
+
 def _aims(path: "Path | None", chosen: list[str], assembly: "Assembly") -> "list[Goal]":
     """Return the targets and limits of a file that are about the motions."""
     if path is None:
@@ -157,8 +233,14 @@ def _aims(path: "Path | None", chosen: list[str], assembly: "Assembly") -> "list
     return wanted.read(path, chosen, sweep_axes_of(assembly.subject))
 
 
-def _motions(assembly: "Assembly", wanted: list[str] | None) -> list[str]:
+def _motions(assembly: "Assembly", wanted: list[str] | None, *, positions: bool) -> list[str]:
     """Return the motions that are asked for, or the usual ones."""
+    if positions:
+        usual = assembly.usual_motion
+        if not assembly.steered and not {"rack", _BOTH}.isdisjoint(wanted or ()):
+            assembly.refuse_motion("rack")
+        steering = ["rack", _BOTH] if assembly.steered else []
+        return among(wanted or [usual], [usual, *steering], "--over")
     if not wanted:
         several = [name for name in _USUAL if name in assembly.motions]
         return [name for name in several if name != "rack" or "steer" not in several]
@@ -182,9 +264,7 @@ def _refuse_options(
     if assembly.steered:
         return
     of_rack = {"--rack-extent": rack_extent, "--rack": rack or None, "--travel": travel or None}
-    for option, value in of_rack.items():
-        if value is not None:
-            raise typer.BadParameter(f"{option} is only for what has a rack")
+    refuse_options("what has a rack", of_rack)
 
 
 def _title(assembly: "Assembly", file: str, motion: str) -> str:

@@ -10,8 +10,8 @@ from rich.table import Table
 
 from ...terminal.console import console, print_json, say
 from ...terminal.exits import Exit
+from .loading import assembly_of_file
 from .options import File, Json
-from .subject import described_by
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -37,7 +37,7 @@ def command(file: File, *, json: Json = False) -> None:
 
     _refuse_missing(file)
     try:
-        found = checkup(described_by(file))
+        found = checkup(assembly_of_file(file))
     except InputError as error:
         if json:
             print_json({"problems": list(error.problems)})

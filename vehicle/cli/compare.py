@@ -10,11 +10,9 @@ from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
 from ..models.sides import SIDES
 from . import goals as wanted
-from .compliance import Held
-from .option_groups import with_groups
-from .options import Files, Json, Of, among
-from .outputs import USUAL_OUTPUT, OutputOptions, name_files, title_of
-from .subject import assembly_of_file
+from .loading import assembly_of_file
+from .options import Held, Of, among, argument, option
+from .outputs import CurveOptions, name_files, title_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -23,7 +21,6 @@ if TYPE_CHECKING:
 
     from ..analysis.compare import Difference
     from ..assembly.assembly import Assembly
-    from ..models.axle import Axle
     from ..studies.evaluation import Subject
 
 EXAMPLES = (
@@ -36,28 +33,32 @@ EXAMPLES = (
 )
 
 
-@with_groups
 def command(
-    files: Files,
+    files: Annotated[
+        list[str],
+        argument(
+            "Two or more hardpoint files or packaged names; the first is the reference.",
+            "FILE FILE...",
+        ),
+    ],
     *,
     over: Annotated[
         Literal["travel", "rack", "bump", "roll", "left", "right", "steer"] | None,
-        typer.Option(
-            help="What varies: travel or rack, of axles the motion of the rig. Default: travel, "
-            "bump, or that of the measured curves."
+        option(
+            "What varies: travel or rack, of axles the motion of the rig. Default: travel, bump, "
+            "or that of the measured curves."
         ),
     ] = None,
     of: Of = None,
     held: Annotated[
         Held | None,
-        typer.Option(
-            help="Compare compliance, too, on the bushes of the files: what holds the wheel, or "
-            "held it on the rig, where it is height by default."
+        option(
+            "Compare compliance, too, on the bushes of the files: what holds the wheel, or held it "
+            "on the rig, where it is height by default."
         ),
     ] = None,
     goals: wanted.Goals = None,
-    output: OutputOptions = USUAL_OUTPUT,
-    json: Json = False,
+    output: CurveOptions,
 ) -> None:
     """Compare the characteristics of two or more files, or with curves that were measured.
 
@@ -70,7 +71,7 @@ def command(
     from ..assembly.by_wheel import flat
     from ..studies.sweep_axes import compliances_over, sweep_axes_of
 
-    outputs = output.of(inputs=[*files, *([goals] if goals else [])])
+    outputs = output.files(*files, goals)
     dataset, way, subjects = _compared(files, over, held)
     known = sweep_axes_of(next(iter(subjects.values())))
     table = flat(dataset)
@@ -93,7 +94,7 @@ def command(
     written = outputs.write(
         dataset, title=title, names=shown if of else (), drawn=drawn, goals=aims
     )
-    if json:
+    if output.json:
         rows = [vars(difference) | {"units": _units(table, difference)} for difference in found]
         print_json({"differences": rows, "goals": judged} if aims else rows)
         return
@@ -121,7 +122,7 @@ class _Compared(NamedTuple):
 
     dataset: "Dataset"
     way: str
-    subjects: "Mapping[str, Subject | Axle]"
+    subjects: "Mapping[str, Subject]"
 
 
 def _compared(files: list[str], over: str | None, held: Held | None) -> _Compared:

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import typer
 
-from ...terminal.console import console, note, print_json, print_table, say
+from ...terminal.console import console, print_json, print_table, say
 from . import goals as wanted
-from .options import Bump, File, Force, Json, Of, Rebound, metres, refuse_options
-from .outputs import Out, Outputs, Plot, name_files, named, of_both, only, title_of
-from .subject import described_by
+from .loading import assembly_of_file, bushes_of
+from .options import Bump, Bushes, File, Held, Of, Rebound, metres, option, refuse_options
+from .outputs import Outputs, PlotOptions, name_files, named, of_both, only, title_of
 from .variation_options import At, with_position
 
 if TYPE_CHECKING:
@@ -22,26 +22,17 @@ if TYPE_CHECKING:
     from ..assembly.rig import SweepRange
 
 EXAMPLES = (
-    "kintrafo compliance my_car.toml bushes.toml",
-    "kintrafo compliance my_car.toml bushes.toml --held spring --plot curves.png -o curves.csv",
-    "kintrafo compliance my_car.toml bushes.toml --goals goals.toml --plot goals.png",
-    "kintrafo compliance my_car.toml bushes.toml --of toe_by_lateral --plot lateral.png",
-    "kintrafo compliance reference_axle bushes.toml",
-    "kintrafo compliance my_car.toml bushes.toml --nonlinear --plot curves.png",
-    "kintrafo compliance my_car.toml bushes.toml --nonlinear --under lateral --most 6000",
-    "kintrafo compliance rigid_axle axle_bushes.toml --nonlinear --over roll --plot roll.png",
-    "kintrafo compliance reference_axle bushes.toml --nonlinear --under braking --wheels opposed",
+    "kintrafo compliance my_car.toml --bushes bushes.toml",
+    "kintrafo compliance my_car.toml --bushes bushes.toml --held spring --plot curves.png",
+    "kintrafo compliance my_car.toml --bushes bushes.toml --goals goals.toml --plot goals.png",
+    "kintrafo compliance my_car.toml --bushes bushes.toml --of toe_by_lateral -o lateral.csv",
+    "kintrafo compliance reference_axle --bushes bushes.toml",
+    "kintrafo compliance my_car.toml --bushes bushes.toml --nonlinear --plot curves.png",
+    "kintrafo compliance my_car.toml --bushes bushes.toml --nonlinear --under lateral --most 6000",
+    "kintrafo compliance rigid_axle --bushes axle_bushes.toml --nonlinear --over roll",
+    "kintrafo compliance reference_axle --bushes bushes.toml --nonlinear --under braking",
 )
 
-Held = Literal["height", "tyre", "spring", "locked"]
-Bushes = Annotated[
-    Path | None,
-    typer.Argument(
-        metavar="[BUSHES]",
-        help="TOML: [bushings.POINT] with stiffnesses. Default: those of FILE.",
-        show_default=False,
-    ),
-]
 # Loads that a suspension meets, N and N m.
 _USUAL, _USUAL_TORQUE = 5000.0, 250.0
 _STEPS = 41
@@ -49,52 +40,46 @@ _STEPS = 41
 
 def command(
     file: File,
-    bushes: Bushes = None,
     *,
+    bushes: Bushes = None,
     nonlinear: Annotated[
         bool,
-        typer.Option(
-            "--nonlinear",
-            help="By equilibrium, by any amount: over a motion, or --under a load.",
+        option(
+            "By equilibrium, by any amount: over a motion, or --under a load.", None, "--nonlinear"
         ),
     ] = False,
     under: Annotated[
         Literal["lateral", "braking", "recession", "aligning"] | None,
-        typer.Option(help="With --nonlinear: under which load."),
+        option("With --nonlinear: under which load."),
     ] = None,
     most: Annotated[
-        float | None,
-        typer.Option(metavar="N", help="Greatest load, N or N m. Default: 5000, aligning 250."),
+        float | None, option("Greatest load, N or N m. Default: 5000, aligning 250.", "N")
     ] = None,
     wheels: Annotated[
         Literal["parallel", "opposed", "left", "right"] | None,
-        typer.Option(help="Of an axle, which wheels have the load. Default: parallel."),
+        option("Of an axle, which wheels have the load. Default: parallel."),
     ] = None,
     over: Annotated[
         Literal["bump", "roll", "left", "right", "steer"] | None,
-        typer.Option(help="With --nonlinear, of an axle: the motion of the rig. Default: bump."),
+        option("With --nonlinear, of an axle: the motion of the rig. Default: bump."),
     ] = None,
     hardpoints: Annotated[
         Literal["loaded", "relaxed"] | None,
-        typer.Option(
-            help="With --nonlinear: whether the joints are at the hardpoints under the static load "
-            "at design, the default, or with relaxed bushes."
+        option(
+            "With --nonlinear: whether the joints are at the hardpoints under the static load at "
+            "design, the default, or with relaxed bushes."
         ),
     ] = None,
     held: Annotated[
-        Held | None,
-        typer.Option(help="What holds the wheel: see docs/suspension/loads.md. Default: height."),
+        Held | None, option("What holds the wheel: see docs/suspension/loads.md. Default: height.")
     ] = None,
     at: At = 0.0,
-    rack: Annotated[float, typer.Option(metavar="MM", help="Rack held there.")] = 0.0,
+    rack: Annotated[float, option("Rack held there.", "MM")] = 0.0,
     rebound: Rebound = None,
     bump: Bump = None,
     of: Of = None,
     goals: wanted.Goals = None,
-    out: Out = None,
-    plot: Plot = None,
-    force: Force = False,
-    json: Json = False,
+    output: PlotOptions,
 ) -> None:
     """Print toe, camber and displacement of the wheels per kN and per 100 N m, on their bushes.
 
@@ -105,8 +90,7 @@ def command(
     """
     if goals and rack:
         raise typer.BadParameter(wanted.ELSEWHERE)
-    inputs: list[str | Path] = [file, *(read for read in (bushes, goals) if read is not None)]
-    outputs = Outputs.of(out, plot, force=force, inputs=inputs)
+    outputs = output.files(file, bushes, goals)
     rig = _Rig.of(file, bushes, (at, rack), (rebound, bump))
     loads = {"--most": most, "--wheels": wheels}
     motions = {"--over": over}
@@ -114,7 +98,7 @@ def command(
         refuse_options(
             "--nonlinear", {"--under": under, "--hardpoints": hardpoints} | loads | motions
         )
-        _linear(rig, held or "height", outputs, of=of, goals=goals, json=json)
+        _linear(rig, held or "height", outputs, of=of, goals=goals, json=output.json)
         return
     refuse_options("linear compliance", {"--of": of, "--goals": goals})
     if len(rig.assembly.wheels) == 1:
@@ -126,7 +110,7 @@ def command(
         refuse_options("curves over a motion", {"--rebound": rebound, "--bump": bump} | motions)
         how = {"held": held or "height", "wheels": wheels, "hardpoints": hardpoints or "loaded"}
         found = _under(rig, under, most, how)
-    _show_nonlinear(rig, found, outputs, json=json)
+    _show_nonlinear(rig, found, outputs, json=output.json)
 
 
 class _Rig(NamedTuple):
@@ -148,16 +132,15 @@ class _Rig(NamedTuple):
         ends: tuple[float | None, float | None],
     ) -> "_Rig":
         """Return what is on the rig at a travel and a place of the rack, and its ends [mm]."""
-        from ..assembly.of import assembly_of
         from ..assembly.rig import SweepRange
 
-        assembly: Any = assembly_of(described_by(file))
+        assembly = assembly_of_file(file)
         at, rack = where
         if not assembly.steered:
             refuse_options("files with a rack", {"--rack": rack or None})
         rebound, bump = map(metres, ends)
         extent = SweepRange(rebound=rebound, bump=bump)
-        return cls(file, assembly, described(file, bushes), at / 1e3, rack / 1e3, extent)
+        return cls(file, assembly, bushes_of(file, bushes), at / 1e3, rack / 1e3, extent)
 
     def on_bushes(self) -> Any:
         """Return what the file describes, on these bushes."""
@@ -169,16 +152,6 @@ class _Rig(NamedTuple):
         """Return the wheel travels of curves, with that of the table [m]."""
         usual = self.assembly.usual(self.assembly.usual_motion, self.extent, rack=self.rack)
         return with_position(usual, 1e3 * self.at)
-
-
-def described(file: str, bushes: Path | None) -> dict[str, Any] | None:
-    """Return the bushes of a file of their own, where one is given in place of those of the car."""
-    from ..analysis.compliance import read_bushes
-
-    if bushes is None:
-        return None
-    note(f"bushes: those of {bushes}, in place of any that {file} has.")
-    return read_bushes(bushes)
 
 
 def _linear(

@@ -3,20 +3,9 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from ...terminal.console import print_json, problems, say
-from .options import (
-    Force,
-    Json,
-    Which,
-    by_comma,
-    complete_file,
-    refuse_options,
-    refuse_which,
-    system_of,
-)
-from .subject import model_of
+from .loading import model_of, system_of
+from .options import Force, Json, Which, argument, option, refuse_options, refuse_which
 
 if TYPE_CHECKING:
     from ...systems.system import System
@@ -33,41 +22,29 @@ EXAMPLES = (
 def command(
     file: Annotated[
         str,
-        typer.Argument(
-            metavar="FILE",
-            help="Hardpoint file, file of an axle, Python file with a mechanism of your own, or a "
-            "name that comes with kintrafo: reference_car, rigid_axle, four_bar.",
-            autocompletion=complete_file,
+        argument(
+            "Hardpoint file, file of an axle, Python file with a mechanism of your own, or a name "
+            "that comes with kintrafo: reference_car, rigid_axle, four_bar.",
+            "FILE",
         ),
     ],
     *,
     to: Annotated[
         str,
-        typer.Option(
-            metavar="KIND",
-            help="c: a folder with plain C. fmu: a functional mock-up unit. points: a table of the "
+        option(
+            "c: a folder with plain C. fmu: a functional mock-up unit. points: a table of the "
             "hardpoints (.csv), which kintrafo import reads again.",
+            "KIND",
         ),
     ],
     out: Annotated[
         Path | None,
-        typer.Option(
-            "--out",
-            "-o",
-            metavar="PATH",
-            help="Path of what is written. Default: from the name of FILE.",
-        ),
+        option("Path of what is written. Default: from the name of FILE.", "PATH", "--out", "-o"),
     ] = None,
-    fmi: Annotated[
-        int | None, typer.Option(metavar="VERSION", help="Of FMI, for a unit: 2 or 3. Default: 2.")
-    ] = None,
+    fmi: Annotated[int | None, option("Of FMI, for a unit: 2 or 3. Default: 2.", "VERSION")] = None,
     platform: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="NAME,...",
-            help="With a library for linux and windows. Default: this system.",
-            callback=by_comma,
-        ),
+        option("With a library for linux and windows. Default: this system.", "NAME,..."),
     ] = None,
     model: Which = None,
     force: Force = False,

@@ -10,10 +10,8 @@ from rich.table import Table
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
 from ...terminal.exits import Exit
-from .compliance import Held
-from .options import File, Force, Json, Of, among
-from .outputs import Outputs, Plot, name_files
-from .subject import subject_of_file
+from .options import File, Held, Of, among, argument, option
+from .outputs import CarOptions, name_files
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -30,59 +28,40 @@ def command(
     file: File,
     measured: Annotated[
         Path,
-        typer.Argument(
-            metavar="MEASURED",
-            help="CSV: wheel_travel [mm] or rack_position [mm], toe [deg], ...; of a rigid axle "
-            "also over roll_angle [deg].",
+        argument(
+            "CSV: wheel_travel [mm] or rack_position [mm], toe [deg], ...; of a rigid axle also "
+            "over roll_angle [deg].",
+            "MEASURED",
         ),
     ],
     tolerances: Annotated[
         Path,
-        typer.Argument(
-            metavar="TOLERANCES",
-            help="TOML: [tolerances] of values that may be off, and [accuracy] of curves.",
+        argument(
+            "TOML: [tolerances] of values that may be off, and [accuracy] of curves.", "TOLERANCES"
         ),
     ],
     *,
     of: Of = None,
-    held: Annotated[
-        Held, typer.Option(help="What held the wheel when compliance was measured.")
-    ] = "height",
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            "--out",
-            "-o",
-            metavar="PATH",
-            help="Write the hardpoint file that explains the curves: .toml.",
-            rich_help_panel="Output",
-        ),
-    ] = None,
-    plot: Plot = None,
-    force: Force = False,
-    json: Json = False,
+    held: Annotated[Held, option("What held the wheel when compliance was measured.")] = "height",
+    output: CarOptions,
 ) -> None:
     """Find which values of the file are off, so that the curves are as they were measured.
 
     Each stays within its tolerance. Where several errors explain a curve, the most probable ones
     are printed, with their uncertainty. The exit code is 1 where a curve is not explained.
     """
-    from ...core.files import refuse
     from .. import studies as variation
     from ..analysis import rig
-    from ..input.toml_writer import write_toml
+    from ..files.loading import load
 
-    inputs: list[str | Path] = [file, measured, tolerances]
-    outputs = Outputs.of(None, plot, force=force, inputs=inputs)
-    if out is not None:
-        refuse([out], force=force, inputs=inputs, endings=[".toml"])
-    suspension = subject_of_file(file)
+    outputs = output.files(file, measured, tolerances, car=output.car)
+    subject = load(file)
     curves = rig.measured_curves(measured)
     asked = variation.read(tolerances)
     names = among(of, map(str, curves)) if of else None
     with progress_bar("fit") as progress:
         found = variation.fit(
-            suspension,
+            subject,
             curves,
             asked.get("tolerances", {}),
             accuracy=asked.get("accuracy"),
@@ -93,20 +72,14 @@ def command(
     written: list[Path] = []
     if outputs.pages:
         from ..assembly.of import assembly_of
-        from ..plots import curves as plots
+        from ..plots.curves import write_overview
 
         models = {"file": assembly_of(found.start), "fitted": assembly_of(found.suspension)}
         shown = rig.beside(curves, models, held=held)[[curve.name for curve in found.curves]]
-        written += [
-            plots.write_overview(
-                shown, path, (), f"{file}: {measured.name}", force=force, inputs=inputs
-            )
-            for path in outputs.pages
-        ]
-    if out is not None:
-        head = [f"{file}, with values that kintrafo fit found to explain {measured.name}."]
-        written.append(write_toml(found.suspension, out, head=head, force=force, inputs=inputs))
-    if json:
+        written += outputs.draw(write_overview, shown, (), f"{file}: {measured.name}")
+    head = f"{file}, with values that kintrafo fit found to explain {measured.name}."
+    written += outputs.write_car(found.suspension, head)
+    if output.json:
         print_json(_facts(found))
     else:
         _print(found, curves, file)

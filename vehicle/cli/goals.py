@@ -10,13 +10,11 @@ from rich.table import Table
 
 from ...core.tabulated import significant
 from ...terminal.console import note
+from .options import option
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from ..models.axle import Axle
-    from ..models.model import Model
-    from ..models.rigid import RigidAxle
     from ..studies.evaluation import Subject
     from ..studies.goals import Goal
 
@@ -29,11 +27,10 @@ _HELD = 1e-4
 
 Goals = Annotated[
     Path | None,
-    typer.Option(
-        "--goals",
-        metavar="FILE",
-        help="TOML with [targets] and [limits] of characteristics or compliance, as of kintrafo "
+    option(
+        "TOML with [targets] and [limits] of characteristics or compliance, as of kintrafo "
         "optimise: they are drawn into the curves, and a table lists which are met.",
+        "FILE",
     ),
 ]
 
@@ -78,13 +75,6 @@ def read(
     if others:
         note(f"{path}: not about these curves: {', '.join(others)}.")
     return found
-
-
-def subject_of(of: "Model | Axle | RigidAxle") -> "Subject | Axle":
-    """Return what is judged of what a file describes."""
-    from ..models.model import Model
-
-    return of.suspension if isinstance(of, Model) else of
 
 
 def _said(goal: "Goal") -> str:
@@ -138,9 +128,7 @@ def refuse_beyond(goals: "Sequence[Goal]", curves: "Mapping[str, Dataset]") -> N
                 )
 
 
-def judged(
-    subjects: "Mapping[str, Subject | Axle]", goals: "Sequence[Goal]"
-) -> list[dict[str, Any]]:
+def judged(subjects: "Mapping[str, Subject]", goals: "Sequence[Goal]") -> list[dict[str, Any]]:
     """Return what comes of each goal with each suspension or axle, as printed and as JSON."""
     from .. import studies as variation
 

@@ -1,6 +1,5 @@
 """``kintrafo import``: a suspension from another program, or hardpoints from a spreadsheet."""
 
-from collections.abc import Callable, Mapping
 from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -9,7 +8,7 @@ import typer
 
 from ...terminal.console import note, say
 from ..data.starter import kinds
-from .options import Force, complete_file
+from .options import FILE, Force, argument, complete_file, option
 
 EXAMPLES = (
     "kintrafo import points.csv new_car.toml --from my_car.toml",
@@ -26,11 +25,12 @@ EXAMPLES = (
 )
 
 _WIDTH = 98  # of a comment's text
-_FILE: Mapping[str, Any] = {"exists": True, "dir_okay": False}
 _TABLES, _ADAMS, _CHRONO = "Of tables", "Of Adams/Car", "Of Project Chrono"
 
 # the choices that are shown are the files that there are
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
     from ..files.formats import Format
 
     Kind = str
@@ -42,96 +42,75 @@ Side = Literal["left", "right"]
 def command(
     source: Annotated[
         Path,
-        typer.Argument(
-            metavar="SOURCE",
-            help="Subsystem of Adams/Car as text (.sub); suspension of Project Chrono (.json); "
-            "table .csv, .txt or .xlsx with a row for each point and columns point, x [mm], y [mm],"
-            " z [mm], also an export of OptimumK or a text of Lotus Suspension Analysis.",
-            **_FILE,
+        argument(
+            "Subsystem of Adams/Car as text (.sub); suspension of Project Chrono (.json); table "
+            ".csv, .txt or .xlsx with a row for each point and columns point, x [mm], y [mm], "
+            "z [mm], also an export of OptimumK or a text of Lotus Suspension Analysis.",
+            "SOURCE",
+            **FILE,
         ),
     ],
-    path: Annotated[Path, typer.Argument(metavar="PATH", help="File to write; ends in .toml.")],
+    path: Annotated[Path, argument("File to write; ends in .toml.", "PATH")],
     *,
     base: Annotated[
         str | None,
-        typer.Option(
+        option(
+            "Hardpoint file that everything else is taken from. A table needs one; of Adams/Car "
+            "the default is a packaged one.",
+            "FILE",
             "--from",
-            metavar="FILE",
-            help="Hardpoint file that everything else is taken from. A table needs one; of "
-            "Adams/Car the default is a packaged one.",
             autocompletion=complete_file,
         ),
     ] = None,
     name: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="OURS=THEIRS",
-            help="What a table or Adams/Car calls a hardpoint. May be repeated.",
-        ),
+        option("What a table or Adams/Car calls a hardpoint. May be repeated.", "OURS=THEIRS"),
     ] = None,
     side: Annotated[
         Side | None,
-        typer.Option(
-            help="Of Adams/Car and Project Chrono: side of the car. Default: that of --from, or "
-            "left."
+        option(
+            "Of Adams/Car and Project Chrono: side of the car. Default: that of --from, or left."
         ),
     ] = None,
     mirror: Annotated[
         bool,
-        typer.Option(
-            "--mirror", help="The table is of the other side of the car.", rich_help_panel=_TABLES
-        ),
+        option("The table is of the other side of the car.", None, "--mirror", panel=_TABLES),
     ] = False,
     unit: Annotated[
         str | None,
-        typer.Option(
-            metavar="UNIT",
-            help="If the table gives no unit: mm, cm, m, in or ft.",
-            rich_help_panel=_TABLES,
-        ),
+        option("If the table gives no unit: mm, cm, m, in or ft.", "UNIT", panel=_TABLES),
     ] = None,
     axes: Annotated[
         str | None,
-        typer.Option(
-            metavar="WORDS",
-            help="Directions of x, y and z: three of forward, rearward, left, right, up, down. "
-            "Default: forward left up (ISO 8855).",
-            rich_help_panel=_TABLES,
+        option(
+            "Directions of x, y and z: three of forward, rearward, left, right, up, down. Default: "
+            "forward left up (ISO 8855).",
+            "WORDS",
+            panel=_TABLES,
         ),
     ] = None,
     left_handed: Annotated[
         bool,
-        typer.Option(
-            "--left-handed", help="The axes of --axes are left-handed.", rich_help_panel=_TABLES
-        ),
+        option("The axes of --axes are left-handed.", None, "--left-handed", panel=_TABLES),
     ] = False,
     sheet: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAME", help="Sheet of a workbook that has several.", rich_help_panel=_TABLES
-        ),
+        str | None, option("Sheet of a workbook that has several.", "NAME", panel=_TABLES)
     ] = None,
     kind: Annotated[
         Kind | None,
-        typer.Option(
-            help="What guides the wheel. Default: by the hardpoints.", rich_help_panel=_ADAMS
-        ),
+        option("What guides the wheel. Default: by the hardpoints.", panel=_ADAMS),
     ] = None,
     tire: Annotated[
         Path | None,
-        typer.Option(
-            metavar="JSON",
-            help="File of a tire: radius, mass and inertia.",
-            rich_help_panel=_CHRONO,
-            **_FILE,
-        ),
+        option("File of a tire: radius, mass and inertia.", "JSON", panel=_CHRONO, **FILE),
     ] = None,
     points_only: Annotated[
         bool,
-        typer.Option(
+        option(
+            "Only hardpoints, camber and toe; the rest is as in the packaged file.",
+            None,
             "--points-only",
-            help="Only hardpoints, camber and toe; the rest is as in the packaged file.",
-            rich_help_panel=_CHRONO,
+            panel=_CHRONO,
         ),
     ] = False,
     force: Force = False,
@@ -164,10 +143,10 @@ def command(
     refuse([path], force=force, inputs=inputs, endings=[".toml"])
     found = format_of(source)
     read = _READERS[found]
-    options = {option: given[option] for option in read.__kwdefaults__ or {}}
-    for option, value in given.items():
-        if value and option not in options:
-            spelled = "--from" if option == "base" else f"--{option.replace('_', '-')}"
+    options = {key: given[key] for key in read.__kwdefaults__ or {}}
+    for key, value in given.items():
+        if value and key not in options:
+            spelled = "--from" if key == "base" else f"--{key.replace('_', '-')}"
             raise typer.BadParameter(f"{spelled} is not for {NAMES[found]}, as {source} is read")
     try:
         read(source, path, {"force": force, "inputs": inputs}, **options)

@@ -11,9 +11,9 @@ from ...core.errors import InputError
 from ...core.tabulated import whole
 from ...terminal.console import console, print_json, print_table, say
 from ...terminal.exits import Exit
-from .options import File, Force, Json, among, by_comma
-from .outputs import Out, Outputs, name_files, title_of
-from .subject import described_by
+from .loading import assembly_of_file
+from .options import File, among, option
+from .outputs import BarOptions, name_files, title_of
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -32,47 +32,31 @@ def command(
     file: File,
     *,
     cases: Annotated[
-        Path | None,
-        typer.Option(metavar="PATH", help="TOML of load cases. Default: usual ones."),
+        Path | None, option("TOML of load cases. Default: usual ones.", "PATH")
     ] = None,
-    case: Annotated[
-        list[str] | None,
-        typer.Option(metavar="NAME,...", help="Show these cases by components.", callback=by_comma),
-    ] = None,
+    case: Annotated[list[str] | None, option("Show these cases by components.", "NAME,...")] = None,
     part: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="NAME,...",
-            help="Show loads on these parts: knuckle, chassis, knuckle_left of an axle, "
-            "beam of a rigid one; total has the sums at the mounts.",
-            callback=by_comma,
+        option(
+            "Show loads on these parts: knuckle, chassis, knuckle_left of an axle, beam of a rigid "
+            "one; total has the sums at the mounts.",
+            "NAME,...",
         ),
     ] = None,
     envelope: Annotated[
         bool,
-        typer.Option("--envelope", help="Show the extremes of every component, and their cases."),
+        option("Show the extremes of every component, and their cases.", None, "--envelope"),
     ] = False,
-    out: Out = None,
-    plot: Annotated[
-        list[Path] | None,
-        typer.Option(
-            "--plot",
-            metavar="PATH",
-            help="Write the free bodies of the parts in each case: .pdf, .png or .svg, a file for "
-            "each case. May be repeated.",
-            rich_help_panel="Output",
-        ),
-    ] = None,
-    force: Force = False,
-    json: Json = False,
+    output: BarOptions,
 ) -> None:
     """Print forces and moments on every part at its hardpoints, in static load cases.
 
     Of an axle those of both sides, with the anti-roll bar and the rack between them; of a rigid
     axle its rods, springs and dampers, and both wheels.
     The table has the size of each force; --case shows components. Data files have everything. The
-    exit code is 1 where a case cannot be carried that is in --cases or, of the usual ones, that
-    --case names; without either, where none can.
+    figure has the free bodies of the parts, in a file for each case. The exit code is 1 where a
+    case cannot be carried that is in --cases or, of the usual ones, that --case names; without
+    either, where none can.
     """
     from ...datasets import export
     from ..analysis import loads as study
@@ -80,36 +64,32 @@ def command(
     from ..analysis.loads.sheets import overview
     from ..assembly.by_wheel import flat
 
-    inputs: list[str | Path] = [file, *([] if cases is None else [cases])]
-    subject = described_by(file)
+    assembly = assembly_of_file(file)
     described = {} if cases is None else study.read(cases)
-    named = described["cases"] if "cases" in described else study.standard_cases(subject)
+    named = described["cases"] if "cases" in described else study.standard_cases(assembly)
     shown = among(case, [*named], "--case") if case else None
-    suffixes = [f"_{name}" for name in shown or named]
-    outputs = Outputs.of(out, None, force=force, inputs=inputs)
-    pages = Outputs.of(None, plot, force=force, inputs=inputs, suffixes=suffixes)
-    found = study.static(subject, named, static_load=described.get("static_load_N"))
+    outputs = output.files(file, cases, drawn=[f"_{name}" for name in shown or named])
+    found = study.static(assembly, named, static_load=described.get("static_load_N"))
     parts = among(part, dict.fromkeys(with_totals(found)["part"].values), "--part") if part else []
     bodies = [name for name in parts if name != ALL]
-    if pages.pages and parts and not bodies:
+    if outputs.pages and parts and not bodies:
         problem = f"{ALL} is no part that can be drawn. Name one, or leave --plot out."
         raise InputError([problem], "--part")
     written = outputs.write_data(found, rows=study.table(found), sheets=study.workbook(found))
-    if pages.pages:
+    if outputs.pages:
         from ..plots import loads as plots
 
         for name in shown or [str(name) for name in found["case"].values]:
             if not str(found["reason"].sel(case=name).values):
                 written += plots.write_free_bodies(
                     found,
-                    pages.pages,
+                    outputs.pages,
                     name,
                     bodies,
                     title=title_of(file),
-                    force=force,
-                    inputs=inputs,
+                    **outputs.rule,
                 )
-    if json:
+    if output.json:
         print_json(export.as_dict(flat(found)))
     else:
         with_sums = with_totals(found, several=ALL not in parts)

@@ -7,7 +7,7 @@ import typer
 
 from ...terminal.console import say
 from ..data.starter import DEFAULT, RIGID_AXLE, kinds
-from .options import Force
+from .options import Force, argument, option
 
 EXAMPLES = (
     "kintrafo new my_car.toml",
@@ -26,18 +26,17 @@ else:
 
 
 def command(
-    path: Annotated[Path, typer.Argument(metavar="PATH", help="File to write; ends in .toml.")],
+    path: Annotated[Path, argument("File to write; ends in .toml.", "PATH")],
     *,
-    suspension: Annotated[Kind, typer.Option(help="What guides the wheel.")] = DEFAULT,
+    suspension: Annotated[Kind, option("What guides the wheel.")] = DEFAULT,
     template: Annotated[
-        str | None,
-        typer.Option(metavar="NAME", help="Packaged data set to copy. Default: by --suspension."),
+        str | None, option("Packaged data set to copy. Default: by --suspension.", "NAME")
     ] = None,
     axle: Annotated[
-        bool, typer.Option("--axle", help="Write the file of an axle, which names its sides.")
+        bool, option("Write the file of an axle, which names its sides.", None, "--axle")
     ] = False,
     rigid_axle: Annotated[
-        bool, typer.Option("--rigid-axle", help="Write the file of a rigid axle on four rods.")
+        bool, option("Write the file of a rigid axle on four rods.", None, "--rigid-axle")
     ] = False,
     force: Force = False,
 ) -> None:

@@ -11,10 +11,8 @@ from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
 from ...terminal.exits import Exit
 from .moved_values import moved_table
-from .options import File, Force, Json
-from .outputs import Outputs, name_files, title_of
-from .subject import subject_of_file
-from .variation_options import Bars
+from .options import File, argument
+from .outputs import CarOptions, name_files, title_of
 
 if TYPE_CHECKING:
     from ..studies import Optimum
@@ -29,61 +27,39 @@ def command(
     file: File,
     goals: Annotated[
         Path,
-        typer.Argument(
-            metavar="GOALS",
-            help="TOML: values that are [free], and [targets] and [limits] of characteristics.",
+        argument(
+            "TOML: values that are [free], and [targets] and [limits] of characteristics.", "GOALS"
         ),
     ],
     *,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            "--out",
-            "-o",
-            metavar="PATH",
-            help="Write the hardpoint file that was found: .toml.",
-            rich_help_panel="Output",
-        ),
-    ] = None,
-    plot: Bars = None,
-    force: Force = False,
-    json: Json = False,
+    output: CarOptions,
 ) -> None:
     """Find values of the file that bring characteristics to their targets, within limits.
 
     The exit code is 1 where limits cannot be kept, or the search does not come to its end.
     """
-    from ...core.files import refuse
     from .. import studies as variation
-    from ..input.toml_writer import write_toml
+    from ..files.loading import load
 
-    inputs: list[str | Path] = [file, goals]
-    outputs = Outputs.of(None, plot, force=force, inputs=inputs)
-    if out is not None:
-        refuse([out], force=force, inputs=inputs, endings=[".toml"])
-    suspension = subject_of_file(file)
+    outputs = output.files(file, goals, car=output.car)
+    subject = load(file)
     asked = variation.read(goals)
     with progress_bar("optimisation") as progress:
         found = variation.optimise(
-            suspension,
+            subject,
             asked.get("free", {}),
             asked.get("targets", {}),
             asked.get("limits"),
             progress=lambda left: progress(1.0 - left),
         )
     written: list[Path] = []
-    for path in outputs.pages:
-        from ..plots import variation as plots
+    if outputs.pages:
+        from ..plots.variation import write_optimum
 
-        written.append(
-            plots.write_optimum(
-                found, path, title=f"{title_of(file)}: {goals.stem}", force=force, inputs=inputs
-            )
-        )
-    if out is not None:
-        head = [f"{file}, with values that kintrafo optimise found for {goals.name}."]
-        written.append(write_toml(found.suspension, out, head=head, force=force, inputs=inputs))
-    if json:
+        written += outputs.draw(write_optimum, found, title=f"{title_of(file)}: {goals.stem}")
+    head = f"{file}, with values that kintrafo optimise found for {goals.name}."
+    written += outputs.write_car(found.suspension, head)
+    if output.json:
         facts = {"moved": found.moved, "success": found.success, "message": found.message}
         print_json(facts | {"suspension": found.suspension.to_dict()})
     else:

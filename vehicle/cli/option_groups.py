@@ -14,7 +14,7 @@ def with_groups(command: Callable[..., None]) -> Callable[..., None]:
     ----------
     command : callable
         Annotated for Typer. A group is a keyword whose type is a dataclass, with fields that are
-        annotated for Typer, too, and have defaults.
+        annotated for Typer, too, and have defaults; the keyword itself has none.
     """
     hints = get_type_hints(command, include_extras=True)
     groups: dict[str, Any] = {name: hint for name, hint in hints.items() if is_dataclass(hint)}

@@ -1,21 +1,62 @@
-"""Arguments that several commands share."""
+"""Arguments that several commands share, and how arguments are declared and checked."""
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 
-from ...terminal.console import problems
+OUTPUT = "Output"
+"""The panel of the help that names files, and how a result is printed."""
 
-if TYPE_CHECKING:
-    from ...systems.system import System
-    from ..models.model import Model
+FILE: Mapping[str, Any] = {"exists": True, "dir_okay": False}
+"""What `argument` and `option` take where a path must be a file that is there."""
 
 
 def by_comma(given: list[str] | None) -> list[str] | None:
     """Return the names of an option that is repeated, or whose value is a list with commas."""
     return given and [name.strip() for text in given for name in text.split(",")]
+
+
+def option(
+    words: str, value: str | None = None, *names: str, panel: str | None = None, **how: Any
+) -> Any:
+    """Return the declaration of an option.
+
+    Parameters
+    ----------
+    words : str
+        Its help.
+    value : str, optional
+        What stands for its value there: a unit in capitals; ``NAME,...`` for a list, which is
+        repeated or has commas.
+    *names : str
+        Its names, where they are not that of the parameter.
+    panel : str, optional
+        Where in the help it is.
+    **how
+        As of `typer.Option`.
+    """
+    if value is not None and value.endswith(",..."):
+        how["callback"] = by_comma
+    return typer.Option(*names, metavar=value, help=words, rich_help_panel=panel, **how)
+
+
+def argument(words: str, value: str | None = None, **how: Any) -> Any:
+    """Return the declaration of an argument.
+
+    Parameters
+    ----------
+    words : str
+        Its help.
+    value : str, optional
+        What stands for it there; FILE for one whose names are completed.
+    **how
+        As of `typer.Argument`.
+    """
+    if value is not None and value.startswith("FILE") and not how:
+        how["autocompletion"] = complete_file
+    return typer.Argument(metavar=value, help=words, **how)
 
 
 def complete_file(incomplete: str) -> list[str]:
@@ -30,95 +71,37 @@ def complete_file(incomplete: str) -> list[str]:
 
 File = Annotated[
     str,
-    typer.Argument(
-        metavar="FILE",
-        help="Hardpoint file (TOML), or the name of a packaged data set: reference_car.",
-        autocompletion=complete_file,
-    ),
-]
-Files = Annotated[
-    list[str],
-    typer.Argument(
-        metavar="FILE FILE...",
-        help="Two or more hardpoint files or packaged names; the first is the reference.",
-        autocompletion=complete_file,
-    ),
+    argument("Hardpoint file (TOML), or the name of a packaged data set: reference_car.", "FILE"),
 ]
 Json = Annotated[
     bool,
-    typer.Option(
-        "--json",
-        help="Print the result as JSON, in SI units, and nothing else.",
-        rich_help_panel="Output",
+    option(
+        "Print the result as JSON, in SI units, and nothing else.", None, "--json", panel=OUTPUT
     ),
 ]
 Force = Annotated[
     bool,
-    typer.Option(
+    option(
+        "Replace files that are there, too, where kintrafo did not write them.",
+        None,
         "--force",
-        help="Replace files that are there, too, where kintrafo did not write them.",
-        rich_help_panel="Output",
+        panel=OUTPUT,
     ),
 ]
-Rebound = Annotated[
-    float | None, typer.Option(metavar="MM", help="Wheel travel downward. Default: 80, if reached.")
-]
-Bump = Annotated[
-    float | None, typer.Option(metavar="MM", help="Wheel travel upward. Default: 80, if reached.")
-]
-RackExtent = Annotated[
-    float | None,
-    typer.Option(
-        "--rack-extent", metavar="MM", help="Rack to either side. Default: 60, if reached."
-    ),
-]
+Rebound = Annotated[float | None, option("Wheel travel downward. Default: 80, if reached.", "MM")]
+Bump = Annotated[float | None, option("Wheel travel upward. Default: 80, if reached.", "MM")]
 Of = Annotated[
     list[str] | None,
-    typer.Option(
-        metavar="NAME,...",
-        help="Characteristics that are shown, such as bump_steer,toe.",
-        callback=by_comma,
-    ),
+    option("Characteristics that are shown, such as bump_steer,toe.", "NAME,..."),
 ]
 Which = Annotated[
-    str | None,
-    typer.Option("--model", metavar="NAME", help="Which model, where a Python file has several."),
+    str | None, option("Which model, where a Python file has several.", "NAME", "--model")
 ]
-Step = Annotated[float, typer.Option(metavar="MM", help="Distance of the positions.")]
-
-
-def load(file: str, *, wheel_loads: bool = False) -> "Model":
-    """Return the model of a file: the one in which every body that has mass counts.
-
-    Parameters
-    ----------
-    file : str
-        Path of a TOML file, or name of a packaged data set.
-    wheel_loads
-        Whether what acts on the wheel are inputs.
-
-    Returns
-    -------
-    Model
-    """
-    from ..kinds import Suspension
-    from ..models.model import Model
-
-    suspension = Suspension.load(file)
-    free_rack = bool(suspension.neglected_masses())
-    if not free_rack and not wheel_loads:
-        return Model(suspension)
-    # these equations may have to be derived first
-    with problems.status("preparing the equations"):
-        return Model(suspension, free_rack=free_rack, wheel_loads=wheel_loads)
-
-
-def system_of(file: str, name: str | None = None) -> "System":
-    """Return the equations of a mechanism of one's own, derived when they are first needed."""
-    from ...systems.compile import compile_mechanism
-    from ...systems.system import System
-
-    return System(compile_mechanism(file, name=name))
+Held = Literal["height", "tyre", "spring", "locked"]
+Bushes = Annotated[
+    Path | None,
+    option("TOML: [bushings.POINT] with stiffnesses, in place of those of FILE.", "PATH"),
+]
 
 
 def refuse_which(file: str | None, model: str | None) -> None:
@@ -129,17 +112,17 @@ def refuse_which(file: str | None, model: str | None) -> None:
 
 def refuse_options(sort: str, given: Mapping[str, Any]) -> None:
     """Refuse options that the files of one sort do not have."""
-    for option, value in given.items():
+    for name, value in given.items():
         if value is not None:
-            raise typer.BadParameter(f"{option} is only for {sort}")
+            raise typer.BadParameter(f"{name} is only for {sort}")
 
 
-def among(wanted: list[str], known: Iterable[str], option: str = "--of") -> list[str]:
+def among(wanted: list[str], known: Iterable[str], name: str = "--of") -> list[str]:
     """Return what an option names, each once, or refuse what there is not."""
     from ...core.arguments import Arguments
 
-    with Arguments(option) as given:
-        names = given.names(option, wanted, known)
+    with Arguments(name) as given:
+        names = given.names(name, wanted, known)
     return list(dict.fromkeys(names))
 
 

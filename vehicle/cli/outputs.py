@@ -1,86 +1,155 @@
-"""Data files and figures: the options for them, and writing them."""
+"""Data files, figures and hardpoint files: the options for them, and writing them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypedDict
-
-import typer
+from typing import TYPE_CHECKING, Annotated, Any, TypedDict
 
 from ...terminal.console import progress_bar, say
-from .options import Force, among, by_comma
+from .options import OUTPUT, Force, Json, among, option
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
+    from ..kinds import Suspension
+    from ..models.axle import Axle
+    from ..models.rigid import RigidAxle
     from ..studies.goals import Goal
 
 Out = Annotated[
     list[Path] | None,
-    typer.Option(
+    option(
+        "Write the data: .csv or .xlsx (mm, deg), .nc or .parquet (SI). May be repeated.",
+        "PATH",
         "--out",
         "-o",
-        metavar="PATH",
-        help="Write the data: .csv or .xlsx (mm, deg), .nc or .parquet (SI). May be repeated.",
-        rich_help_panel="Output",
+        panel=OUTPUT,
     ),
 ]
 Plot = Annotated[
     list[Path] | None,
-    typer.Option(
-        "--plot",
-        metavar="PATH",
-        help="Write the curves: .pdf (a page a group), .png or .svg. May be repeated.",
-        rich_help_panel="Output",
+    option(
+        "Write the curves: .pdf (a page a group), .png or .svg. May be repeated.",
+        "PATH",
+        panel=OUTPUT,
     ),
+]
+Bars = Annotated[
+    list[Path] | None,
+    option("Write a figure: .pdf, .png or .svg. May be repeated.", "PATH", "--plot", panel=OUTPUT),
 ]
 Figures = Annotated[
-    Path | None,
-    typer.Option(
-        metavar="FOLDER",
-        help="Write a figure of every curve into this folder.",
-        rich_help_panel="Output",
-    ),
+    Path | None, option("Write a figure of every curve into this folder.", "FOLDER", panel=OUTPUT)
 ]
 Formats = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--format",
-        metavar="NAME,...",
-        help="Of --figures: png, svg or pdf.",
-        callback=by_comma,
-        rich_help_panel="Output",
-    ),
+    list[str] | None, option("Of --figures: png, svg or pdf.", "NAME,...", "--format", panel=OUTPUT)
 ]
+CarFile = Annotated[
+    Path | None,
+    option("Write the hardpoint file that was found: .toml.", "PATH", "--out", "-o", panel=OUTPUT),
+]
+
+
+class _Files:
+    """What groups of options of files have in common."""
+
+    force: bool
+    json: bool
+
+    def files(
+        self,
+        *inputs: str | Path | None,
+        suffixes: Sequence[str] = ("",),
+        drawn: Sequence[str] | None = None,
+        car: Path | None = None,
+    ) -> "Outputs":
+        """Return the files to write, having refused what cannot be written, before computing.
+
+        Parameters
+        ----------
+        *inputs : str, pathlib.Path or None
+            Files that the command reads: they are never replaced.
+        suffixes : sequence of str, optional
+            What goes behind the names, where a command has several datasets.
+        drawn : sequence of str, optional
+            The same of figures, where these are others.
+        car : pathlib.Path, optional
+            Hardpoint file to write.
+        """
+        from ...core.files import refuse
+        from ...datasets import export
+
+        data, pages = getattr(self, "out", None) or (), getattr(self, "plot", None) or ()
+        formats = getattr(self, "formats", None) or ()
+        for path in data:
+            export.check_format(path)
+        if pages or formats:
+            from ..plots import curves as plots
+
+            plots.check_formats(pages, formats)
+        rule: Rule = {"force": self.force, "inputs": [each for each in inputs if each is not None]}
+        named = [(data, suffixes), (pages, suffixes if drawn is None else drawn)]
+        refuse(
+            [_named(path, end) for paths, ends in named for path in paths for end in ends], **rule
+        )
+        if car is not None:
+            refuse([car], endings=[".toml"], **rule)
+        figures = getattr(self, "figures", None)
+        return Outputs(rule, data, pages, figures, formats or ("png",), car)
 
 
 @dataclass(frozen=True)
-class OutputOptions:
-    """The options of data files and figures of curves."""
+class DataOptions(_Files):
+    """The options of a command that writes data."""
+
+    out: Out = None
+    force: Force = False
+    json: Json = False
+
+
+@dataclass(frozen=True)
+class PlotOptions(_Files):
+    """The options of a command that writes data and curves."""
+
+    out: Out = None
+    plot: Plot = None
+    force: Force = False
+    json: Json = False
+
+
+@dataclass(frozen=True)
+class CurveOptions(_Files):
+    """The options of a command that writes data, curves, and a figure of each curve."""
 
     out: Out = None
     plot: Plot = None
     figures: Figures = None
     formats: Formats = None
     force: Force = False
-
-    def of(self, inputs: Sequence[str | Path], suffixes: Sequence[str] = ("",)) -> "Outputs":
-        """Return the files, having refused what cannot be written; see `Outputs.of`."""
-        return Outputs.of(
-            self.out,
-            self.plot,
-            self.figures,
-            self.formats,
-            force=self.force,
-            inputs=inputs,
-            suffixes=suffixes,
-        )
+    json: Json = False
 
 
-USUAL_OUTPUT = OutputOptions()
+@dataclass(frozen=True)
+class BarOptions(_Files):
+    """The options of a command that writes data and a figure of its own."""
+
+    out: Out = None
+    plot: Bars = None
+    force: Force = False
+    json: Json = False
 
 
-class _Rule(TypedDict):
+@dataclass(frozen=True)
+class CarOptions(_Files):
+    """The options of a command that finds a car: its hardpoint file, and a figure."""
+
+    car: CarFile = None
+    plot: Bars = None
+    force: Force = False
+    json: Json = False
+
+
+class Rule(TypedDict):
     """What may be replaced, see `kintrafo.core.files`."""
 
     force: bool
@@ -91,50 +160,12 @@ class _Rule(TypedDict):
 class Outputs:
     """The files that a command was asked for."""
 
+    rule: Rule
     data: Sequence[Path] = ()
     pages: Sequence[Path] = ()
     figures: Path | None = None
     formats: Sequence[str] = ("png",)
-    force: bool = False
-    inputs: Sequence[str | Path] = ()
-
-    @classmethod
-    def of(
-        cls,
-        data: list[Path] | None,
-        pages: list[Path] | None,
-        figures: Path | None = None,
-        formats: list[str] | None = None,
-        *,
-        force: bool,
-        inputs: Sequence[str | Path],
-        suffixes: Sequence[str] = ("",),
-    ) -> "Outputs":
-        """Return the files, having refused what cannot be written before anything is computed.
-
-        Parameters
-        ----------
-        data, pages, figures, formats
-            What was asked for.
-        force : bool
-            Whether files that somebody else wrote are replaced.
-        inputs : sequence of str or pathlib.Path
-            Files that the command reads: they are never replaced.
-        suffixes : sequence of str, optional
-            What goes behind the names, where a command has several datasets.
-        """
-        from ...core.files import refuse
-        from ...datasets import export
-
-        for path in data or ():
-            export.check_format(path)
-        if pages or formats:
-            from ..plots import curves as plots
-
-            plots.check_formats(pages or (), formats or ())
-        paths = [_named(p, suffix) for p in (*(data or ()), *(pages or ())) for suffix in suffixes]
-        refuse(paths, force=force, inputs=inputs)
-        return cls(data or (), pages or (), figures, formats or ("png",), force, inputs)
+    car: Path | None = None
 
     @property
     def drawn(self) -> bool:
@@ -171,10 +202,21 @@ class Outputs:
             Targets and limits that are drawn into the curves.
         """
         written = self.write_data(dataset, suffix, rows=rows)
-        if self.drawn:
-            rule: _Rule = {"force": self.force, "inputs": self.inputs}
-            curves = dataset if drawn is None else drawn
-            written += self._drawn(curves, title, names, suffix, goals, rule)
+        if not self.drawn:
+            return written
+        from ..plots import curves as plots
+
+        shown = dataset if drawn is None else drawn
+        written += [
+            plots.write_overview(shown, _named(p, suffix), names, title, goals=goals, **self.rule)
+            for p in self.pages
+        ]
+        if self.figures is not None:
+            how: dict[str, Any] = {"title": title, "suffix": suffix, "goals": goals, **self.rule}
+            with progress_bar("figures") as progress:
+                written += plots.write(
+                    shown, self.figures, formats=self.formats, progress=progress, **how
+                )
         return written
 
     def write_data(
@@ -191,46 +233,30 @@ class Outputs:
         """
         from ...datasets import export
 
-        rule: _Rule = {"force": self.force, "inputs": self.inputs}
         flat = dataset if rows is None else rows
         return [
             export.write(
                 dataset if path.suffix.lower() == ".nc" else flat,
                 _named(path, suffix),
                 sheets=sheets,
-                **rule,
+                **self.rule,
             )
             for path in self.data
         ]
 
-    def _drawn(
-        self,
-        dataset: "Dataset",
-        title: str,
-        names: Sequence[str],
-        suffix: str,
-        goals: "Sequence[Goal]",
-        rule: "_Rule",
+    def draw(
+        self, write: Callable[..., Path], shown: Any, *rest: Any, **options: Any
     ) -> list[Path]:
-        from ..plots import curves as plots
+        """Write the pages by a function of what is shown and of a path, and return them."""
+        return [write(shown, path, *rest, **options, **self.rule) for path in self.pages]
 
-        written = [
-            plots.write_overview(dataset, _named(path, suffix), names, title, goals=goals, **rule)
-            for path in self.pages
-        ]
-        if self.figures is not None:
-            with progress_bar("figures") as progress:
-                written += plots.write(
-                    dataset,
-                    self.figures,
-                    formats=self.formats,
-                    title=title,
-                    suffix=suffix,
-                    goals=goals,
-                    progress=progress,
-                    **rule,
-                )
-        return written
+    def write_car(self, subject: "Suspension | Axle | RigidAxle", head: str) -> list[Path]:
+        """Write the hardpoint file that was found, with a comment at its head, and return it."""
+        from ..input.toml_writer import write_toml
+
+        if self.car is None:
+            return []
+        return [write_toml(subject, self.car, head=[head], **self.rule)]
 
 
 def named(of: list[str] | None, drawn: "Mapping[str, Dataset]") -> dict[str, list[str]]:

@@ -4,11 +4,10 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Annotated
 
-import typer
 from rich.table import Table
 
 from ...terminal.console import console, problems, say
-from .options import Force
+from .options import Force, argument, option
 
 if TYPE_CHECKING:
     from ..analysis import paper
@@ -18,8 +17,8 @@ EXAMPLES = ("kintrafo paper out", "kintrafo paper out --data my_car.toml")
 
 
 def command(
-    folder: Annotated[Path, typer.Argument(help="Where the figures go.")] = Path("out"),
-    data: Annotated[str, typer.Option(help="Data set, by name, or a TOML file.")] = "reference_car",
+    folder: Annotated[Path, argument("Where the figures go.")] = Path("out"),
+    data: Annotated[str, option("Data set, by name, or a TOML file.")] = "reference_car",
     *,
     force: Force = False,
 ) -> None:

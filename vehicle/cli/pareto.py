@@ -12,10 +12,8 @@ from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
 from ...terminal.exits import Exit
 from .moved_values import moved_table
-from .options import File, Force, Json
-from .outputs import Out, Outputs, name_files, title_of
-from .subject import subject_of_file
-from .variation_options import Bars
+from .options import OUTPUT, File, argument, option
+from .outputs import BarOptions, Outputs, name_files, title_of
 
 if TYPE_CHECKING:
     from ..studies import Front
@@ -33,58 +31,48 @@ def command(
     file: File,
     study: Annotated[
         Path,
-        typer.Argument(
-            metavar="STUDY",
-            help="TOML: values that are [free]; [targets], [minimise] and [maximise], each an "
+        argument(
+            "TOML: values that are [free]; [targets], [minimise] and [maximise], each an "
             "objective; and [limits] if there are some.",
+            "STUDY",
         ),
     ],
     *,
     population: Annotated[
-        int, typer.Option(metavar="N", help="Suspensions of a generation, and members at most.")
+        int, option("Suspensions of a generation, and members at most.", "N")
     ] = 48,
-    generations: Annotated[int, typer.Option(metavar="N", help="How many there are.")] = 40,
-    seed: Annotated[int, typer.Option(metavar="N", help="Another search for another seed.")] = 1,
+    generations: Annotated[int, option("How many there are.", "N")] = 40,
+    seed: Annotated[int, option("Another search for another seed.", "N")] = 1,
     member: Annotated[
         int | None,
-        typer.Option(
-            metavar="N",
-            help="The member that is chosen. Default: the compromise, nearest to the best of all "
+        option(
+            "The member that is chosen. Default: the compromise, nearest to the best of all "
             "objectives.",
+            "N",
         ),
     ] = None,
-    out: Out = None,
     car: Annotated[
         Path | None,
-        typer.Option(
-            metavar="PATH",
-            help="Write the hardpoint file of the chosen member: .toml.",
-            rich_help_panel="Output",
-        ),
+        option("Write the hardpoint file of the chosen member: .toml.", "PATH", panel=OUTPUT),
     ] = None,
-    plot: Bars = None,
-    force: Force = False,
-    json: Json = False,
+    output: BarOptions,
 ) -> None:
     """Find suspensions of which none is better than another in every objective.
 
     It is the Pareto front of objectives that contradict each other, to choose from. The exit code
     is 1 where no suspension keeps the limits.
     """
-    from ...core.files import refuse
     from ...datasets import export
     from .. import studies as variation
+    from ..files.loading import load
 
-    inputs: list[str | Path] = [file, study]
-    outputs = Outputs.of(out, plot, force=force, inputs=inputs)
-    if car is not None:
-        refuse([car], force=force, inputs=inputs, endings=[".toml"])
+    outputs = output.files(file, study, car=car)
     _refuse_member(member, population)
-    suspension = subject_of_file(file)
+    subject = load(file)
     asked = variation.read(study)
     with progress_bar("suspensions") as progress:
         found = variation.pareto(
-            suspension,
+            subject,
             asked.get("free", {}),
             asked.get("targets"),
             minimise=asked.get("minimise"),
@@ -99,8 +87,8 @@ def command(
     written: list[Path] = []
     if found.success:
         chosen = found.compromise if member is None else member
-        written = _write(found, chosen, outputs, car, title=f"{title_of(file)}: {study.stem}")
-    if json:
+        written = _write(found, chosen, outputs, title=f"{title_of(file)}: {study.stem}")
+    if output.json:
         print_json(_facts(found, chosen) | export.as_dict(found.dataset))
     else:
         _print(found, chosen, file)
@@ -118,28 +106,16 @@ def _refuse_member(member: int | None, population: int) -> None:
             given.whole("--member", member, most=max(population, 1))
 
 
-def _write(
-    found: "Front", chosen: int, outputs: Outputs, car: Path | None, *, title: str
-) -> list[Path]:
+def _write(found: "Front", chosen: int, outputs: Outputs, *, title: str) -> list[Path]:
     """Write what was asked for, once the chosen member is known to be there."""
-    from ..input.toml_writer import write_toml
-
     suspension = found.suspension(chosen)
     written = outputs.write_data(found.dataset)
-    for path in outputs.pages:
-        from ..plots import pareto as plots
+    if outputs.pages:
+        from ..plots.pareto import write_front
 
-        written.append(
-            plots.write_front(
-                found, path, chosen=chosen, title=title, force=outputs.force, inputs=outputs.inputs
-            )
-        )
-    if car is not None:
-        head = [f"{title}, member {chosen} of the front that kintrafo pareto found."]
-        written.append(
-            write_toml(suspension, car, head=head, force=outputs.force, inputs=outputs.inputs)
-        )
-    return written
+        written += outputs.draw(write_front, found, chosen=chosen, title=title)
+    head = f"{title}, member {chosen} of the front that kintrafo pareto found."
+    return written + outputs.write_car(suspension, head)
 
 
 def _facts(found: "Front", chosen: int) -> dict[str, Any]:

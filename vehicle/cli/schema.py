@@ -6,16 +6,13 @@ from typing import Annotated
 import typer
 
 from ...terminal.console import say
-from .options import Force
+from .options import Force, argument
 
 EXAMPLES = ("kintrafo schema", "kintrafo schema kintrafo.schema.json")
 
 
 def command(
-    path: Annotated[
-        Path | None,
-        typer.Argument(metavar="PATH", help="File to write; ends in .json."),
-    ] = None,
+    path: Annotated[Path | None, argument("File to write; ends in .json.", "PATH")] = None,
     *,
     force: Force = False,
 ) -> None:

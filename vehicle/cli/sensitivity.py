@@ -3,27 +3,14 @@
 from math import isfinite
 from typing import TYPE_CHECKING, Annotated
 
-import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
 from ...core.tabulated import significant
 from ...terminal.console import console, note, print_json, progress_bar
-from .options import File, Force, Json, Of, by_comma
-from .outputs import Out, Outputs, name_files, title_of
-from .subject import subject_of_file
-from .variation_options import (
-    At,
-    Bars,
-    Held,
-    Over,
-    along,
-    asked_of,
-    chosen,
-    position,
-    positions_with,
-    way_of,
-)
+from .options import File, option
+from .outputs import BarOptions, name_files, title_of
+from .variation_options import Look, StudyOptions
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -45,21 +32,14 @@ def command(
     *,
     place: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="PLACE,...",
-            help="Design variables: hardpoints.ball_joint.z, a point, a section, or with *. "
-            "Default: all hardpoints.",
-            callback=by_comma,
+        option(
+            "Design variables: hardpoints.ball_joint.z, a point, a section, or with *. Default: "
+            "all hardpoints.",
+            "PLACE,...",
         ),
     ] = None,
-    of: Of = None,
-    over: Over = None,
-    held: Held = None,
-    at: At = 0.0,
-    out: Out = None,
-    plot: Bars = None,
-    force: Force = False,
-    json: Json = False,
+    asked: StudyOptions,
+    output: BarOptions,
 ) -> None:
     """Print the change of characteristics per millimetre or degree of each value of the file.
 
@@ -68,52 +48,48 @@ def command(
     """
     from ...datasets import export
     from .. import studies as variation
+    from ..files.loading import load
 
-    outputs = Outputs.of(out, plot, force=force, inputs=[file])
-    suspension = subject_of_file(file)
-    way = way_of(suspension, over, held)
-    names = chosen(suspension, of, way)
+    outputs = output.files(file)
+    subject = load(file)
+    look = Look.of(subject, asked)
     with progress_bar("sensitivity") as progress:
         dataset = variation.sensitivity(
-            suspension,
+            subject,
             place or ("hardpoints",),
-            **asked_of(way),
-            positions=positions_with(suspension, way, at),
-            names=None if out else names,
+            **look.how,
+            names=None if outputs.data else look.names,
             progress=progress,
         )
     written = outputs.write_data(dataset)
-    for path in outputs.pages:
-        from ..plots import variation as plots
+    if outputs.pages:
+        from ..plots.variation import write_bars
 
-        title = f"{title_of(file)}: effect of values, {along(way, at)}"
-        written.append(
-            plots.write_bars(
-                dataset, path, names, at=position(way, at), title=title, force=force, inputs=[file]
-            )
-        )
+        title = f"{title_of(file)}: effect of values, {look.where}"
+        written += outputs.draw(write_bars, dataset, look.names, at=look.at, title=title)
     if dataset.attrs["message"]:
         note(str(dataset.attrs["message"]))
-    if json:
-        print_json(export.as_dict(dataset[names]))
+    if output.json:
+        print_json(export.as_dict(dataset[look.names]))
         return
-    console.print(_table(dataset, names, file, along(way, at), position(way, at)))
+    console.print(_table(dataset, look, file))
     name_files(written)
 
 
-def _table(dataset: "Dataset", names: list[str], file: str, where: str, at: float) -> Table:
+def _table(dataset: "Dataset", look: Look, file: str) -> Table:
     """Return the effects: of one characteristic all of them, of several the greatest of each."""
     from ..studies import effects
 
-    found = {name: list(effects(dataset, name, at)) for name in names}
+    names = look.names
+    found = {name: list(effects(dataset, name, look.at)) for name in names}
     if len(names) == 1:
         (name,) = names
-        title = f"{title_of(file)}: effect of values on {_words(dataset, name)}, {where}"
+        title = f"{title_of(file)}: effect of values on {_words(dataset, name)}, {look.where}"
         table = Table("value", Column("effect", justify="right"), "unit", title=escape(title))
         for effect in found[name]:
             table.add_row(escape(effect.place), significant(effect.size), escape(effect.unit))
         return table
-    title = f"{title_of(file)}: effect of values on characteristics, {where}"
+    title = f"{title_of(file)}: effect of values on characteristics, {look.where}"
     table = Table("characteristic", "unit", "moved most by", title=escape(title))
     for name in names:
         for unit in dict.fromkeys(effect.unit for effect in found[name]):

@@ -1,8 +1,7 @@
 """``kintrafo simulate``: the motion over a road."""
 
-import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 from rich.markup import escape
@@ -11,12 +10,10 @@ from rich.table import Table
 from ...core.tabulated import number
 from ...terminal.console import console, print_json, problems, say
 from ...terminal.exits import Exit
-from .option_groups import with_groups
-from .options import File, Json
-from .outputs import USUAL_OUTPUT, OutputOptions, Outputs, name_files, title_of
-from .scenarios import USUAL_SCENARIO, ScenarioOptions
-from .simulation_options import Atol, MaxStep, MaxSteps, Method, Rtol, Step, Wheels
-from .subject import model_of
+from .loading import model_of
+from .options import OUTPUT, File, option
+from .outputs import CurveOptions, DataOptions, Outputs, name_files, title_of
+from .simulation_options import ScenarioOptions, SolverOptions
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -58,29 +55,24 @@ _DRAWN = (
 )
 
 
-@with_groups
 def command(
     file: File,
     *,
-    driven: ScenarioOptions = USUAL_SCENARIO,
-    wheels: Wheels = None,
-    method: Method = "BDF",
-    step: Step = None,
-    rtol: Rtol = None,
-    atol: Atol = None,
-    max_step: MaxStep = None,
-    max_steps: MaxSteps = 10_000_000,
-    output: OutputOptions = USUAL_OUTPUT,
+    driven: ScenarioOptions,
+    wheels: Annotated[
+        Literal["both", "left", "right"] | None,
+        option("Of an axle: under which wheels the road is. Default: both.", panel="Road"),
+    ] = None,
+    solver: SolverOptions,
+    output: CurveOptions,
     loads: Annotated[
         list[Path] | None,
-        typer.Option(
-            metavar="PATH",
-            help="Write the loads on every part: .csv or .xlsx (mm), .nc or .parquet. "
-            "May be repeated.",
-            rich_help_panel="Output",
+        option(
+            "Write the loads on every part: .csv or .xlsx (mm), .nc or .parquet. May be repeated.",
+            "PATH",
+            panel=OUTPUT,
         ),
     ] = None,
-    json: Json = False,
 ) -> None:
     """Simulate the suspension over a step, a sine or a measured road, with its rack moving.
 
@@ -90,22 +82,13 @@ def command(
     from ...core.files import refuse
     from ..corner.wheel_loads import UNITS
 
-    read_here = [Path(file), *driven.files]
-    outputs = output.of(read_here)
-    on_parts = Outputs.of(loads, None, force=output.force, inputs=read_here)
-    refuse([*outputs.data, *outputs.pages, *on_parts.data], force=output.force, inputs=read_here)
+    outputs = output.files(file, driven.measured)
+    on_parts = DataOptions(loads, output.force).files(file, driven.measured)
+    refuse([*outputs.data, *outputs.pages, *on_parts.data], **outputs.rule)
     scenario = driven.scenario()
     model = model_of(file, wheel_loads=not UNITS.keys().isdisjoint(scenario.inputs))
     run = _Run(model, file, scenario, wheels)
-    options = {
-        "method": method,
-        "step": None if step is None else step / 1e3,
-        "rtol": rtol,
-        "atol": atol,
-        "max_step": math.inf if max_step is None else max_step / 1e3,
-        "max_steps": max_steps,
-    }
-    result, motion = _played(run, options, outputs, silent=json)
+    result, motion = _played(run, solver.of_simulate(), outputs, silent=output.json)
     written = _written(run, motion, outputs, title_of(file))
     if loads:
         from ..analysis import loads as study
@@ -113,7 +96,7 @@ def command(
         found = study.along(model, result)
         written += on_parts.write_data(found, rows=study.table(found), sheets=study.workbook(found))
     left = result.validity
-    if json:
+    if output.json:
         print_json(_summary(result, motion, run))
     else:
         console.print(_table(motion, run))

@@ -1,106 +1,130 @@
-"""The arguments of ``kintrafo simulate``, with the units of the command line."""
+"""What is simulated and how, from the options of a command, in their units."""
 
+import math
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-Height = Annotated[
-    float | None,
-    typer.Option(
-        metavar="MM",
-        help="Wheel centre at the start. Default: at rest.",
-        rich_help_panel="Start",
-    ),
-]
-Spin = Annotated[
-    float,
-    typer.Option(
-        metavar="REV/S", help="Wheel spin, positive rolling forward.", rich_help_panel="Start"
-    ),
-]
-RoadStep = Annotated[
-    float | None,
-    typer.Option(metavar="MM", help="The road rises by this at once.", rich_help_panel="Road"),
-]
-RoadStepAt = Annotated[
-    float, typer.Option(metavar="S", help="When it does.", rich_help_panel="Road")
-]
-RoadSine = Annotated[
-    float | None,
-    typer.Option(metavar="MM", help="Amplitude of a harmonic road.", rich_help_panel="Road"),
-]
-RoadFrequency = Annotated[
-    float, typer.Option(metavar="HZ", help="Its frequency.", rich_help_panel="Road")
-]
-Measured = Annotated[
-    Path | None,
-    typer.Option(
-        metavar="CSV",
-        help="Measured road, rack, loads on the wheel: time_s or distance_m, road_height_mm, "
-        "rack_position_mm, contact_force_x_N, ...",
-        rich_help_panel="Road",
-    ),
-]
-Speed = Annotated[
-    float | None,
-    typer.Option(
-        metavar="KM/H", help="Speed on a road given over distance_m.", rich_help_panel="Road"
-    ),
-]
-Wheels = Annotated[
-    Literal["both", "left", "right"] | None,
-    typer.Option(
-        help="Of an axle: under which wheels the road is. Default: both.", rich_help_panel="Road"
-    ),
-]
-Rack = Annotated[
-    float | None, typer.Option(metavar="MM", help="Rack held there.", rich_help_panel="Rack")
-]
-RackSine = Annotated[
-    float | None,
-    typer.Option(metavar="MM", help="Amplitude of a harmonic rack motion.", rich_help_panel="Rack"),
-]
-RackFrequency = Annotated[
-    float, typer.Option(metavar="HZ", help="Its frequency.", rich_help_panel="Rack")
-]
-Duration = Annotated[
-    float | None,
-    typer.Option(
-        metavar="S", help="Default: 1, or as long as what was measured.", rich_help_panel="Time"
-    ),
-]
-OutputStep = Annotated[
-    float, typer.Option(metavar="MS", help="Time between outputs.", rich_help_panel="Time")
-]
-Method = Annotated[
-    str,
-    typer.Option(
-        help="BDF, Adams, Verner, DormandPrince, RK4, Tsitouras, Radau, LSODA, RK45, DOP853.",
-        rich_help_panel="Solver",
-    ),
-]
-Step = Annotated[
-    float | None,
-    typer.Option(metavar="MS", help="Length of all steps of RK4.", rich_help_panel="Solver"),
-]
-Rtol = Annotated[
-    float | None,
-    typer.Option(
-        help="Relative tolerance. Default: 1e-8 for BDF, else 1e-6.", rich_help_panel="Solver"
-    ),
-]
-Atol = Annotated[
-    float | None,
-    typer.Option(
-        help="Absolute tolerance, SI units. Default: 1e-10 for BDF, else 1e-9.",
-        rich_help_panel="Solver",
-    ),
-]
-MaxStep = Annotated[
-    float | None,
-    typer.Option(metavar="MS", help="Longest step. Default: no limit.", rich_help_panel="Solver"),
-]
-MaxSteps = Annotated[
-    int, typer.Option(help="More steps than these end with an error.", rich_help_panel="Solver")
-]
+from ...terminal.console import note
+from .options import metres, option
+
+if TYPE_CHECKING:
+    from ..analysis.scenario import Scenario
+
+_Number = float | None
+
+
+@dataclass(frozen=True)
+class ScenarioOptions:
+    """The options of a road, the rack and the start."""
+
+    height: Annotated[
+        _Number, option("Wheel centre at the start. Default: at rest.", "MM", panel="Start")
+    ] = None
+    spin: Annotated[
+        float, option("Wheel spin, positive rolling forward.", "REV/S", panel="Start")
+    ] = 0.0
+    road_step: Annotated[_Number, option("The road rises by this at once.", "MM", panel="Road")] = (
+        None
+    )
+    road_step_at: Annotated[float, option("When it does.", "S", panel="Road")] = 0.1
+    road_sine: Annotated[_Number, option("Amplitude of a harmonic road.", "MM", panel="Road")] = (
+        None
+    )
+    road_frequency: Annotated[float, option("Its frequency.", "HZ", panel="Road")] = 1.0
+    measured: Annotated[
+        Path | None,
+        option(
+            "Measured road, rack, loads on the wheel: time_s or distance_m, road_height_mm, "
+            "rack_position_mm, contact_force_x_N, ...",
+            "CSV",
+            panel="Road",
+        ),
+    ] = None
+    speed: Annotated[
+        _Number, option("Speed on a road given over distance_m.", "KM/H", panel="Road")
+    ] = None
+    rack: Annotated[_Number, option("Rack held there.", "MM", panel="Rack")] = None
+    rack_sine: Annotated[
+        _Number, option("Amplitude of a harmonic rack motion.", "MM", panel="Rack")
+    ] = None
+    rack_frequency: Annotated[float, option("Its frequency.", "HZ", panel="Rack")] = 1.0
+    duration: Annotated[
+        _Number, option("Default: 1, or as long as what was measured.", "S", panel="Time")
+    ] = None
+    output_step: Annotated[float, option("Time between outputs.", "MS", panel="Time")] = 1.0
+
+    def scenario(self) -> "Scenario":
+        """Return the scenario that the options describe."""
+        from ..analysis.excitation import TimeProfile, excitation
+        from ..analysis.measurement import measured
+        from ..analysis.scenario import Scenario
+
+        if self.speed is not None and self.measured is None:
+            raise typer.BadParameter("only a road from --measured is driven on at a --speed")
+        recording = None
+        if self.measured is not None:
+            speed = None if self.speed is None else self.speed / 3.6
+            recording = measured(self.measured, speed=speed)
+        if recording is not None and recording.left_out:
+            names = ", ".join(recording.left_out)
+            note(f"columns of {self.measured} that were not read: {names}.")
+        end = self.duration
+        if end is None:
+            end = 1.0 if recording is None else recording.duration
+        courses: dict[str, Any] = {
+            "road_height": TimeProfile(
+                step=metres(self.road_step),
+                step_at=self.road_step_at,
+                sine=metres(self.road_sine),
+                frequency=self.road_frequency,
+            ),
+            "rack_position": TimeProfile(
+                held=metres(self.rack),
+                sine=metres(self.rack_sine),
+                frequency=self.rack_frequency,
+            ),
+        }
+        return Scenario(
+            duration=end,
+            output_step=self.output_step / 1e3,
+            height=metres(self.height),
+            spin_rate=self.spin * math.tau,
+            inputs=excitation(courses, end, recording),
+        )
+
+
+@dataclass(frozen=True)
+class SolverOptions:
+    """The options of the integrator."""
+
+    method: Annotated[
+        str,
+        option(
+            "BDF, Adams, Verner, DormandPrince, RK4, Tsitouras, Radau, LSODA, RK45, DOP853.",
+            panel="Solver",
+        ),
+    ] = "BDF"
+    step: Annotated[_Number, option("Length of all steps of RK4.", "MS", panel="Solver")] = None
+    rtol: Annotated[
+        _Number,
+        option("Relative tolerance. Default: 1e-8 for BDF, else 1e-6.", panel="Solver"),
+    ] = None
+    atol: Annotated[
+        _Number,
+        option("Absolute tolerance, SI units. Default: 1e-10 for BDF, else 1e-9.", panel="Solver"),
+    ] = None
+    max_step: Annotated[
+        _Number, option("Longest step. Default: no limit.", "MS", panel="Solver")
+    ] = None
+    max_steps: Annotated[
+        int, option("More steps than these end with an error.", panel="Solver")
+    ] = 10_000_000
+
+    def of_simulate(self) -> dict[str, Any]:
+        """Return them as `kintrafo.simulate` takes them."""
+        longest = math.inf if self.max_step is None else self.max_step / 1e3
+        step = None if self.step is None else self.step / 1e3
+        return {**vars(self), "step": step, "max_step": longest}

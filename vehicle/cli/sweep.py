@@ -1,6 +1,5 @@
 """``kintrafo sweep``: the motion over a grid of values of a file."""
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -11,11 +10,9 @@ from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
 from ...terminal.exits import Exit
 from ..models.sides import SIDES
-from .option_groups import with_groups
-from .options import File, Force, Json, by_comma
-from .outputs import Out, Outputs, Plot, name_files, title_of
-from .scenarios import USUAL_SCENARIO, ScenarioOptions
-from .subject import subject_of_file
+from .options import File, argument, option
+from .outputs import PlotOptions, name_files, title_of
+from .simulation_options import ScenarioOptions
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -35,31 +32,26 @@ _USUAL = ("wheel_acceleration:rms", "tyre_force:min", "tyre_force:rms")
 _ROWS = 40
 
 
-@with_groups
 def command(
     file: File,
     values: Annotated[
         list[str],
-        typer.Argument(
-            metavar="PLACE=VALUES...",
-            help="Values of the file that vary: from:to:count, or a list with commas.",
+        argument(
+            "Values of the file that vary: from:to:count, or a list with commas.",
+            "PLACE=VALUES...",
         ),
     ],
     *,
     keep: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="SIGNAL:KIND,...",
-            help="Kept of each motion: max, min, mean, rms, above:LEVEL, percentile:NUMBER. "
+        option(
+            "Kept of each motion: max, min, mean, rms, above:LEVEL, percentile:NUMBER. "
             f"Default: {','.join(_USUAL)}.",
-            callback=by_comma,
+            "SIGNAL:KIND,...",
         ),
     ] = None,
-    driven: ScenarioOptions = USUAL_SCENARIO,
-    out: Out = None,
-    plot: Plot = None,
-    force: Force = False,
-    json: Json = False,
+    driven: ScenarioOptions,
+    output: PlotOptions,
 ) -> None:
     """Simulate the suspension with all combinations of some values, many at once.
 
@@ -69,26 +61,24 @@ def command(
     from ...datasets import export
     from .. import studies as variation
     from ..assembly.of import model_of
+    from ..files.loading import load
 
-    inputs = [Path(file), *driven.files]
-    outputs = Outputs.of(out, plot, force=force, inputs=inputs)
-    suspension = subject_of_file(file)
+    outputs = output.files(file, driven.measured)
+    subject = load(file)
     scenario = driven.scenario()
     grid = dict(map(_numbers, values))
     if len(grid) < len(values):
         raise typer.BadParameter("a place is named twice: write all of its values together")
-    if plot and len(grid) > 2:
+    if outputs.pages and len(grid) > 2:
         raise typer.BadParameter("a figure shows one value or two; leave out --plot, or a value")
-    model = model_of(suspension)
+    model = model_of(subject)
     reductions = _reductions(model, keep or _usual(model))
     with progress_bar("suspensions") as progress:
-        found = variation.sweep(
-            suspension, grid, scenario, reductions=reductions, progress=progress
-        )
+        found = variation.sweep(subject, grid, scenario, reductions=reductions, progress=progress)
     kept = found.drop_dims(["time", "state_element", "bound"])
     names = [str(n) for n in kept.data_vars if kept[n].dtype.kind == "f" and n != "end_time"]
     written = outputs.write(kept, title=title_of(file), names=names)
-    if json:
+    if output.json:
         print_json(export.as_dict(kept))
     else:
         console.print(_table(kept, names, file))

@@ -3,27 +3,14 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
 from rich.markup import escape
 from rich.table import Table
 
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
-from .options import File, Force, Json, Of
-from .outputs import Out, Outputs, name_files, title_of
-from .subject import subject_of_file
-from .variation_options import (
-    At,
-    Bars,
-    Held,
-    Over,
-    along,
-    asked_of,
-    chosen,
-    position,
-    positions_with,
-    way_of,
-)
+from .options import File, argument, option
+from .outputs import BarOptions, name_files, title_of
+from .variation_options import Look, StudyOptions
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -42,22 +29,16 @@ def command(
     file: File,
     tolerances: Annotated[
         Path,
-        typer.Argument(
-            metavar="TOLERANCES",
-            help="TOML: [tolerances] of values, and [limits] of characteristics if there are some.",
+        argument(
+            "TOML: [tolerances] of values, and [limits] of characteristics if there are some.",
+            "TOLERANCES",
         ),
     ],
     *,
-    cars: Annotated[int, typer.Option(metavar="N", help="How many cars are drawn.")] = 500,
-    seed: Annotated[int, typer.Option(metavar="N", help="Other cars for another seed.")] = 1,
-    of: Of = None,
-    over: Over = None,
-    held: Held = None,
-    at: At = 0.0,
-    out: Out = None,
-    plot: Bars = None,
-    force: Force = False,
-    json: Json = False,
+    cars: Annotated[int, option("How many cars are drawn.", "N")] = 500,
+    seed: Annotated[int, option("Other cars for another seed.", "N")] = 1,
+    asked: StudyOptions,
+    output: BarOptions,
 ) -> None:
     """Print bands of the characteristics of many cars within tolerances, and their causes.
 
@@ -65,47 +46,40 @@ def command(
     """
     from ...datasets import export
     from .. import studies as variation
+    from ..files.loading import load
     from ..studies.sweep_axes import sweep_axes_of
 
-    inputs: list[str | Path] = [file, tolerances]
-    outputs = Outputs.of(out, plot, force=force, inputs=inputs)
-    suspension = subject_of_file(file)
-    way = way_of(suspension, over, held)
-    asked = variation.read(tolerances)
-    names = chosen(suspension, of, way)
+    outputs = output.files(file, tolerances)
+    subject = load(file)
+    given = variation.read(tolerances)
+    look = Look.of(subject, asked)
     with progress_bar("cars") as progress:
         dataset = variation.tolerance(
-            suspension,
-            asked.get("tolerances", {}),
-            distribution=asked.get("distribution", "normal"),
-            limits=asked.get("limits"),
+            subject,
+            given.get("tolerances", {}),
+            distribution=given.get("distribution", "normal"),
+            limits=given.get("limits"),
             count=cars,
             seed=seed,
-            **asked_of(way),
-            positions=positions_with(suspension, way, at),
-            names=None if out else names,
+            **look.how,
+            names=None if outputs.data else look.names,
             progress=progress,
         )
     # cars and values would multiply the rows of a table: they are in netCDF
     written = outputs.write_data(dataset, rows=dataset.drop_dims(["car", "place"]))
-    for path in outputs.pages:
-        from ..plots import variation as plots
+    if outputs.pages:
+        from ..plots.variation import write_bands
 
         title = f"{title_of(file)}: {cars} cars by {tolerances.stem}"
-        limits = variation.limits(asked.get("limits", {}), sweep_axes_of(suspension))
-        written.append(
-            plots.write_bands(
-                dataset, path, names, limits=limits, title=title, force=force, inputs=inputs
-            )
-        )
-    if json:
+        limits = variation.limits(given.get("limits", {}), sweep_axes_of(subject))
+        written += outputs.draw(write_bands, dataset, look.names, limits=limits, title=title)
+    if output.json:
         print_json(export.as_dict(dataset) | {"yield": dataset.attrs["yield"]})
         return
-    console.print(
-        _table(dataset, names, f"{file}: {cars} cars, {along(way, at)}", position(way, at))
-    )
+    title = f"{file}: {cars} cars, {look.where}"
+    console.print(_table(dataset, look.names, title, look.at))
     share = f"; {100.0 * dataset.attrs['yield']:.1f} % within all limits."
-    say(f"{dataset.attrs['message']}{share if asked.get('limits') else '.'}")
+    say(f"{dataset.attrs['message']}{share if given.get('limits') else '.'}")
     name_files(written)
 
 

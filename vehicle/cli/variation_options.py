@@ -1,45 +1,43 @@
-"""Arguments of the commands about values that vary."""
+"""What the commands about values that vary look at."""
 
-from pathlib import Path
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-import typer
-
-from .options import among
+from .options import Held, Of, among, option
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..assembly.assembly import Assembly
     from ..studies.evaluation import Subject
 
 Over = Annotated[
     Literal["travel", "rack", "bump", "roll", "left", "right"] | None,
-    typer.Option(
-        help="What varies along the curves. Default: travel; of a rigid axle bump, which has no "
-        "others than the last four.",
+    option(
+        "What varies along the curves. Default: travel; of a rigid axle bump, which has no others "
+        "than the last four.",
         show_default=False,
     ),
 ]
-Held = Annotated[
-    Literal["height", "tyre", "spring", "locked"] | None,
-    typer.Option(
-        help="Analyse the compliance over wheel travel of a file with [bushings], instead of "
-        "characteristics; this holds the wheels.",
-        show_default=False,
-    ),
-]
-At = Annotated[
-    float, typer.Option(metavar="MM", help="Position that the table is about; of roll in deg.")
-]
-Bars = Annotated[
-    list[Path] | None,
-    typer.Option(
-        "--plot",
-        metavar="PATH",
-        help="Write a figure: .pdf, .png or .svg. May be repeated.",
-        rich_help_panel="Output",
-    ),
-]
+At = Annotated[float, option("Position that the table is about; of roll in deg.", "MM")]
+
+
+@dataclass(frozen=True)
+class StudyOptions:
+    """What a study of values looks at."""
+
+    of: Of = None
+    over: Over = None
+    held: Annotated[
+        Held | None,
+        option(
+            "Analyse the compliance over wheel travel of a file with [bushings], instead of "
+            "characteristics; this holds the wheels.",
+            show_default=False,
+        ),
+    ] = None
+    at: At = 0.0
+
 
 # What is shown where nothing is said, as far as the file has the data for it.
 _USUAL = {
@@ -70,45 +68,61 @@ _USUAL_OF_AXLES = (
 )
 
 
-def way_of(of: "Subject", over: str | None, held: str | None = None) -> str:
-    """Return what curves are over: what was asked for, or the usual; or what holds the wheels."""
-    from ..studies.sweep_axes import sweep_axes_of
+@dataclass(frozen=True)
+class Look:
+    """The curves that a study is about.
 
-    known = sweep_axes_of(of)
-    if held is not None:
-        among([over or known[0]], known[:1], "--over beside --held")
-        return held
-    return among([over or known[0]], known, "--over")[0]
+    Attributes
+    ----------
+    over : str
+        What they are over, or what holds the wheels.
+    names : list of str
+        Those that are shown.
+    at : float
+        The position that a table is about [m] or [rad].
+    where : str
+        The same in words: 'at 20 mm of wheel travel'.
+    how : dict
+        As studies take what curves are over, and at which positions.
+    """
+
+    over: str
+    names: list[str]
+    at: float
+    where: str
+    how: dict[str, Any]
+
+    @classmethod
+    def of(cls, subject: "Subject", asked: StudyOptions) -> "Look":
+        """Return what is looked at; what there is not is refused."""
+        from ..assembly.of import assembly_of
+        from ..studies.evaluation import usual_positions
+        from ..studies.sweep_axes import UNDER_LOADS, sweep_axes_of, sweep_axis
+
+        known = sweep_axes_of(subject)
+        if asked.held is not None:
+            among([asked.over or known[0]], known[:1], "--over beside --held")
+        over = asked.held or among([asked.over or known[0]], known, "--over")[0]
+        assembly, axis = assembly_of(subject), sweep_axis(over)
+        names = _chosen(assembly, asked.of, over)
+        positions = with_position(usual_positions(assembly, over), asked.at, over)
+        key = "held" if over in UNDER_LOADS else "over"
+        where = f"at {asked.at:g} {axis.unit} of {axis.words}"
+        how = {key: over, "positions": positions}
+        return cls(over, names, asked.at / axis.factor, where, how)
 
 
-def asked_of(over: str) -> dict[str, Any]:
-    """Return what tells a study what curves are over, or what holds the wheels."""
-    from ..studies.sweep_axes import UNDER_LOADS
-
-    return {"held" if over in UNDER_LOADS else "over": over}
-
-
-def chosen(of: "Subject", wanted: list[str] | None, over: str) -> list[str]:
+def _chosen(assembly: "Assembly", wanted: list[str] | None, over: str) -> list[str]:
     """Return the characteristics that are shown, those that were asked for or the usual ones."""
-    from ..assembly.of import assembly_of
     from ..studies.evaluation import available
     from ..studies.sweep_axes import UNDER_LOADS
 
-    assembly = assembly_of(of)
     assembly.refuse_of_steering(wanted or ())
     known = available(assembly, over)
-    if wanted is None:
-        usual = known if over in UNDER_LOADS else _USUAL.get(over, _USUAL_OF_AXLES)
-        return [name for name in usual if name in known]
-    return among(wanted, known)
-
-
-def positions_with(of: "Subject", over: str, at: float) -> "NDArray[Any]":
-    """Return the usual positions and the one that the table is about [m] or [rad]."""
-    from ..assembly.of import assembly_of
-    from ..studies.evaluation import usual_positions
-
-    return with_position(usual_positions(assembly_of(of), over), at, over)
+    if wanted is not None:
+        return among(wanted, known)
+    usual = known if over in UNDER_LOADS else _USUAL.get(over, _USUAL_OF_AXLES)
+    return [name for name in usual if name in known]
 
 
 def with_position(usual: "NDArray[Any]", at: float, over: str = "travel") -> "NDArray[Any]":
@@ -121,18 +135,4 @@ def with_position(usual: "NDArray[Any]", at: float, over: str = "travel") -> "ND
     if not np.isfinite(at):
         problem = f"--at {at}: a finite number of {sweep_axis(over).unit} is needed."
         raise InputError([problem], "positions")
-    return np.union1d(usual, [position(over, at)])
-
-
-def position(over: str, at: float) -> float:
-    """Return a position that was given in mm or deg [m] or [rad]."""
-    from ..studies.sweep_axes import sweep_axis
-
-    return at / sweep_axis(over).factor
-
-
-def along(over: str, at: float) -> str:
-    """Say where something is: 'at 20 mm of wheel travel'."""
-    from ..studies.sweep_axes import sweep_axis
-
-    return f"at {at:g} {sweep_axis(over).unit} of {sweep_axis(over).words}"
+    return np.union1d(usual, [at / sweep_axis(over).factor])

@@ -67,7 +67,7 @@ _THEIRS = frozenset(dir(BaseModel))
 class Section(BaseModel):
     """A section of an input file: immutable, and without keys that it does not know."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     def __dir__(self) -> list[str]:
         """Return what completion proposes: what is ours, and nothing of pydantic."""

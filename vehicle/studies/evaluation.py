@@ -8,7 +8,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
-from ..analysis.characteristics.datasets import dataset, flat_values
+from ..analysis.characteristics.datasets import dataset
 from ..analysis.compare import common_positions as common_to
 from ..analysis.compliance.flexibility import HELD, WheelSupport
 from ..analysis.compliance.linear import linear
@@ -53,7 +53,7 @@ def values_of(
 ) -> dict[str, Array]:
     """Return characteristics or compliances by the names of their columns, all or some."""
     if over not in HELD:
-        return flat_values(assembly, over, positions, names)
+        return assembly.values(over, positions, names)
     curves = flat(curves_over(assembly, over, positions))
     return {str(name): data.values for name, data in curves.items()}
 

@@ -75,18 +75,17 @@ OPTIONS = {
     "schema": (),
     "check": ("--json",),
     "mechanism topology": ("--free-rack", "--json"),
-    "kinematics": ("-o", "--plot", "--over", "--bump", "--rebound", "--travel", "--rack", "--step"),
     "characteristics": ("-o", "--bump", "--rebound", "--travel", "--rack", "--rack-extent",
-                        "--over", "--roll", "--of", "--goals"),
+                        "--over", "--roll", "--of", "--goals", "--positions"),
     "simulate": ("-o", "--road-step", "--road-sine", "--road-frequency", "--measured", "--speed",
                  "--rack", "--rack-sine", "--height", "--spin", "--output-step", "--method",
                  "--rtol", "--atol", "--road-step-at", "--wheels"),
     "loads": ("-o", "--plot", "--cases", "--case", "--part"),
-    "compliance": ("-o", "--plot", "--held", "--at", "--rack", "--bump", "--of",
+    "compliance": ("-o", "--plot", "--bushes", "--held", "--at", "--rack", "--bump", "--of",
                    "--goals"),
     "compliance --nonlinear": ("-o", "--plot", "--under", "--most", "--held", "--at", "--rack",
                                "--bump", "--wheels", "--over"),
-    "sheet": ("-o", "--held", "--json"),
+    "sheet": ("-o", "--bushes", "--held", "--json"),
     "compare": ("-o", "--over", "--of", "--held", "--goals"),
     "sensitivity": ("-o", "--plot", "--place", "--of", "--over", "--at"),
     "tolerance": ("-o", "--plot", "--of", "--over", "--at", "--seed"),
@@ -132,7 +131,7 @@ WORDS = {
 }
 PATHS = (
     "-o", "--plot", "--car", "--cases", "--to", "--data", "--tire", "--measured", "--title",
-    "--goals",
+    "--goals", "--bushes",
 )  # fmt: skip
 CLEAR = (RefusedError,)
 STUDY = b"""
@@ -252,7 +251,7 @@ def _arguments(random: Generator, names: list[str]) -> list[str]:
         if options:
             option = options[random.integers(len(options))]
             arguments += [option, *_value(random, option, names)]
-    if command in ("kinematics", "characteristics") and "--step" not in arguments:
+    if command == "characteristics" and "--step" not in arguments:
         arguments += COARSE
     if command == "sensitivity" and "--place" not in arguments:
         arguments += ["--place", "hardpoints.tie_rod_inner.z"]
@@ -291,6 +290,7 @@ def _value(random: Generator, option: str, names: list[str]) -> list[str]:
         "--mirror",
         "--left-handed",
         "--points-only",
+        "--positions",
     ):
         return []
     if option in WORDS:

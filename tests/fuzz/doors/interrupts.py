@@ -38,7 +38,7 @@ _MECHANISM = "from kintrafo.generator.mechanisms.four_bar import FOUR_BAR\n"
 CAR = "reference_car"
 OVER = ("-o", "a.csv", "--plot", "a.png", "--force")
 LONG = (
-    ("kinematics", CAR, "--step", "0.05", *OVER),
+    ("characteristics", CAR, "--positions", "--step", "0.05", *OVER),
     ("characteristics", CAR, "--step", "0.5", *OVER),
     ("characteristics", "reference_axle", "--over", "roll", *OVER),
     ("simulate", CAR, "--duration", "60", "--road-sine", "5", "--road-frequency", "9", *OVER),

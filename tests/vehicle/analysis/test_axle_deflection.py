@@ -497,6 +497,6 @@ def test_tables_have_each_wheel_and_both() -> None:
 def test_options_that_do_not_go_together_are_refused(kintrafo: Any, line: str, words: str) -> None:
     bushes = str(DATA / "studies/bushes.toml")
     file, *options = line.split()
-    code, _, err = kintrafo("compliance", file, bushes, "--nonlinear", *options)
+    code, _, err = kintrafo("compliance", file, "--bushes", bushes, "--nonlinear", *options)
     assert code == 2
     assert words in " ".join(err.replace("│", " ").split())

@@ -335,11 +335,12 @@ def test_commands_take_bushes_from_the_file(kintrafo: Any, tmp_path: Path) -> No
     write_toml(WITH_BUSHES, tmp_path / "soft.toml")
     text = "[bushings.arm_rear]\naxial_N_per_mm = 400.0\n"
     (tmp_path / "b.toml").write_text(text, encoding="utf-8")
+    soft = ("soft.toml", "--bushes", "b.toml")
     code, out, err = kintrafo("compliance", "soft.toml", "--bump", 10, "--rebound", 10)
     assert (code, "in place of" in err + out) == (0, False)
-    code, out, err = kintrafo("compliance", "soft.toml", "b.toml", "--bump", 10, "--rebound", 10)
+    code, out, err = kintrafo("compliance", *soft, "--bump", 10, "--rebound", 10)
     assert (code, "in place of any that soft.toml has" in err) == (0, True)
-    code, out, _ = kintrafo("compliance", "soft.toml", "b.toml", "--json")
+    code, out, _ = kintrafo("compliance", *soft, "--json")
     assert (code, "toe_by_lateral" in json.loads(out)["variables"]) == (0, True)
     assert kintrafo("compliance", "soft.toml", "--nonlinear", "--bump", 10, "--rebound", 10)[0] == 0
     code, _, err = kintrafo("compliance", "reference_car")

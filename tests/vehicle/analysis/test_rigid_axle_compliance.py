@@ -556,20 +556,21 @@ def test_a_file_has_its_bushes(kintrafo: Any, tmp_path: Path) -> None:
     assert one.identical(other)
     text = "[bushings.panhard_rod_axle]\nradial_N_per_mm = 900.0\naxis = [1.0, 0.0, 0.0]\n"
     (tmp_path / "soft.toml").write_text(text, encoding="utf-8")
-    code, out, err = kintrafo("compliance", "rigid_axle", "soft.toml")
+    soft = ("rigid_axle", "--bushes", "soft.toml")
+    code, out, err = kintrafo("compliance", *soft)
     assert code == 0, err
     shift = 1e6 * float(one["axle_lateral_by_lateral_parallel"][0])
     assert re.search(rf"both to the left .*{re.escape(f'{shift:.5g}')}", out), out
-    code, out, err = kintrafo("sheet", "rigid_axle", "soft.toml", "-o", "sheet.csv")
+    code, out, err = kintrafo("sheet", *soft, "-o", "sheet.csv")
     assert code == 0, err
     assert "rigid_axle: compliance, the contact stays at its height" in out
     told = (tmp_path / "sheet.csv").read_text(encoding="utf-8")
     assert "axle_lateral_by_lateral_parallel" in told
     for more in (["--over", "roll"], ["--under", "aligning", "--wheels", "opposed"]):
-        code, out, err = kintrafo("compliance", "rigid_axle", "soft.toml", "--nonlinear", *more)
+        code, out, err = kintrafo("compliance", *soft, "--nonlinear", *more)
         assert code == 0, err
         assert "axle" in out
     for options in (["compliance", "--rack", "5"], ["compliance", "--nonlinear", "--at", "5"]):
-        code, _, err = kintrafo(options[0], "rigid_axle", "soft.toml", *options[1:])
+        code, _, err = kintrafo(options[0], *soft, *options[1:])
         assert code != 0
         assert "only for" in err

@@ -541,7 +541,7 @@ def test_other_doors_refuse_it_by_name() -> None:
 @pytest.mark.parametrize(
     "line",
     [
-        "kinematics rigid_axle --over rack",
+        "characteristics rigid_axle --positions --over rack",
         "sweep rigid_axle wheel.toe_deg=0,1 --rack 5",
         "export rigid_axle --to points -o a.csv",
         "mechanism topology rigid_axle",

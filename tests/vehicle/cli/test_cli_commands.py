@@ -16,19 +16,29 @@ from kintrafo.vehicle.data.starter import NOT_A_RIGID_AXLE
 from matplotlib.image import imread
 
 CAR = "reference_car"
+POSITIONS = ("characteristics", CAR, "--positions")
 CAR_FILE = ROOT / "vehicle/data/reference_car.toml"
 
 
-def test_help_is_quick():
+@pytest.mark.parametrize(
+    ("line", "without"),
+    [
+        (["--help"], {"matplotlib", "xarray", "scipy", "pandas", "pydantic", "sympy", "numpy"}),
+        (["check", "reference_axle"], {"matplotlib", "xarray", "pandas", "sympy"}),
+        (["characteristics", CAR, "--step", "40"], {"matplotlib", "sympy", "dask"}),
+    ],
+)
+def test_commands_begin_quickly(line, without):
+    """What takes long to import is imported where it is needed."""
     program = (
-        "import sys; from typer.testing import CliRunner; from kintrafo.vehicle.cli import app;"
-        "result = CliRunner().invoke(app, ['--help']); assert result.exit_code == 0;"
-        "print(*sorted({n.partition('.')[0] for n in sys.modules}))"
+        "import sys; from kintrafo.__main__ import run; sys.argv[1:] = " + repr(line) + "\n"
+        "try: run()\nexcept SystemExit as end: assert not end.code\n"
+        "print(*sorted({n.partition('.')[0] for n, m in sys.modules.items() if m}))"
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True)
-    loaded = set(done.stdout.decode().split())
+    loaded = set(done.stdout.decode().splitlines()[-1].split())
     assert "typer" in loaded
-    assert not loaded & {"matplotlib", "xarray", "scipy", "pandas", "pydantic", "sympy", "numpy"}
+    assert not loaded & without
 
 
 @pytest.mark.parametrize("command", sorted(cli.COMMANDS))
@@ -188,19 +198,22 @@ def test_check_finds_no_equilibrium(kintrafo, tmp_path):
 # -- results ------------------------------------------------------------------------------------
 
 
-def test_kinematics_prints_a_table_and_writes_what_it_prints(kintrafo, tmp_path):
-    code, out, _ = kintrafo("kinematics", CAR, "--bump", 20, "--rebound", 10, "-o", "path.csv")
+def test_positions_are_printed_as_a_table_and_written(kintrafo, tmp_path):
+    code, out, _ = kintrafo(
+        "characteristics", CAR, "--positions", "--bump", 20, "--rebound", 10, "-o", "path.csv"
+    )
     assert code == 0
-    names, *rows = (tmp_path / "path.csv").read_text(encoding="utf-8").splitlines()
+    names, *rows = (tmp_path / "path_travel.csv").read_text(encoding="utf-8").splitlines()
     assert names.startswith("wheel_travel [mm],rack_position [mm],strut_length [mm]")
     heights = [float(row.split(",")[names.split(",").index("wheel_center_z [mm]")]) for row in rows]
     assert heights == pytest.approx(np.arange(290.0, 321.0, 2.0), abs=1e-6)
     assert "320.000" in out
 
 
-def test_kinematics_on_a_grid(kintrafo, tmp_path):
-    assert kintrafo("kinematics", CAR, "--over", "both", "--step", 20, "-o", "map.nc")[0] == 0
-    grid = xr.load_dataset(tmp_path / "map.nc", engine="scipy")
+def test_positions_on_a_grid(kintrafo, tmp_path):
+    line = ["--positions", "--over", "both", "--step", "20", "-o", "map.nc"]
+    assert kintrafo("characteristics", CAR, *line)[0] == 0
+    grid = xr.load_dataset(tmp_path / "map_both.nc", engine="scipy")
     assert dict(grid.sizes) == {"wheel_travel": 9, "rack_position": 7}
     assert grid["rack_position"].values == pytest.approx(np.arange(-0.06, 0.061, 0.02))
 
@@ -254,7 +267,7 @@ def test_steering_with_mass_leaves_the_rack_free(kintrafo, tmp_path):
     assert code == 2
     assert "cannot be prescribed" in err
     assert kintrafo("check", "heavy.toml")[0] == 0
-    assert kintrafo("kinematics", "heavy.toml", "--over", "rack")[0] == 0
+    assert kintrafo("characteristics", "heavy.toml", "--positions", "--over", "rack")[0] == 0
 
 
 def test_wheel_that_leaves_the_ground_is_told(kintrafo):
@@ -289,21 +302,23 @@ def test_topology_needs_no_sympy(kintrafo, monkeypatch):
 @pytest.mark.parametrize(
     ("arguments", "code", "words"),
     [
-        (["kinematics", CAR, "--bump", "400"], 1, "out of reach"),
-        (["kinematics", CAR, "--bump", "-4"], 2, "without a sign"),
-        (["kinematics", CAR, "--step", "0"], 2, "step"),
-        (["kinematics", CAR, "--step", "1e-9"], 2, "larger step"),
-        (["kinematics", CAR, "-o", "curves.ods"], 2, "Use .csv"),
-        (["kinematics", CAR, "--plot", "curves.bmp"], 2, ".png"),
-        (["kinematics", CAR, "--rack", "900"], 1, "rack"),
-        (["kinematics", CAR, "--travel", "x"], 2, "number"),
+        ([*POSITIONS, "--bump", "400"], 1, "out of reach"),
+        (["characteristics", CAR, "--bump", "-4"], 2, "without a sign"),
+        (["characteristics", CAR, "--step", "0"], 2, "step"),
+        (["characteristics", CAR, "--step", "1e-9"], 2, "larger step"),
+        (["characteristics", CAR, "-o", "curves.ods"], 2, "Use .csv"),
+        (["characteristics", CAR, "--plot", "curves.bmp"], 2, ".png"),
+        (["characteristics", CAR, "--rack", "900"], 1, "rack"),
+        (["characteristics", CAR, "--travel", "x"], 2, "number"),
         (["characteristics", CAR, "--figures", "f", "--format", "gif"], 2, "gif"),
         (["simulate", CAR, "--height", "9999"], 1, "out of reach"),
         (["simulate", CAR, "--duration", "-1"], 2, "above 0 s"),
         (["simulate", CAR, "--duration", "0", "--road-sine", "3"], 2, "above 0 s"),
         (["simulate", CAR, "--speed", "50"], 2, "--measured"),
-        (["kinematics", CAR, "--travel", "20"], 2, "--over"),
-        (["kinematics", CAR, "--over", "both", "--rack", "20"], 2, "--over"),
+        ([*POSITIONS, "--travel", "20"], 2, "--over"),
+        ([*POSITIONS, "--of", "toe"], 2, "--positions"),
+        ([*POSITIONS, "--over", "roll"], 2, "roll"),
+        ([*POSITIONS, "--over", "both", "--rack", "20"], 2, "--over"),
         (["simulate", CAR, "--output-step", "0"], 2, "above 0 s"),
         (["simulate", CAR, "--output-step", "1e-9"], 2, "larger output step"),
         (["simulate", CAR, "--method", "Euler"], 2, "Euler"),
@@ -335,7 +350,7 @@ def test_mistakes_end_with_a_message(kintrafo, arguments, code, words, tmp_path)
 def test_missing_packages_are_named_with_the_remedy(kintrafo, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     monkeypatch.setitem(sys.modules, "pyarrow.parquet", None)
-    code, _, err = kintrafo("kinematics", CAR, "-o", "path.parquet")
+    code, _, err = kintrafo("characteristics", CAR, "-o", "path.parquet")
     assert code == 3
     assert 'pip install "kintrafo[parquet]"' in err
     monkeypatch.setitem(sys.modules, "sympy", None)
@@ -345,8 +360,8 @@ def test_missing_packages_are_named_with_the_remedy(kintrafo, monkeypatch):
 
 
 def test_a_folder_in_the_way_is_refused(kintrafo, tmp_path):
-    (tmp_path / "path.csv").mkdir()
-    code, _, err = kintrafo("kinematics", CAR, "-o", "path.csv")
+    (tmp_path / "path_rack.csv").mkdir()
+    code, _, err = kintrafo("characteristics", CAR, "-o", "path.csv")
     assert code == 2
     assert "not a file" in err
 

@@ -15,6 +15,7 @@ TEXT = (ROOT / "vehicle/data/reference_car.toml").read_text(encoding="utf-8")
 CHRONO = ROOT / "tests/data/chrono/MacPhersonStrut.json"
 ADAMS = ROOT / "tests/data/adams/front_suspension.sub"
 STUDIES = ROOT / "tests/data/studies"
+SOFT = ("--bushes", str(STUDIES / "bushes.toml"))
 FULL = Path("/dev/full")
 
 
@@ -34,9 +35,8 @@ WRITING = {
     ),
     "export --to points": (["export", CAR, "--to", "points"], f"{CAR}_points.csv"),
     "schema": (["schema", "a.json"], "a.json"),
-    "kinematics": (["kinematics", CAR, "--step", 40, "-o", "a.csv"], "a.csv"),
-    "kinematics --plot": (["kinematics", CAR, "--plot", "a.svg"], "a.svg"),
-    "kinematics --figures": (["kinematics", CAR, "--step", 40, "--figures", "."], "camber.png"),
+    "--positions": (["characteristics", CAR, "--positions", "--plot", "a.svg"], "a_travel.svg"),
+    "--figures": (["characteristics", CAR, "--step", 40, "--figures", "."], "camber_travel.png"),
     "characteristics": (["characteristics", CAR, "-o", "a.nc"], "a_rack.nc"),
     "characteristics of an axle": (
         ["characteristics", "reference_axle", "--over", "roll", "--plot", "a.svg"],
@@ -55,9 +55,9 @@ WRITING = {
     "loads --plot": (["loads", CAR, "--case", "brake", "--plot", "a.png"], "a_brake.png"),
     "mechanism animate": (["mechanism", "animate", CAR, "a.gif"], "a.gif"),
     "sheet": (["sheet", CAR, "-o", "a.csv"], "a.csv"),
-    "compliance": (["compliance", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),
+    "compliance": (["compliance", CAR, *SOFT, "--plot", "a.svg"], "a.svg"),
     "compliance --nonlinear": (
-        ["compliance", CAR, str(STUDIES / "bushes.toml"), "--nonlinear", "--plot", "a.svg"],
+        ["compliance", CAR, *SOFT, "--nonlinear", "--plot", "a.svg"],
         "a.svg",
     ),
     "compliance --nonlinear of an axle": (
@@ -65,7 +65,7 @@ WRITING = {
             "compliance",
             "--nonlinear",
             "reference_axle",
-            str(STUDIES / "bushes.toml"),
+            *SOFT,
             "--over",
             "roll",
             "--plot",
@@ -129,7 +129,7 @@ def test_no_file_is_written_twice(kintrafo, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "command", ["new", "schema", "kinematics", "import of Project Chrono", "import of Adams/Car"]
+    "command", ["new", "schema", "--positions", "import of Project Chrono", "import of Adams/Car"]
 )
 def test_force_and_again(kintrafo, tmp_path, command):
     arguments, name = WRITING[command]
@@ -151,7 +151,7 @@ def test_force_and_again(kintrafo, tmp_path, command):
         ["import", "adams.sub", "car.toml", "--from", "car.toml"],
         ["pareto", "car.toml", "other.toml", "--car", "other.toml"],
         ["simulate", CAR, "--measured", "road.csv", "-o", "road.csv"],
-        ["kinematics", "car.csv", "-o", "car.csv"],
+        ["sheet", "car.csv", "-o", "car.csv"],
         ["compare", CAR, "car.csv", "-o", "./car.csv"],
     ],
 )
@@ -222,7 +222,7 @@ def test_a_full_disk_behind_standard_output(full, monkeypatch, capsys, arguments
 
 def test_files_are_there_though_nothing_can_be_printed(full, monkeypatch, tmp_path):
     path = tmp_path / "a.csv"
-    assert run_into(full, monkeypatch, ["kinematics", CAR, "--step", 40, "-o", path]) == 2
+    assert run_into(full, monkeypatch, ["sheet", CAR, "-o", path]) == 2
     assert path.stat().st_size > 0
 
 
@@ -274,7 +274,9 @@ STRANGE = ["$^$.toml", os.fsdecode(b"caf\xe9.toml"), "two\nlines.toml", "[bold]x
 @pytest.mark.parametrize("name", STRANGE)
 def test_strange_names(kintrafo, tmp_path, name):
     (tmp_path / name).write_text(TEXT, encoding="utf-8")
-    code, out, err = kintrafo("kinematics", name, "--step", 80, "-o", f"{name}.csv")
+    code, out, err = kintrafo(
+        "characteristics", name, "--positions", "--step", 80, "-o", f"{name}.csv"
+    )
     assert code == 0, err
     assert "positions over travel" in " ".join(out.split())
     code, out, err = kintrafo("check", f"no_such_{name}")

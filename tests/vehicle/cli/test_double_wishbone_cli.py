@@ -78,9 +78,10 @@ def test_topology(kintrafo):
 # -- computing ------------------------------------------------------------------------------------
 
 
-def test_kinematics(kintrafo, tmp_path):
-    assert kintrafo("kinematics", CAR, "-o", "path.nc", "--plot", "path.png", "--step", 20)[0] == 0
-    path = xr.load_dataset(tmp_path / "path.nc")
+def test_positions(kintrafo, tmp_path):
+    line = ["--positions", "-o", "path.nc", "--plot", "path.png", "--step", "20"]
+    assert kintrafo("characteristics", CAR, *line)[0] == 0
+    path = xr.load_dataset(tmp_path / "path_travel.nc")
     at_design = path.sel(wheel_travel=0.0)
     expected = {
         "lower_ball_joint_z": 0.185,
@@ -89,8 +90,8 @@ def test_kinematics(kintrafo, tmp_path):
     }
     for name, value in expected.items():
         assert float(at_design[name]) == pytest.approx(value, abs=1e-14)
-    assert imread(tmp_path / "path.png").std() > 0.01
-    code, out, _ = kintrafo("kinematics", CAR, "--over", "both", "--step", 20)
+    assert imread(tmp_path / "path_travel.png").std() > 0.01
+    code, out, _ = kintrafo("characteristics", CAR, "--positions", "--over", "both", "--step", 20)
     assert code == 0
     assert "9 wheel_travel x 7 rack_position" in out
 

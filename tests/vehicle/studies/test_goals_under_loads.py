@@ -310,7 +310,8 @@ def test_compliance_tells_and_draws_them(
         return path
 
     monkeypatch.setattr(curves, "write_overview", note)
-    asked = ["compliance", "reference_car", str(tmp_path / "bushes.toml"), "--goals", str(goals)]
+    asked = ["compliance", "reference_car", "--bushes", str(tmp_path / "bushes.toml")]
+    asked += ["--goals", str(goals)]
     shown = called(*asked, "--plot", str(tmp_path / "a.png"), "--json")
     assert shown.exit_code == 0, shown.output
     assert given == ["toe_by_lateral"]
@@ -348,7 +349,7 @@ def test_compliance_draws_what_is_named(
         return path
 
     monkeypatch.setattr(curves, "write_overview", note)
-    words = ["compliance", file, str(bushes), "--plot", str(tmp_path / "a.png")]
+    words = ["compliance", file, "--bushes", str(bushes), "--plot", str(tmp_path / "a.png")]
     shown = called(*words, *(word for name in asked for word in ("--of", name)))
     assert shown.exit_code == 0, shown.exception
     assert given == (found or asked)

@@ -1,6 +1,5 @@
 """Characteristics over the motions of a rig, as labelled arrays."""
 
-from collections.abc import Container
 from typing import Any
 
 import xarray as xr
@@ -11,7 +10,7 @@ from ....core.named_types import ArrayLike
 from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import of_wheels, wheel_coordinate
 from ...assembly.measures import axle, corner, rigid_axle
-from ...assembly.measures.measure import columns, values
+from ...assembly.measures.measure import columns
 from ...assembly.of import given_assembly
 from ...assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from ...assembly.rig import SweepRange
@@ -170,26 +169,3 @@ def dataset(
     for quantity, value in held.items():
         coordinates[quantity.name] = xr.Variable((), float(value), quantity.attributes())
     return xr.Dataset(variables, coordinates, {"title": f"characteristics over {how.title}"})
-
-
-def flat_values(
-    assembly: Assembly, motion: str, along: Array, names: Container[str] | None = None
-) -> dict[str, Array]:
-    """Return characteristics over a motion by the names of their columns, all or some.
-
-    Parameters
-    ----------
-    assembly : Assembly
-    motion : str
-    along : ndarray, shape (n,)
-        As of `over`.
-    names : container of str, optional
-        Of columns: ``camber``, of an axle ``camber_left``.
-
-    Returns
-    -------
-    dict of str to ndarray, each of shape (n,)
-        SI units.
-    """
-    of = assembly.kinematics(assembly.position(motion, along))
-    return values(assembly.measures(motion), of, assembly.wheels, names)

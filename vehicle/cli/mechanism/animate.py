@@ -3,10 +3,9 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ....terminal.console import problems, say
-from ..options import File, Force, Which, load, refuse_which, system_of
+from ..loading import suspension_of, system_of
+from ..options import File, Force, Which, argument, option, refuse_which
 
 if TYPE_CHECKING:
     from ....simulation.result import Simulation
@@ -20,18 +19,15 @@ EXAMPLES = (
 
 def command(
     file: File,
-    path: Annotated[Path, typer.Argument(metavar="PATH", help="Ends in .gif or .html.")],
+    path: Annotated[Path, argument("Ends in .gif or .html.", "PATH")],
     *,
     start: Annotated[
-        list[str] | None,
-        typer.Option(metavar="NAME=VALUE", help="Where it starts (SI units). May be repeated."),
+        list[str] | None, option("Where it starts (SI units). May be repeated.", "NAME=VALUE")
     ] = None,
-    duration: Annotated[float, typer.Option(metavar="S", help="Length of the motion.")] = 1.0,
-    slower: Annotated[
-        float, typer.Option(metavar="TIMES", help="A GIF plays so many times slower.")
-    ] = 1.0,
-    fps: Annotated[float, typer.Option(metavar="1/S", help="Frames per second of a GIF.")] = 25.0,
-    title: Annotated[str | None, typer.Option(help="Heading of a page.")] = None,
+    duration: Annotated[float, option("Length of the motion.", "S")] = 1.0,
+    slower: Annotated[float, option("A GIF plays so many times slower.", "TIMES")] = 1.0,
+    fps: Annotated[float, option("Frames per second of a GIF.", "1/S")] = 25.0,
+    title: Annotated[str | None, option("Heading of a page.")] = None,
     model: Which = None,
     force: Force = False,
 ) -> None:
@@ -80,6 +76,6 @@ def _motion(file: str, name: str | None, values: dict[str, float], duration: flo
 
     with Arguments("animate") as given:
         seconds = given.number("--duration", duration, "s", above=0.0, below=3600.0)
-    system = system_of(file, name) if file.endswith(".py") else load(file)
+    system = system_of(file, name) if file.endswith(".py") else suspension_of(file)
     times = np.linspace(0.0, seconds, max(201, round(500 * min(seconds, 20.0)) + 1))
     return simulate(system, (0.0, seconds), system.state(**values), t_eval=times)

@@ -3,10 +3,9 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ....terminal.console import problems
-from ..options import Force, Which, complete_file, load, refuse_which
+from ..loading import suspension_of
+from ..options import Force, Which, argument, option, refuse_which
 from ..outputs import name_files
 
 if TYPE_CHECKING:
@@ -22,19 +21,15 @@ EXAMPLES = (
 def command(
     file: Annotated[
         str,
-        typer.Argument(
-            metavar="FILE",
-            help="Hardpoint file, Python file with a mechanism of your own, or the name of a model "
-            "that comes with kintrafo: macpherson, four_bar, andrews, excavator.",
-            autocompletion=complete_file,
+        argument(
+            "Hardpoint file, Python file with a mechanism of your own, or the name of a model that "
+            "comes with kintrafo: macpherson, four_bar, andrews, excavator.",
+            "FILE",
         ),
     ],
     *,
     out: Annotated[
-        Path,
-        typer.Option(
-            "--out", "-o", metavar="PATH", help="What to write: .tex, with its figures, or .md."
-        ),
+        Path, option("What to write: .tex, with its figures, or .md.", "PATH", "--out", "-o")
     ],
     model: Which = None,
     force: Force = False,
@@ -68,4 +63,4 @@ def _shipped(file: str) -> "Formulation":
     if not Path(file).suffix and file not in packaged() and not Path(file).exists():
         problem = f"is no file and no name. {suggestion(file, [*known, *packaged()])}"
         raise InputError([problem], file)
-    return model_named(load(file).equations.NAME)
+    return model_named(suspension_of(file).equations.NAME)

@@ -5,10 +5,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Annotated
 
-import typer
-
 from ....terminal.console import console, print_json, problems, say
-from ..options import Force, Json, Which
+from ..options import FILE, Force, Json, Which, argument, option
 
 EXAMPLES = (
     "kintrafo mechanism generate my_mechanism.py",
@@ -18,27 +16,17 @@ EXAMPLES = (
 
 
 def command(
-    file: Annotated[
-        Path,
-        typer.Argument(
-            metavar="FILE",
-            help="Python file that declares a mechanism.",
-            exists=True,
-            dir_okay=False,
-        ),
-    ],
+    file: Annotated[Path, argument("Python file that declares a mechanism.", "FILE", **FILE)],
     *,
     model: Which = None,
     to: Annotated[
-        Path | None,
-        typer.Option(metavar="FOLDER", help="Write the C, the Python and the report here as well."),
+        Path | None, option("Write the C, the Python and the report here, too.", "FOLDER")
     ] = None,
     numpy: Annotated[
-        bool, typer.Option("--numpy", help="Functions over NumPy arrays instead of compiled C.")
+        bool, option("Functions over NumPy arrays instead of compiled C.", None, "--numpy")
     ] = False,
     parameter_derivatives: Annotated[
-        bool,
-        typer.Option("--parameter-derivatives", help="Also exact derivatives by parameters."),
+        bool, option("Also exact derivatives by parameters.", None, "--parameter-derivatives")
     ] = False,
     force: Force = False,
     json: Json = False,

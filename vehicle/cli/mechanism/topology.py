@@ -4,11 +4,11 @@ from itertools import islice
 from types import ModuleType
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
 from rich.table import Table
 
 from ....terminal.console import console, print_json, say
-from ..options import Json, Which, complete_file, load, refuse_which
+from ..loading import suspension_of
+from ..options import Json, Which, argument, option, refuse_which
 
 if TYPE_CHECKING:
     from ....systems.topology import Topology
@@ -28,16 +28,12 @@ _FREE_RACK = "macpherson_free_rack"
 def command(
     file: Annotated[
         str | None,
-        typer.Argument(
-            metavar="FILE",
-            help="Hardpoint file, or Python file with a mechanism of your own.",
-            autocompletion=complete_file,
-        ),
+        argument("Hardpoint file, or Python file with a mechanism of your own.", "FILE"),
     ] = None,
     *,
     model: Which = None,
     free_rack: Annotated[
-        bool, typer.Option("--free-rack", help="The mechanism with the rack as a coordinate.")
+        bool, option("The mechanism with the rack as a coordinate.", None, "--free-rack")
     ] = False,
     json: Json = False,
 ) -> None:
@@ -106,7 +102,7 @@ def _show_loops(found: "Topology") -> None:
 def _equations(file: str, model: str | None) -> ModuleType:
     """Return the compiled equations that a file leads to."""
     if not file.endswith(".py"):
-        return load(file).equations
+        return suspension_of(file).equations
     from ....systems.compile.build import compile_mechanism
 
     return compile_mechanism(file, name=model)

@@ -1,0 +1,75 @@
+"""What a file describes, and its equations."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ...terminal.console import note, problems
+
+if TYPE_CHECKING:
+    from ...systems.system import System
+    from ..assembly.assembly import Assembly
+    from ..models.axle.equations import AxleModel
+    from ..models.model import Model
+    from ..models.rigid.model import RigidAxleModel
+
+
+def assembly_of_file(file: str) -> "Assembly":
+    """Return what a file or a packaged data set describes, as an assembly."""
+    from ..assembly.of import assembly_of
+    from ..files.loading import load
+
+    subject = load(file)
+    # its equations may have to be derived first
+    with problems.status("preparing the equations"):
+        return assembly_of(subject)
+
+
+def model_of(file: str, *, wheel_loads: bool = False) -> "Model | AxleModel | RigidAxleModel":
+    """Return the equations of motion of what a file describes.
+
+    Parameters
+    ----------
+    file : str
+        Path of a TOML file, or name of a packaged data set.
+    wheel_loads
+        Whether what acts on the wheels are inputs.
+    """
+    from ..assembly.of import model_of as of_subject
+    from ..files.loading import load
+
+    subject = load(file)
+    with problems.status("preparing the equations") as status:
+        return of_subject(
+            subject,
+            wheel_loads=wheel_loads,
+            progress=lambda text: status.update(f"the equations: {text}"),
+        )
+
+
+def suspension_of(file: str) -> "Model":
+    """Return the equations of the file of one suspension; others are refused."""
+    from ..assembly.of import assembly_of
+    from ..kinds import Suspension
+
+    suspension = Suspension.load(file)
+    with problems.status("preparing the equations"):
+        (model,) = assembly_of(suspension).corners.values()
+    return model
+
+
+def system_of(file: str, name: str | None = None) -> "System":
+    """Return the equations of a mechanism of one's own, derived when they are first needed."""
+    from ...systems.compile import compile_mechanism
+    from ...systems.system import System
+
+    return System(compile_mechanism(file, name=name))
+
+
+def bushes_of(file: str, bushes: Path | None) -> dict[str, Any] | None:
+    """Return the bushes of a file of their own, where one is given in place of those of the car."""
+    from ..analysis.compliance import read_bushes
+
+    if bushes is None:
+        return None
+    note(f"bushes: those of {bushes}, in place of any that {file} has.")
+    return read_bushes(bushes)
