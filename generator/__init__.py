@@ -1,6 +1,6 @@
 """Derive the equations of motion of mechanisms with kinematic loops, and emit them as C.
 
-The floors, the lowest first; a file imports only what stands on a lower one (`make lint`):
+The floors, the lowest first; a file imports only what is on a lower one (`make lint`):
 
 ``program``
     the straight-line program: steps, constants, derivatives, what is shared, operation counts;

@@ -1,4 +1,4 @@
-"""Tells what is being done while something takes long, and how long the rest will take."""
+"""Reports what is being done while something takes long, and how long the rest will take."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ WORTH_TELLING_S = 10.0
 
 
 def silent(text: str) -> None:
-    """Tell nobody."""
+    """Report nothing."""
     del text
 
 
 def counted(tell: Tell, what: str, items: Iterable[T]) -> Iterator[T]:
-    """Yield items one by one and tell which of them it is.
+    """Yield items one by one and report which of them it is.
 
     Where all of them take more than `WORTH_TELLING_S`, as far as those behind say, also how long
     the rest takes.

@@ -6,7 +6,7 @@ What the command line imports takes a part of a second, in which Ctrl-C ends it 
 import sys
 
 INTERRUPTED = 130
-"""What a shell is told by a program that ended for Ctrl-C."""
+"""Exit code of a program that Ctrl-C ended."""
 
 
 def run() -> None:

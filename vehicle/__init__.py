@@ -5,7 +5,7 @@
 `input`     the sections of an input file, each with its checks
 `corner`    what every kind of suspension has
 `kinds`     a file for each kind of suspension
-`models`    suspensions, axles and rigid axles with compiled equations: where they stand
+`models`    suspensions, axles and rigid axles with compiled equations, and their positions
 `assembly`  what has wheels: one protocol for corner, axle and rigid axle
 `files`     input files of any assembly, their schema, tables of points, files of other programs
 `analysis`  what is asked of an assembly

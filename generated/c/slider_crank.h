@@ -111,8 +111,8 @@ enum slider_crank_status {
  * Returns 0, or one plus the index of the first constant that is not finite,
  * or SLIDER_CRANK_CONSTANT_COUNT plus the number of the first of these that applies:
  *   rod_length: at the design position, the ends crank_pin and piston_pin of rod coincide
- *   rod_design_x: at the design position the rod rod is at its dead point: it stands across the
- *       guide of piston
+ *   rod_design_x: at the design position the rod rod is at its dead point: it is perpendicular to
+ *       the guide of piston
  */
 int slider_crank_prepare(const double *restrict parameters, double *restrict constants);
 

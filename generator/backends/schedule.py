@@ -66,7 +66,7 @@ class Operation:
     ready
         When the result is there, in cycles from the start of the function.
     depth
-        How many operations stand within each other.
+        How many operations are within each other.
     """
 
     kind: str
@@ -117,7 +117,7 @@ def _ordered(function: Function) -> Schedule:
     taken = {s.name for s in (*function.free_symbols, *(step.symbol for step in function.steps))}
 
     def value_of(expression: sp.Expr, name: str, section: str) -> Operation:
-        """Return a value; what would stand too deep in it becomes a step before it."""
+        """Return a value; what would be too deep in it becomes a step before it."""
         names = (n for i in count(1) if (n := f"{name}_part_{i}") not in taken)
         scheduler = _Scheduler(ready, names)
         value = scheduler.operation(expression)
@@ -163,7 +163,7 @@ class _Scheduler:
     ----------
     ready
     names
-        What parts may be called that would stand too deep; none: they stand as deep as they do.
+        Prefix of the names of parts that would be nested too deeply; none: they stay nested.
     parts
         Those, by name.
     """

@@ -2,7 +2,7 @@
 
 Each function has a program of its own, and the order of its operations. Equal operations on equal
 operands are found by numbering values, so that nothing is put together in another order: every
-result is the same to the last bit as if its function stood alone.
+result is the same to the last bit as if its function were alone.
 """
 
 from __future__ import annotations
@@ -249,7 +249,7 @@ class _Values:
         repeated, numbers = self._repeated(results), count(1)
 
         def place(value: int, section: str) -> Operation:
-            """Return what stands for a value, and put what has names before it."""
+            """Return what represents a value, and put what has names before it."""
             operation, operands = self.operations[value]
             if operation.kind in _LEAVES:
                 return operation

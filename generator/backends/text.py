@@ -108,7 +108,7 @@ def written_values(
 
 
 def formula(expression: sp.Expr, dialect: Dialect) -> str:
-    """Write an expression that stands alone, where it does not matter what is there first."""
+    """Write an expression on its own, where it does not matter what is there first."""
     return text_of(schedule(expression), dialect)
 
 
@@ -154,7 +154,7 @@ def _inside(part: tuple[str, int], strength: int) -> str:
 
 
 def _sum(first: tuple[str, int], second: tuple[str, int]) -> tuple[str, int]:
-    """Write a sum; a term with no sign and no parentheses of its own stands behind."""
+    """Write a sum; a term with no sign and no parentheses of its own follows."""
     if second[1] < _PRODUCT <= first[1]:
         first, second = second, first
     return f"{first[0]} + {_inside(second, _PRODUCT)}", _SUM
@@ -169,7 +169,7 @@ def _negative(part: tuple[str, int]) -> tuple[str, int]:
 
 
 def _product(one: tuple[str, int], two: tuple[str, int]) -> tuple[str, int]:
-    """Write a product; of two factors, one that is a product itself stands in front."""
+    """Write a product; of two factors, one that is a product itself is in front."""
     if two[1] == _PRODUCT and one[1] != _PRODUCT:
         one, two = two, one
     return f"{_inside(one, _PRODUCT)}*{_inside(two, _ATOM)}", _PRODUCT

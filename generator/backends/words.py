@@ -40,7 +40,7 @@ FORMULA = Dialect(
     root="sqrt({})",
     component="{}.at[{}]",
 )
-"""As C writes it: for a person to read as well, and for what depends on no back end."""
+"""As C writes it: for a person to read, too, and for what depends on no back end."""
 
 
 def count_line(function: Function | Stage) -> str:

@@ -7,7 +7,7 @@ The equations, and the iteration that solves them from the design position on, a
 digits, and carries all derivatives: by the implicit function theorem they are ``-J^-1 g_v``.
 
 *Velocities and accelerations* fulfil ``J x = b``, b being what the starts of the rods do; they are
-solved with what the iteration knows of J^-1 (`inverse`, where the guard is as well).
+solved with what the iteration knows of J^-1 (`inverse`, where the guard is, too).
 """
 
 from __future__ import annotations
@@ -230,7 +230,8 @@ class _Held:
         ]
         if all(program.constants.contains(c) for rod in rods for c in rod.equation.moving):
             message = (
-                f"{body}, held by {step.rod_names}, cannot move: all that holds it stands still. "
+                f"{body}, held by {step.rod_names}, cannot move: everything that holds it is "
+                f"at rest. "
                 "Declare it as a part of the ground"
             )
             raise NoClosedFormError(message)

@@ -1,4 +1,4 @@
-"""All that places bodies: whatever is defined in this folder is found here."""
+"""The catalogue of all classes in this folder that place bodies."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ Every joint that closes a loop gives what it leaves in common, every rod its len
     Square      a1 . b2 = 0                           hinge, cross, guide: directions stay square
     Distance    (|p2 - p1|^2 - l^2) / (2 l c) = 0     rod
 
-c is a length of the mechanism, in which slides are counted as well, so that neither equations nor
+c is a length of the mechanism, in which slides are counted, too, so that neither equations nor
 unknowns have a unit. The rate of an equation is linear in the motions of its two bodies. With the
 screw of a joint as that motion it is an element of the Jacobian J, and with what placed bodies do
 it is the right side of the equations for velocities (`together`).
@@ -339,7 +339,7 @@ def _base(geometry: Geometry, body: str) -> Frame:
 def _turned(
     program: Program, name: str, axes: Axes, axis: Vector, local: Vector, angle: sp.Expr
 ) -> Axes:
-    """Append axes after a turn about an axis, whose components along them are given as well."""
+    """Append axes after a turn about an axis, whose components along them are given, too."""
     cosine = program.define(f"{name}_cos", sp.cos(angle))
     sine = program.define(f"{name}_sin", sp.sin(angle))
     kept = program.vector(f"{name}_kept", axis * (1 - cosine))

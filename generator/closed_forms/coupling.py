@@ -3,9 +3,9 @@
 Of some loops that wait, the joints make a graph, in which all that is placed is one vertex. Hinges
 and guides of a spanning tree carry the bodies; their coordinates are the unknowns, unless they are
 driven. Every joint that
-is left out closes a loop. It is the one with the most freedoms, since that leaves the fewest
-unknowns and equations: what the characteristic pair is to a closed form. A link that has two joints
-with a point in common each is a rod, and one equation.
+is left out closes a loop. It is the one with the most degrees of freedom, since that leaves the
+fewest unknowns and equations: what the characteristic pair is to a closed form. A link that has two
+joints with a point in common each is a rod, and one equation.
 
 As few loops as possible are taken. What they leave is solved after them, as far as it can be in
 closed form.
@@ -73,7 +73,7 @@ class Coupling:
         return isinstance(joint, Revolute | Prismatic) and self._known.unknowns_of(joint) == 0
 
     def _spanning_tree(self) -> nx.MultiGraph:
-        """Return the tree of the fewest freedoms; rods are in it where nothing else carries."""
+        """Return the tree of the fewest degrees of freedom; with rods only where needed."""
         graph = nx.MultiGraph()
         graph.add_nodes_from([_PLACED, *(b for b in self._bodies if b not in self._rods)])
         at_rods = [joint for ends in self._rods.values() for joint in ends]

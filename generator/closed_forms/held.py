@@ -1,4 +1,4 @@
-"""A body with one freedom left, held by a leg: what the forms that solve it share."""
+"""A body with one degree of freedom left, held by a leg: what the forms that solve it share."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ class PlaceByPin(PlannedStep):
         return f"{self.body}: pinned to {self.pin_body}"
 
     def accept(self, known: Known) -> set[Coordinate]:
-        """Record the body; whoever closes the loop records its joints."""
+        """Record the body; the step that closes the loop records its joints."""
         known.place(self.body)
         return set()
 

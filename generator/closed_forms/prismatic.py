@@ -6,7 +6,7 @@ rod of length l, and w = E - D_0. Then ``|D_0 + x d - E| = l`` is a quadratic in
     x = d . w + s sqrt(l^2 - |w - (d . w) d|^2),    s = +1 or -1.
 
 Branch: s is the sign of d . (D - E) at the design position. Valid while the root is real; the
-edge is the dead point where the rod stands across the guide. The rate follows from
+edge is the dead point where the rod is perpendicular to the guide. The rate follows from
 ``(D - E) . (v_D - v_E) = l l'``, whose factor is (D - E) . d = s sqrt(...) and whose right side
 is zero but for a telescope of known slide (`leg`).
 """
@@ -131,7 +131,8 @@ class PrismaticByLength(HeldOnJoint):
             drawn,
             BRANCH * sp.sqrt(extent),
             "m",
-            f"at the design position the {rod.name} is at its dead point: it stands across the "
+            f"at the design position the {rod.name} is at its dead point: it is perpendicular "
+            f"to the "
             f"guide of {body}",
             f"move {leg.anchor.name} or {leg.end.name} along the guide",
         )

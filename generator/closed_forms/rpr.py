@@ -9,8 +9,8 @@ the constant part of D - A along n,
 
 Slide unknown: ``u = s sqrt(|S|^2 - e^2)``, s = +1 or -1, and the slide is u less its value at the
 design position. Branch: s is the sign of u at the design position. Valid while ``|S| > |e|``; at
-the edge the pins stand across the guide. Slide known: u is known, and the loop has closed before:
-the telescope then is a leg. That d is across n is one of the `assumptions`.
+the edge the line of the pins is perpendicular to the guide. Slide known: u is known, and the loop
+has closed before: the telescope then is a leg. That d is across n is one of the `assumptions`.
 
 Both links have the body axes (n, d, n x d), in which D - A = (h, u, e). The third component of
 ``v_D - v_A`` has no part of u', so that it gives the turn: u omega1 = (v_D - v_A - omega_parent x
@@ -284,7 +284,8 @@ class _Guide:
                 BRANCH * sp.sqrt(extent),
                 "m",
                 f"at the design position, the pins {telescope.anchor.name} and "
-                f"{telescope.end.name} stand across the guide of {telescope.links}",
+                f"{telescope.end.name} are in a plane perpendicular to the guide of "
+                f"{telescope.links}",
                 "move one of the two along the guide",
             )
             sign = program.define(f"{near}_branch", SignOf(start.y))

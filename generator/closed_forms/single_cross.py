@@ -33,7 +33,7 @@ class SingleCross(ClosedForm):
     Attributes
     ----------
     others
-        The other hinges of the loop; their axes go through the centre as well.
+        The other hinges of the loop; their axes go through the centre, too.
     """
 
     yoke: DrivenYoke

@@ -41,7 +41,7 @@ class CutJoint:
     ----------
     normal
         Of a loop that moves in a plane: the direction of its hinges. It closes with three equations
-        less the freedoms, a loop in space with six.
+        less the degrees of freedom, a loop in space with six.
     """
 
     joint: Joint

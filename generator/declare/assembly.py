@@ -81,7 +81,7 @@ class Assembly:
         return tuple(dict.fromkeys(found))
 
     def _derived(self) -> dict[str, sp.Expr]:
-        """Return what the names of copies stand for: expressions in parameters."""
+        """Return what the names of copies represent: expressions in parameters."""
         owners: list[Owner] = self.every(Owner)
         return {name: value for owner in owners for name, value in owner.derived.items()}
 

@@ -1,4 +1,4 @@
-"""Bodies: what moves and has mass, and the ground on which it stands."""
+"""Bodies: what moves and has mass, and the ground."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ def check_mechanism(mechanism: Assembly) -> None:
 
 
 def _force_problems(mechanism: Assembly) -> list[str]:
-    """See that forces, also those of somebody's own, can be told apart."""
+    """See that forces, also those of somebody's own, can be distinguished."""
     problems = []
     for force in mechanism.forces:
         kind = type(force).__name__
@@ -164,7 +164,7 @@ def _weight_problems(mechanism: Assembly) -> list[str]:
 
 
 def _is_across(joint: Joint, normal: Direction) -> bool:
-    """Return whether a joint moves across a direction only, whatever the parameters are."""
+    """Return whether a joint moves across a direction only, for any parameters."""
     if isinstance(joint, Revolute):
         return joint.axis.vector.cross(normal.components).is_zero
     if isinstance(joint, Prismatic):

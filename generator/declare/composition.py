@@ -167,7 +167,7 @@ class Copy:
     # -- what owns parameters ---------------------------------------------------------------------
 
     def _owner(self, owner: Owner, *, turns: bool) -> Owner:
-        """Copy what owns parameters; those of the copy stand for the declaration's."""
+        """Copy what owns parameters; those of the copy represent the declaration's."""
         signs = _signs(owner, turns=turns) if self.mirrored else (1,) * len(owner.numbers)
         changes: dict[str, Any] = {"image": Image(owner, signs)}
         if owner in self.own:

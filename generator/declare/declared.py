@@ -2,7 +2,7 @@
 
 `declared` is for the dataclasses of a declaration, `checked` for functions that make parts of one.
 Arguments are validated by pydantic against their annotations, so that a field says everything about
-itself in one place. All that does not fit is told in one `DeclarationError`: the name of the thing,
+itself in one place. One `DeclarationError` reports all problems: the name of the thing,
 the value and what to write instead. Lists do where tuples are meant, and every kind of real number
 does for a float.
 
@@ -68,7 +68,7 @@ def _identifier(name: str) -> str:
 
 
 def _real(value: object) -> float:
-    """Take whatever is a real number, of whichever library."""
+    """Take a real number of any library."""
     whole_array = isinstance(value, np.ndarray) and value.ndim > 0
     imaginary = isinstance(value, Complex) and not isinstance(value, Real)
     number = math.nan

@@ -26,7 +26,7 @@ DRIVABLE: dict[type[Joint], str] = {
     Free: "three guides and three hinges, with links between them",
     Weld: "a hinge or a guide instead",
 }
-"""What has the freedoms of a joint that cannot be driven, and can be."""
+"""What has the degrees of freedom of a joint that cannot be driven, and can be."""
 
 
 @declared
@@ -43,7 +43,7 @@ class Formulation:
     massive
         Bodies whose inertia enters the equations; all that move, if nothing is said.
     held
-        Variants of the right-hand side: name to the prescribed joints that stand still in it.
+        Variants of the right-hand side: name to the prescribed joints that do not move in it.
     allow_iteration
         Whether a loop without a closed form may be solved by Newton's method, for that loop alone.
         Without it such a loop is refused.
@@ -121,7 +121,8 @@ def _driven_problems(formulation: Formulation) -> list[str]:
     problems += strangers("prescribed joint", formulation.prescribed, joints)
     for variant, held in formulation.held.items():
         problems += [
-            f"held joint {j.name!r} of {variant!r} is not prescribed; only what is given can stand"
+            f"held joint {j.name!r} of {variant!r} is not prescribed; only a prescribed joint "
+            f"can be at rest"
             for j in held
             if j not in formulation.prescribed
         ]
@@ -152,7 +153,7 @@ def _driven_problems(formulation: Formulation) -> list[str]:
 
 
 def _gear_problems(formulation: Formulation) -> list[str]:
-    """See that whatever follows a joint, or follows what follows it, is moved by that one alone."""
+    """See that all followers of a joint, direct or not, are moved by that one alone."""
     problems = [
         f"joint {joint.name!r} follows {joint.gear.joint.name!r}, and nothing else can move it; "
         f"make {joint.first_followed.name!r} independent or prescribed instead"

@@ -34,7 +34,7 @@ def _vector(given: Any) -> Any:
 
 
 def _written_out(number: sp.Expr) -> sp.Expr:
-    """Return a number that C can be told: a ratio of integers, or a double."""
+    """Return a number as C can represent it: a ratio of integers, or a double."""
     return number if number.is_Rational else sp.Float(float(number))
 
 

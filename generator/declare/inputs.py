@@ -25,7 +25,7 @@ class Input:
     meaning
         For the documentation of the generated code.
     derivative_of
-        The input whose rate this one is. Whoever simulates gives that one alone.
+        The input whose rate this one is. A simulation takes that one alone.
     """
 
     name: Name
@@ -84,7 +84,7 @@ class Motion:
 
     @property
     def rates(self) -> tuple[str, str]:
-        """Names of velocity and acceleration: what is zero while the joint stands still."""
+        """Names of velocity and acceleration: what is zero while the joint does not move."""
         _, velocity, acceleration = self.inputs
         return velocity.name, acceleration.name
 

@@ -1,4 +1,4 @@
-"""Joints: their freedoms, and what they leave in common to the two bodies.
+"""Joints: their degrees of freedom, and what they leave in common to the two bodies.
 
 Each joint names its relative coordinates (`coordinates`). The sense of a coordinate is that of the
 motion of the second body relative to the first, along or about the axis of the joint.
@@ -49,7 +49,7 @@ class Joint:
 
     @property
     def freedoms(self) -> int:
-        """Number of freedoms that the joint leaves."""
+        """Number of degrees of freedom that the joint leaves."""
         return len(self.coordinates)
 
     @property
@@ -81,7 +81,7 @@ class Joint:
 
     @property
     def center(self) -> Point | None:
-        """The point that stays common to both bodies whatever they do, if there is one."""
+        """The point that stays common to both bodies in every motion, if there is one."""
         return None
 
     def _coordinate(self, kind: str, name: str, meaning: str) -> RelativeCoordinate:
@@ -98,9 +98,9 @@ class Joint:
 class Gear:
     """Wheels with teeth, rack and pinion, a thread, a belt: a coordinate in proportion to another.
 
-    A hinge or guide that `follows` it has no freedom of its own. Both coordinates count from the
-    design position, so a hinge at either end may have no ``angle_to``. Nothing slips, nothing has
-    play, and what the teeth carry does no work.
+    A hinge or guide that `follows` it has no degree of freedom of its own. Both coordinates count
+    from the design position, so a hinge at either end may have no ``angle_to``. Nothing slips,
+    nothing has play, and what the teeth carry does no work.
 
     Parameters
     ----------
@@ -264,10 +264,10 @@ class Universal(Joint):
 @declared
 @dataclass(frozen=True)
 class Weld(Joint):
-    """No freedom: the second body moves with the first, such as a caliper with its knuckle.
+    """No degree of freedom: the second body moves with the first, as a caliper with its knuckle.
 
-    It has mass and points of its own, for forces and outputs. Whatever else is joined to it is
-    declared at the first body, which is the same one to all joints.
+    It has mass and points of its own, for forces and outputs. Every other body that is joined to it
+    is declared at the first body, which is the same one to all joints.
     """
 
     kind: ClassVar[str] = "weld"
@@ -278,7 +278,7 @@ class Weld(Joint):
 @declared
 @dataclass(frozen=True)
 class Free(Joint):
-    """No hold at all: the second body moves in the world, which is the first, with six freedoms.
+    """Six degrees of freedom: the second body moves freely in the world, which is the first.
 
     Its coordinates are the position of the second body's centre of mass along the axes of the world
     less that at design, and the angles of the body in the z-y-x sequence (yaw, pitch, roll).

@@ -198,7 +198,7 @@ class AnyTable(AnyLaw, Owner):
 
     That is a cubic in each segment and a straight line at both ends, without a branch. With the
     coefficients of a C1 interpolation the curve is C1 too; with b_i = c_i = 0 it has straight lines
-    between its knots. Written in p_i, its derivative is right at the knots as well.
+    between its knots. Written in p_i, its derivative is right at the knots, too.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ class Mechanism(Assembly):
     world itself.
     `coordinates` are the relative coordinates of the report, in the numbering of the figure,
     `outputs` what else is to be seen. What all these refer to is found by itself: `bodies`,
-    `inputs`, `parameters`, and in copies `derived`, what the names of a copy stand for.
+    `inputs`, `parameters`, and in copies `derived`, what the names of a copy represent.
     """
 
     def __post_init__(self) -> None:

@@ -148,10 +148,10 @@ def _texts(output: Output) -> Iterator[str]:
 
 
 def unwritable(what: str, text: str) -> list[str]:
-    """Find out whether a text would end the comment or the docstring that it stands in."""
+    """Find out whether a text would end the comment or the docstring that it is in."""
     if any(end in text for end in _ENDS_OF_COMMENTS):
         allowed = 'write one line without */, """ and backslashes'
-        return [f"{what}: the text {text!r} cannot stand in a comment of the code; {allowed}"]
+        return [f"{what}: the text {text!r} cannot be in a comment of the code; {allowed}"]
     return []
 
 

@@ -1,8 +1,8 @@
 """Numbers that a user of the generated code may change, and what owns them.
 
-Whatever is declared owns its parameters: a point its coordinates, a body its mass, a law its rates.
-A mechanism collects them from what refers to them, in the order in which their owners were written.
-The type of a parameter says its unit and its range.
+Every declared object owns its parameters: a point its coordinates, a body its mass, a law its
+rates. A mechanism collects them from what refers to them, in the order in which their owners were
+written. The type of a parameter says its unit and its range.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Image:
     Attributes
     ----------
     original
-        The owner whose parameters stand for those of the copy.
+        The owner whose parameters represent those of the copy.
     signs
         Of every number: -1 where a mirror turns it round.
     """
@@ -81,7 +81,7 @@ class Owner:
 
     @property
     def derived(self) -> dict[str, sp.Expr]:
-        """What its names stand for, where they are no parameters."""
+        """What its names represent, where they are no parameters."""
         if self.image is None:
             return {}
         return {p.name: value for p, value in zip(self.numbers, self.values, strict=True)}

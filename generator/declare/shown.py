@@ -50,7 +50,7 @@ class Event:
     Attributes
     ----------
     name
-        By which a simulation is told to watch for it.
+        By which a simulation watches for it.
     level
         What is passed.
     rising

@@ -1,4 +1,4 @@
-"""Wheels: where one is, and the signals that show how it stands and moves."""
+"""Wheels: position, and the signals of attitude and motion."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Upright:
-    """How a wheel stands on the ground, in the axes of its carrier.
+    """Position and attitude of a wheel on the ground, in the axes of its carrier.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ class Wheel:
         )
 
     def upright(self, at: Surroundings, prefix: str) -> Upright:
-        """Append how the wheel stands; names of steps begin with the prefix."""
+        """Append position and attitude of the wheel; names of steps begin with the prefix."""
         program, up = at.program, at.up(self._body)
         axis = at.direction(self._body, self.spin)
         lean = program.define(f"{prefix}wheel_axis_up", axis.dot(up))
@@ -93,7 +93,7 @@ class Wheel:
         return Upright(up, axis, pull, squared)
 
     def signals(self, at: Surroundings, prefix: str) -> Iterator[Shown]:
-        """Yield how the wheel stands and moves, its names with something in front."""
+        """Yield the signals of position, attitude and motion of the wheel, with a prefix."""
         yield from self._motion(at, prefix)
         yield from self._angles(at, prefix)
 

@@ -57,7 +57,7 @@ class InMotion:
         Parameters
         ----------
         held
-            Prescribed joints that stand still in this variant.
+            Prescribed joints that do not move in this variant.
         """
         coordinates = Coordinates(plan.formulation, held)
         common, groups = independent_groups(plan)

@@ -179,7 +179,7 @@ def generate(
         with an explicit method does.
     parameter_derivatives
         Also those by parameters: along a direction, and of weighted sums.
-    tell
+    show
         Called with what is being done, in a few words.
     """
     tell("finding the loops and how they close")

@@ -6,7 +6,7 @@ change by, and ``rhs_tangent`` what that does to the right-hand side. Of a weigh
 ``rhs_adjoint`` gives the derivatives by constants, state and inputs, and `prepare_adjoint` makes
 derivatives by parameters of those by constants.
 
-They are called like all other functions. What more they are given stands in the same arrays, behind
+They are called like all other functions. Their further arguments are in the same arrays, after
 the values: `Behind`.
 """
 
@@ -33,7 +33,7 @@ OF = ("rhs", "signals", "relative_coordinates", "positions", "orientations", "ve
 
 @dataclass(frozen=True)
 class Behind:
-    """What stands behind the values in an array that a function reads.
+    """What follows the values in an array that a function reads.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class ParameterDerivatives:
     functions
         Those that read constants, state and inputs.
     behind
-        What stands behind the values, by array.
+        What follows the values, by array.
     """
 
     of_parameters: tuple[Function, ...] = ()
@@ -70,7 +70,7 @@ class ParameterDerivatives:
         return self.behind[array].weights if array in self.behind else ()
 
     def places(self, array: str) -> dict[str, int]:
-        """Return the places of what stands behind the values in an array, by name."""
+        """Return the places of what follows the values in an array, by name."""
         if array not in self.behind:
             return {}
         behind = self.behind[array]
@@ -79,7 +79,7 @@ class ParameterDerivatives:
         return {name: start + i for names in groups for i, name in enumerate(names)}
 
     def stages(self, stages: Iterable[Stage]) -> Iterator[Stage]:
-        """Yield tangents of what is computed together: they are computed together as well."""
+        """Yield tangents of what is computed together: they are computed together, too."""
         own = {function.name: function for function in self.functions}
         for stage in stages:
             names = (f"{member.name}_{TANGENT}" for member in stage.members)
@@ -129,7 +129,7 @@ def derivatives_by_parameters(
 def _behind(
     arrays: Mapping[str, Sequence[str]], of: Iterable[Function], taken: Iterable[str]
 ) -> dict[str, Behind]:
-    """Give names to what stands behind the values in each array."""
+    """Give names to what follows the values in each array."""
     known = {*taken, *chain(*arrays.values())}
     along, weight = (_unused(start, known) for start in ("along_", "weight_"))
     weights = {
@@ -149,7 +149,7 @@ def _adjoint(function: Function, by: Sequence[str], behind: Behind, array: str) 
     weights = [sp.Symbol(name) for name in behind.weights[: function.size]]
     what = "parameters" if array == "parameters" else "constants, state and inputs"
     doc = (
-        f"Derivatives of a weighted sum of {function.name} by {what}; the weights stand behind the "
+        f"Derivatives of a weighted sum of {function.name} by {what}; the weights follow the "
         f"{array}."
     )
     return adjoint(function, [sp.Symbol(name) for name in by], weights, doc)
@@ -169,7 +169,7 @@ def _needed_of(prepare: Function, functions: Iterable[Function]) -> Function:
 
 
 def _along(name: str) -> str:
-    return f"Derivative of {name} along a direction, which stands behind the values of each array."
+    return f"Derivative of {name} along a direction, which follows the values of each array."
 
 
 def _names(function: Function) -> Iterator[str]:

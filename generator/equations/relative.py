@@ -440,7 +440,7 @@ class _Closure:
         return [c.name for c in entries if (c.joint.name, c.kind) == (joint, kind)]
 
     def _driven(self) -> dict[sp.Symbol, sp.Expr]:
-        """Return what stands in for the driven coordinates: their given copies."""
+        """Return what replaces the driven coordinates: their given copies."""
         replaced = {}
         for coordinate in self.mechanism.coordinates:
             if coordinate.joint in self.kin.coordinates.driven:

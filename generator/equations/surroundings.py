@@ -45,7 +45,7 @@ class Seen:
     Attributes
     ----------
     driven
-        Names of all coordinates, also of those that stand still in this variant.
+        Names of all coordinates, also of those that do not move in this variant.
     """
 
     def __init__(
@@ -60,7 +60,7 @@ class Seen:
 
     @property
     def all_move(self) -> bool:
-        """Whether no coordinate stands still."""
+        """Whether all coordinates move."""
         return len(self.coordinates) == len(self.driven)
 
     # -- coordinates ------------------------------------------------------------------------------

@@ -27,7 +27,7 @@ class Coordinates:
     formulation
         Whose coordinates they are.
     held
-        Prescribed joints that stand still in this variant.
+        Prescribed joints that do not move in this variant.
 
     Attributes
     ----------

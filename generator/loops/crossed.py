@@ -1,6 +1,6 @@
 """Links at crosses that hold less, or more, than is meant.
 
-A link with a cross at either end keeps its length and carries a moment as well: two equations, and
+A link with a cross at either end keeps its length and carries a moment, too: two equations, and
 a shaft between two bearings could be neither longer nor shorter. Nothing in the catalogue solves
 both, and to leave one out would be wrong.
 """

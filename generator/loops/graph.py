@@ -1,7 +1,7 @@
 """Mobility, joint graph, shortest paths and cycles of a mechanism (sections 2 and 4 of the paper).
 
 Vertices of the joint graph are bodies; edges are joints, and the length of an edge is the number of
-freedoms of its joint. All results are computed from the declaration.
+degrees of freedom of its joint. All results are computed from the declaration.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class Cycle:
     bodies
         ``bodies[i]`` lies between ``joints[i - 1]`` and ``joints[i]``.
     length
-        Sum of the freedoms of the joints.
+        Sum of the degrees of freedom of the joints.
     normal
         The direction of the hinges of a loop that moves in a plane; of others, none.
     center
@@ -185,7 +185,7 @@ class Topology:
         ]
 
     def path_length(self, path: Sequence[str]) -> int:
-        """Return the sum of the joint freedoms along a path."""
+        """Return the sum of the joint degrees of freedom along a path."""
         return sum(self.joint_between(a, b).freedoms for a, b in pairwise(path))
 
     def _path_numbers(self, path: Sequence[str]) -> tuple[int, ...]:
@@ -313,7 +313,7 @@ class CycleSpan:
         return self._rest(cycle) == 0
 
     def add(self, cycle: Cycle) -> bool:
-        """Add a cycle; tell whether it was not contained before."""
+        """Add a cycle; return whether it was not contained before."""
         rest = self._rest(cycle)
         if rest:
             self._rows[rest.bit_length()] = rest

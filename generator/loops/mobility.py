@@ -1,10 +1,10 @@
 """What can move at the design position: the closure equations of all loops, in numbers.
 
-Counting freedoms takes every mechanism for a general one. Bricard's chain has six hinges, so six
-equations for six angles, and moves all the same, because its axes lie in a special way. Numbers
-tell: at the design position, with the default parameters, the rates of all relative coordinates
-fulfil ``L rates = 0``, where each column of L is the screw of a coordinate, in each loop that the
-coordinate takes part in (Davies, 1981).
+Counting degrees of freedom takes every mechanism for a general one. Bricard's chain has six hinges,
+so six equations for six angles, and moves all the same, because its axes lie in a special way.
+Numbers show: at the design position, with the default parameters, the rates of all relative
+coordinates fulfil ``L rates = 0``, where each column of L is the screw of a coordinate, in each
+loop that the coordinate takes part in (Davies, 1981).
 
 The generator asks this only where it is about to iterate; a closed form needs no numbers.
 """
@@ -71,11 +71,11 @@ class Mobility:
         return columns - _rank(self._closure)
 
     def driven_move(self) -> bool:
-        """Return whether every driven coordinate can move, whatever the others do."""
+        """Return whether every driven coordinate can move, for any motion of the others."""
         return _rank(self._closure) == _rank(self._closure[:, ~self._driven])
 
     def determines(self, coordinates: Iterable[Coordinate]) -> bool:
-        """Return whether some coordinates stand still when all driven ones do."""
+        """Return whether some coordinates do not move when all driven ones do."""
         free = _null_space(self._closure[:, ~self._driven])
         names = [
             c for c, is_driven in zip(self._coordinates, self._driven, strict=True) if not is_driven

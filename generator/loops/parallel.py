@@ -36,7 +36,7 @@ def families(
     Parameters
     ----------
     in_a_plane
-        Tells whether the loop through some bodies moves in a plane.
+        Returns whether the loop through some bodies moves in a plane.
     """
     found: dict[frozenset[str], list[str]] = {}
     for body in mechanism.moving:

@@ -334,7 +334,8 @@ class Plan:
             return f" {spare}."
         if mobility < 0:
             return (
-                f" Counting the freedoms of the joints, the mechanism has {mobility} of its own: "
+                f" Counting the degrees of freedom of the joints, the mechanism has "
+                f"{mobility} of its own: "
                 "it moves only if special dimensions let it, such as parallel axes."
             )
         return (

@@ -1,8 +1,8 @@
 """Branches that hold what is held already, such as a second coupler on the pins of the first.
 
-Counting freedoms takes every branch for a constraint of its own, so that a mechanism with one too
-many seems to be locked. In numbers, at the design position, it moves as well with the branch as
-without.
+Counting degrees of freedom takes every branch for a constraint of its own, so that a mechanism with
+one too many seems to be locked. In numbers, at the design position, it moves equally with the
+branch as without.
 """
 
 from __future__ import annotations

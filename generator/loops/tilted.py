@@ -1,7 +1,7 @@
 """Hinges and guides that are nearly parallel, which is rarely meant.
 
 A planar loop needs one coordinate less to close than a spatial one, but only with parallel hinges:
-a hinge that is off by a tenth of a degree makes the mechanism stand still.
+a hinge that is off by a tenth of a degree locks the mechanism.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 Any suspension of one side makes an axle, with an anti-roll bar or without. Half a bar turns in its
 bushes on the chassis and is pulled by a drop link from a body of the suspension; the loop of each
 drop link closes in closed form, like that of an arm held by a rod. The halves are stiff, and a
-torsion spring between them stands for the bar's elasticity: equal travel on both sides leaves the
+torsion spring between them represents the bar's elasticity: equal travel on both sides leaves the
 bar free, opposite travel twists it.
 
 Both sides have the parameters of the right one, or each has its own.

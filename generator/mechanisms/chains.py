@@ -1,8 +1,8 @@
 """Closed chains of hinges, for which there is no closed form.
 
 Seven hinges in general positions are the general loop: a polynomial of degree 16 in one of its
-angles. Bricard's line-symmetric chain has six, and by Grübler's count no freedom; but its second
-half is the first one after half a turn about a line, and so it moves. The numbers are this
+angles. Bricard's line-symmetric chain has six, and by Grübler's count no degree of freedom; but its
+second half is the first one after half a turn about a line, and so it moves. The numbers are this
 project's own.
 
 Their models are declared with ``allow_iteration=True``. They are not among those that come with the

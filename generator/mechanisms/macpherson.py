@@ -159,7 +159,7 @@ GENERAL_FORCES = (
 
 
 def mechanism(*, free_rack: bool = False) -> d.Mechanism:
-    """Return the suspension; with a free rack, the tie rod's angles are reported as well."""
+    """Return the suspension; with a free rack, the tie rod's angles are reported, too."""
     return d.Mechanism(
         name="macpherson",
         title="MacPherson suspension (Góis & Sarzeto, 2000)",

@@ -1,7 +1,7 @@
 """A wheel carrier on five links, for which there is no closed form: Newton's method closes it.
 
 Two upper and two lower links and a toe link hold the carrier; where two of them meet in a ball
-joint, they are an arm. The spring stands on the rear lower link, the damper on the carrier. The
+joint, they are an arm. The spring acts on the rear lower link, the damper on the carrier. The
 coordinate is that of a height sensor: the angle of a lever high above the wheel, from whose tip a
 rod hangs down to the wheel centre, both without mass. So no link and no spring has to be well
 placed for it. The default values are this project's own: a rear right corner, ISO 8855 axes, ground

@@ -1,7 +1,7 @@
 """A chain of N four-bar linkages side by side: benchmark A02 of the IFToMM library.
 
-N + 1 rockers of 1 m stand on the ground 1 m apart, and N couplers of 1 m join their upper ends; one
-degree of freedom whatever N is. The benchmark starts it upright. All rockers level is a singular
+N + 1 rockers of 1 m are on the ground 1 m apart, and N couplers of 1 m join their upper ends; one
+degree of freedom for any N. The benchmark starts it upright. All rockers level is a singular
 position (every loop is a flat parallelogram there), which this formulation reports and does not
 pass.
 """

@@ -139,7 +139,7 @@ class Search:
                 "which joints are independent"
             )
             return (
-                f"{what}: counting the freedoms of its joints leaves nothing to move. "
+                f"{what}: counting the degrees of freedom of its joints leaves nothing to move. "
                 f"{tilted(mechanism) or redundant(mechanism) or special}"
             )
         if len(self.candidates) < self.count:

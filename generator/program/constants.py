@@ -30,7 +30,7 @@ class ConstantStage:
     reserved
         Names that no step may have: those of states and inputs.
     derived
-        What stands for other symbols that the equations name like parameters.
+        What represents other symbols that the equations name like parameters.
     steps
         The steps, in order.
     blocks

@@ -57,7 +57,7 @@ def _partials(
 def _partial(expression: sp.Expr, s: sp.Symbol) -> sp.Expr:
     """Return the derivative of an expression that has a symbol by that symbol.
 
-    SymPy's ``diff`` gives the same, but differentiates what has no such symbol as well: it spends
+    SymPy's ``diff`` gives the same, but differentiates what has no such symbol, too: it spends
     its time on products with zero.
     """
     if expression == s:

@@ -6,7 +6,7 @@ are of. They follow its steps as they are emitted, so they are the derivatives o
 A *tangent* (forward mode) is given a direction of everything that the function reads and returns
 how its results change along it. An *adjoint* (reverse mode) is given a weight of each result, and
 returns the derivatives of the weighted sum by everything that the function reads. It passes the
-steps once from the last to the first, whatever their number, and costs some times the function.
+steps once from the last to the first, for any number of them, and costs some times the function.
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ Guarded quantities are squares: `DIRECTION`.
 
 Where the normal of two vectors is divided by its square, the same happens to the square of their
 sine: `NORMAL`. A root that vanishes at a dead point spoils nothing: the equations that keep the
-distances hold with whatever it is. It must only be positive: `ROOT`.
+distances hold for any value of it. It must only be positive: `ROOT`.
 
 An extent is a constant: the root of the sum of squares of the ways from one joint of a loop to the
 others, at the design position. Far from the origin of the axes in which positions are computed,
@@ -40,7 +40,7 @@ SMALLEST = sp.Float("1e-24")
 """A pure number that only has to be positive."""
 
 POSITIVE = sp.Float("1e-280")
-"""What only has to be positive, in whatever unit: its reciprocal is finite."""
+"""The bound of a value that only has to be positive, in any unit: its reciprocal is finite."""
 
 SINGULAR = sp.Float("1e-13")
 """What elimination leaves of a mass by rounding alone: some hundred units, as a part of it."""

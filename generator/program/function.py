@@ -123,7 +123,7 @@ class Driven:
     Attributes
     ----------
     now
-        Its name in the block, where it stands for the coordinate of a stage.
+        Its name in the block, where it represents the coordinate of a stage.
     way
         The name of how far it goes in that stage.
     start, end

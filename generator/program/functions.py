@@ -8,7 +8,7 @@ import sympy as sp
 class Guarded(sp.Function):  # type: ignore[misc]  # SymPy has no types
     """The first argument where it is over its floor, the second; that floor where it is not.
 
-    It stands where a closed form has a root or a divisor that vanishes when a loop cannot close.
+    It is called where a closed form has a root or a divisor that vanishes when a loop cannot close.
     The arithmetic stays free of branches and of NaN; the status word says that the guard acted.
     """
 

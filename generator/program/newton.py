@@ -29,7 +29,7 @@ After `ITERATIONS`, or where a branch ends, the block says that it is lost (`LOS
 it has, which is finite. Behind it, straight-line code evaluates the residuals again; its guard
 refuses what does not fulfil them, and what is lost (`closed_forms.inverse`).
 
-Derivatives: a block returns the adjugate and the determinant of its Jacobian J as well. Behind it,
+Derivatives: a block returns the adjugate and the determinant of its Jacobian J, too. Behind it,
 one more correction ``x - J^-1 g(x, v)`` is written out, in which only g depends on the arguments v.
 It changes nothing but the last digits, and its derivative is ``-J^-1 g_v``: that of the implicit
 function theorem. So derivatives of the results of a block are zero by definition (`Iterated`).

@@ -3,7 +3,7 @@
 A *step* is a name and a small expression in earlier names. Everything the generator derives is a
 step of one `Program`; an emitted `Function` is the part of the program that its results need.
 
-Two stages are told apart by what a step depends on, not by who wrote it: steps (and parts of
+Two stages are distinguished by what a step depends on, not by who wrote it: steps (and parts of
 steps) that depend on parameters only are *constants*, computed once per parameter set; all others
 belong to the right-hand side.
 """
@@ -210,7 +210,7 @@ class Program:
         Parameters
         ----------
         replacements
-            Symbols of the program and what stands in for them.
+            Symbols of the program and what replaces them.
         targets
             Expressions in the names of the program.
         label

@@ -63,7 +63,7 @@ def share(
 class _Common:
     """What several expressions have in common.
 
-    The names, and what they stand for, are those of SymPy's ``cse``. That takes every expression
+    The names, and what they represent, are those of SymPy's ``cse``. That takes every expression
     apart, sorts what it consists of, and puts it together again; most have nothing in common with
     others, and stay as they are here.
 
@@ -77,7 +77,7 @@ class _Common:
     Attributes
     ----------
     definitions
-        What each name stands for, in terms of names before it.
+        What each name represents, in terms of names before it.
     """
 
     def __init__(self, expressions: Iterable[sp.Expr], names: Iterator[sp.Symbol]) -> None:

@@ -36,7 +36,7 @@ def take_out_signs(
     kept
         Steps that stay as they are.
     has
-        Tells whether a name is that of something else.
+        Returns whether a name is that of something else.
     """
     steps = list(steps)
     names = {s.name for step in steps for s in (step.symbol, *symbols_of(step.expression))}
@@ -56,7 +56,7 @@ class _Signs:
     Attributes
     ----------
     opposite
-        What stands for a step that is the negative of something else.
+        What represents a step that is the negative of something else.
     called
         Better names of common subexpressions: those of steps that are their negatives.
     """
@@ -85,7 +85,7 @@ class _Signs:
 
 
 def _is_negative(expression: sp.Expr) -> bool:
-    """Return whether a sign stands in front of all of an expression."""
+    """Return whether a sign is in front of all of an expression."""
     if expression.is_Add:
         return all(map(_is_negative, expression.args))
     return bool(expression.is_Mul and expression.as_coeff_Mul()[0].is_negative)

@@ -174,7 +174,7 @@ def _is_computed(e: sp.Expr) -> bool:
 
 
 def _number(number: sp.Expr) -> sp.Expr:
-    """Return a finite number as C can be told it."""
+    """Return a finite number as C can represent it."""
     if number == sp.pi:
         return number
     try:

@@ -38,7 +38,7 @@ def share_together(
     order
         Of the steps of the program.
     has
-        Tells whether a name is that of a constant, a state or an input.
+        Returns whether a name is that of a constant, a state or an input.
 
     Returns
     -------
@@ -71,7 +71,7 @@ class _Joined:
     order
         Of the steps of the program that most of them are from.
     has
-        Tells whether a name is that of a constant, a state or an input.
+        Returns whether a name is that of a constant, a state or an input.
     """
 
     def __init__(self, order: Iterable[sp.Symbol], has: Callable[[str], bool]) -> None:

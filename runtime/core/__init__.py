@@ -1,7 +1,7 @@
 """What every floor above needs: errors, arguments, files, words.
 
 `errors`       the errors of this package
-`arguments`    what a person passes to a function: checked, refused in words
+`arguments`    what a person passes to a function: checked, with a message for each error
 `suggestions`  what was probably meant
 `optional`     packages of an extra, and what to say where they are missing
 `quantities`   names, units and signs of what is shown

@@ -1,6 +1,6 @@
 """Checks of arguments, the same for every public function.
 
-What is wrong is collected, so that one error tells all of it::
+What is wrong is collected, so that one error lists all of it::
 
     with Arguments("equilibrium") as given:
         given.kind("model", model, Model, Model.NEEDED)
@@ -30,7 +30,7 @@ _NOT_A_NUMBER = bool, np.bool_, str, bytes
 
 
 def shown(value: Any) -> str:
-    """Return a value as it stands in a message, cut where it is long."""
+    """Return a value as a message shows it, cut where it is long."""
     try:
         text = " ".join(repr(value).split())
     except Exception:  # noqa: BLE001 (whatever a stranger's __repr__ does, it is not the problem)
@@ -114,7 +114,7 @@ class Arguments:
         return number
 
     def count(self, name: str, value: Any, *, most: int) -> int:
-        """Return a whole number from one on, where infinity stands for the greatest."""
+        """Return a whole number from one on, where infinity represents the greatest."""
         return most if _as_float(value) == math.inf else self.whole(name, value, most=most)
 
     def whole(self, name: str, value: Any, *, least: int = 1, most: float = math.inf) -> int:
@@ -193,7 +193,7 @@ class Arguments:
         return tuple(self.among(name, value, every) for value in values)
 
     def labels(self, name: str, labels: Iterable[Any]) -> None:
-        """Refuse labels that an array of texts or of numbers cannot tell from each other."""
+        """Refuse labels that an array of texts or of numbers cannot distinguish from each other."""
         known: dict[Any, Any] = {}
         for label in labels:
             number = _as_float(label)
@@ -235,7 +235,7 @@ class Arguments:
     def by_name(
         self, name: str, value: Any, of: str, kinds: type | tuple[type, ...], needed: str
     ) -> Mapping[str, Any]:
-        """Return a dict of some of a kind, by names that stand beside what is found of each."""
+        """Return a dict of some of a kind, by names that are beside what is found of each."""
         several = self.mapping(name, value, f"names and {of}")
         for known, one in several.items():
             self.text(f"name in {name}", known)

@@ -1,6 +1,6 @@
 """Numbers of many at once where code was written for one.
 
-A `Column` stands where a float would: it has a number for each of many, and arithmetic with it is
+A `Column` replaces a float: it has a number for each of many, and arithmetic with it is
 that of each. A comparison has one answer, since code branches on it: that of the first. Those to
 whom it does not apply are struck from the `Ledger`, and somebody has to do them one by one. So code
 for one runs once for many, and nobody gets a result of a branch that is not theirs.
@@ -240,7 +240,7 @@ def least_singular_value(matrix: Any) -> Any:
 
 
 def stacked(values: Any) -> Array:
-    """Return an array of floats; what columns stand in has many of them in front.
+    """Return an array of floats; one of columns has many of them in front.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What stands on the sheets of an Excel workbook, within limits."""
+"""The contents of the sheets of an Excel workbook, within limits."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -38,7 +38,7 @@ def pages_of(file: Path) -> list[Page]:
     Raises
     ------
     InputError
-        If it cannot be read, or a cell stands further out than any table of a suspension goes.
+        If it cannot be read, or a cell is farther out than any table of a suspension goes.
     MissingPackageError
     """
     require("openpyxl", purpose="Reading Excel files", extra="excel")
@@ -85,7 +85,7 @@ def _refuse_large(file: Path) -> None:
 
 
 def _rows(sheet: Any, file: Path) -> Iterator[tuple[int, list[Any]]]:
-    """Yield the rows in which something stands; a row that is far away is no reason to wait."""
+    """Yield the rows that are not empty; a row that is far away is no reason to wait."""
     sheet.reset_dimensions()  # what the sheet says of its own size need not be so
     held = 0
     for number, cells in enumerate(sheet.iter_rows(values_only=True), 1):

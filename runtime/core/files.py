@@ -135,7 +135,7 @@ def _paths(paths: Paths, inputs: Paths, force: object) -> tuple[list[Path], list
     """Return what is written and what is read; refuse what are no paths.
 
     A text would be one path for each of its letters. `Arguments` would do it, and is slow to load:
-    commands that only tell how they are called read this file, too.
+    commands that only print their help read this file, too.
     """
     listed = {"path": _listed(paths), "inputs": _listed(inputs)}
     problems = [

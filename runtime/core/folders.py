@@ -1,7 +1,7 @@
 """Where this program keeps things between two runs, and who else could have written there.
 
-What is kept is run again, so that it must come from whoever runs it: folders and files that others
-own, or can write to, are refused.
+What is kept is run again, so that it must come from the user who runs it: folders and files that
+others own, or can write to, are refused.
 """
 
 import os
@@ -29,7 +29,7 @@ def cache_folder() -> Path:
 
 
 def make_folder(folder: Path) -> None:
-    """Make a folder that its owner alone can write to, whatever the umask; one that is there stays.
+    """Make a folder that its owner alone can write to, with any umask; one that is there stays.
 
     Parameters
     ----------

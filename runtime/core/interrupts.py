@@ -65,7 +65,8 @@ _heard = _Heard()
 def heed() -> None:
     """From here on see that the first Ctrl-C ends this program; for its main thread.
 
-    Whoever started it may have asked that Ctrl-C be ignored, as shells do in the background.
+    The process that started it may have asked that Ctrl-C be ignored, as shells do in the
+    background.
     """
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         threading.Thread(target=_heard.raise_again, daemon=True).start()

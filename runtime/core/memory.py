@@ -67,7 +67,7 @@ def positions_given(
 
 
 def free() -> float:
-    """Return how much memory this process can still take, as far as the system tells [bytes]."""
+    """Return how much memory this process can still take, as far as the system shows [bytes]."""
     return min(_limits(), default=float("inf"))
 
 

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 class Display(NamedTuple):
-    """A unit for people.
+    """A display unit: that in which a person reads a quantity.
 
     Attributes
     ----------
@@ -102,13 +102,13 @@ def unit_or_stroke(attrs: Mapping[str, Any]) -> str:
 
 
 def displayed(data: "xr.DataArray") -> Array:
-    """Return the values of a variable in the unit for people."""
+    """Return the values of a variable in the display unit."""
     values: Array = np.asarray(data.values, dtype=np.float64) * display_of(data.attrs).factor
     return values
 
 
 def bracketed(name: str, attrs: Mapping[str, Any]) -> str:
-    """Return a name with its unit for people, ``camber [deg]``; pure numbers have none."""
+    """Return a name with its display unit, ``camber [deg]``; pure numbers have none."""
     units = display_of(attrs).units
     return name if units in ("", "1") else f"{name} [{units}]"
 

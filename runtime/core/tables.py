@@ -1,7 +1,7 @@
 """Tables of people, with names and units in any usual form: CSV files, rows of spreadsheets.
 
 Every table is read by the same rules. Capitals, blanks, hyphens and underscores in names do not
-matter. The unit of a column stands behind its name, ``wheel travel [mm]``, ``Wheel Travel (mm)``
+matter. The unit of a column follows its name, ``wheel travel [mm]``, ``Wheel Travel (mm)``
 or ``wheel_travel_mm``; or in a row of units below the names; or in a comment line, ``# units: mm,
 deg``, for all columns of that kind. Units that contradict each other are refused.
 """
@@ -51,7 +51,7 @@ def key(name: str) -> str:
 
 
 class Heading(NamedTuple):
-    """The name of a column, and its unit as it stands there; None where there is none."""
+    """The name of a column, and its unit as it is written; None where there is none."""
 
     text: str
     label: str
@@ -88,7 +88,7 @@ class Column(NamedTuple):
     at : int
         Which of the columns it is.
     unit : str or None
-        As it stands in the table; None where there is none.
+        As it is in the table; None where there is none.
     """
 
     name: str

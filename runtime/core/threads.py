@@ -28,7 +28,7 @@ def shared_out(
     Parameters
     ----------
     do : callable
-        Called with a part, and what tells whether its result is wanted no more.
+        Called with a part, and a function that returns whether its result is not needed any more.
     parts : iterable
     take : callable
         Called with each result as it comes, in the thread of the caller.

@@ -39,7 +39,7 @@ class Again:
         samples : ndarray, shape (number of series, number of times)
             Overwritten where this succeeds.
         stopped : callable
-            Tells whether the caller wants an end.
+            Returns whether the caller wants an end.
 
         Returns
         -------

@@ -25,7 +25,7 @@ class Collected:
     of_series : dict
         What was asked for of whole series: of shape (count,) or (count, number of frequencies).
     solvers : ndarray of str
-        By which method what is told of each system was found; empty for what never began.
+        The method by which the results of each system were found; empty for what never began.
     reasons : dict
         Why systems that were done again did not come to an end that way either; or nothing.
     """
@@ -53,7 +53,7 @@ class Collected:
             The first of them, and the one behind the last.
         samples : ndarray, shape (last - first, number of series, number of times)
         stopped : callable
-            Tells whether the caller wants an end.
+            Returns whether the caller wants an end.
         """
         outcome = self.problem.outcome
         began = outcome.ends[first:last] != End.PARAMETERS

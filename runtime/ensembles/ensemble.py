@@ -66,7 +66,7 @@ def ensemble(
 
     They are integrated by Dormand and Prince's method of order 5 in the lanes of vectors, each with
     a step size of its own, on all cores. The results are the same to the last bit however many
-    lanes, threads and workers there are, and whatever stands beside a system.
+    lanes, threads and workers there are, and any other systems.
 
     Parameters
     ----------
@@ -228,7 +228,7 @@ def _check_together(
 
 
 def _check_rows(given: Arguments, model: System, y0: Any, told: set[str]) -> None:
-    """Refuse rows of states that were found under inputs which nothing tells of."""
+    """Refuse rows of states that were found under inputs that are not known."""
     for row in y0 if isinstance(y0, list | tuple) else ():
         held = inputs_of(row, model.names_of_states)
         moved = [] if held is None else [model.input_names[i] for i in np.flatnonzero(held)]

@@ -8,7 +8,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 @contextmanager
 def bar(count: int) -> Iterator[Callable[[int], None]]:
-    """Show a bar while something lasts; what is handed over is told how many are done."""
+    """Show a bar while something lasts; the function handed over takes how many are done."""
     columns = (TextColumn("simulating"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, transient=True) as shown:
         task = shown.add_task("", total=count)

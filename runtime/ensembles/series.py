@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 USUAL_SEGMENT, LEAST_SEGMENT = 256, 8
-"""Outputs in a segment of a spectrum: as SciPy has them, and the fewest that tell anything."""
+"""Outputs in a segment of a spectrum: as SciPy has them, and the fewest that show anything."""
 
 # Parts of a step by which times may be off; a spectrum is off by less than that part.
 _OFF = 1e-6

@@ -25,7 +25,7 @@ TIME, STATE, BOUND, FREQUENCY = "time", "state_element", "bound", "frequency"
 """Dimensions of what is kept of each."""
 
 RESULTS = ("success", "valid", "reason", "end_time", "steps", "solver", "final_state", "beyond")
-"""What is said of each, whatever is asked for."""
+"""The variables that every result has."""
 
 # What the parameters of a body's mass are called, behind its name.
 _OF_MASS = ("_mass", "_com_x", "_com_y", "_com_z", "_inertia_")

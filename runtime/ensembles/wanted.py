@@ -61,7 +61,7 @@ class Reduced:
         return texts[self.kind].format(self.signal.replace("_", " "), self.level)
 
     def _level(self, unit: str) -> str:
-        """Return the level in the unit for people, with all digits that somebody may have given."""
+        """Return the level in the display unit, with all digits that somebody may have given."""
         shown = display_of({"units": unit})
         return f"{self.level * shown.factor:.12g} {shown.units}".removesuffix(" 1").strip()
 
@@ -118,7 +118,7 @@ class OutputSpec:
 
     @property
     def weights(self) -> Array:
-        """How long each output stands for the motion: half of the time to those beside it [s]."""
+        """Weight of each output in time: half of the time to those beside it [s]."""
         steps = np.diff(self.times, prepend=self.times[0], append=self.times[-1])
         weights: Array = (steps[:-1] + steps[1:]) / 2.0
         return weights

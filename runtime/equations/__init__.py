@@ -1,4 +1,4 @@
-"""Compiled equations of motion, whatever the mechanism: names, arrays, errors.
+"""Compiled equations of motion of any mechanism: names, arrays, errors.
 
 `equations`  everything that one manifest describes, ready to be called
 `residuals`  closure residuals of given relative coordinates
@@ -8,8 +8,8 @@
 `status`     the bits of a status word
 `errors`     what cannot be evaluated
 
-What is emitted for a mechanism imports `Equations` from here. So this package stands below all that
-is emitted, and below the generator, which takes the status bits from it.
+What is emitted for a mechanism imports `Equations` from here. So this package is lower than all
+that is emitted, and below the generator, which takes the status bits from it.
 """
 
 from .equations import Equations

@@ -31,7 +31,7 @@ class Behind:
     ----------
     model : Equations
     more : tuple of int
-        How many numbers stand behind the constants, the state and the inputs.
+        How many numbers follow the constants, the state and the inputs.
     """
 
     def __init__(self, model: Any, more: tuple[int, ...]) -> None:

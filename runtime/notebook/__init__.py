@@ -2,7 +2,7 @@
 
 What IPython shows of an object is registered by the name of its class, so that importing kintrafo
 loads none of it, and lower floors know nothing of notebooks. Showing one more is one more line
-here and a function in `pages`; what stands on a higher floor is added by `show`.
+here and a function in `pages`; objects of a higher floor are added by `show`.
 """
 
 import sys
@@ -32,7 +32,7 @@ def show(pages: Mapping[tuple[str, str], tuple[str, str]]) -> None:
 
 
 def register(formatter: Any = None) -> None:
-    """Tell a notebook how to show what is ours.
+    """Register how a notebook shows objects of kintrafo.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ _MOST = 12
 
 
 def system(shown: System) -> str:
-    """Return the page of any mechanism with numbers in it: how it stands at design, its names."""
+    """Return the page of any mechanism with numbers in it: its picture at design, its names."""
     name, skeleton = str(shown.equations.NAME), Skeleton(shown)
     places = skeleton.places(shown.design_state[None])
     names = {

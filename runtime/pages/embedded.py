@@ -5,7 +5,7 @@ from typing import Any
 
 
 def embedded(data: Any) -> str:
-    r"""Return data as JSON that can stand in an element of a page, whatever its texts hold.
+    r"""Return data as JSON that is safe in an element of a page, for any texts.
 
     ``</script>`` in a text would end the element that holds the data, and ``<!--`` with
     ``<script`` would keep its own end from being one. So no ``<`` is left.

@@ -85,7 +85,7 @@ def _palette(shown: Image.Image) -> Image.Image:
 
 
 def still(skeleton: Skeleton, places: dict[str, Array], index: int, words: str) -> Figure:
-    """Return one frame as a figure; arguments as of `write_gif`, and what stands in its corner."""
+    """Return one frame as a figure; arguments as of `write_gif`, and what is in its corner."""
     drawer = _Drawer(skeleton, places)
     drawer.draw(index, words)
     return drawer.figure

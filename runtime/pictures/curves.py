@@ -96,7 +96,7 @@ def draw(
     alone : bool, optional
         Whether this is the figure of one curve, with its definition where there is one.
     columns : int, optional
-        How many curves stand beside each other at most.
+        Largest number of panels in a row.
     positions : collection of str, optional
         Dimensions whose zero is the design position.
     mark : callable, optional
@@ -382,7 +382,7 @@ def _legend_below(result: Figure, lines: _Named, marks: Mapping[str, Any]) -> No
 
 
 def _marks_of_goals(panels: Iterable[Axes]) -> dict[str, Any]:
-    """Return what stands for targets and for limits, by what it is called; curves have no label."""
+    """Return the marks of targets and of limits, by their names; curves have no label."""
     return {
         label: mark
         for axes in panels
@@ -391,7 +391,7 @@ def _marks_of_goals(panels: Iterable[Axes]) -> dict[str, Any]:
 
 
 def _held(dataset: xr.Dataset) -> str:
-    """Say where the coordinates stand that do not vary."""
+    """Say where the coordinates are that do not vary."""
     scalars = [data for name, data in dataset.coords.items() if data.ndim == 0]
     texts = [
         f"{long_name(data)} {float(displayed(data)):g} {display_of(data.attrs).units}"

@@ -65,7 +65,7 @@ def save(figure: Figure, path: str | Path, *, force: bool = False, inputs: Paths
 
 
 def written_plainly(figure: Figure) -> Figure:
-    """Let what a person wrote stand there as it was written, dollars and all."""
+    """Show the text of a person as it was written, dollars and all."""
     for text in figure.findobj(Text):
         text.set_parse_math(False)
         text.set_text("\n".join(map(legible, text.get_text().split("\n"))))

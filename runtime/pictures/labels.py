@@ -21,7 +21,7 @@ _HALO = [patheffects.withStroke(linewidth=2.5, foreground="white")]
 
 @dataclass(frozen=True)
 class _Box:
-    """Where a name would stand, in points from the lower left corner of the panel."""
+    """Where a name would be, in points from the lower left corner of the panel."""
 
     x: float
     y: float
@@ -49,7 +49,7 @@ class _Box:
 def label_lines(axes: Axes, lines: Sequence[Line2D], names: Sequence[str], size: Array) -> bool:
     """Write the name of each line beside it, in its colour; nothing if not all have room.
 
-    A name stands where its own line is much nearer than any other, and where no line crosses it.
+    A name is placed where its own line is much nearer than any other, and where no line crosses it.
 
     Parameters
     ----------

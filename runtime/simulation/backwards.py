@@ -186,7 +186,7 @@ def _looked_at(motion: Simulation) -> tuple[Array, Array]:
 def _longest(
     system: System, courses: TimeInputs, rtol: float, times: Array, states: Array
 ) -> float:
-    """Return how long steps may be for what moves beside the motion to be followed as well.
+    """Return how long steps may be for what moves beside the motion to be followed, too.
 
     Where nothing moves a step errs by nothing, however long it is; but a small disturbance, such as
     a parameter makes, would grow by all that the polynomial of the method is beside exp(h l), for

@@ -144,7 +144,7 @@ def _check_samples(
 
 
 def _first_disorder(times: Array) -> int | None:
-    """Return where times fall, or where one stands alone between jumps or is given three times."""
+    """Return where times fall, or where one is alone between jumps or is given three times."""
     steps = np.diff(times)
     still = np.concatenate(([False], steps == 0.0, [False]))
     bad = np.flatnonzero((steps < 0.0) | (still[:-2] & (steps == 0.0)))

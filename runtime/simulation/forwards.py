@@ -81,7 +81,7 @@ def motion_sensitivity(
     signals : sequence of str, optional
         Which signals; by default all.
     t_eval : array_like, optional
-        Times at which they are told, by default 201 from the first to the last [s].
+        Times at which they are reported, by default 201 from the first to the last [s].
 
     Returns
     -------
@@ -103,7 +103,7 @@ def motion_sensitivity(
 
     Directions are followed in the lanes of vectors, where the equations can be had so. They are
     compiled for that when they are first needed, which takes some seconds, and kept as they
-    themselves are. Each has the same bits whatever others there are. Where there is no compiler,
+    themselves are. Each has the same bits with any others beside it. Where there is no compiler,
     NumPy does the same but for rounding, slower.
 
     Examples

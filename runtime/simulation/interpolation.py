@@ -29,7 +29,7 @@ class Samples:
     between : str, optional
         'monotone': between two samples the input only rises, or only falls, so it never leaves
         their range, and it turns at samples only. Its derivative is continuous; where a model takes
-        the acceleration too, that is as well.
+        the acceleration too, so is that.
         'spline': the cubic spline with continuous second derivative. It turns where it
         likes, which suits smooth motions sampled densely: only so are accelerations good there.
         'linear': straight lines. Not for a position whose acceleration the model takes.

@@ -69,7 +69,7 @@ class Steps:
         return np.concatenate(rows).reshape(*times.shape, self._courses.constant.size)
 
     def _compiled(self, system: System) -> bool:
-        """Fill states and rates of the stages, one after the other, and tell whether it is done."""
+        """Fill states and rates of the stages in order, and return whether it is done."""
         rhs = system.equations.ADDRESSES.get("rhs")
         return rhs is not None and _steps.go_through(
             rhs, system.constants, STAGES, self.length, self.anew.view(np.uint8), self.inputs,

@@ -79,7 +79,7 @@ class TimeInputs:
     segments : tuple of Segment
         In the order of time; at their borders an input may jump.
     variant : str
-        What ends the names of the functions that leave out what stands still; empty if nothing
+        Suffix of the names of the functions without the coordinates at rest; empty if nothing
         does.
     """
 

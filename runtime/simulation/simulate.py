@@ -153,10 +153,10 @@ def simulate(
     The event 'strut_fully_extended' watches the former, a `SignalEvent` of ``strut_length`` the
     latter.
 
-    Nothing tells the error of 'RK4': halve `step` and compare, the error is 16 times smaller then.
-    Before each step the eigenvalues of the exact Jacobian are bounded; where one of them times the
-    step may be beyond 2.61, up to which the method is stable wherever motions do not grow, it ends
-    with the longest step that is stable.
+    The error of 'RK4' is not estimated: halve `step` and compare, the error is 16 times smaller
+    then. Before each step the eigenvalues of the exact Jacobian are bounded; where one of them
+    times the step may be beyond 2.61, up to which the method is stable wherever motions do not
+    grow, it ends with the longest step that is stable.
 
     Examples
     --------
@@ -265,7 +265,7 @@ def _fixed_step(
     told = [name for name, value in others.items() if value is not None]
     told += [] if isinstance(max_step, float) and max_step == np.inf else ["max_step"]
     if told:
-        given.refuse(f"method 'RK4' has steps of one length: leave out {', '.join(told)}.")
+        given.refuse(f"method 'RK4' has fixed steps: leave out {', '.join(told)}.")
     if step is None:
         given.refuse("method 'RK4' needs step, the length of all steps in seconds, such as 1e-3.")
         return 1.0
@@ -273,7 +273,7 @@ def _fixed_step(
 
 
 def _check_count(given: Arguments, span: tuple[float, float], accuracy: Accuracy) -> None:
-    """Refuse more steps of one length than are allowed, before any is taken."""
+    """Refuse more fixed steps than are allowed, before any is taken."""
     step, most = accuracy.max_step, accuracy.max_steps
     needed = abs(span[1] - span[0]) / step
     if needed > most:
@@ -429,7 +429,7 @@ class _Run:
         return self._assembled()
 
     def _jumped_over(self, segment: Segment, state: Array) -> bool:
-        """Note what signals jump across at the begin of a segment; tell if that is the end."""
+        """Note what signals jump across where a segment starts; return whether that is the end."""
         before, piece = self._pieces[-1]
         signals = [
             self._model.signals(state, self._inputs.at(segment.start, part))

@@ -84,7 +84,7 @@ class Piece:
         The guard at whose dead point the motion ends; none if a state was refused for another
         reason.
     longest_step
-        Of steps of one length that are not stable: the longest one that is [s].
+        Of fixed steps that are not stable: the longest one that is [s].
     """
 
     t: Array
@@ -402,8 +402,8 @@ def _scipy_events(function: _RightHandSide, events: Events) -> list["_Waiting"]:
 class _Waiting:
     """An event as SciPy reads it, which is called at the ends of steps until it may pass zero.
 
-    What is zero at first has been told in the segment before, or passes nothing: it waits. For
-    SciPy each step from zero to zero is a crossing; NaN is none.
+    A function that is zero at first was reported in the segment before, or passes nothing: it
+    waits. For SciPy each step from zero to zero is a crossing; NaN is none.
     """
 
     event: Callable[[float, Array], float]

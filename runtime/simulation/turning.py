@@ -69,7 +69,7 @@ def _extrema(curve: PPoly) -> Array:
 
 
 def _swings(values: Array, least: float) -> list[int]:
-    """Return which of alternating extrema stand out from those beside them."""
+    """Return which of alternating extrema exceed those beside them."""
     kept: list[int] = []
     best, sense = 0, 0
     low = high = 0

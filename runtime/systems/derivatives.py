@@ -276,7 +276,7 @@ def kept_together(system: System, directions: Directions, direction: Array) -> A
         if broken:
             problem = (
                 f"along: this direction leaves the mechanisms that the equations are of: {broken}. "
-                "Move what keeps it together as well."
+                "Move what keeps it together, too."
             )
             raise InputError([problem], "derivative")
     return parameters

@@ -6,7 +6,7 @@ With ``x = state - state_0``, ``u = inputs - inputs_0`` and ``y = signals - sign
 
 where ``rate_0`` is the time derivative of the state at the point itself. At an equilibrium, or in
 steady motion with nothing but the spin angle changing, it plays no part, and the eigenvalues of A
-are those of the motion. About any other state the matrices are exact as well, but describe the
+are those of the motion. About any other state the matrices are exact, too, but describe the
 motion only as long as the state stays near: the modes are those of frozen coefficients.
 """
 

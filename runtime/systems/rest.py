@@ -53,8 +53,8 @@ def rest(
     -----
     By Newton's method with the exact Jacobian of the accelerations; steps that bring loops to where
     they cannot close, or no nearer, are halved. Whether it would return to rest or leave it,
-    `kintrafo.linearise` tells: a pendulum rests upside down, too. A coordinate that nothing drives
-    to anywhere, such as the angle of a rotor, stays where it is.
+    `kintrafo.linearise` shows it: a pendulum rests upside down, too. A coordinate that nothing
+    drives to anywhere, such as the angle of a rotor, stays where it is.
 
     Examples
     --------

@@ -27,11 +27,11 @@ class StateNames(NamedTuple):
 class State(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     """An array of a state's elements, with the inputs under which the state was found.
 
-    Rest is rest only on its own road and with its rack where it was. Whatever takes a state and
-    inputs takes these where none are given: ``signals``, ``evaluate``, `kintrafo.linearise`, and
-    for the inputs that it is not told of, `kintrafo.simulate`. Copies, and sums such as
-    ``state + small``, keep them; an array made of several states has none, and inputs are zero
-    then as everywhere. A model with other coordinates or inputs refuses it.
+    Rest is rest only on its own road and with its rack where it was. Every function that takes a
+    state and inputs takes these where none are given: ``signals``, ``evaluate``,
+    `kintrafo.linearise`, and for the inputs that are left out, `kintrafo.simulate`. Copies, and
+    sums such as ``state + small``, keep them; an array made of several states has none, and inputs
+    are zero then as everywhere. A model with other coordinates or inputs refuses it.
 
     Attributes
     ----------

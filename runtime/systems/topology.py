@@ -26,14 +26,14 @@ class Topology:
     bodies : tuple of str
         The moving bodies.
     joints : tuple of dict
-        Name, type, the two bodies, number of freedoms, what the bodies have in common.
+        Name, type, the two bodies, number of degrees of freedom, what the bodies have in common.
     mobility : int
         Number of independent coordinates (Grübler).
     numbers : tuple of int
         The numbers of all bodies, the ground among them.
     paths : tuple of tuple of tuple of str
         All shortest paths from each body to each, as the numbers of the bodies on the way; a joint
-        is as long as it has freedoms.
+        is as long as its number of degrees of freedom.
     candidates : dict
         What Horton's construction tries: ``pairs`` of a body and a joint that do not touch, how
         many of them are ``closing``, and to how many ``cycles``, with repetitions.

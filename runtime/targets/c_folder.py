@@ -74,7 +74,7 @@ def files(emitted: Emitted) -> dict[str, str]:
 
 
 def _known(emitted: Emitted) -> dict[str, Any]:
-    """Return what the templates tell."""
+    """Return the data of the templates."""
     system, manifest = emitted.system, emitted.manifest
     compiled = emitted.compiled()
     costs = {"prepare": manifest["prepare"]["operations"]}

@@ -12,7 +12,7 @@ from .console import problems
 
 
 class Exit(IntEnum):
-    """What the exit code tells a script."""
+    """The exit code, for scripts."""
 
     DONE = 0
     REFUSED = 1  # what was asked cannot be done, or a check found a problem
@@ -22,7 +22,7 @@ class Exit(IntEnum):
 
 @contextmanager
 def standing_streams() -> Iterator[None]:
-    """See that what is printed goes somewhere, or that it is told where it does not.
+    """See that what is printed goes somewhere, or that a message says where it does not.
 
     A stream that was closed leads nowhere, and its number not to the next file that is opened.
     What an encoding cannot say is written as Python writes it. A full disk ends the program with a
@@ -116,7 +116,7 @@ def _show_warning(
 
 
 def _print(text: str, style: str) -> None:
-    """Print on stderr; where that cannot be written either, the exit code tells it alone."""
+    """Print on stderr; where that cannot be written either, only the exit code shows it."""
     with suppress(OSError):
         # no markup: the names of sections stand in brackets
         problems.print(text, style=style, highlight=False, markup=False)

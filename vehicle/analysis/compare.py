@@ -39,7 +39,7 @@ def compare(
     Parameters
     ----------
     subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
-        Two or more with a common motion, by the names that stand beside their curves.
+        Two or more with a common motion, by the names of their curves.
     along : array_like, shape (n,), optional
         What varies, as of `kintrafo.characteristics.over` [m] or [rad]; by default the usual range,
         as far as all of them go.

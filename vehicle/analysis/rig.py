@@ -50,7 +50,7 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     ``steering_wheel_angle [deg]``, and what each wheel has ends in ``_left`` or ``_right``,
     ``toe_left [deg]``.
     Columns of other names are left out. How names and units may be written, `kintrafo.core.tables`
-    says: ``Wheel Travel (mm)`` is the same, and units may stand in a row or comment of their own.
+    says: ``Wheel Travel (mm)`` is the same, and units may be in a row or comment of their own.
     Rows may be in any order, and a
     position may be there more than once, as of a loop with friction. A cell may be empty. Where
     both positions are there, one must be the same in all rows, to 0.1 mm: the suspension is held
@@ -145,7 +145,7 @@ def beside(
     measured : xarray.Dataset
         From `measured_curves`.
     subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
-        By the names that stand beside their curves.
+        By the names that are beside their curves.
     name : str, optional
         That of the measurement.
     held : {'height', 'tyre', 'spring', 'locked'}, optional

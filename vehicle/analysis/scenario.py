@@ -101,7 +101,7 @@ def run(
     model : Model, AxleModel or RigidAxleModel
     scenario : Scenario
         Its ``road_height``, and loads on a wheel, are those of the wheels that are named; the
-        others have a level road. Inputs of an axle may be given by their own names as well.
+        others have a level road. Inputs of an axle may be given by their own names, too.
     wheels : {'both', 'left', 'right'}, optional
     **options : Any
         Of `kintrafo.simulate`: ``method``, ``rtol``, ``atol``, ...

@@ -70,7 +70,7 @@ def sheet(
     -------
     xarray.Dataset
         Over ``quantity``, the names of the characteristics and compliances: the values with the
-        signs of ``iso_8855`` and of ``sae_j670`` (z down), in the units for people that stand in
+        signs of ``iso_8855`` and of ``sae_j670`` (z down), in the display units of
         ``unit``; ``part`` of the sheet, ``meaning``, ``definition``, and when either value is
         positive, ``iso_8855_sign`` and ``sae_j670_sign``.
 

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Bushings:
-    """The bushes of an assembly, and how far its rack gives way.
+    """The bushes of an assembly, and how far its rack deflects.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class Assembly(ABC):
     """A corner, an axle or a rigid axle.
 
     Its parts may be in several groups that only an anti-roll bar and a rack join, as the two sides
-    of an axle are: whatever is of a group is by the suffix of the names of its parts, ``""``,
+    of an axle are: the members of a group are by the suffix of the names of its parts, ``""``,
     ``"_left"`` or ``"_right"``.
 
     Attributes
@@ -218,7 +218,7 @@ class Assembly(ABC):
         del names
 
     def refuse_positions(self, given: Arguments, motion: str, along: Array) -> None:
-        """Refuse positions that a motion does not have, whatever the wheels reach."""
+        """Refuse positions that a motion does not have, for any reach of the wheels."""
         del given, motion, along
 
     @property
@@ -337,7 +337,7 @@ class Assembly(ABC):
 
     @abstractmethod
     def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
-        """Return how springs and stops give way for a unit force along each.
+        """Return how springs and stops deflect for a unit force along each.
 
         Raises
         ------
@@ -348,11 +348,11 @@ class Assembly(ABC):
     # -- where it stands --------------------------------------------------------------------------
 
     ENDS: ClassVar[str] = "the linkage reaches no farther"
-    """What ends the way of the wheels, in words."""
+    """The end of the wheels' travel, in words."""
 
     @property
     def independent(self) -> Sequence["Assembly"]:
-        """The assemblies that stand independently of each other; the wheels are theirs in turn."""
+        """The assemblies that rest independently of each other, in the order of the wheels."""
         return (self,)
 
     @property
@@ -531,7 +531,7 @@ class Assembly(ABC):
         return Plausibility((), ())
 
     def described(self) -> dict[str, str]:
-        """Return what it is at design in words, besides its corners, by what stands before."""
+        """Return what it is at design in words, besides its corners, by their headings."""
         return {}
 
     def reach(self) -> dict[str, tuple[float, bool]]:

@@ -273,7 +273,7 @@ class AxleAssembly(Assembly):
         return found
 
     def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
-        """Return how springs and stops of both sides give way."""
+        """Return how springs and stops of both sides deflect."""
         return {suffix: lines_of(each) for suffix, each in poses.items()}
 
     @cached_property
@@ -392,7 +392,7 @@ class AxleAssembly(Assembly):
     ) -> dict[str, dict[str, Any]]:
         """Return what is said of the bushes of both sides: the files', or what is given, mirrored.
 
-        What is wrong of the latter is told of the side that it is given for.
+        A problem of the latter names the side that it is given for.
         """
         if bushings is None:
             return {
@@ -414,7 +414,7 @@ class AxleAssembly(Assembly):
         return self.axle.with_changes(changes)
 
     def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
-        """Return bushes of both sides, and how far their rack gives way."""
+        """Return bushes of both sides, and how far their rack deflects."""
         described = self.described_bushings(given, bushings)
         found = {f"_{side}": self.axle.sides[side].bushes(given, described[side]) for side in SIDES}
         return Bushings(found, softness_of_rack(given, described[self.axle.bar_side]))

@@ -191,7 +191,7 @@ class CornerAssembly(Assembly):
         return {"": poses_of(self.model, position.travels[self.wheels[0]], position.rack)}
 
     def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
-        """Return how spring and stops give way."""
+        """Return how spring and stops deflect."""
         return {suffix: lines_of(each) for suffix, each in poses.items()}
 
     @cached_property
@@ -295,7 +295,7 @@ def poses_of(model: Model, travels: Array, rack: Array) -> CornerParts:
 
 
 def lines_of(poses: PartPoses) -> SoftLines:
-    """Return how spring and stops of a corner give way."""
+    """Return how spring and stops of a corner deflect."""
     model: Model = poses.model
     angles = poses.states[..., model.state_names.index(model.names.arm)]
     if model.free_rack:

@@ -238,7 +238,7 @@ class RigidAxleAssembly(Assembly):
         return {"": RigidAxleParts.of(self.model, self.model.states_at(left, right))}
 
     def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
-        """Return how springs and stops give way."""
+        """Return how springs and stops deflect."""
         beam = RigidAxleKinematics(self.model, poses[""].states)
         return {"": lines_by_rates(beam) if self.axle.overheld else lines_of_beam(beam)}
 

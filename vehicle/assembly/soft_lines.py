@@ -1,4 +1,4 @@
-"""How springs and stops give way along their lines, for a unit force along each."""
+"""How springs and stops deflect along their lines, for a unit force along each."""
 
 from dataclasses import dataclass, replace
 
@@ -13,7 +13,7 @@ from .rigid_axle_kinematics import RigidAxleKinematics
 
 @dataclass(frozen=True)
 class SoftLines:
-    """How springs and stops give way along their lines; arrays over n positions.
+    """How springs and stops deflect along their lines; arrays over n positions.
 
     Attributes
     ----------
@@ -29,7 +29,7 @@ class SoftLines:
 
 
 def soft_lines(there: Corner) -> SoftLines:
-    """Return how spring and stops of a suspension give way for a unit force along each.
+    """Return how spring and stops of a suspension deflect for a unit force along each.
 
     With what their own force does as their direction changes.
     """
@@ -50,7 +50,7 @@ def soft_lines(there: Corner) -> SoftLines:
 
 
 def lines_by_rates(beam: RigidAxleKinematics) -> SoftLines:
-    """Return how springs and stops give way by their rates alone.
+    """Return how springs and stops deflect by their rates alone.
 
     Five rods have no motion with which the directions of forces would change.
     """
@@ -67,7 +67,7 @@ def lines_by_rates(beam: RigidAxleKinematics) -> SoftLines:
 
 
 def lines_of_beam(beam: RigidAxleKinematics) -> SoftLines:
-    """Return how springs and stops give way along their lines, for a unit force along each."""
+    """Return how springs and stops deflect along their lines, for a unit force along each."""
     growth = np.stack([beam.growth(f"{side}_spring") for side in SIDES], axis=1)
     rates = np.stack([beam.rate_of_stops(side) for side in SIDES], axis=1)
     by_stops = np.stack([beam.growth(f"{side}_damper") for side in SIDES], axis=1)
@@ -78,7 +78,7 @@ def lines_of_beam(beam: RigidAxleKinematics) -> SoftLines:
         at = 1e3 * float(beam.coordinate("heave")[least.argmin()])
         problem = (
             f"at a wheel travel of {at:.1f} mm the springs do not hold the axle: in heave or in "
-            "roll they give way by themselves. Enter a rate, or another travel."
+            "roll they deflect by themselves. Enter a rate, or another travel."
         )
         raise InputError([problem], "compliance")
     with np.errstate(divide="ignore"):

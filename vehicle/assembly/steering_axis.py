@@ -3,7 +3,7 @@
 Where the knuckle turns about two points (a wishbone's ball joints, a strut's mount), the axis is
 the line through them. Links of which no two meet have no such points: the knuckle then turns about
 the axis of its first motion when the rack moves and the spring keeps its length, the axis of that
-screw. Of links that meet in ball joints that is the line through them, if the spring stands on one
+screw. Of links that meet in ball joints that is the line through them, if the spring acts on one
 of the links.
 """
 

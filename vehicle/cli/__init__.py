@@ -89,7 +89,7 @@ _PANELS = {
 _HIDDEN = (schema, paper)
 
 COMMANDS: dict[str, ModuleType] = {}
-"""The module of each command, by what stands between ``kintrafo`` and its arguments."""
+"""The module of each command, by what is between ``kintrafo`` and its arguments."""
 
 
 def _add(to: typer.Typer, module: ModuleType, group: str = "", **options: Any) -> None:

@@ -268,7 +268,7 @@ def _refuse_options(
 
 
 def _title(assembly: "Assembly", file: str, motion: str) -> str:
-    """Return what stands above curves."""
+    """Return what is above curves."""
     if len(assembly.wheels) == 1:
         return title_of(file)
     return f"{title_of(file)}: {assembly.motions[motion].words}"

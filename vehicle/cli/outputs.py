@@ -189,7 +189,7 @@ class Outputs:
         ----------
         dataset : xarray.Dataset
         title : str
-            Stands above the figures.
+            Title of the figures.
         names : sequence of str, optional
             The curves of the page; all of them by default.
         suffix : str, optional

@@ -43,7 +43,7 @@ def command(
 ) -> None:
     """Print the change of characteristics per millimetre or degree of each value of the file.
 
-    The table is about one position; data files have all. What a section or * stands for and cannot
+    The table is about one position; data files have all. Values of a section or * that cannot
     move, as an inertia of a part without mass, is left out and named.
     """
     from ...datasets import export
@@ -99,7 +99,7 @@ def _table(dataset: "Dataset", look: Look, file: str) -> Table:
 
 
 def _greatest(effects: "list[Effect]") -> str:
-    """Name the values that move a characteristic most; the largest stand first."""
+    """Name the values with the largest effects on a characteristic, the largest first."""
     moved = [effect for effect in effects if isfinite(effect.size) and effect.size]
     words = [f"{_short(effect.place)} {effect.size:+.3g}" for effect in moved[:_GREATEST]]
     return ", ".join(words) or "none of them"

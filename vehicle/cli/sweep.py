@@ -115,7 +115,7 @@ def _usual(model: "System") -> tuple[str, ...]:
 
 
 def _reductions(model: "System", kept: tuple[str, ...] | list[str]) -> dict[str, list[Any]]:
-    """Read what is kept of each motion; levels are in units for people."""
+    """Read what is kept of each motion; levels are in display units."""
     from ...core.quantities import attributes, display_of
 
     found: dict[str, list[Any]] = {}

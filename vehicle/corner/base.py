@@ -1,8 +1,8 @@
 """A suspension as an engineer describes it: hardpoints, alignment, rates and masses.
 
 `Suspension` is what all have in common. Each kind has a file of its own in `kinds`, where all that
-differs between them stands; there `Suspension` is imported from, so that all kinds are known. It
-holds the values as they stand in the input file, in the units that the names of its keys carry.
+differs between them is, too; there `Suspension` is imported from, so that all kinds are known. It
+holds the values as they are in the input file, in the units that the names of its keys carry.
 `Suspension.parameters` returns what the equations of motion take, in SI units.
 
 Axes are those of ISO 8855, fixed to the chassis: x forward, y left, z up. A right suspension lies
@@ -117,7 +117,7 @@ class Suspension(Section):
     bump_stop: Stop | None = Field(default=None, description="the stop in bump")
     rebound_stop: Stop | None = Field(default=None, description="the stop in rebound")
     bushings: Bushings | None = Field(
-        default=None, description="what gives way at hardpoints, for compliance: see Loads"
+        default=None, description="what deflects at hardpoints, for compliance: see Loads"
     )
 
     def __init__(self, /, **data: Any) -> None:
@@ -463,7 +463,7 @@ class Suspension(Section):
         return {}
 
     def rate_key(self, part: str) -> str:
-        """Return where the rate of a part, "spring" or "damper", stands in the file."""
+        """Return where the rate of a part, "spring" or "damper", is in the file."""
         return rate_key(part, getattr(self, "spring", None))
 
     @abstractmethod

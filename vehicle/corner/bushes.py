@@ -1,4 +1,4 @@
-"""Bushes: how far joints give way, as a file or a caller describes them."""
+"""Bushes: how far joints deflect, as a file or a caller describes them."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -45,7 +45,7 @@ RACK = "rack"
 _PER_MM, _PER_DEG = 1e3, 180.0 / np.pi
 # What is greater is left to the checks [any unit].
 _LARGEST = 1e300
-# No bush is softer or stiffer than this, in its units for people.
+# No bush is softer or stiffer than this, in its display units.
 _SOFTEST, _STIFFEST = 1e-3, 1e12
 _NO_DAMPING = (
     "The damping of a bush does nothing here: loads and compliance are at rest, and motions have "
@@ -57,7 +57,7 @@ _LEAST_ANGLE = 1e-3
 
 @dataclass(frozen=True)
 class Bush:
-    """What gives way at a hardpoint.
+    """What deflects at a hardpoint.
 
     Attributes
     ----------
@@ -107,7 +107,7 @@ class Bush:
         return whole
 
     def give(self, wrench: Array) -> tuple[Array, Array]:
-        """Return how far it gives way, however far that is; chassis axes at design.
+        """Return how far it deflects, however far that is; chassis axes at design.
 
         Parameters
         ----------
@@ -252,7 +252,7 @@ def bushes_of(
     described : mapping
         By hardpoint.
     structure : Structure
-        Whose joints give way.
+        Whose joints deflect.
     design : mapping
         The hardpoints at design [m].
     spin : ndarray, shape (3,)
@@ -325,10 +325,10 @@ def _at_rest(curve: Curve) -> float:
 
 
 def refuse_rigid(given: Arguments, bushes: Sequence[Bush], rack: float) -> None:
-    """Refuse bushes of which none gives way."""
+    """Refuse bushes of which none deflects."""
     if not (rack or given.refused or any(bush.gives_way for bush in bushes)):
         given.refuse(
-            "bushings: one or more are needed that give way, by axial_N_per_mm, radial_N_per_mm, a "
+            "bushings: one or more are needed that deflect, by axial_N_per_mm, radial_N_per_mm, a "
             "curve, or the tilt of the wheel bearing."
         )
 
@@ -339,7 +339,7 @@ def left_out(bushes: Sequence[Bush]) -> str:
 
 
 def softness_of_rack(given: Arguments, described: Mapping[str, Any]) -> float:
-    """Return how far the rack gives way along its axis [m/N]; zero where nothing is said."""
+    """Return how far the rack deflects along its axis [m/N]; zero where nothing is said."""
     if RACK not in described:
         return 0.0
     table, title = described[RACK], f"[bushings.{RACK}]"
@@ -371,7 +371,7 @@ def _pair(given: Arguments, title: str, table: Mapping[str, Any], key: str) -> t
 
 
 def _stiffness(given: Arguments, title: str, table: Mapping[str, Any], key: str) -> float:
-    """Return a stiffness in its unit for people; infinite where there is none."""
+    """Return a stiffness in its display unit; infinite where there is none."""
     if key not in table:
         return np.inf
     unit = "N m/deg" if key.endswith("Nm_per_deg") else "N/mm"
@@ -402,7 +402,7 @@ def _axes(
 
 
 def _across(given: Arguments, title: str, table: Mapping[str, Any], along: Array) -> Array:
-    """Return the radial directions, (2, 3): the first as upright as it can be, unless told."""
+    """Return the radial directions, (2, 3): the first as upright as it can be, unless given."""
     usual = np.eye(3)[0 if abs(along[2]) > np.cos(_LEAST_ANGLE) else 2]
     aside = _direction(given, title, table, "radial_axis", usual)
     across = cross(along, aside)

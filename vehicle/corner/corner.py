@@ -144,7 +144,7 @@ class Vehicle:
     tyre_rate : float or None
         Vertical stiffness of the tyre [N/m].
     tyre_lateral_rate, tyre_longitudinal_rate : float or None
-        Of the standing tyre [N/m].
+        Of the stationary tyre [N/m].
     wheelbase, center_of_gravity_height : float or None
         [m].
     front_brake_share : float or None

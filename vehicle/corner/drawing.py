@@ -40,7 +40,7 @@ class Drawing:
     links : mapping
         For each link that is seen from the front its two ends, and what it is.
     knuckle : tuple of str
-        Points of the line that stands for the knuckle there.
+        Points of the line that represents the knuckle there.
     legend : mapping
         What the arms and the strut are called on the page of the report, and the ``knuckle`` where
         that is not its name.

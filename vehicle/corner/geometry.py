@@ -19,7 +19,7 @@ _SMALLEST_SPIN_AXIS_ANGLE = 1.0
 
 
 def _valid(kind: type[Section], data: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the sections that are right, whatever the others are; None for one left out."""
+    """Return the sections that are right, whether or not the others are; None for one left out."""
     sections: dict[str, Any] = {}
     for name, field in kind.model_fields.items():
         model = subsection(kind, name)

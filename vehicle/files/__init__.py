@@ -1,6 +1,6 @@
 """Files of suspensions and axles, and of other programs.
 
-`loading`    whatever a file describes
+`loading`    any file that describes an assembly
 `schema`     the input file's JSON Schema and its reference page
 `point_table`        hardpoints as a table
 `chrono`, `adams_car`    suspensions of Project Chrono and of Adams/Car

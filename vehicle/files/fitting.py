@@ -175,7 +175,7 @@ def differences(old: Suspension, new: Suspension) -> set[Place]:
 def fresh(text: str, suspension: Suspension, changed: Collection[Place] | None = None) -> str:
     """Return the text of a file without what comments beside its values say of other values.
 
-    In their place stands what the key means.
+    The meaning of the key replaces them.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Reading a file, whatever it describes."""
+"""Reading a file of any assembly."""
 
 from pathlib import Path
 

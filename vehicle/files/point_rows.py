@@ -47,7 +47,7 @@ class Found(NamedTuple):
     coordinates : dict
         By side, '' where there is one only, the columns of x, y and z.
     above : tuple of str
-        Units that stand above the table.
+        Units that are above the table.
     axes : str
         Where x, y and z point in files of its program.
     left_out : tuple of str
@@ -109,7 +109,7 @@ def _of_workbook(file: Path, pages: Sequence[Page], wanted: str | None) -> Found
 
 
 def _first(row: Row) -> Any:
-    """Return the only cell of a row in which something stands; nothing if there are more."""
+    """Return the only cell of a row that is not empty; nothing if there are more."""
     filled = [cell for cell in row[1] if cell is not None]
     return filled[0] if len(filled) == 1 else ""
 
@@ -157,7 +157,7 @@ def _of_rows(source: str, rows: Sequence[Row], comments: Iterable[Row], *, comma
 
 
 def _sides(over: Sequence[Any], count: int) -> list[str]:
-    """Return below which of Left and Right each column stands; empty where there is none."""
+    """Return below which of Left and Right each column is; empty where there is none."""
     sides, side = [], ""
     for i in range(count):
         word = str(over[i]).strip().lower() if i < len(over) else ""
@@ -188,7 +188,7 @@ def _check(
 
 
 def _units_above(rows: Sequence[Row]) -> Iterable[str]:
-    """Yield the units of length that stand above the names of the columns."""
+    """Yield the units of length that are above the names of the columns."""
     for _, cells in rows:
         texts = [str(cell) for cell in cells if cell is not None]
         for at, text in enumerate(texts[:-1]):

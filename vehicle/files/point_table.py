@@ -50,7 +50,7 @@ class PointTable:
     unit : str
         A unit of length: mm, m, in and so on.
     points : dict
-        By names as they stand in the table, three coordinates in that unit and in axes of ISO 8855:
+        By names as they are in the table, three coordinates in that unit and in axes of ISO 8855:
         x forward, y left, z up. Those of the left side, where the table has both.
     right : dict, optional
         Those of the right side, where the table has both.
@@ -103,9 +103,9 @@ def read_points(
 ) -> PointTable:
     """Read a table of hardpoints.
 
-    The unit of x, y and z stands in the first row, in a row of units or a comment line
+    The unit of x, y and z is in the first row, in a row of units or a comment line
     (`kintrafo.core.tables`), or above the table. Coordinates may be there for both sides, below
-    ``Left`` and ``Right``. The points of a text of Lotus Suspension Analysis are read as well.
+    ``Left`` and ``Right``. The points of a text of Lotus Suspension Analysis are read, too.
 
     Parameters
     ----------

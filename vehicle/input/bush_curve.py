@@ -28,7 +28,8 @@ def curve_of(given: Arguments, title: str, described: Any, *, odd: bool) -> Curv
     title : str
     described : mapping
     odd : bool
-        Whether it begins at zero and is the same to both sides: across an axis, none is told apart.
+        Whether it begins at zero and is the same to both sides: across an axis, no side is
+        distinguished.
     """
     if not isinstance(described, Mapping) or {*described} - {_WAY} != {*_KEYS}:
         given.refuse(
@@ -69,7 +70,7 @@ def _problem(places: Array, forces: Array, *, odd: bool) -> str:
 
 
 def _problem_of_sides(places: Array, *, odd: bool) -> str:
-    """Say why a curve does not tell both sides."""
+    """Say why a curve does not distinguish both sides."""
     if odd and places[0] < 0.0:
         return (
             f"mm begins with {places[0]:g}; a bush is the same to all sides of its axis: "

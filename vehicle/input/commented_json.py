@@ -46,7 +46,7 @@ class _TwiceError(ValueError):
 
 
 def _keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Return what stands in braces; of two keys of one name nobody knows which counts."""
+    """Return what is in braces; of two keys of one name nobody knows which counts."""
     ((most, times),) = Counter(key for key, _ in pairs).most_common(1) or [("", 0)]
     if times > 1:
         raise _TwiceError(f'"{legible(short(most))}" is there {times} times. Keep one of them.')
@@ -54,6 +54,6 @@ def _keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _without_comment(found: re.Match[str]) -> str:
-    """Return what stands for a text or a comment; the lines keep their numbers."""
+    """Return what represents a text or a comment; the lines keep their numbers."""
     is_text, is_open = found[1] is not None, found[2] == ""
     return found[0] if is_text or is_open else "\n" * found[0].count("\n") or " "

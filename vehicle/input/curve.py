@@ -158,7 +158,7 @@ class Curve:
         name : str
             Of the table there.
         knots : sequence, optional
-            What stands there for the places.
+            What is there for the places.
 
         Returns
         -------

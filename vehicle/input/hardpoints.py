@@ -42,7 +42,7 @@ class Hardpoints(Section):
     Attributes
     ----------
     STAND_INS : dict
-        Points that a file may leave out, and which other point then stands in.
+        Points that a file may leave out, and which other point replaces each.
     CARRIERS : dict
         Which moving body carries a point; the others are fixed to the chassis.
     ARMS : dict
@@ -51,7 +51,7 @@ class Hardpoints(Section):
         Moving points that belong into a table of positions, besides the wheel centre.
     STEERING_AXIS : tuple of str or None
         The lower and the upper point on the axis about which the wheel is steered; None where no
-        two points are on it, and the motion tells it.
+        two points are on it, and the motion shows it.
     AXIS_NAME : str
         What this axis is called in messages.
     """
@@ -74,7 +74,7 @@ class Hardpoints(Section):
         return unit if key != "unit" and unit in get_args(LengthUnit) else ""
 
     def metres(self, name: str) -> Vector:
-        """Return the position of a hardpoint; that of its stand-in, if it is left out.
+        """Return the position of a hardpoint; that of its substitute, if it is left out.
 
         Parameters
         ----------
@@ -92,7 +92,7 @@ class Hardpoints(Section):
         return np.array([in_metres(value, self.unit) for value in point])
 
     def at_design(self) -> dict[str, Vector]:
-        """Return all hardpoints, those that are left out where their stand-ins are [m]."""
+        """Return all hardpoints, those that are left out where their substitutes are [m]."""
         return {name: self.metres(name) for name in (*self.names(), *self.STAND_INS)}
 
     @classmethod
@@ -121,13 +121,13 @@ class Hardpoints(Section):
         return distance
 
     def text(self, *names: str) -> str:
-        """Return hardpoints as they stand in the file, with their unit, for error messages."""
+        """Return hardpoints as they are in the file, with their unit, for error messages."""
         names = tuple(n if getattr(self, n) is not None else self.STAND_INS[n] for n in names)
         points = [f"{name} = {list(getattr(self, name))} {self.unit}" for name in names]
         return f"[hardpoints] {' and '.join(points)}"
 
     def steering_axis(self) -> Vector | None:
-        """Return the unit vector upward along the axis of steering; None if no points tell it."""
+        """Return the unit vector upward along the axis of steering; None if no points show it."""
         if self.STEERING_AXIS is None or self.distance(*self.STEERING_AXIS) < SMALLEST_DISTANCE:
             return None
         low, high = map(self.metres, self.STEERING_AXIS)
@@ -160,7 +160,7 @@ class Hardpoints(Section):
 
     @abstractmethod
     def geometry_problems(self) -> list[str]:
-        """Say why the mechanism cannot move, or cannot be told from its mirror image.
+        """Say why the mechanism cannot move, or cannot be distinguished from its mirror image.
 
         Returns
         -------
@@ -265,7 +265,7 @@ class Hardpoints(Section):
                 f"{self.text('tie_rod_outer', 'tie_rod_inner')}: the tie rod pulls with a lever of "
                 f"{1000 * lever:.3f} mm about the {self.AXIS_NAME}; at least "
                 f"{1000 * SMALLEST_DISTANCE:g} mm are needed, or the linkage is at its dead "
-                "centre. Move tie_rod_inner, so that the rod stands across the steering arm."
+                "centre. Move tie_rod_inner, so that the rod is not in line with the steering arm."
             )
             return [problem]
         return []

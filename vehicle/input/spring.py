@@ -214,7 +214,7 @@ class Spring(Section):
 
 
 def rate_key(part: str, spring: Spring | None) -> str:
-    """Return where the rate of a part, "spring" or "damper", stands in a file, or its curve."""
+    """Return where the rate of a part, "spring" or "damper", is in a file, or its curve."""
     if part == "spring" and spring is not None and spring.by_curve:
         return "[spring] force_N: the rate at design"
     return {"spring": "[spring] rate_N_per_m", "damper": "[damper] rate_N_s_per_m"}[part]

@@ -80,7 +80,7 @@ class Block:
 
 
 def cells_of(line: str) -> list[str] | None:
-    """Return what stands in a line, without quotes and comment; None if a quote is left open.
+    """Return what is in a line, without quotes and comment; None if a quote is left open.
 
     Examples
     --------

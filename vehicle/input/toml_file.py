@@ -18,7 +18,7 @@ _PYTHON = (
     "your own has: kintrafo mechanism, report and export; and in Python "
     "kintrafo.compile, System, rest, linearise, simulate, ensemble."
 )
-_DEEP = "Tables or lists stand in each other too deeply. No key of a suspension does."
+_DEEP = "Tables or lists are nested too deeply. No key of a suspension does."
 # A key of a hundred parts, in time linear in the length; tomllib's grows with the square of them.
 _TOO_DEEP = re.compile(r"""(?<![\w"'.-])(?:[\w"'-]++\s*+\.\s*+){100}""")
 

@@ -94,10 +94,10 @@ class Tyre(Section):
         "characteristics, left out: the height of wheel_center above z = 0",
     )
     lateral_rate_N_per_m: Positive | None = Field(  # noqa: N815 (N is the newton)
-        default=None, description="lateral rate of the standing tyre; only for compliance"
+        default=None, description="lateral rate of the stationary tyre; only for compliance"
     )
     longitudinal_rate_N_per_m: Positive | None = Field(  # noqa: N815 (N is the newton)
-        default=None, description="longitudinal rate of the standing tyre; only for compliance"
+        default=None, description="longitudinal rate of the stationary tyre; only for compliance"
     )
     damper_rate_N_s_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
         default=0.0, description="radial damping of the tyre"

@@ -1,6 +1,6 @@
 """The kinds of suspension: a file each, which is all that there is to do for another one.
 
-`Suspension` is taken from here, so that whoever reads a file knows all of its kinds.
+`Suspension` is taken from here, so that every reader of files knows all of its kinds.
 """
 
 from importlib import import_module

@@ -88,7 +88,7 @@ class DoubleWishboneHardpoints(Hardpoints):
     wheel_center: Triple = Field(description="centre of the wheel")
 
     def geometry_problems(self) -> list[str]:
-        """Say why the mechanism cannot move, or cannot be told from its mirror image.
+        """Say why the mechanism cannot move, or cannot be distinguished from its mirror image.
 
         Returns
         -------

@@ -129,7 +129,7 @@ class MacPhersonHardpoints(Hardpoints):
         return self.strut_axis()
 
     def geometry_problems(self) -> list[str]:
-        """Say why the mechanism cannot move, or cannot be told from its mirror image.
+        """Say why the mechanism cannot move, or cannot be distinguished from its mirror image.
 
         Returns
         -------
@@ -332,7 +332,7 @@ the spring, with a curve in `[spring]`."""
         return (LengthLimit("strut_length", in_metres(least, "mm"), "strut", end),)
 
     def rate_key(self, part: str) -> str:
-        """Return where the rate of the spring or the damper stands: with the strut, usually."""
+        """Return where the rate of the spring or the damper is: with the strut, usually."""
         if part == "spring" and self.spring is not None:
             return super().rate_key(part)
         return super().rate_key(part).replace(f"[{part}] ", f"[strut] {part}_")
@@ -363,7 +363,7 @@ the spring, with a curve in `[spring]`."""
     # -- what holds it together -----------------------------------------------------------------
 
     def structure(self) -> Structure:
-        """Return the joints; the spring stands on the chassis, beside the mount of the strut."""
+        """Return the joints; the spring acts on the chassis, beside the mount of the strut."""
         joints = (
             HingeJoint("chassis", "control_arm", self.hardpoints.ARMS["ball_joint"]),
             SphericalJoint("control_arm", "knuckle", ("ball_joint",)),

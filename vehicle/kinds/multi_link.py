@@ -141,7 +141,7 @@ class MultiLinkHardpoints(Hardpoints):
             f"knuckle, which {words} (shift and turn {found}): if a link is a little longer, it "
             f"moves {times} with the wheel at its height; at most {_LOOSEST:g} times are allowed. "
             "Let no two links lie on one line, no three in a plane meet in a point, no four meet "
-            "in one at all, and let the toe link stand across the steering axis."
+            "in one at all, and let the toe link pass at a distance from the steering axis."
         )
         return [problem]
 
@@ -194,7 +194,7 @@ class FrontLowerLink(Link):
 
 
 class RearLowerLink(Link):
-    """The rear lower link, on which the spring stands."""
+    """The rear lower link, which carries the spring."""
 
     NAME: ClassVar[str] = "rear_lower_link"
 
@@ -215,7 +215,7 @@ class MultiLinkBodies(Bodies):
 
     knuckle: Carrier = Field(description="the knuckle")
     rear_lower_link: RearLowerLink = Field(
-        description="the rear lower link, on which the spring stands"
+        description="the rear lower link, which carries the spring"
     )
     front_upper_link: FrontUpperLink = Field(
         default=FrontUpperLink(mass_kg=0.0), description="the front upper link, without mass"
@@ -246,7 +246,7 @@ class MultiLink(CoilSprung):
     PAGE: ClassVar[str] = """: five links between chassis and knuckle.
 
 Two upper and two lower links and a toe link (`tie_rod`) hold the knuckle; two links that meet in
-one point of it are an arm. The spring stands on the rear lower link, the damper on the knuckle.
+one point of it are an arm. The spring acts on the rear lower link, the damper on the knuckle.
 Where the spring is free of force is said by the distance of its ends (`free_length_mm`) or by its
 force at the design position (`force_at_design_N`). The stops are touched by the damper's length."""
 

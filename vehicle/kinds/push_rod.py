@@ -1,7 +1,7 @@
 """The double wishbone suspension with push rod and rocker: spring and damper lie on the chassis.
 
 What it has besides the double wishbone: its hardpoints, bodies and checks, its equations, its
-structure and how it is drawn. What moves the rocker is told by its name alone.
+structure and how it is drawn. The rod that moves the rocker is known by its name alone.
 """
 
 from collections.abc import Mapping
@@ -54,7 +54,7 @@ class RockerHardpoints(DoubleWishboneHardpoints):
     spring_seat: Triple = Field(description="end of spring and damper on the rocker")
 
     def geometry_problems(self) -> list[str]:
-        """Say why the mechanism cannot move, or cannot be told from its mirror image.
+        """Say why the mechanism cannot move, or cannot be distinguished from its mirror image.
 
         Returns
         -------

@@ -158,7 +158,7 @@ class TrailingArm(CoilSprung):
 
 The wheel swings about the line through `arm_inner` and `arm_outer`: across the car it is a trailing
 arm, askew a semi-trailing one. Nothing steers the wheel: there is no tie rod and no `[rack]`, and
-what needs them is left out or refused. Spring and damper stand on the arm, each with ends of its
+what needs them is left out or refused. Spring and damper act on the arm, each with ends of its
 own. Where the spring is free of force is said by the distance of its ends (`free_length_mm`) or by
 its force at the design position (`force_at_design_N`). The stops are touched by the damper's
 length."""

@@ -1,4 +1,4 @@
-"""How bodies stand and turn along a way, by which two neighbours on it are on one branch.
+"""Attitudes and rotations of bodies along a way, by which two neighbours on it are on one branch.
 
 Loops that are solved by iteration are followed straight from the design position to each position
 that is asked for (`equations.following`). Two neighbours on another way, as those of an arm that

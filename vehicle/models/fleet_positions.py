@@ -77,7 +77,7 @@ def _covers(table: Branch, heights: Array) -> Flags:
 
 
 def _racks_get_there(fleet: Fleet, rack: Array) -> Flags:
-    """Tell whose rack gets to both of its ends with the arm in its design position."""
+    """Return the cars whose rack gets to both of its ends with the arm in its design position."""
     design = fleet.design_state[..., 0]
     there = np.ones(len(design), dtype=bool)
     for end in {float(rack.min()), float(rack.max())} - {0.0}:

@@ -1,6 +1,6 @@
 """What no suspension of a car looks like: signs, units and points that people get wrong.
 
-Everything here can move, so that nothing of it is refused; `kintrafo check` tells it. A *problem*
+Everything here can move, so that nothing of it is refused; `kintrafo check` shows it. A *problem*
 is what is almost surely a mistake, and the text says which; a *note* is what is unusual. Limits lie
 between what cars have and what the mistake makes of it, on a scale of factors half way: units that
 are mistaken differ by 1,000 or more.
@@ -81,7 +81,7 @@ class WholeVehicle(Protocol):
 
 @dataclass(frozen=True)
 class Plausibility:
-    """What is told of a file.
+    """What is reported of a file.
 
     Attributes
     ----------
@@ -193,7 +193,7 @@ def stray_points(points: Mapping[str, Array], unit: str) -> Iterator[str]:
     Parameters
     ----------
     points : mapping of str to ndarray
-        By what stands in the file: their places [m].
+        By what is in the file: their places [m].
     unit : str
         Of the file.
     """
@@ -240,7 +240,7 @@ def unlikely_rates(
     mass : float
         Of all bodies of a wheel [kg].
     key : callable
-        Returns where the rate of a part, "spring" or "damper", stands in the file.
+        Returns where the rate of a part, "spring" or "damper", is in the file.
     """
     tyre, damper = (values[f"{part}_rate"] for part in ("tyre", "damper"))
     spring = float(rate_at(values, np.array(length)))
@@ -315,7 +315,7 @@ def unlikely_vehicle(vehicle: WholeVehicle) -> Iterator[str]:
 
 
 def unusual_alignment(wheel: Wheel) -> Iterator[str]:
-    """Find wheels that stand as on no car."""
+    """Find wheels in positions that no car has."""
     for name in ("camber_deg", "toe_deg"):
         value = getattr(wheel, name)
         if abs(value) > _MOST_ALIGNMENT:
@@ -335,7 +335,7 @@ def unlikely_tyre(tyre: Tyre) -> Iterator[str]:
         if rate is not None and vertical and not 1.0 / _ALIKE <= rate / vertical <= _ALIKE:
             yield (
                 f"[tyre] {name} = {rate:g} N/m, beside a rate_N_per_m of {vertical:g} N/m: tyres "
-                "give way in all directions by much the same. Is one of them in N/mm?"
+                "deflect by much the same in all directions. Is one of them in N/mm?"
             )
 
 

@@ -35,7 +35,7 @@ def hardpoints(
     -------
     dict
         Name to position [m], shape (..., 3). Points that the file leaves out are where those are
-        that stand in for them.
+        that replace them.
 
     Examples
     --------

@@ -118,7 +118,7 @@ def state_at_height(
     -------
     State
         With zero rates but that of the wheel's spin. It carries the position of its rack, for
-        whatever takes a state and inputs.
+        every function that takes a state and inputs.
 
     Raises
     ------

@@ -109,7 +109,7 @@ def travel_range(model: Model, rack_position: float = 0.0) -> Range:
 
 @lru_cache(maxsize=_KEPT)
 def _range(model: Model, rack_position: float) -> Range:
-    """Look for the ends once: whoever asks for one position at rest asks for the next."""
+    """Look for the ends once: a request for one position at rest is followed by others."""
     racks = np.array([rack_position])
     _refuse_racks(model, racks)
     (low, low_limits), (high, high_limits) = (ends_of(model, racks, way) for way in (+1.0, -1.0))
@@ -390,7 +390,7 @@ def _look(model: Model, angles: Array, racks: Array) -> Seen:
     """Return whether the loops close and the wheel rises as the arm does.
 
     The limit of what is not usable is the index of a margin, or `_TURNS_BACK`; behind the margins
-    of the equations stand those of the lengths that the file allows.
+    of the equations are those of the lengths that the file allows.
     """
     states, inputs = at_rest(model, angles, racks, arm_rate=1.0)
     margins = margins_at(model, states, inputs)

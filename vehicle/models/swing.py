@@ -6,10 +6,10 @@ neighbours that are both fine say nothing about what is between them, unless eve
 the scale of their distance. That can be seen: the mean of two slopes and the chord between them
 belong to one smooth curve (the trapezoidal rule), and so do three values of a margin.
 
-Where loops are solved by iteration, neighbours may be on different branches as well, and the bodies
-stand differently there (`attitudes`). Around the point at which branches meet, positions x belong
-to coordinates ``a = x^3 - d x``: between two branches, whose rates differ by a factor of three at
-most, the trapezoidal rule misses the jump by half of it or more.
+Where loops are solved by iteration, neighbours may be on different branches, too, and the bodies
+have other attitudes there (`attitudes`). Around the point at which branches meet, positions x
+belong to coordinates ``a = x^3 - d x``: between two branches, whose rates differ by a factor of
+three at most, the trapezoidal rule misses the jump by half of it or more.
 """
 
 from collections.abc import Callable
@@ -57,7 +57,7 @@ class Seen(NamedTuple):
     margins : ndarray, shape (..., places, margins)
         Must be positive.
     attitudes : Attitudes
-        How the bodies stand, as far as loops are solved by iteration.
+        Attitudes of the bodies, as far as loops are solved by iteration.
     """
 
     usable: NDArray[np.bool_]
@@ -69,7 +69,7 @@ class Seen(NamedTuple):
 
 
 def resolved(width: Array, seen: Seen) -> NDArray[np.bool_]:
-    """Tell between which neighbours nothing can be that they do not show.
+    """Return between which neighbours nothing can be that they do not show.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def resolved(width: Array, seen: Seen) -> NDArray[np.bool_]:
 
 
 def _on_one_branch(width: Array, attitudes: Attitudes) -> NDArray[np.bool_]:
-    """Tell between which neighbours the bodies turn as their rates say."""
+    """Return between which neighbours the bodies turn as their rates say."""
     turned, rate = attitudes
     if not turned.shape[-1]:
         return np.ones((), dtype=bool)
@@ -109,7 +109,7 @@ def _on_one_branch(width: Array, attitudes: Attitudes) -> NDArray[np.bool_]:
 
 
 def margins_stay(margins: Array) -> NDArray[np.bool_]:
-    """Tell between which neighbours all margins stay positive.
+    """Return between which neighbours all margins stay positive.
 
     Parameters
     ----------

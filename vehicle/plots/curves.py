@@ -57,7 +57,7 @@ def write(
     formats : sequence of str, optional
         Of 'png', 'svg' and 'pdf'.
     title : str, optional
-        Stands above each figure, usually the name of the data.
+        Title of each figure, usually the name of the data.
     suffix : str, optional
         Ends the name of each file, before its ending.
     goals : sequence of Goal, optional
@@ -246,7 +246,7 @@ def figure(
     alone : bool, optional
         Whether this is the figure of one curve, with its definition where there is one.
     columns : int, optional
-        How many curves stand beside each other at most.
+        Largest number of panels in a row.
     goals : sequence of Goal, optional
         Targets and limits, drawn into the curves that they are about; of an axle those over its
         motion alone.

@@ -86,7 +86,7 @@ def mark(
 ) -> NDArray[np.float64]:
     """Mark what characteristics are wanted to be, and what they must not pass.
 
-    A target is a point with what matters of it to either side; of limits, arrows stand beyond.
+    A target is a point with what matters of it to either side; of limits, arrows lie beyond.
 
     Parameters
     ----------

@@ -37,7 +37,7 @@ def write_panels(
     height : float
         Of a row [in].
     title : str
-        Stands above the figure.
+        Title of the figure.
     force : bool
         Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path

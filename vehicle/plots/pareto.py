@@ -30,7 +30,7 @@ def write_front(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write a front, the suspension as it was, and members that stand out.
+    """Write a front, the suspension as it was, and members that are marked.
 
     Parameters
     ----------

@@ -36,7 +36,7 @@ class Curve:
     label, definition, sign : str
         Words for the reader.
     group : str
-        Heading under which it stands.
+        Heading under which it is.
     unit : str
         Unit for the reader.
     factor : float

@@ -176,7 +176,7 @@ class Grid:
     ) -> Array:
         """Interpolate samples that jump where a gap closes, from their own side of the jump alone.
 
-        The gaps themselves are smooth. Their signs tell on which side a place is; of the grid's
+        The gaps themselves are smooth. Their signs show on which side a place is; of the grid's
         points only those on the same side take part, and the cubic reaches out from them up to the
         jump.
 

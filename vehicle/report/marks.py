@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 # Positions that are nearer to the end of a chart are in it [m].
 _ROUNDING = 1e-9
-# Numbers come from units for people, and go back to them: what is more is rounding.
+# Numbers come from display units, and go back to them: what is more is rounding.
 _DIGITS = 12
 
 

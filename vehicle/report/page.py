@@ -84,7 +84,7 @@ def write(
     title : str, optional
         Heading of the page; by default it says what the suspension is.
     chapters : sequence of Chapter, optional
-        What stands there besides: see `kintrafo.report.axle_chapter`, `loads_chapter`,
+        Further chapters: see `kintrafo.report.axle_chapter`, `loads_chapter`,
         `compliance_chapter` and `elastokinematics_chapter`.
     without : collection of str, optional
         Characteristics that are left out: of a rear axle those that only a front axle has.
@@ -262,7 +262,7 @@ def _sample(
 def _look(curve: Curve, grid: Grid, shown: tuple[float, float], accuracy: Accuracy) -> Look:
     """Return how a curve is shown.
 
-    Its decimals tell values through the design position apart, and say what the one at design is.
+    Its decimals distinguish values through the design position, and say what the one at design is.
     """
     values = curve.through_design(grid)
     drawn = values if np.isfinite(values).any() else curve.values

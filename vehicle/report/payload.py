@@ -50,7 +50,7 @@ def page_data(
     marks: Marks,
     motion: Motion | NoMotion,
 ) -> str:
-    """Return the data of the page as JSON that may stand inside of an HTML element.
+    """Return the data of the page as JSON that is safe inside an HTML element.
 
     Parameters
     ----------

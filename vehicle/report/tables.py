@@ -51,7 +51,7 @@ class InputTable:
     Attributes
     ----------
     name : str
-        As in the file; empty for what stands above the first section.
+        As in the file; empty for keys before the first section.
     meaning : str
         What the section is.
     rows : list of tuple of str
@@ -112,7 +112,7 @@ def _row(curve: Curve, value: float, decimals: int, usual: dict[str, Any] | None
 
 
 def input_tables(described: Section) -> list[InputTable]:
-    """Return the input data as they stand in the file, section by section.
+    """Return the input data as they are in the file, section by section.
 
     Parameters
     ----------

@@ -143,7 +143,7 @@ def _together(
     looks: Sequence[Curves],
     found: Sequence[Array],
 ) -> NDArray[np.bool_]:
-    """Fill what can be found of all together, and tell of whom that is."""
+    """Fill what can be found of all together, and return for whom."""
     nominal = _in_file(suspension, values)
     there = np.ones(next(iter(values.values())).size, dtype=bool)
     for _ in range(_MOST_TRIES):

@@ -100,6 +100,6 @@ class Candidates:
         return [place.name for place, part in pairs if abs(part) > 1.0 - _AT_THE_END]
 
     def moved(self, x: Array) -> dict[str, float]:
-        """Return by how much values have moved, in the units for people, by name."""
+        """Return by how much values have moved, in the display units, by name."""
         pairs = zip(self.places, x * self.reach, strict=True)
         return {place.name: float(by / place.to_si) for place, by in pairs}

@@ -43,7 +43,7 @@ class Curves:
         return sweep_axis(self.over).along
 
     def quantity(self, name: str) -> Quantity:
-        """Return what a name stands for."""
+        """Return what a name represents."""
         return sweep_axis(self.over).known[name]
 
     def of(self, assembly: Assembly) -> Array:

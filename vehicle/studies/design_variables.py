@@ -43,7 +43,7 @@ class DesignVariable:
     ----------
     name : str
         Section and key with dots between them, and the component of a point:
-        ``hardpoints.ball_joint.z``. That of a list stands for a factor on all of it.
+        ``hardpoints.ball_joint.z``. That of a list represents a factor on all of it.
     unit : str
         In which a person reads it: ``mm``, ``deg``, ``N/m``; empty for a pure number.
     value : float
@@ -75,7 +75,7 @@ class DesignVariable:
 
     @property
     def to_si(self) -> float:
-        """What a value in the unit for people is multiplied with for SI units."""
+        """Factor from the display unit to the SI unit."""
         return _TO_SI.get(self.unit, 1.0)
 
     def attributes(self) -> dict[str, Any]:
@@ -128,7 +128,7 @@ def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, 
         Gets what is wrong.
     suspension : Suspension
     patterns : sequence of str
-        A number, or all within a section or a point; ``*`` stands for anything:
+        A number, or all within a section or a point; ``*`` represents anything:
         ``hardpoints.*.z``.
     """
     known = places_of(suspension)
@@ -192,7 +192,7 @@ def amounts(
 ) -> dict[DesignVariable, float]:
     """Return an amount in SI units for every number that a pattern names; later patterns count.
 
-    They are in the order of the file, whatever that of the patterns is. A text such as "20 %" is a
+    They are in the order of the file, for any order of the patterns. A text such as "20 %" is a
     part of each value.
     """
     found: dict[str, tuple[DesignVariable, float]] = {}

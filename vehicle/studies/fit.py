@@ -80,12 +80,12 @@ class Fit:
     places : tuple of DesignVariable
         The values that may be off, as they were.
     moved : dict of str to float
-        By how much each is off, in the unit for people.
+        By how much each is off, in the display unit.
     uncertainty : dict of str to float
         Its standard deviation with the measurement known, in the same unit.
     told : dict of str to float
         From 0 to 1, which part of the variance that its tolerance leaves the measurement takes
-        away: of what is near 0 it tells nothing, and the value stays where it was.
+        away: near 0 the curves do not determine the value, and it stays where it was.
     curves : tuple of Fitted
     success : bool
         Whether the solver has come to its end and every curve is explained: what is left of it is
@@ -132,7 +132,7 @@ def fit(
         third of it as standard deviation. None is moved farther. A text such as ``"30 %"`` is a
         part of the value, as of the stiffness of a bush.
     accuracy : mapping of str to float, optional
-        Standard deviation with which characteristics are measured, in the unit for people. By
+        Standard deviation with which characteristics are measured, in the display unit. By
         default 2 % of what the curve varies by.
     names : sequence of str, optional
         Which of the curves are to be explained; by default all.
@@ -282,7 +282,7 @@ def _fit(search: Search, x: Array, gave_up: str) -> Fit:
         "the solver gave up": [gave_up] if gave_up else [],
         "not explained": [curve.name for curve in curves if not curve.is_explained],
         "at the end of its tolerance": search.at_the_end(x),
-        "the curves tell nothing of": [
+        "the curves do not determine": [
             name for name, part in zip(names, told, strict=True) if part < _LEAST_TOLD
         ],
     }

@@ -54,12 +54,12 @@ class Goal:
 
     @property
     def quantity(self) -> Quantity:
-        """What the name stands for."""
+        """What the name represents."""
         return sweep_axis(self.over).known[self.name]
 
     @property
     def over_words(self) -> str:
-        """What stands behind the name where it is not over the usual: `` over the rack``."""
+        """What follows the name where it is not over the usual: `` over the rack``."""
         usual = self.over in ("travel", "bump") or self.over in HELD
         return "" if usual else f" over {sweep_axis(self.over).words}"
 
@@ -345,10 +345,10 @@ def targets_of(
     *,
     weighed: bool = True,
 ) -> list[Target]:
-    """Read targets, by the names of characteristics; in millimetres and units for people.
+    """Read targets, by the names of characteristics; in millimetres and display units.
 
     A characteristic has a table, or several in a list: over travel and over the rack. Where targets
-    are not weighed against each other, ``within`` may be left out; where it stands it is checked.
+    are not weighed against each other, ``within`` may be left out; where it is given it is checked.
     """
     found = []
     for name, table in _tables(given, described, ("targets", ways), {"value", "within"}):
@@ -402,7 +402,7 @@ class _Table:
         return number / self.factor
 
     def numbers(self, key: str) -> Array:
-        """Return a number for each position in SI units; one stands for all."""
+        """Return a number for each position in SI units; one represents all."""
         name = f"{self.title} {key}"
         values = self.given.array(name, self._given(key), self.unit, dimensions=[0, 1])
         if values.size not in (1, self.at.size):

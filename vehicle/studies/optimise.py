@@ -42,7 +42,7 @@ class Optimum:
     places : tuple of DesignVariable
         The values that were free, as they were.
     moved : dict of str to float
-        By how much each has moved, in the unit for people.
+        By how much each has moved, in the display unit.
     targets : tuple of Target
     limits : tuple of Limit
     success : bool
@@ -77,7 +77,8 @@ def optimise(
     """Move values of the input file until characteristics come to their targets.
 
     The sum of the squared deviations becomes as small as it can, each in parts of what matters of
-    it (``within``); limits are kept. Of several ways that do as well, values move least.
+    it (``within``); limits are kept. Of several solutions that are equally good, the one that moves
+    values least is taken.
 
     Parameters
     ----------
@@ -87,7 +88,7 @@ def optimise(
         N/m, ...), by their places as `sensitivity` takes them. Everything else stays.
     targets : mapping
         By characteristic: ``at_mm``, positions; ``value``, one for all or one for each; ``within``,
-        a deviation that matters; ``over``, 'travel' or 'rack'. In mm and units for people. Or a
+        a deviation that matters; ``over``, 'travel' or 'rack'. In mm and display units. Or a
         list of several such. Of a file with bushes also by the names of
         `kintrafo.compliance.linear`, with ``held``.
     limits : mapping, optional

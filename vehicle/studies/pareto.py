@@ -58,7 +58,7 @@ class Front:
     objectives : tuple of Objective
     limits : tuple of Limit
     moved : tuple of dict of str to float
-        By how much each value of each member has moved, in the unit for people.
+        By how much each value of each member has moved, in the display unit.
     compromise : int
         The member whose objectives are nearest to the best of each, in parts of their ranges over
         the front; 0 where there is no member.
@@ -308,7 +308,7 @@ class _Judge:
         return costs, -np.concatenate([np.zeros(1), *rooms])
 
     def idle(self) -> list[str]:
-        """Name the values that move nothing from one end of their ranges to the other."""
+        """Name the values without any effect from one end of their ranges to the other."""
         here = np.zeros(len(self.candidates.places))
         return [
             place.name

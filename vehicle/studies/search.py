@@ -80,7 +80,7 @@ class Search(Candidates):
         return x - by, x, x + by
 
     def idle(self, x: Array) -> list[str]:
-        """Name the values that move no target, neither here nor from one end to the other."""
+        """Name the values without effect on a target, here and from one end to the other."""
         self.look_at(at for which in range(x.size) for at in self._beside(x, which))
         return [
             place.name

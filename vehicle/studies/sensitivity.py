@@ -69,7 +69,7 @@ def sensitivity(
     suspension : Suspension, Axle or RigidAxle
     places : sequence of str, optional
         The values: section and key with dots between them, such as ``hardpoints.ball_joint.z``. A
-        point or a section stands for all of its numbers, ``*`` for anything.
+        point or a section represents all of its numbers, ``*`` for anything.
     over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
         What varies along the curves. Of a corner ``travel``, by default, or ``rack``; of axles and
         rigid axles ``bump`` (both wheels), by default, or one of the last three.
@@ -88,7 +88,7 @@ def sensitivity(
     xarray.Dataset
         Each characteristic over ``place`` and the positions: its derivative by the value, SI units,
         each car's own position above its own design position. NaN where a curve has a kink, as
-        where a stop begins to act. What a section or ``*`` stands for and cannot move, as an
+        where a stop begins to act. Values of a section or ``*`` that cannot move, as an
         inertia of a part without mass, is left out: ``left_out`` among the attributes names it, and
         ``message`` says why.
 
@@ -143,7 +143,7 @@ def sensitivity(
     return dataset.assign_attrs(left_out=", ".join(left_out), message=_message(left_out))
 
 
-_ALONE = "a file cannot have values beside them (name one in full to be told why)"
+_ALONE = "a file cannot have values beside them (name one in full to see why)"
 _RIGID = "nothing here depends on bushes, joints are rigid"
 # So many values that are left out are named in a message; the dataset names all.
 _NAMED = 3
@@ -175,7 +175,7 @@ def derivatives(
 ) -> Array:
     """Return the derivatives of some curves by values; (places, names, positions), SI units.
 
-    The neighbours to both sides are looked at together; whoever lacks one goes by itself.
+    The neighbours to both sides are looked at together; a car that lacks one goes by itself.
     """
     steps = [*_BOTH_SIDES[0]]
     off = np.zeros((len(places) * len(steps), len(places)))
@@ -330,7 +330,7 @@ class Effect(NamedTuple):
     place : str
         The value's name.
     size : float
-        The derivative, in the units for people of both.
+        The derivative, in the display units of both.
     unit : str
         'deg/mm per mm'
     """

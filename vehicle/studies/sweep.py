@@ -46,7 +46,7 @@ def sweep(
     ----------
     suspension : Suspension, Axle or RigidAxle
     values : mapping of str to array_like
-        The values that each place of the input file takes, in its unit for people (mm, deg, N/m,
+        The values that each place of the input file takes, in its display unit (mm, deg, N/m,
         ...): ``{"strut.spring_rate_N_per_m": [20e3, 25e3]}``.
     scenario : Scenario, optional
         Road, rack and start; by default a second at rest. Where it gives no height, each suspension
@@ -119,14 +119,14 @@ def _axes(
         places = matching(given, suspension, [name] if isinstance(name, str) else name)
         refuse_bushes(given, places.values(), ())
         if len(places) > 1:
-            given.refuse(f"{name} stands for {len(places)} numbers: name one of them.")
+            given.refuse(f"{name} names {len(places)} numbers: name one of them.")
             continue
         for place in places.values():
             numbers = given.array(f"values of {name}", along, place.unit, dimensions=[0, 1])
             if np.unique(numbers).size != numbers.size:
                 given.refuse(f"values of {name}: each is needed once.")
             if place in axes:
-                given.refuse(f"{name} stands for {place.name}, which is named twice.")
+                given.refuse(f"{name} is {place.name}, which is named twice.")
             axes[place] = np.atleast_1d(numbers) * place.to_si
     if not axes:
         given.refuse("values: one place or more is needed.")

@@ -67,7 +67,7 @@ def tolerance(
         Of the values, in the order of the file, where they do not vary independently; of the
         normal distribution only.
     limits : mapping, optional
-        By characteristic: ``at_mm``, ``least`` and ``most``, in mm and the unit for people, as in a
+        By characteristic: ``at_mm``, ``least`` and ``most``, in mm and the display unit, as in a
         file of limits.
     count : int, optional
         How many cars.

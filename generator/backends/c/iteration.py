@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ...program.function import Block
 
 _KEPT = "\N{NO-BREAK SPACE}"
-"""Stands for a space at which no line is broken."""
+"""Represents a space at which no line is broken."""
 
 
 def once(block: Block) -> str:

@@ -348,14 +348,14 @@ class Source(CText):
         return "\n".join([*lines, "    return status;", "}"])
 
     def constants_in(self, c: str) -> dict[str, str]:
-        """Return how constants are read, and their directions, which stand behind them."""
+        """Return how constants are read, and their directions, which follow them."""
         labels = self.derivation.prepare.labels
         names = {name: f"{c}->{name}" for name in labels}
         behind = self.derivation.by_parameters.places("constants")
         return names | {n: f"{c}[1].{labels[i - len(labels)]}" for n, i in behind.items()}
 
     def _places(self, array: str, names: Iterable[str]) -> dict[str, int]:
-        """Return the places of the elements of an array, with what stands behind its values."""
+        """Return the places of the elements of an array, with what follows its values."""
         behind = self.derivation.by_parameters.places(array)
         return {name: i for i, name in enumerate(names)} | behind
 

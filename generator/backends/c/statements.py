@@ -45,7 +45,7 @@ def declared(assignments: Sequence[str]) -> list[str]:
 
 
 def in_all_lanes(text: str) -> str:
-    """Write a value; one that is a number has to be told that it may stand for a vector."""
+    """Write a value; one that is a number is marked where it may be a vector."""
     return text if set(text) & _LETTERS else _IN_ALL_LANES.format(text)
 
 

@@ -245,7 +245,7 @@ def _transformer(transformer: Transformer) -> dict[str, Any]:
 
 
 def _text(value: Any, indent: int) -> str:
-    """Return JSON text: what fits into a line stands in one."""
+    """Return JSON text: what fits into a line is in one."""
     line = json.dumps(value, ensure_ascii=False)
     if not isinstance(value, dict | list | tuple) or indent + len(line) <= WIDTH:
         return line

@@ -31,7 +31,7 @@ class ArraysPrinter:
         self.derivation = derivation
 
     def source(self) -> str:
-        """Return the text of the file that stands in for the addresses of the C functions."""
+        """Return the text of the file that replaces the addresses of the C functions."""
         return template("numpy", "arrays.py").substitute(
             name=self.derivation.formulation.name,
             rounding=ROUNDING,
@@ -173,7 +173,7 @@ def loaded(
     Parameters
     ----------
     behind
-        Names and places of what stands behind the values.
+        Names and places of what follows the values.
     """
     read = {s.name for s in function.free_symbols}
     read.update(s.name for guard in function.guards for s in guard.floor.free_symbols)

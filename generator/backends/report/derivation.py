@@ -203,7 +203,8 @@ def _structure(topology: Topology) -> list[Block]:
         ),
         Picture(
             "graph",
-            "Joint graph: bodies, joints, and on each joint its number of freedoms (paper: "
+            "Joint graph: bodies, joints, and on each joint its number of degrees of freedom "
+            "(paper: "
             "Figure 2).",
             mermaid(topology),
         ),
@@ -214,7 +215,8 @@ def _structure(topology: Topology) -> list[Block]:
         ),
         Heading(2, "Shortest paths in the joint graph"),
         Paragraph(
-            "An edge is as long as its joint has freedoms. Where several paths are equally short, "
+            "An edge is as long as its joint has degrees of freedom. Where several paths are "
+            "equally short, "
             "all are listed."
         ),
         Table(("", *map(str, mechanism.numbers.values())), path_rows(topology)),
@@ -243,7 +245,7 @@ def _transformers(derivation: Derivation, number: Equations) -> Iterator[Block]:
     yield Paragraph(
         "A loop is cut at a pair of joints whose points keep a known distance. Of the six "
         "equations of a loop in space, or the three of one in a plane, one is left then, with one "
-        "unknown; which pairs there are, a table tells for each loop. What a transformer takes is "
+        "unknown; a table lists the pairs of each loop. What a transformer takes is "
         "known when its turn has come."
     )
     yield Picture(

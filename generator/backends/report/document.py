@@ -1,4 +1,4 @@
-"""What a report is made of, whatever it is written in.
+"""The elements of a report, in any output format.
 
 Texts within a line are marked as forges read them: ``code`` between backticks, formulas between
 $` and `$, and what is strong between two stars. `pieces` takes them apart.

@@ -245,7 +245,7 @@ def _view(points: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
 
 
 _SHOWN = {
-    False: "physical joints\non each joint its number of freedoms",
+    False: "physical joints\non each joint its number of degrees of freedom",
     True: "elementary joints\n"
     "R hinges, P guides; between those of one joint, white, its fictitious bodies",
 }
@@ -381,7 +381,7 @@ def _plain(name: str) -> str:
 
 
 def _columns(plan: Plan) -> list[int]:
-    """Return behind how many others in a row each transformer stands, by what it takes."""
+    """Return how many others in a row precede each transformer."""
     found: dict[str, int] = {}
     columns = []
     for t in plan.transformers:

@@ -1,7 +1,7 @@
 """The report from velocities on: screws of the joints, Jacobians, M, B and Q.
 
 Formulas are LaTeX in the signs that the section *Signs* explains. Everything follows from the
-declaration; what the compiled functions compute stands beside it by its name.
+declaration; what the compiled functions compute is beside it by its name.
 """
 
 from __future__ import annotations
@@ -283,7 +283,7 @@ def along(joint: Joint) -> str:
 
 
 def plain(name: str) -> str:
-    """Return a name as it can stand in a formula."""
+    """Return a name as it can be in a formula."""
     return name.replace("_", r"\ ")
 
 
@@ -323,13 +323,13 @@ _SIGNS = {
     ),
     "^0": (r"a raised $`0`$", "the value at the design position"),
 }
-"""What each sign stands for, by what shows that it is used."""
+"""What each sign represents, by what shows that it is used."""
 
 _SHAFTS = (
     r"A shaft that universal joint J holds turns about itself as the cross demands: with "
     r"$`\mathbf{h}_{\mathrm{J}}`$ normal to both axes of the cross, its angular velocity relative "
     r"to the first body has no part along $`\mathbf{h}_{\mathrm{J}}`$. In the velocities of the "
-    r"shaft itself $`\mathbf{c}`$ stands for $`\mathbf{a}`$:"
+    r"shaft itself $`\mathbf{c}`$ represents $`\mathbf{a}`$:"
 )
 
 
@@ -469,7 +469,7 @@ def _absolute(motion: Motion, number: Equations) -> list[Block]:
 
 
 def _signs(blocks: list[Block]) -> Iterator[tuple[str, str]]:
-    """Yield the signs that some blocks use, and what they stand for."""
+    """Yield the signs that some blocks use, and what they represent."""
     cells = (
         cell for block in blocks if isinstance(block, Table) for row in block.rows for cell in row
     )

@@ -69,7 +69,7 @@ def draw(plan: Plan, path: Path, *, force: bool = False) -> None:
         )
     axes.set_title(
         f"{mechanism.title}: joint graph\nmobility {topology.mobility}, "
-        f"{topology.loop_count} independent loops; on each joint its number of freedoms",
+        f"{topology.loop_count} independent loops; on each joint its number of degrees of freedom",
         fontsize=11,
     )
     axes.margins(0.12)

@@ -1,6 +1,6 @@
 """What acts on the bodies: a file for each kind of force, which is all there is to do for another.
 
-Whatever is defined in this folder is found here.
+All forces that are defined in this folder are found here.
 """
 
 from __future__ import annotations

@@ -75,7 +75,7 @@ class Force(ABC):
     @property
     @abstractmethod
     def identity(self) -> tuple[str, str]:
-        """Kind and name, by which one of them is told from another; each is there once."""
+        """Kind and name, by which one of them is distinguished from another; each is there once."""
 
     @property
     def along(self) -> Joint | None:

@@ -28,7 +28,7 @@ class WheelLoads(Force):
     """Forces and moments on a wheel that may spin, in the axes of the tyre (ISO 8855).
 
     With ``a`` the spin axis, which points to the left, and ``e_z`` up, forward is along
-    ``a x e_z``, which is horizontal and in the plane of the wheel; left is horizontal as well. The
+    ``a x e_z``, which is horizontal and in the plane of the wheel; left is horizontal, too. The
     lowest point of the wheel, a thin disc, is from its centre ``-radius (e_z - a a_z) / sqrt(1 -
     a_z^2)``.
 

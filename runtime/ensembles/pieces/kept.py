@@ -1,6 +1,6 @@
 """A folder in which what was found of an ensemble is kept until all of it is there.
 
-`ensemble.json` tells which ensemble it is of; each other file is what was found of some systems,
+`ensemble.json` shows which ensemble it is of; each other file is what was found of some systems,
 written whole or not at all. It is a file of NumPy (.npz) with the digest of its bytes behind them.
 """
 
@@ -48,7 +48,7 @@ class Kept:
     collected: Collected
 
     def found(self) -> Iterator[ChunkResult]:
-        """Yield what is there; what is damaged is told of as a warning, and left out.
+        """Yield what is there; damaged parts are left out with a warning.
 
         Raises
         ------

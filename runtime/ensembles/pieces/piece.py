@@ -1,6 +1,6 @@
 """Some of the systems of an ensemble, and what was found of them: both go from machine to machine.
 
-What was found of a piece are the same bits wherever that was done, and in whatever pieces.
+The results of a piece are the same bits on any worker, and for any division into pieces.
 """
 
 from collections.abc import Callable, Mapping

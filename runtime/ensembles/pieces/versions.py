@@ -14,7 +14,7 @@ _PACKAGES = ("ensembles", "equations", "generated", "simulation", "systems")
 _ENDINGS = (".py", ".c", ".h", ".json")
 
 FILES = "files of kintrafo"
-"""What stands for the text of all that makes numbers: versions of a project in work are alike."""
+"""A text in place of the sources that determine numbers: development versions are alike."""
 
 
 @cache

@@ -5,7 +5,7 @@
 `integrate.c`, with the headers that it includes, below ``ensemble.h``    the solver
 `directions.c`, `directions`    directions in which one system moves, along the steps of its motion
 `solver.h`    what both solvers in C share
-`options`    what compilers are told for each width
+`options`    the options of compilers for each width
 `own`        equations that were compiled here, in lanes
 `library`    the compiled libraries, and which lanes the processor has
 `problem`    what is to be integrated, as C takes it

@@ -73,7 +73,7 @@ def followed(
 ) -> Array | None:
     """Return how what is looked at changes along directions.
 
-    The same bits in any number of lanes, and whatever other directions there are.
+    The same bits in any number of lanes, and with any other directions.
 
     Parameters
     ----------

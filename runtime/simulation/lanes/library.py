@@ -46,7 +46,7 @@ def functions(equations: ModuleType, width: int, variant: str) -> Mapping[str, i
     width : int
         One of `widths`.
     variant : str
-        What ends the name of the right-hand side that leaves out what stands still.
+        Suffix of the name of the right-hand side without the coordinates at rest.
 
     Raises
     ------

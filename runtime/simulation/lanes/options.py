@@ -1,4 +1,4 @@
-"""What a compiler is told for vectors of each width; `setup.py` reads this file, too."""
+"""The options of a compiler for vectors of each width; `setup.py` reads this file, too."""
 
 import platform
 import sys

@@ -114,7 +114,7 @@ class LaneOutputs:
         So many of the items are kept at all times.
     reductions : sequence of Reduction
     weights : ndarray
-        How long each output stands for the motion [s].
+        Weight of each output in time [s].
     bound_items : ndarray
         Places of signals that have a bound.
     above : ndarray

@@ -39,8 +39,8 @@ def run(problem: Problem, threads: int, finish: Finish, report: Report | None = 
     threads : int
     finish : callable
         Called with the first of some systems and the one behind the last, their samples, and what
-        tells whether the caller wants an end; from several threads at a time, with systems of their
-        own.
+        returns whether the caller wants an end; from several threads at a time, with systems of
+        their own.
     report : callable, optional
         Called with how many systems have been integrated, now and then.
     """

@@ -46,7 +46,7 @@ def compile_mechanism(
     What was compiled before is taken from a cache, as long as declaration, generator and compiler
     are the same. A declaration with a class of your own, such as a force, is derived at each call,
     since its code may have changed; it is compiled only where something else comes out. What was
-    damaged in the cache is found before it is loaded, told as a warning, and made again.
+    damaged in the cache is found before it is loaded, reported as a warning, and made again.
 
     Parameters
     ----------

@@ -58,7 +58,7 @@ def fingerprint(declared: str, *, built_by: str) -> str:
     declared : str
         Everything that a person declared, as text.
     built_by : str
-        Compiler with its options and version, or what stands in for it.
+        Compiler with its options and version, or what replaces it.
 
     Returns
     -------
@@ -110,7 +110,7 @@ def _described(path: Path) -> list[Any]:
 
 
 def _content(path: Path) -> bytes:
-    """Return the bytes of a file; a pipe would keep whoever reads it waiting."""
+    """Return the bytes of a file; a pipe would keep its reader waiting."""
     if path.exists() and not path.is_file():
         raise OSError(errno.EINVAL, "no ordinary file")
     return path.read_bytes()
@@ -214,7 +214,7 @@ def appearing(target: Path) -> Iterator[Path]:
     Raises
     ------
     InputError
-        If nothing can be written there, or others can write there as well.
+        If nothing can be written there, or others can write there, too.
     """
     try:
         make_folder(target.parent)

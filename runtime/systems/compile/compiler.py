@@ -122,7 +122,7 @@ class _Running:
     ----------
     command : list of str
     process : Popen
-        The first of a group of its own, in which what it starts is as well.
+        The first of a group of its own, in which what it starts is, too.
     said : file
         What it says.
     """

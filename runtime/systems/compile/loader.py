@@ -21,7 +21,7 @@ class AsItIs(SourceFileLoader):
     """Runs a file as it is: compiled bytes of an earlier time are neither read nor written."""
 
     def path_stats(self, path: Any) -> Any:
-        """Tell that no date is known, without which there are no compiled bytes."""
+        """Raise: no date is known, and so there are no compiled bytes."""
         raise OSError(path)
 
 

@@ -1,6 +1,6 @@
 """What a functional mock-up unit is made of.
 
-`description`  its variables, whatever the version of FMI
+`description`  its variables, for any version of FMI
 `units`        SI units as powers of base units
 `fmi2`, `fmi3` the model description and build description of a version
 `sources`      the C that it is compiled from

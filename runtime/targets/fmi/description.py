@@ -1,4 +1,4 @@
-"""The variables of a unit, and what else its description says, whatever the version of FMI."""
+"""The variables of a unit, and the rest of its description, for any version of FMI."""
 
 import hashlib
 import math
@@ -53,7 +53,7 @@ class Variable:
 
 @dataclass(frozen=True)
 class Crossing:
-    """A zero crossing that is told as an event.
+    """A zero crossing that is reported as an event.
 
     Attributes
     ----------

@@ -15,7 +15,7 @@ FOLDERS = {"linux": "x86_64-linux", "windows": "x86_64-windows"}
 
 
 def model_description(known: Description, sources: Sequence[str]) -> str:
-    """Return ``modelDescription.xml``; `sources` are told by the build description."""
+    """Return ``modelDescription.xml``; `sources` are reported by the build description."""
     del sources
     root = ET.Element(
         "fmiModelDescription",

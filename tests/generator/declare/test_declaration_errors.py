@@ -190,7 +190,7 @@ class TestTexts:
             lambda: replace(RUSR, forces=(torque,)),
             lambda: replace(RUSR, outputs=(PositionOf("pin", ROD, CRANK_PIN, text),)),
         ):
-            with pytest.raises(DeclarationError, match="cannot stand in a comment"):
+            with pytest.raises(DeclarationError, match="cannot be in a comment"):
                 make()
         with pytest.raises(DeclarationError, match="title of the model: the text"):
             replace(model(RUSR, "A"), title=text)
@@ -433,7 +433,7 @@ class TestRefusals:
         pin = mechanism.joint("F")
         stiff = Revolute("S", pin.first, mechanism.bodies[0], axis=pin.axis)
         mechanism = replace(mechanism, joints=(*mechanism.joints, stiff))
-        with pytest.raises(kintrafo.MechanismError, match="mobility -1: counting the freedoms"):
+        with pytest.raises(kintrafo.MechanismError, match="mobility -1: counting the degrees"):
             kintrafo.compile(mechanism)
 
 

@@ -166,7 +166,7 @@ WRONG: list[tuple[Any, dict[str, Any], str]] = [
     ({"ball_joint": {"axial_N_per_mm": 1.0}}, {}, "axis is needed"),
     ({"strut_lower": {"axial_N_per_mm": 1.0}}, {}, "nothing along its axis"),
     ({"arm_rear": {"radial_axis": [1.0, 0.0, 0.0]}}, {}, "lies along the axis"),
-    ({"arm_rear": {"tilt_Nm_per_deg": 1.0}}, {}, "one or more are needed that give way"),
+    ({"arm_rear": {"tilt_Nm_per_deg": 1.0}}, {}, "one or more are needed that deflect"),
     ({"arm_rear": {"radial_N_per_mm": 1e3}}, {"held": "body"}, "height, tyre, spring, locked"),
     ({"arm_rear": {"radial_N_per_mm": 1e3}}, {"travel": [np.nan]}, "finite"),
 ]

@@ -637,7 +637,7 @@ def test_loads_that_no_rubber_carries_are_refused(subject: str, what: str) -> No
     }
     words = {
         "bush": r"bush at \w+ deflects by .* mm, more than any bush can: 100 mm|that lasts",
-        "tyre": r"the standing tyre deflects by [\d.]+ mm, more than any tyre can: 200",
+        "tyre": r"the stationary tyre deflects by [\d.]+ mm, more than any tyre can: 200",
     }
     most = {"bush": 1e5, "tyre": 12e3}[what]
     with pytest.raises(PositionError, match=words[what]):

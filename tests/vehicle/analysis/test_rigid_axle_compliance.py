@@ -492,11 +492,11 @@ def test_five_rods_move_only_as_their_bushes_give_way() -> None:
     ):
         with pytest.raises(InputError, match="an axle on five rods heaves and rolls only as"):
             refused()
-    with pytest.raises(InputError, match="one or more must give way along itself"):
+    with pytest.raises(InputError, match="one or more must deflect along itself"):
         FIVE.with_changes({"bushings": {"upper_link_axle": {"radial_N_per_mm": 900.0}}})
     hinged = {"radial_N_per_mm": 900.0, "axis": [0.0, 1.0, 0.0]}
     FIVE.with_changes({"bushings": {"upper_link_axle": hinged}})
-    with pytest.raises(InputError, match="take all five"):
+    with pytest.raises(InputError, match="takes all five"):
         FIVE.with_changes({"bushings": None})
 
 
@@ -505,7 +505,7 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"panhard_rod": {"axial_N_per_mm": 900.0}}, "panhard_rod_chassis"),
     ({"panhard_rod_axle": {"axial_N_per_mm": -1.0}}, "axial_N_per_mm = -1"),
     ({"rack": {"axial_N_per_mm": 900.0}}, "bushings at 'rack' is not known"),
-    ({"panhard_rod_axle": {"tilt_Nm_per_deg": 5.0}}, "that give way"),
+    ({"panhard_rod_axle": {"tilt_Nm_per_deg": 5.0}}, "that deflect"),
     ({"wheel_center": {"torsion_Nm_per_deg": 5.0}}, "the brake holds the wheel"),
 ]
 

@@ -671,7 +671,7 @@ GEOMETRY = {
         (
             "the tie rod pulls with a lever of 0.078 mm about the strut axis; at least 1 mm "
             "are needed, or the linkage is at its dead centre. Move tie_rod_inner, so that "
-            "the rod stands across"
+            "the rod is not in line"
         ),
     ),
     "coordinate in another unit": (

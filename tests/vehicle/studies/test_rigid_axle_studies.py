@@ -204,7 +204,7 @@ def test_what_no_rods_allow_has_no_neighbour() -> None:
     with pytest.raises(InputError, match=r"no neighbour .*less than 45 deg"):
         variation.sensitivity(AXLE, over="roll", positions=[0.9])
     found = variation.cars(AXLE, {"rods.panhard_rod.axle.y": [-459.9999, 460.0]}, positions=[0.0])
-    assert "[rods.panhard_rod] stands upright" in str(found["reason"].values[0])
+    assert "[rods.panhard_rod] is upright" in str(found["reason"].values[0])
     assert str(found["reason"].values[1]) == ""
 
 

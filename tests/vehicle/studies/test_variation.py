@@ -425,7 +425,7 @@ def test_five_links_go_together() -> None:
 TOE = {"toe": {"value": 0.0, "within": 0.1}}
 
 WRONG = [
-    (lambda: variation.sweep(CAR, {"hardpoints.ball_joint": [1.0]}, BUMP), "stands for 3 numbers"),
+    (lambda: variation.sweep(CAR, {"hardpoints.ball_joint": [1.0]}, BUMP), "names 3 numbers"),
     (lambda: variation.sweep(CAR, {ROD: [280.0, 280.0]}, BUMP), "each is needed once"),
     (lambda: variation.sweep(CAR, {}, BUMP), "one place or more"),
     (

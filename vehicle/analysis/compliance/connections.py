@@ -1,6 +1,6 @@
 """What joints, bushes, springs and stops of a suspension measure between its bodies.
 
-What a joint keeps is a condition; what a bush gives way to has a force over the displacement.
+What a joint keeps is a condition; a bush has a force over the displacement.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -36,7 +36,7 @@ Carried = Mapping[tuple[str, str, str], Array]
 
 GROUND = "chassis"
 GUIDE = GROUND, RACK, "tie_rod_inner"
-"""The joint that holds a rack that gives way, of those that carry."""
+"""The joint that holds a rack that deflects, of those that carry."""
 
 # The pairs of directions of a wheel bearing that have its axis: what tilts.
 _TILTING = 2
@@ -46,14 +46,14 @@ _ACROSS = 2
 
 @dataclass(frozen=True)
 class CompliantJoints:
-    """What gives way.
+    """What deflects.
 
     Attributes
     ----------
     bushes : mapping of str to Bush
         By hardpoint.
     rack : float
-        How far the rack gives way along its axis for a unit force; zero where it is held [m/N].
+        How far the rack deflects along its axis for a unit force; zero where it is held [m/N].
     carried : mapping
         What joints carry where the hardpoints are; those that are not there are relaxed.
     """
@@ -69,7 +69,7 @@ class Connections:
     Parameters
     ----------
     sides : sequence of tuple of PartPoses and CompliantJoints
-        Each in as many positions, with rigid joints. They have one rack: what it gives way and
+        Each in as many positions, with rigid joints. They have one rack: its deflection and
         carries is that of the first.
     bar : Bar or RollBar, optional
         Between the two sides, or on a rigid axle.
@@ -309,7 +309,7 @@ class _Side:
     # -- bushes -----------------------------------------------------------------------------------
 
     def _bush(self, joint: Joint, point: str) -> Bush | None:
-        """Return what gives way at a point of a joint, if anything does."""
+        """Return what deflects at a point of a joint, if anything does."""
         if joint is not _RACK_IN_ITS_GUIDE:
             return self._soft.bushes.get(point)
         axis = self.poses.rack_axis

@@ -1,4 +1,4 @@
-"""The equilibrium of a suspension or an axle whose joints give way, however far: Newton's method.
+"""The equilibrium of a suspension or an axle whose joints deflect, however far: Newton's method.
 
 Unknown are displacements and rotations of all parts, what holds them together, and what holds the
 wheels. The matrix is exact; steps are those of all positions at once.
@@ -78,7 +78,7 @@ class ElasticEquilibrium:
     Parameters
     ----------
     sides : sequence of tuple of PartPoses and CompliantJoints
-        With rigid joints, and what gives way: of a suspension, of both of an axle, or of a rigid
+        With rigid joints, and what deflects: of a suspension, of both of an axle, or of a rigid
         axle.
     bar : Bar or RollBar, optional
         An anti-roll bar between both, or on a rigid axle.

@@ -1,4 +1,4 @@
-"""How the wheels give way to forces: the energy of what is soft, by the unit-load theorem.
+"""How the wheels deflect under forces: the energy of what is soft, by the unit-load theorem.
 
 Everything is linear in unit loads: forces and moments at the contact of each wheel, the torque of
 an anti-roll bar, and what is tense by itself. What each soft thing does under one of them while it
@@ -28,7 +28,7 @@ WheelSupport = Literal["height", "tyre", "spring", "locked"]
 
 HELD = {
     "height": "the contact stays at its height",
-    "tyre": "the tyre stands on a road that stays at its height",
+    "tyre": "the tyre rests on a road that stays at its height",
     "spring": "spring and stops carry the wheel",
     "locked": "the spring is locked",
 }
@@ -71,7 +71,7 @@ def flexibility(
     held : {'height', 'tyre', 'spring', 'locked'}
         What holds each wheel.
     rack : float, optional
-        How far the rack gives way along its axis for a unit force [m/N].
+        How far the rack deflects along its axis for a unit force [m/N].
     bar : float, optional
         Twist of the anti-roll bar by its torque, where there is one [rad/(N m)].
 

@@ -78,8 +78,8 @@ def linear(
         a braking force, a rearward force at the wheel centre and an aligning torque,
         ``toe_by_lateral`` and so on; of an axle by loads of the same size on both wheels,
         ``..._parallel`` and ``..._opposed``. Where the file has the tyre's rates along these
-        forces, ``patch_displacement_by_...``: the wheel's at the contact and what the standing tyre
-        deflects, as the pad of a rig moves. ``flexibility``, displacement and rotation of the
+        forces, ``patch_displacement_by_...``: the wheel's at the contact and what the stationary
+        tyre deflects, as the pad of a rig moves. ``flexibility``, displacement and rotation of the
         contacts by force and moment on the wheels there, tyre axes of each, of shape (n, 6 wheels,
         6 wheels) [m/N], [rad/N], [m/(N m)], [rad/(N m)]. Of a rigid axle besides, of the line
         through its wheel centres, ``axle_steer_by_...`` and ``axle_lateral_by_...``, positive to
@@ -300,7 +300,7 @@ def quantities_under(test: RigLoad, how: Loading) -> dict[str, Quantity]:
         kinds.append(("displacement", "m", words, f"{words} of the {at}", sign))
     if test.through:
         words += " of the contact patch"
-        meaning = f"{words}, on a tyre that gives way"
+        meaning = f"{words}, on a tyre that deflects"
         kinds.append(("patch_displacement", "m", words, meaning, sign))
     return {
         kind: _quantity(

@@ -52,7 +52,7 @@ _QUANTITIES = {
         "positive in the direction of a positive force",
     ),
     "patch_displacement": Quantity(
-        "patch_displacement", "m", "displacement of the contact patch", "on the standing tyre",
+        "patch_displacement", "m", "displacement of the contact patch", "on the stationary tyre",
         "positive in the direction of a positive force",
     ),
 }  # fmt: skip
@@ -114,7 +114,7 @@ def nonlinear(
         Over ``wheel``, ``data_set`` ('equilibrium', 'linear') and ``load``: ``toe_change`` and
         ``camber_change`` [rad], and ``displacement`` in the direction of a positive force on this
         wheel by itself [m], all against what is there without the load; ``patch_displacement`` on
-        the standing tyre where the file has its rate, see `linear`; and ``wheel_load`` [N]. The
+        the stationary tyre where the file has its rate, see `linear`; and ``wheel_load`` [N]. The
         linear ones are those of `linear`. With an anti-roll bar ``bar_torque`` [N m], positive with
         the left half turned the farther; of a rigid axle with the left wheel up, and
         ``axle_steer_change`` [rad], ``axle_lateral_change`` and ``axle_longitudinal_change`` [m].
@@ -324,12 +324,12 @@ def _towards(
 
 
 def _refuse_on_tyres(suspension: ElasticEquilibrium, load: RigLoad, wanted: Array) -> None:
-    """Refuse loads under which a standing tyre would give way farther than one can."""
+    """Refuse loads under which a stationary tyre would deflect farther than one can."""
     soft = max(float(give_of_tyre(load, wheel) or 0.0) for wheel in suspension.wheels)
     worst = float(wanted[np.abs(wanted).argmax()]) if wanted.size else 0.0
     if abs(worst) * soft > _FARTHEST_TYRE:
         problem = (
-            f"under {load.words} of {worst:.4g} {load.unit} the standing tyre deflects by "
+            f"under {load.words} of {worst:.4g} {load.unit} the stationary tyre deflects by "
             f"{1e3 * abs(worst) * soft:.4g} mm, more than any tyre can: "
             f"{1e3 * _FARTHEST_TYRE:g} mm: it slides before. Leave greater loads out, or correct "
             "its rates in [tyre]."

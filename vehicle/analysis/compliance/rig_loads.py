@@ -27,7 +27,7 @@ class RigLoad:
     unit : str
         SI unit of the load.
     shown : Display
-        Unit for people, and how many of the SI unit it has.
+        Display unit, and its size in SI units.
     sense : tuple of float
         Direction in which a displacement counts, on a left wheel.
     where : str
@@ -149,7 +149,7 @@ def sense_of(test: RigLoad, on_road: RoadWheel) -> Array:
 
 
 def give_of_tyre(test: RigLoad, on_road: RoadWheel) -> float | None:
-    """Return how far the standing tyre deflects under a unit of a load [m/N].
+    """Return the deflection of the stationary tyre under a unit of a load [m/N].
 
     None where the load does not go through it, or its rate is not known.
     """

@@ -52,7 +52,7 @@ def along(model: System, result: Simulation) -> xr.Dataset:
         [N] is a vertical force on each wheel that the motion would need besides: none where the
         equations of motion and the balance of the parts agree. How exact the motion is, the
         tolerances of the simulation decide. The tyre pushes at the wheel centre, in the plane of
-        the wheel, as in the equations. With ``wheel_loads`` the road does at the contact as well;
+        the wheel, as in the equations. With ``wheel_loads`` the road acts at the contact, too;
         ``by`` input are the forces at the centre and the moment on the wheel, ``by`` shaft is its
         torque. That of the hub is a part of what the bearing carries.
 

@@ -48,7 +48,7 @@ class Case:
     rack : float
         Displacement of the rack [m].
     travel : float or None
-        Wheel travel at which the suspension stands [m]; the vertical force at the contact is that
+        Wheel travel of the suspension [m]; the vertical force at the contact is that
         which holds it there. None: the suspension goes to where it carries the loads.
     """
 

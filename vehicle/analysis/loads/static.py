@@ -1,4 +1,4 @@
-"""The loads on every part of an assembly that stands still under load cases."""
+"""The loads on every part of an assembly at rest under load cases."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -42,9 +42,9 @@ def static(
         wheel, whose brake holds it; ``center_N`` and ``center_Nm``, at the wheel centre, where what
         a brake or a final drive on the body takes belongs; all of them three numbers in the axes of
         the tyre, y to the left. ``contact_g`` and ``center_g`` in parts of the static load.
-        ``rack_mm``; ``travel_mm`` where a wheel is to stand there, instead of a vertical force at
-        the contact. Of an axle they count for both wheels; in ``left`` and ``right`` are those of
-        one. By default those of `standard_cases`.
+        ``rack_mm``; ``travel_mm`` where a wheel is to be at that travel, instead of a vertical
+        force at the contact. Of an axle they count for both wheels; in ``left`` and ``right`` are
+        those of one. By default those of `standard_cases`.
     static_load : float, optional
         Vertical force on each wheel [N]; by default that of the rest on the road at z = 0.
 
@@ -158,7 +158,7 @@ def _in_cases(
         Of the cases.
     loads : WheelLoads
     coordinates : ndarray, shape (cases, wheels)
-        Where the wheels stand, see `Assembly.at_wheel_coordinates`.
+        Positions of the wheels, see `Assembly.at_wheel_coordinates`.
     reasons : list of str
         Why a case is not carried; empty where it is.
     """

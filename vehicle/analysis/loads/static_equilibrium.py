@@ -1,4 +1,4 @@
-"""Where the wheels of an assembly stand under load cases.
+"""Positions of the wheels of an assembly under load cases.
 
 Each wheel needs a vertical force of the road at every position, by virtual work. All wheels go to
 where they need none by Newton's method, in steps that are bounded and down to where it is stable: a
@@ -60,7 +60,7 @@ _UNSTABLE = (
 
 
 def static_equilibrium(assembly: Assembly, loads: WheelLoads) -> tuple[Array, list[str]]:
-    """Return where wheels stand under loads, and why they do not.
+    """Return the positions of wheels under loads, and why there is none.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def static_equilibrium(assembly: Assembly, loads: WheelLoads) -> tuple[Array, li
 
 @dataclass(frozen=True)
 class _Search:
-    """Cases on their way to where wheels that depend on each other stand.
+    """Cases on their way to the equilibrium of wheels that depend on each other.
 
     Attributes
     ----------
@@ -146,7 +146,7 @@ class _Search:
         return np.array([i for i, reason in enumerate(self.reasons) if not reason], dtype=int)
 
     def go(self) -> None:
-        """Bring cases to where they stand, or say why they do not."""
+        """Bring cases to equilibrium, or say why there is none."""
         self._bound()
         rows = self.open()
         for row in rows[~self.assembly.reached(self.coordinates[rows], self.loads.racks[rows])]:
@@ -200,7 +200,7 @@ class _Search:
     # -- their way --------------------------------------------------------------------------------
 
     def _near_cells(self, rows: Rows) -> Rows:
-        """Bring cases to where they stand within a cell of a grid; return those that do not.
+        """Bring cases to equilibrium within a cell of a grid; return those without one.
 
         Of several wheels each of which has a reach of its own. The cells are those in which the
         missing force of every free wheel changes its sign, the nearest to design first.
@@ -347,7 +347,7 @@ class _Search:
         return inside, np.asarray(((over | under) & (np.abs(inside) < shortest)).any(axis=-1))
 
     def _moved(self, rows: Rows, steps: Array) -> Booleans:
-        """Go so far of each step as the wheels reach, and tell which have gone anywhere."""
+        """Go as far along each step as the wheels reach, and return which have moved."""
         if self.single:
             self.coordinates[rows] += steps
             return np.ones(rows.size, dtype=bool)
@@ -412,7 +412,7 @@ class _Search:
 
 
 def _changes_sign(values: Array, axes: NDArray[np.int64]) -> Booleans:
-    """Tell of each cell of a grid which values, (..., k), have a zero between its corners."""
+    """Return for each cell of a grid which values, (..., k), have a zero between its corners."""
     least = most = values
     for axis in axes:
         count = values.shape[axis] - 1

@@ -72,7 +72,7 @@ def ratio_of(of: Steered) -> Array:
 def ackermann_error(left: Array, right: Array, wheelbase: float, track: float | Array) -> Array:
     """Return how much more the outer wheel is steered than for rolling without slip [rad].
 
-    With the angles counted towards the inside of the turn, the outer wheel would have to stand at
+    With the angles counted towards the inside of the turn, the outer wheel would have to be at
     ``atan(L / (L / tan inner + t))``.
 
     Parameters

@@ -47,7 +47,7 @@ class Measure:
         return all(given) and self.known_to(of)
 
     def at(self, of: Any, wheel: str) -> Array:
-        """Return the values of a wheel, or of the axle whatever the wheel."""
+        """Return the values of a wheel, or of the axle, for any wheel."""
         return self.formula(of, wheel) if self.scope == "wheel" else self.formula(of)
 
     def columns(self, wheels: Sequence[str]) -> dict[str, str]:

@@ -1,6 +1,6 @@
 """Suspensions of Adams/Car: hardpoints, camber, toe and spring, from the file of a subsystem.
 
-`subsystem`     what stands in the file
+`subsystem`     the contents of the file
 `springs`       the spring, from a file beside it
 `rest`          the file that the rest comes from
 `importing`     both of them as an input file

@@ -1,4 +1,4 @@
-"""A suspension's subsystem of Adams/Car, as it stands in its file.
+"""A suspension's subsystem of Adams/Car, as it is in its file.
 
 In Adams/Car x points rearward, y to the right and z up. Rows for both sides have the coordinates of
 the left one.
@@ -50,7 +50,7 @@ class Subsystem:
     angles : dict
         By name and side camber_angle and toe_angle, in degrees; those that the file has.
     springs : tuple of dict
-        The keys and values of its springs, in lower case and as they stand there.
+        The keys and values of its springs, in lower case and as they are there.
     force_unit : str
     others : tuple of str
         What else there is, and is not read.
@@ -159,7 +159,7 @@ class _Row(NamedTuple):
 class _Table(NamedTuple):
     """A table of a kind of block: its columns, and the last ones of them that are numbers.
 
-    Rows in which none of the words stands are not looked at, if there are words.
+    Rows without any of the words are not read, if there are words.
     """
 
     block: str

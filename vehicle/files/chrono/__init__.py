@@ -2,7 +2,7 @@
 
 The format is that of Chrono::Vehicle (https://projectchrono.org): points and vectors in metres, in
 the axes of the vehicle (ISO 8855), for the *left* side; the right one is its mirror image. What its
-files leave open is assumed, and each assumption is told; what is not read of them is listed.
+files leave open is assumed, and each assumption is reported; what is not read of them is listed.
 
 `keys`                            keys that are read, those that are not, slips of the hand
 `parts`, `forces`, `stops`        bodies, springs, dampers and stops of the templates

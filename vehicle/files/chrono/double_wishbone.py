@@ -40,7 +40,7 @@ class _Shock(Shock):
 
 
 class WishbonePoints(PointsFile):
-    """The points of two arms; the spring stands on the lower one."""
+    """The points of two arms; the spring acts on the lower one."""
 
     TEMPLATE: ClassVar[str] = "DoubleWishbone"
     KIND: ClassVar[str] = "double_wishbone"
@@ -61,7 +61,7 @@ class WishbonePoints(PointsFile):
 
 
 class DoubleWishbone(SuspensionFile, WishbonePoints):
-    """Two arms; spring and damper stand on the lower one."""
+    """Two arms; spring and damper act on the lower one."""
 
     SOURCES: ClassVar[Mapping[str, str]] = {
         **SuspensionFile.SOURCES,
@@ -105,7 +105,7 @@ class DoubleWishbone(SuspensionFile, WishbonePoints):
         return own | (stops.sections(at_design) if stops else {})
 
     def left_open(self) -> list[str]:
-        """Say where the damper stands, and what curves are like."""
+        """Describe the position of the damper, and the curves."""
         laws = spring_law(self.spring), self._damper()
         of_curves = words_of_curves(self.spring.stops(), *laws)
         if not self._is_apart():
@@ -125,7 +125,7 @@ class DoubleWishbone(SuspensionFile, WishbonePoints):
         return damper.scaled(self._ratio()) if self._is_apart() else damper
 
     def _is_apart(self) -> bool:
-        """Return whether the damper has points of its own, and stands there."""
+        """Return whether the damper has points of its own on that arm."""
         ends = ((self.shock.chassis, self.spring.chassis), (self.shock.arm, self.spring.arm))
         away = max(np.linalg.norm(np.subtract(own, other)) for own, other in ends)
         return bool(away > ON_THE_LINE) and bool(self.shock.dampers())

@@ -59,7 +59,7 @@ class Other(NamedTuple):
     Attributes
     ----------
     place : tuple of str
-        The key, after those that it stands in.
+        The key, after those that it is in.
     value : object
     part : type of Part
         Of what it is a key.
@@ -118,7 +118,7 @@ def leaves(found: Iterable[Unread]) -> Iterator[Unread]:
 
 
 def meant(key: str, known: Collection[str]) -> str:
-    """Return the known key that another spelling of it may stand for; empty if there is none."""
+    """Return the known key that another spelling of it may represent; empty if there is none."""
     same = {_plain(name): name for name in known}
     if _plain(key) in same:
         return same[_plain(key)]
@@ -151,7 +151,7 @@ def problem_of(detail: Any, place: Place | None = None) -> str:
 
 
 def shown(value: Any) -> str:
-    """Return a value as it stands in the file, and not more of it than one reads."""
+    """Return a value as it is in the file, and not more of it than one reads."""
     try:
         return legible(short(json.dumps(value, default=str)))
     except RecursionError:  # lists in each other, as deep as Python reads them

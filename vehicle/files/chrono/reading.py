@@ -60,7 +60,7 @@ def read(
     path : str or Path
         JSON file of the template "MacPhersonStrut" or "DoubleWishbone".
     tire : str or Path, optional
-        JSON file of a tire; radius, mass and inertia are read, whatever its template.
+        JSON file of a tire; radius, mass and inertia are read, of any template.
     points_only : bool, optional
         Whether hardpoints, camber and toe alone are taken. The rest is then as in the packaged
         file of the kind, brought to where the wheel is.

@@ -194,7 +194,7 @@ def _template(data: dict[str, Any], path: str | Path) -> str:
 
 
 def _radius_in(folder: Path, name: str) -> tuple[float | None, str]:
-    """Return the radius of a tire in the TeimOrbit format [m], and what is to be told of it."""
+    """Return the radius of a tire in the TeimOrbit format [m], and notes about it."""
     file = folder / re.split(r"[\\/]", name)[-1]
     try:
         values = Values(read_blocks(file), str(file))

@@ -288,7 +288,7 @@ def packaged_axles() -> dict[str, Any]:
 def is_axle(path_or_name: str | Path) -> bool:
     """Return whether a file, or a packaged name, is that of an axle.
 
-    What is not there, or cannot be read, is none: whoever reads it then says why.
+    A file that is missing or cannot be read has none: its reader then says why.
     """
     if path_or_name in packaged_axles():
         return True

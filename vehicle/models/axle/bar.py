@@ -185,7 +185,7 @@ class AntiRollBar(Section):
             problems.append(
                 f"the drop link pulls with a lever of {1e3 * pull:.3f} mm about the bar's axis; at "
                 f"least {1e3 * SMALLEST_DISTANCE:g} mm are needed, or it is at its dead centre. "
-                "Move link_foot or link_top, so that the link stands across the bar's lever."
+                "Move link_foot or link_top, so that the link is not in line with the bar's lever."
             )
         return problems
 

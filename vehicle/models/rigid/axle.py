@@ -112,7 +112,7 @@ class RigidAxle(Section):
     brakes: Brakes = Field(default=Brakes(), description="what holds the torque of the brakes")
     drive: AxleDrive | None = Field(default=None, description="what drives the axle")
     bushings: Bushings | None = Field(
-        default=None, description="what gives way at hardpoints, for compliance: see Loads"
+        default=None, description="what deflects at hardpoints, for compliance: see Loads"
     )
 
     def __init__(self, /, **data: Any) -> None:
@@ -280,7 +280,7 @@ class RigidAxle(Section):
 
     @property
     def overheld(self) -> bool:
-        """Whether five rods hold it, so that it moves only as its bushes give way."""
+        """Whether five rods hold it, so that it moves only as its bushes deflect."""
         return self.bushings is not None and len(self.guides) == len(self.rods) - 1 == NEEDED
 
     def wheel_load_parameters(self) -> dict[str, float]:
@@ -357,7 +357,7 @@ class RigidAxle(Section):
         return _length(self.points(side), part)
 
     def rate_key(self, part: str) -> str:
-        """Return where the rate of the springs or the dampers stands, or the springs' curve."""
+        """Return where the rate of the springs or the dampers is, or the springs' curve."""
         return rate_key(part, self.spring)
 
     def _of_side(self, side: str, sign: float) -> dict[str, float]:
@@ -417,8 +417,8 @@ class RigidAxle(Section):
             if not re.fullmatch("[A-Za-z][A-Za-z0-9_-]*", name)
         ]
         problems += [
-            f"[rods] {name!r} is the name of another part, which loads could not tell apart from "
-            f"it; {', '.join(_PARTS)} are taken, with _left and _right behind them as well. "
+            f"[rods] {name!r} is the name of another part, which loads could not distinguish from "
+            f"it; {', '.join(_PARTS)} are taken, with _left and _right behind them, too. "
             "Rename the rod."
             for name in ends
             if name.removesuffix("_left").removesuffix("_right") in _PARTS
@@ -438,7 +438,7 @@ class RigidAxle(Section):
                 )
             elif across < length * np.sin(np.radians(_SMALLEST_ANGLE)):
                 problems.append(
-                    f"[rods.{name}] stands upright: at least {_SMALLEST_ANGLE:g} deg from the "
+                    f"[rods.{name}] is upright: at least {_SMALLEST_ANGLE:g} deg from the "
                     "vertical are needed, or the axle cannot rise. Move one of its ends."
                 )
         if problems or self.overheld:
@@ -446,7 +446,7 @@ class RigidAxle(Section):
         return Hold.of(ends, self.center).problems()
 
     def _refuse_rigid(self, given: Arguments, bushes: Sequence[Bush]) -> None:
-        """Refuse five rods of which none gives way along itself."""
+        """Refuse five rods of which none deflects along itself."""
         ends = self.ends()
         ways = {
             f"{name}_{end}": unit_vector(axle - chassis)
@@ -458,7 +458,7 @@ class RigidAxle(Section):
             way @ bush.compliance[:3, :3] @ way > _ROUNDING * bush.soft.max() for bush, way in along
         ):
             given.refuse(
-                f"of the five rods {', '.join(ends)} one or more must give way along itself, or "
+                f"of the five rods {', '.join(ends)} one or more must deflect along itself, or "
                 "the axle neither heaves nor rolls. Give its bush axial_N_per_mm, or "
                 "radial_N_per_mm where its axis is across the rod."
             )
@@ -483,7 +483,7 @@ def packaged_rigid_axles() -> dict[str, Any]:
 def is_rigid_axle(path_or_name: str | Path) -> bool:
     """Return whether a file, or a packaged name, is that of a rigid axle.
 
-    What is not there, or cannot be read, is none: whoever reads it then says why.
+    A file that is missing or cannot be read has none: its reader then says why.
     """
     if path_or_name in packaged_rigid_axles():
         return True

@@ -38,7 +38,7 @@ class RigidAxleHardpoints(Hardpoints):
     """The points of the right side at the design position; the left one is its mirror image.
 
     All points are in chassis axes (ISO 8855: x forward, y left, z up), in the unit that `unit`
-    names, which is that of the rods as well.
+    names, which is that of the rods, too.
     """
 
     CARRIERS: ClassVar[Mapping[str, str]] = {}

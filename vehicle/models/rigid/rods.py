@@ -1,8 +1,9 @@
 """What rods hold of a beam that has to heave and roll.
 
-A rod of fixed length takes one of the six freedoms of a beam, if it does not repeat what others
-do. Its row says how fast it would grow in a motion of the beam: along the rod, and the moment of
-that direction about the middle of the axle. The rank of the rows is how many freedoms are taken.
+A rod of fixed length takes one of the six degrees of freedom of a beam, if it does not repeat what
+others do. Its row says how fast it would grow in a motion of the beam: along the rod, and the
+moment of that direction about the middle of the axle. The rank of the rows is how many degrees of
+freedom are taken.
 """
 
 from collections.abc import Mapping
@@ -18,7 +19,7 @@ Ends = tuple[Array, Array]
 """Where a rod is at design: on the chassis, on the axle [m]."""
 
 NEEDED = 4
-"""As many rods leave a beam two freedoms: heave and roll."""
+"""As many rods leave a beam two degrees of freedom: heave and roll."""
 
 # Turns are measured by what they move at this distance from the middle of the axle [m].
 _RADIUS = 0.5
@@ -62,14 +63,14 @@ class Hold:
 
     @property
     def rank(self) -> int:
-        """Return how many freedoms are taken."""
+        """Return how many degrees of freedom are taken."""
         return int((self.sizes > _NOTHING).sum())
 
     def guides(self) -> tuple[str, ...]:
         """Return the four rods that close the loops of the equations: those that hold firmest.
 
-        Of five that leave one freedom, the other one gives way with all of them on their bushes.
-        None, where no four of them hold the axle.
+        Of five that leave one degree of freedom, the other one deflects with all of them on their
+        bushes. None, where no four of them hold the axle.
         """
         if len(self.names) != NEEDED + 1 or self.rank != NEEDED + 1:
             return self.names
@@ -109,12 +110,12 @@ class Hold:
         return float(sizes[-1]), directions[-1]
 
     def _miscounted(self) -> str:
-        """Say what these rods, more or fewer than four, leave of the freedoms of a beam."""
+        """Say what these rods, more or fewer than four, leave of a beam's degrees of freedom."""
         given, rank = len(self.names), self.rank
         begin = (
             f"[rods] {given} rod{'s' if given != 1 else ''}, {', '.join(self.names) or 'none'}: "
-            f"{NEEDED} are needed. A beam has six freedoms, an axle keeps two of them, heave and "
-            f"roll, and each rod takes one. These take {rank}"
+            f"{NEEDED} are needed. A beam has six degrees of freedom, an axle keeps two of "
+            f"them, heave and roll, and each rod takes one. These take {rank}"
         )
         if given < NEEDED:
             missing = "rod" if given == NEEDED - 1 else "rods"
@@ -131,9 +132,10 @@ class Hold:
         _, _, directions = np.linalg.svd(self.rows)
         return (
             f"{begin}one is left, {_told(directions[-1])}: such an axle heaves and rolls only "
-            "because its bushes give way, and here rods are rigid. Leave one of the rods out: "
-            "three links and a Panhard rod, or four links of which two are triangulated. Or say in "
-            "[bushings] what gives way: compliance and deflection take all five."
+            "because its bushes deflect, and here rods are rigid. Leave one of the rods out: "
+            "three links and a Panhard rod, or four links of which two are triangulated. Or "
+            "describe "
+            "bushes in [bushings]: compliance takes all five."
         )
 
 

@@ -3,7 +3,7 @@
 `chapter`     what a chapter is
 `axle`        both wheels of an axle, or a rigid axle, over the motions of a rig
 `loads`       load cases, with the free bodies
-`compliance`  how the wheel gives way on its bushes
+`compliance`  how the wheel deflects on its bushes
 `goals`       targets and limits of characteristics
 `elastokinematics`  what bushes do to the curves over wheel travel
 `sheet`       kinematic and compliance gradients at design

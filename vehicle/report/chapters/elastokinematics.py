@@ -52,7 +52,7 @@ def elastokinematics_chapter(*found: xr.Dataset, goals: Sequence[Goal] = ()) -> 
         drawn += pictures(columns, list(map(str, columns)), title, words, goals=own)
         sheets += deflections(dataset, f"Over {over}")
     hardpoints = found[0].attrs["hardpoints"]
-    words = f"By equilibrium of all parts, however far bushes give way: {hardpoints}."
+    words = f"By equilibrium of all parts, however far bushes deflect: {hardpoints}."
     of_goals = ["Targets and limits are about the curves with rigid joints."] if any(wanted) else []
     return Chapter("Elastokinematics", (words, *of_goals), tuple(sheets), tuple(drawn))
 
