@@ -17,12 +17,16 @@ from ...simulation.simulate import simulate
 from ...systems.state import State
 from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import together
-from ..assembly.equilibrium import equilibrium, refuse_missing_loads
+from ..assembly.equilibrium import (
+    each_wheel,
+    equilibrium,
+    refuse_missing_loads,
+    state_at_heights,
+)
 from ..assembly.of import assembly_of, given_model
 from ..corner.wheel_loads import UNITS
 from ..models.axle.equations import AxleModel
 from ..models.model import Model
-from ..models.positions import state_at_height
 from ..models.rigid.model import RigidAxleModel
 
 if TYPE_CHECKING:
@@ -49,9 +53,10 @@ class Scenario:
         [s]
     output_step : float
         Time between outputs [s].
-    height : float, optional
-        Height of the wheel centre of a corner at the start, chassis axes [m]; by default that of
-        the equilibrium on the road as it is at the start, where axles start.
+    height : float or mapping of str to float, optional
+        Height of all wheel centres at the start, or by wheel, 'left' and 'right', and that of
+        design where it is not given; chassis axes [m]. By default the equilibrium on the road as it
+        is at the start.
     spin_rate : float
         Rate of the wheels relative to their carriers, positive rolling forward [rad/s].
     inputs : dict
@@ -60,7 +65,7 @@ class Scenario:
 
     duration: float = 1.0
     output_step: float = 0.001
-    height: float | None = None
+    height: float | Mapping[str, float] | None = None
     spin_rate: float = 0.0
     inputs: dict[str, Signal] = field(default_factory=dict)
 
@@ -117,7 +122,7 @@ def run(
     Raises
     ------
     InputError, PositionError, SimulationError
-        As `kintrafo.simulate`, `kintrafo.equilibrium` and `kintrafo.state_at_height`.
+        As `kintrafo.simulate` and `kintrafo.equilibrium`; or if a wheel cannot be at its height.
 
     Examples
     --------
@@ -202,15 +207,17 @@ def started(
         if not given.refused:
             given.among("wheels", wheels, dict.fromkeys((BOTH, *assembly.wheels)))
             _refuse_unusable(given, assembly, scenario)
+        heights = None
+        if scenario.height is not None and not given.refused:
+            heights = each_wheel(given, assembly, "height", scenario.height, "m")
     chosen = assembly.wheels if wheels == BOTH else (wheels,)
     inputs = _by_wheel(assembly, scenario.inputs, chosen)
     courses = time_inputs(model, inputs, (0.0, scenario.duration))
     at_start = map(float, courses.at(0.0, courses.segments[0]))
     first = dict(zip(model.input_names, at_start, strict=True))
     rack, spin = first.get(_RACK, 0.0), scenario.spin_rate
-    if scenario.height is not None:
-        corner: Model = assembly.model
-        return state_at_height(corner, scenario.height, rack_position=rack, spin_rate=spin), inputs
+    if heights is not None:
+        return state_at_heights(assembly, heights, rack=rack, spin_rate=spin), inputs
     roads = {wheel: assembly.names_of(wheel).road for wheel in assembly.wheels}
     further = inputs.keys() - {_RACK, *roads.values()}
     start = equilibrium(
@@ -227,8 +234,6 @@ def _refuse_unusable(given: Arguments, assembly: Assembly, scenario: Scenario) -
     """Refuse times that cannot be, and a start and inputs that the assembly does not have."""
     scenario.checked(given)
     inputs = given.mapping("inputs", scenario.inputs, "input names, what they do")
-    if scenario.height is not None and len(assembly.wheels) > 1:
-        given.refuse("height: an axle starts from rest. Leave it out.")
     if _RACK in inputs and not assembly.steered:
         given.refuse(f"{_RACK}: it has no rack, and nothing steers its wheels. Leave that out.")
     refuse_missing_loads(given, assembly, inputs)

@@ -301,6 +301,21 @@ class Assembly(ABC):
             inputs[..., model.input_names.index("rack_position")] = rack
         return states, inputs
 
+    def coordinates_at(self, position: RigPosition) -> Array:
+        """Return the coordinates with rigid joints at positions of a rig, (n, coordinates).
+
+        Raises
+        ------
+        PositionError
+            If a position is out of reach; the message states the range.
+        """
+        found = [
+            poses.states[..., poses.model.state_names.index(state)]
+            for suffix, poses in self.poses(position).items()
+            for state in self.coordinates_of(suffix)
+        ]
+        return np.stack(found, axis=-1)
+
     @abstractmethod
     def coordinates_at_rest(self, held: RestConditions) -> Array:
         """Return the coordinates of the stable state of rest, shape (coordinates,).

@@ -32,14 +32,14 @@ from .coupling import STEERING, BodyPose, on_the_rack
 from .held import RestConditions
 from .load import RACK as THE_RACK
 from .load import Load
-from .measures.axle import OVER_STEERING, OVER_TRAVEL
+from .measures.axle import OVER_RACK, OVER_STEERING, OVER_TRAVEL
 from .measures.measure import Measure
 from .part_poses import CornerParts, PartPoses
 from .quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from .rest import settled
 from .rig import RigMotion, RigPosition, SweepRange, WheelReach
 from .soft_lines import SoftLines
-from .steering_wheel import rack_of
+from .steering_wheel import per_turn_at, rack_of
 from .wheel_names import WheelNames
 
 if TYPE_CHECKING:
@@ -170,7 +170,9 @@ class AxleAssembly(Assembly):
         """Return where wheels and rack are along a motion."""
         if motion in _STEERING:
             turns = self.motions[motion].along is STEERING_WHEEL
-            racks, per_turn = rack_of(self.axle, along) if turns else (along, None)
+            racks, per_turn = (
+                rack_of(self.axle, along) if turns else (along, per_turn_at(self.axle, along))
+            )
             return RigPosition(dict.fromkeys(SIDES, np.full_like(along, travel)), racks, per_turn)
         if motion == "roll":
             left, right = motions.opposite(self.axle, along, rack)
@@ -254,7 +256,9 @@ class AxleAssembly(Assembly):
 
     def measures(self, motion: str) -> tuple[Measure, ...]:
         """Return its characteristics over a motion."""
-        return OVER_STEERING if motion in _STEERING else OVER_TRAVEL
+        if motion not in _STEERING:
+            return OVER_TRAVEL
+        return OVER_STEERING if self.motions[motion].along is STEERING_WHEEL else OVER_RACK
 
     def kinematics(self, position: RigPosition) -> AxleKinematics:
         """Return how both wheels are and how they move first."""

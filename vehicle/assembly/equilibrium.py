@@ -3,6 +3,8 @@
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ...core.arguments import Arguments
 from ...systems.state import State
 from ..corner.wheel_loads import UNITS
@@ -10,6 +12,7 @@ from . import rest
 from .assembly import Assembly
 from .held import RestConditions
 from .of import given_model
+from .rig import RigPosition
 
 if TYPE_CHECKING:
     from ..models.axle.equations import AxleModel
@@ -82,16 +85,16 @@ def equilibrium(
     with Arguments("equilibrium") as given:
         assembly = given_model(given, model)
         spin = given.number("spin_rate", spin_rate, "rad/s")
-        roads = _by_wheel(given, assembly, "road_height", road_height, "m")
+        roads = each_wheel(given, assembly, "road_height", road_height, "m")
         loads = {}
         if wheel_load is not None:
-            loads = _by_wheel(given, assembly, "wheel_load", wheel_load, "N")
+            loads = each_wheel(given, assembly, "wheel_load", wheel_load, "N")
             _refuse_both(given, loads, roads)
         held = RestConditions(
             _rack(given, assembly, rack_position),
             roads,
             loads,
-            _by_wheel(given, assembly, "strut_force", strut_force, "N"),
+            each_wheel(given, assembly, "strut_force", strut_force, "N"),
             _further(given, assembly, inputs),
         )
     state, acting = rest.at(assembly, held, assembly.coordinates_at_rest(held))
@@ -101,6 +104,43 @@ def equilibrium(
             acting[model.input_names.index(names.hub_torque)] = brake
         state[model.state_names.index(f"{names.spin}_rate")] = spin
     return State.of(state, acting, model.names_of_states)
+
+
+def state_at_heights(
+    assembly: Assembly, heights: Mapping[str, float], *, rack: float = 0.0, spin_rate: float = 0.0
+) -> State:
+    """Return the state without rates, but those of the wheels' spin, with wheels at given heights.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    heights : mapping of str to float
+        Of wheel centres by wheel, chassis axes [m]; where none is given, as at design.
+    rack : float, optional
+        Displacement of the rack [m].
+    spin_rate : float, optional
+        Rate of all wheels relative to their carriers, positive rolling forward [rad/s].
+
+    Raises
+    ------
+    PositionError
+        If a wheel cannot be there.
+    InputError
+        If it moves only on its bushes.
+    """
+    assembly.require_rigid_motion()
+    model, names = assembly.model, {wheel: assembly.names_of(wheel) for wheel in assembly.wheels}
+    at_design = model.signals(model.design_state)
+    travels = {
+        wheel: np.array([heights.get(wheel, design) - design])
+        for wheel, own in names.items()
+        for design in [float(at_design[f"{own.signals}wheel_center_z"])]
+    }
+    coordinates = assembly.coordinates_at(RigPosition(travels, np.array([rack])))
+    state, inputs = (rows[0] for rows in assembly.at_rest(coordinates, rack))
+    for own in names.values():
+        state[model.state_names.index(f"{own.spin}_rate")] = spin_rate
+    return State.of(state, inputs, model.names_of_states)
 
 
 def _rack(given: Arguments, assembly: Assembly | None, position: Any) -> float:
@@ -113,7 +153,7 @@ def _rack(given: Arguments, assembly: Assembly | None, position: Any) -> float:
     return rack
 
 
-def _by_wheel(
+def each_wheel(
     given: Arguments, assembly: Assembly | None, name: str, value: Any, unit: str
 ) -> dict[str, float]:
     """Return what is given for all wheels, or by wheel."""

@@ -29,6 +29,17 @@ def rack_of(axle: Axle, angles: Array) -> tuple[Array, Array]:
     return angles * per_turn / (2.0 * np.pi), np.full_like(angles, per_turn)
 
 
+def per_turn_at(axle: Axle, racks: Array) -> Array | None:
+    """Return the rack travel for one turn of the steering wheel where the rack is [m].
+
+    With its sign; None where nothing says it, and NaN beyond the points of a curve.
+    """
+    if axle.steering is not None:
+        return axle.steering.travel_per_turn_at(racks)
+    amount = motions.travel_per_turn(axle)
+    return None if amount is None else np.full_like(racks, amount * _sense_of_rack(axle))
+
+
 def _sense_of_rack(axle: Axle) -> float:
     """Return +1 where a positive displacement of the rack steers to the left, or -1."""
     design = AxleKinematics.at(axle, 0.0, 0.0, 0.0)

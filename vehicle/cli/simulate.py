@@ -119,8 +119,6 @@ class _Run:
         self.model, self.file, self.scenario = model, file, scenario
         assembly = assembly_of(model)
         self.names = {wheel: assembly.names_of(wheel) for wheel in assembly.wheels}
-        if len(self.names) > 1 and scenario.height is not None:
-            raise typer.BadParameter("--height is only for the file of one suspension")
         if len(self.names) == 1 and wheels is not None:
             raise typer.BadParameter("--wheels is only for the file of an axle")
         self.wheels = wheels or "both"

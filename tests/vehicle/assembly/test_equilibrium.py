@@ -4,7 +4,8 @@ import kintrafo
 import numpy as np
 import pytest
 from kintrafo import Axle, AxleModel, InputError, Model, RigidAxleModel, equilibrium
-from kintrafo.vehicle.analysis.scenario import Scenario, run
+from kintrafo.vehicle.analysis.scenario import Scenario, run, started
+from kintrafo.vehicle.models.positions import PositionError
 
 MODELS = {
     "corner": Model("reference_car"),
@@ -99,3 +100,21 @@ def test_a_motion_names_the_wheel_of_each_signal_in_words(name: str) -> None:
         assert words == f"wheel centre, z, {wheel}" if prefix else "wheel centre, z"
     if "bar_spring_moment" in motion:
         assert motion["bar_spring_moment"].attrs["long_name"] == "moment of the anti-roll bar"
+
+
+@each
+def test_motions_start_with_the_wheels_at_given_heights(name: str) -> None:
+    model = MODELS[name]
+    at_rest, _ = of_wheels(name, equilibrium(model))
+    both = {wheel: at_rest[i] + (0.01, -0.005)[i] for i, wheel in enumerate(CENTERS[name])}
+    for height in (both, float(at_rest[0]) + 0.01):
+        start, _ = started(model, Scenario(height=height, spin_rate=30.0))
+        wanted = [*height.values()] if isinstance(height, dict) else [height] * len(both)
+        np.testing.assert_allclose(of_wheels(name, start)[0], wanted, atol=EXACT)
+        rates = np.asarray(start)[len(start) // 2 :]
+        assert sorted(rates)[-len(both) :] == [30.0] * len(both)
+        assert np.count_nonzero(rates) == len(both)
+    with pytest.raises(PositionError, match=r"9000 mm is out of reach|cannot be with its left"):
+        started(model, Scenario(height=9.0))
+    with pytest.raises(InputError, match="wheel 'middle' is not known"):
+        started(model, Scenario(height={"middle": 0.3}))

@@ -546,7 +546,6 @@ def test_other_doors_refuse_it_by_name() -> None:
         "export rigid_axle --to points -o a.csv",
         "mechanism topology rigid_axle",
         "compare rigid_axle reference_car",
-        "simulate rigid_axle --height 400",
         "simulate rigid_axle --rack 5",
         "characteristics rigid_axle --over steer",
         "characteristics rigid_axle --rack 5",

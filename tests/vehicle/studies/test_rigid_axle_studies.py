@@ -182,8 +182,8 @@ WRONG: list[tuple[Any, str]] = [
     (lambda: variation.sensitivity(AXLE, ["rods.panhard"]), "rods.panhard is no number"),
     (lambda: variation.sensitivity(AXLE, names=["scrub_radius"]), "scrub_radius"),
     (
-        lambda: variation.sweep(AXLE, {"wheel.toe_deg": 0.0}, Scenario(height=0.3)),
-        "starts from rest",
+        lambda: variation.sweep(AXLE, {"wheel.toe_deg": 0.0}, Scenario(height={"middle": 0.3})),
+        "wheel 'middle' is not known",
     ),
     (lambda: variation.judge(AXLE, variation.goals({"limits": {"toe": {"most": 0.0}}})),
      "has curves over bump, roll"),

@@ -30,7 +30,7 @@ KNOWN: dict[str, dict[str, Quantity]] = {
 """Characteristics of a corner by name, over wheel travel and over the rack."""
 
 _MOVING = columns((*axle.OVER_TRAVEL, *rigid_axle.MEASURES), SIDES)
-_STEERED = columns((m for m in axle.OVER_STEERING if m.quantity is not RACK), SIDES)
+_STEERED = columns(axle.OVER_RACK, SIDES)
 OF_AXLES = {
     TRAVEL.name: _MOVING,
     ROLL.name: _MOVING,

@@ -93,5 +93,10 @@ _RACK = Measure(RACK, lambda pair: pair.rack, "axle", (), lambda pair: pair.per_
 OVER_TRAVEL = (*_by_themselves(PLACE + TRAVEL), *PATH, *ROLL, *PITCHING)
 """What there is over travel and rolling."""
 
-OVER_STEERING = (*_by_themselves(PLACE + STEERING), *PATH, _RACK, *_COMPARED)
-"""What there is over the steering wheel, or over the rack."""
+_ON_A_RACK = (*_by_themselves(PLACE + STEERING), *PATH)
+
+OVER_RACK = (*_ON_A_RACK, *_COMPARED)
+"""What there is over the rack."""
+
+OVER_STEERING = (*_ON_A_RACK, _RACK, *_COMPARED)
+"""What there is over the steering wheel."""

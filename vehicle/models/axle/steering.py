@@ -98,11 +98,22 @@ class SteeringCurve(Section):
         """
         return np.asarray(2.0 * np.pi * self._curve(angle).derivative()(angle), dtype=np.float64)
 
+    def travel_per_turn_at(self, rack: Array) -> Array:
+        """Return the same where the rack is displaced by so much [m]; NaN beyond the points."""
+        curve = self._interpolated()
+        # the curve is monotone: it has each displacement once, or twice at a knot
+        roots = [curve.solve(float(one), extrapolate=False) for one in rack]
+        angles = np.array([root[0] if root.size else np.nan for root in roots])
+        return np.asarray(2.0 * np.pi * curve.derivative()(angles), dtype=np.float64)
+
     def _curve(self, angle: Array) -> "PchipInterpolator":
         """Return the curve, for angles that are on it."""
-        from scipy.interpolate import PchipInterpolator  # noqa: PLC0415 (slow to import)
-
         problem = self.beyond(np.asarray(angle))
         if problem:
             raise InputError([problem], "axle")
+        return self._interpolated()
+
+    def _interpolated(self) -> "PchipInterpolator":
+        from scipy.interpolate import PchipInterpolator  # noqa: PLC0415 (slow to import)
+
         return PchipInterpolator(np.deg2rad(self.angle_deg), np.asarray(self.rack_mm) / 1e3)
