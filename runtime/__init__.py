@@ -40,6 +40,8 @@ if TYPE_CHECKING:
     from .vehicle.kinds import Suspension
     from .vehicle.models.axle import Axle
     from .vehicle.models.axle.equations import AxleModel
+    from .vehicle.models.car import Car
+    from .vehicle.models.car.equations import CarModel
     from .vehicle.models.model import Model
     from .vehicle.models.positions import (
         PositionError,
@@ -57,6 +59,8 @@ __version__: str
 __all__ = [
     "Axle",
     "AxleModel",
+    "Car",
+    "CarModel",
     "ClosureError",
     "CompilerError",
     "InputError",
@@ -112,6 +116,8 @@ _MODULES = {
     ".equations.errors": ("ClosureError", "ModelError", "ParameterError"),
     ".vehicle.models.axle": ("Axle",),
     ".vehicle.models.axle.equations": ("AxleModel",),
+    ".vehicle.models.car": ("Car",),
+    ".vehicle.models.car.equations": ("CarModel",),
     ".vehicle.kinds": ("Suspension",),
     ".simulation.interpolation": ("Samples",),
     ".simulation.backwards": ("MotionGradient", "motion_gradient"),

@@ -227,6 +227,33 @@ def _turned_defaults(owner: Owner, signs: tuple[int, ...]) -> dict[str, Any]:
     return {"along": turned} if isinstance(owner, Direction) else {}
 
 
+def replaced(thing: Thing, bodies: Mapping[Body, Body]) -> Thing:
+    """Return something declared, with other bodies in the place of some; all else is the same.
+
+    Parameters
+    ----------
+    thing
+        Joints, forces, coordinates and so on, also in tuples and mappings.
+    bodies
+        By the body that is replaced.
+    """
+    return _replaced(thing, bodies)  # type: ignore[no-any-return]
+
+
+def _replaced(thing: Any, bodies: Mapping[Body, Body]) -> Any:
+    if isinstance(thing, tuple):
+        return tuple(_replaced(part, bodies) for part in thing)
+    if isinstance(thing, Mapping):
+        return {_replaced(k, bodies): _replaced(value, bodies) for k, value in thing.items()}
+    if isinstance(thing, Body):
+        return bodies.get(thing, thing)
+    if not is_dataclass(thing) or isinstance(thing, type | Owner):
+        return thing
+    values = {entry.name: getattr(thing, entry.name) for entry in fields(thing) if entry.init}
+    changed = {name: _replaced(value, bodies) for name, value in values.items()}
+    return replace(thing, **changed) if changed != values else thing
+
+
 @checked
 def combined(
     name: str,

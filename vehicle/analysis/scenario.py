@@ -16,21 +16,19 @@ from ...simulation.signals import time_inputs
 from ...simulation.simulate import simulate
 from ...systems.state import State
 from ..assembly.assembly import Assembly
-from ..assembly.by_wheel import together
+from ..assembly.by_wheel import together, wheel_that_begins
 from ..assembly.equilibrium import (
     each_wheel,
     equilibrium,
     refuse_missing_loads,
     state_at_heights,
 )
-from ..assembly.of import assembly_of, given_model
+from ..assembly.of import AnyModel, assembly_of, given_model
 from ..corner.wheel_loads import UNITS
-from ..models.axle.equations import AxleModel
-from ..models.model import Model
-from ..models.rigid.model import RigidAxleModel
 
 if TYPE_CHECKING:
     import xarray as xr
+
 
 Array = NDArray[np.float64]
 
@@ -93,7 +91,7 @@ class Scenario:
 
 
 def run(
-    model: Model | AxleModel | RigidAxleModel,
+    model: AnyModel,
     scenario: Scenario,
     *,
     wheels: str = BOTH,
@@ -144,7 +142,7 @@ def run(
     return result, motion_of(model, result)
 
 
-def motion_of(model: Model | AxleModel | RigidAxleModel, result: Simulation) -> "xr.Dataset":
+def motion_of(model: AnyModel, result: Simulation) -> "xr.Dataset":
     """Return signals, states and inputs of a simulation; those of an axle name their wheel.
 
     Parameters
@@ -164,14 +162,14 @@ def motion_of(model: Model | AxleModel | RigidAxleModel, result: Simulation) -> 
     if "bar_spring_moment" in motion:
         motion["bar_spring_moment"].attrs["long_name"] = "moment of the anti-roll bar"
     for name, data in motion.items():
-        wheel = str(name).partition("_")[0]
-        if wheel in assembly.wheels and assembly.names_of(wheel).prefix:
+        wheel = wheel_that_begins(str(name), assembly.wheels)
+        if wheel and assembly.names_of(wheel).prefix:
             words = data.attrs["long_name"].replace(f"{wheel}_", "")
             data.attrs["long_name"] = f"{words}, {wheel}"
     return motion
 
 
-def by_wheel(model: Model | AxleModel | RigidAxleModel, motion: "xr.Dataset") -> "xr.Dataset":
+def by_wheel(model: AnyModel, motion: "xr.Dataset") -> "xr.Dataset":
     """Return a motion in which what each wheel has is over the dimension ``wheel``, to be drawn.
 
     Parameters
@@ -195,7 +193,7 @@ def by_wheel(model: Model | AxleModel | RigidAxleModel, motion: "xr.Dataset") ->
 
 
 def started(
-    model: Model | AxleModel | RigidAxleModel, scenario: Scenario, *, wheels: str = BOTH
+    model: AnyModel, scenario: Scenario, *, wheels: str = BOTH
 ) -> tuple[State, dict[str, Signal]]:
     """Return the state that a scenario starts from, and its inputs by the names of the model.
 

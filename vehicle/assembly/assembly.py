@@ -53,7 +53,7 @@ class Bushings:
 
 
 class Assembly(ABC):
-    """A corner, an axle or a rigid axle.
+    """A corner, an axle, a rigid axle or a car.
 
     Its parts may be in several groups that only an anti-roll bar and a rack join, as the two sides
     of an axle are: the members of a group are by the suffix of the names of its parts, ``""``,
@@ -106,6 +106,16 @@ class Assembly(ABC):
     @abstractmethod
     def tyre_radii(self) -> Sequence[float | None]:
         """The radii of the wheels as thin discs [m]; None where nothing says it."""
+
+    @property
+    def axles(self) -> tuple[str, ...]:
+        """The ends at which a car has axles, which have measures of their own."""
+        return ()
+
+    @property
+    def body_moves(self) -> bool:
+        """Whether the vehicle's body moves in its equations, or is held."""
+        return False
 
     @property
     def moves_rigidly(self) -> bool:

@@ -17,8 +17,8 @@ from ...datasets.columns import AS_COLUMNS, with_columns
 from ..corner.corner import Array
 from .quantity import Quantity
 
-WHEEL, DATA_SET = "wheel", "data_set"
-"""The dimension of the wheels, and that of several sets of curves beside each other."""
+WHEEL, AXLE, DATA_SET = "wheel", "axle", "data_set"
+"""The dimensions of the wheels, of the axles of a car, and of several sets of curves."""
 
 _ATTRIBUTES = {"long_name": "wheel"} | AS_COLUMNS
 
@@ -28,6 +28,11 @@ def wheel_coordinate(wheels: Sequence[str]) -> xr.Variable:
     if len(wheels) == 1:
         return xr.Variable((), wheels[0], _ATTRIBUTES)
     return xr.Variable(WHEEL, list(wheels), _ATTRIBUTES)
+
+
+def axle_coordinate(axles: Sequence[str]) -> xr.Variable:
+    """Return the names of the axles of a car as a coordinate."""
+    return xr.Variable(AXLE, list(axles), {"long_name": "axle"} | AS_COLUMNS)
 
 
 def of_wheels(
@@ -86,7 +91,12 @@ def flat(dataset: xr.Dataset) -> xr.Dataset:
     """
     with Arguments("flat") as given:
         given.dataset(dataset)
-    return with_columns(dataset, WHEEL)
+    return with_columns(with_columns(dataset, WHEEL), AXLE)
+
+
+def wheel_that_begins(name: str, wheels: Sequence[str]) -> str:
+    """Return the wheel whose name begins another one; empty if there is none."""
+    return next((wheel for wheel in wheels if name.startswith(f"{wheel}_")), "")
 
 
 def together(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
@@ -105,9 +115,10 @@ def together(dataset: xr.Dataset, wheels: Sequence[str]) -> xr.Dataset:
     """
     found: dict[str, xr.DataArray | xr.Variable] = {}
     for name, data in dataset.items():
-        wheel, _, stem = str(name).partition("_")
-        names = [f"{wheel}_{stem}" for wheel in wheels]
-        if wheel not in wheels or not all(each in dataset for each in names):
+        wheel = wheel_that_begins(str(name), wheels)
+        stem = str(name).removeprefix(f"{wheel}_")
+        names = [f"{each}_{stem}" for each in wheels]
+        if not wheel or not all(each in dataset for each in names):
             found[str(name)] = data
         elif stem not in found:
             words = str(data.attrs["long_name"]).removesuffix(f", {wheel}")

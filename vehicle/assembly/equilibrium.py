@@ -1,4 +1,4 @@
-"""The state of rest on the road of a corner, an axle or a rigid axle, by its equations."""
+"""The state of rest on the road of what has wheels, by its equations."""
 
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
@@ -15,13 +15,11 @@ from .of import given_model
 from .rig import RigPosition
 
 if TYPE_CHECKING:
-    from ..models.axle.equations import AxleModel
-    from ..models.model import Model
-    from ..models.rigid.model import RigidAxleModel
+    from .of import AnyModel
 
 
 def equilibrium(
-    model: "Model | AxleModel | RigidAxleModel",
+    model: "AnyModel",
     *,
     rack_position: float = 0.0,
     road_height: float | Mapping[str, float] = 0.0,
@@ -30,17 +28,19 @@ def equilibrium(
     spin_rate: float = 0.0,
     inputs: Mapping[str, float] | None = None,
 ) -> State:
-    """Return the stable state of rest under springs, tyres and weights, the vehicle body held.
+    """Return the stable state of rest under springs, tyres and weights.
+
+    The body of a car settles on its springs; of all others it is held.
 
     Parameters
     ----------
-    model : Model, AxleModel or RigidAxleModel
+    model : Model, AxleModel, RigidAxleModel or CarModel
     rack_position : float, optional
         Displacement at which the rack is held [m]. With a free rack, what holds it there is minus
         the third generalised force (``forces`` of the compiled module).
     road_height : float or mapping of str to float, optional
-        Height of the road under all wheels, or by wheel, 'left' and 'right', and zero where it is
-        not given [m].
+        Height of the road under all wheels, or by wheel, 'left' and 'right', of a car
+        'front_left' and so on, and zero where it is not given [m].
     wheel_load : float or mapping of str to float, optional
         Instead of a road: the vertical force of the road on all wheels, or by wheel, positive up
         [N]. `road_under_load` returns where the road of one wheel then is.
@@ -67,7 +67,8 @@ def equilibrium(
     InputError
         If an argument cannot be used.
     PositionError
-        If there is no stable equilibrium within the travel.
+        If there is no stable equilibrium within the travel; of a car also if it rests on a stop, or
+        a wheel does not reach the road.
 
     Examples
     --------

@@ -4,20 +4,24 @@ from collections.abc import Callable
 from typing import Any
 
 from ...core.arguments import Arguments
+from ...core.errors import InputError
 from ..kinds import Suspension
 from ..models.axle import Axle
 from ..models.axle.equations import AxleModel
+from ..models.car import Car
+from ..models.car.equations import CarModel
 from ..models.model import Model
 from ..models.rigid.axle import RigidAxle
 from ..models.rigid.model import RigidAxleModel
 from .assembly import Assembly
 from .axle import AxleAssembly
+from .car import NOT_A_CAR, CarAssembly
 from .corner import CornerAssembly
 from .rigid_axle import RigidAxleAssembly
 
 
 def assembly_of(subject: Any) -> Assembly:
-    """Return a suspension, an axle or their equations as an assembly.
+    """Return a suspension, an axle, a car or their equations as an assembly.
 
     Raises
     ------
@@ -25,7 +29,7 @@ def assembly_of(subject: Any) -> Assembly:
         If it is something else.
     """
     with Arguments("assembly") as given:
-        return given_assembly(given, subject)
+        return given_assembly(given, subject, cars=True)
 
 
 def _found(subject: Any) -> Assembly | None:
@@ -48,25 +52,35 @@ _ASSEMBLIES: dict[type, Callable[[Any], Assembly]] = {
     AxleModel: lambda model: AxleAssembly(model.axle, model),
     RigidAxle: RigidAxleAssembly,
     RigidAxleModel: lambda model: RigidAxleAssembly(model.axle, model),
+    Car: CarAssembly,
+    CarModel: lambda model: CarAssembly(model.car, model),
 }
 
 
+AnyModel = Model | AxleModel | RigidAxleModel | CarModel
+"""The equations of motion of an assembly."""
+
+
 def model_of(
-    subject: Suspension | Axle | RigidAxle,
+    subject: Suspension | Axle | RigidAxle | Car,
     *,
     wheel_loads: bool = False,
     progress: Callable[[str], None] | None = None,
-) -> Model | AxleModel | RigidAxleModel:
+) -> AnyModel:
     """Return the equations of motion of what a file describes, in which all mass counts.
 
     Parameters
     ----------
-    subject : Suspension, Axle or RigidAxle
+    subject : Suspension, Axle, RigidAxle or Car
     wheel_loads : bool, optional
         Whether what acts on the wheels are inputs.
     progress : callable, optional
         Called with what is being done, in a few words, where equations are derived.
     """
+    if isinstance(subject, Car):
+        if wheel_loads:
+            raise InputError([_NO_WHEEL_LOADS], "CarModel")
+        return CarModel(subject, progress=progress)
     if isinstance(subject, Axle):
         return AxleModel(subject, progress=progress, wheel_loads=wheel_loads)
     if isinstance(subject, RigidAxle):
@@ -75,7 +89,12 @@ def model_of(
     return Model(subject, free_rack=free_rack, wheel_loads=wheel_loads)
 
 
-MODELS = (Model, AxleModel, RigidAxleModel)
+_NO_WHEEL_LOADS = (
+    "the equations of a car have no loads on the wheels as inputs besides those of its tyres. "
+    "Leave them out."
+)
+
+MODELS = (Model, AxleModel, RigidAxleModel, CarModel)
 """The equations of motion of the assemblies."""
 
 _MODEL_NEEDED = (
@@ -90,7 +109,7 @@ def given_model(given: Arguments, model: Any) -> Assembly:
     Parameters
     ----------
     given : Arguments
-    model : Model, AxleModel or RigidAxleModel
+    model : Model, AxleModel, RigidAxleModel or CarModel
     """
     given.kind("model", model, MODELS, _MODEL_NEEDED)
     # what is refused is never seen, see `Arguments`
@@ -116,7 +135,9 @@ def given_assemblies(given: Arguments, name: str, subjects: Any) -> dict[str, As
     }
 
 
-def given_assembly(given: Arguments, subject: Any, name: str = "subject") -> Assembly:
+def given_assembly(
+    given: Arguments, subject: Any, name: str = "subject", *, cars: bool = False
+) -> Assembly:
     """Return the assembly of an argument, or refuse it; nothing is to be asked of what is refused.
 
     Parameters
@@ -125,8 +146,12 @@ def given_assembly(given: Arguments, subject: Any, name: str = "subject") -> Ass
     subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
     name : str, optional
         Of the argument.
+    cars : bool, optional
+        Whether it may be a car.
     """
     found = _found(subject)
+    if isinstance(found, CarAssembly) and not cars:
+        given.refuse(f"{name}: {NOT_A_CAR}")
     if found is None:
         given.kind(name, subject, Assembly, Assembly.NEEDED)
     return found  # type: ignore[return-value]  # what is refused is never seen, see `Arguments`

@@ -77,3 +77,17 @@ STEERING_WHEEL = Quantity(
     "angle of the steering wheel from its middle position",
     "positive to the left",
 )
+HEAVE = Quantity(
+    "body_heave",
+    "m",
+    "heave of the body",
+    "height of the body above that at design, over wheels that stay",
+    "positive up",
+)
+PITCH = Quantity(
+    "body_pitch",
+    "rad",
+    "pitch of the body",
+    "turn of the body about the axis to the left, by the travels of its axles over their distance",
+    "positive nose down",
+)

@@ -31,7 +31,7 @@ EXAMPLES = (
     "kintrafo characteristics my_car.toml --positions --over both --step 10 -o map.nc",
 )
 # Those of an assembly, where nothing is chosen, are these; what an axle has besides is asked for.
-_USUAL = ("travel", "rack", "bump", "roll", "left", "steer")
+_USUAL = ("travel", "rack", "bump", "heave", "pitch", "roll", "left", "steer")
 # Curves that stand in tables of motions of an axle; over parallel travel all are shown at design.
 _SHOWN = {
     "roll": (
@@ -73,9 +73,9 @@ def command(
         list[str] | None,
         option(
             "Motions of the rig: of a suspension travel and rack, the default; of an axle bump, "
-            "roll, left, right, steer and rack, by default bump,roll,left,steer. What is not "
-            "steered has no rack and no steer. With --positions travel (of an axle bump), the "
-            "default, rack, or both, which make a grid.",
+            "roll, left, right, steer and rack, by default bump,roll,left,steer; of a car heave, "
+            "pitch and roll of its body. What is not steered has no rack and no steer. With "
+            "--positions travel (of an axle bump), the default, rack, or both, which make a grid.",
             "NAME,...",
         ),
     ] = None,

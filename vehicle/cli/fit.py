@@ -10,6 +10,7 @@ from rich.table import Table
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
 from ...terminal.exits import Exit
+from .loading import variable_subject
 from .options import File, Held, Of, among, argument, option
 from .outputs import CarOptions, name_files
 
@@ -52,10 +53,9 @@ def command(
     """
     from .. import studies as variation
     from ..analysis import rig
-    from ..files.loading import load
 
     outputs = output.files(file, measured, tolerances, car=output.car)
-    subject = load(file)
+    subject = variable_subject(file)
     curves = rig.measured_curves(measured)
     asked = variation.read(tolerances)
     names = among(of, map(str, curves)) if of else None

@@ -8,9 +8,11 @@ from ...terminal.console import note, problems
 if TYPE_CHECKING:
     from ...systems.system import System
     from ..assembly.assembly import Assembly
-    from ..models.axle.equations import AxleModel
+    from ..assembly.of import AnyModel
+    from ..kinds import Suspension
+    from ..models.axle import Axle
     from ..models.model import Model
-    from ..models.rigid.model import RigidAxleModel
+    from ..models.rigid import RigidAxle
 
 
 def assembly_of_file(file: str) -> "Assembly":
@@ -24,7 +26,7 @@ def assembly_of_file(file: str) -> "Assembly":
         return assembly_of(subject)
 
 
-def model_of(file: str, *, wheel_loads: bool = False) -> "Model | AxleModel | RigidAxleModel":
+def model_of(file: str, *, wheel_loads: bool = False) -> "AnyModel":
     """Return the equations of motion of what a file describes.
 
     Parameters
@@ -44,6 +46,19 @@ def model_of(file: str, *, wheel_loads: bool = False) -> "Model | AxleModel | Ri
             wheel_loads=wheel_loads,
             progress=lambda text: status.update(f"the equations: {text}"),
         )
+
+
+def variable_subject(file: str) -> "Suspension | Axle | RigidAxle":
+    """Return what a file describes, whose values studies vary; a car is refused."""
+    from ...core.errors import InputError
+    from ..assembly.car import NOT_A_CAR
+    from ..files.loading import load
+    from ..models.car import Car
+
+    found = load(file)
+    if isinstance(found, Car):
+        raise InputError([NOT_A_CAR], file)
+    return found
 
 
 def suspension_of(file: str) -> "Model":

@@ -14,6 +14,7 @@ EXAMPLES = (
     "kintrafo new my_car.toml --suspension double_wishbone",
     "kintrafo new my_axle.toml --axle",
     "kintrafo new my_rear.toml --rigid-axle",
+    "kintrafo new my_vehicle.toml --car",
     "kintrafo new my_car.toml --template chrono_generic --force",
 )
 
@@ -38,19 +39,27 @@ def command(
     rigid_axle: Annotated[
         bool, option("Write the file of a rigid axle on four rods.", None, "--rigid-axle")
     ] = False,
+    car: Annotated[
+        bool, typer.Option("--car", help="Write the file of a car, which names its axles.")
+    ] = False,
     force: Force = False,
 ) -> None:
     """Write an annotated hardpoint file to begin with: every key, its unit and its sign."""
     from ..data.starter import write_starter
     from ..kinds import KINDS
 
-    if (axle or rigid_axle) and (template is not None or suspension != DEFAULT):
+    whole = {
+        "--axle": (axle, "reference_axle", "such an axle names its sides"),
+        "--rigid-axle": (rigid_axle, RIGID_AXLE, "such an axle has none"),
+        "--car": (car, "reference_vehicle", "a car names its axles"),
+    }
+    chosen = [option for option, (given, *_) in whole.items() if given]
+    if len(chosen) > 1:
+        raise typer.BadParameter(f"{' and '.join(chosen)} are both given: choose one of them")
+    if chosen and (template is not None or suspension != DEFAULT):
         other = "--suspension" if template is None else "--template"
-        given, why = ("--axle", "names its sides") if axle else ("--rigid-axle", "has none")
-        raise typer.BadParameter(f"{given} and {other} are both given: such an axle {why}")
-    if axle and rigid_axle:
-        raise typer.BadParameter("--axle and --rigid-axle are both given: choose one of them")
-    usual = "reference_axle" if axle else RIGID_AXLE if rigid_axle else KINDS[suspension].STARTER
+        raise typer.BadParameter(f"{chosen[0]} and {other} are both given: {whole[chosen[0]][2]}")
+    usual = whole[chosen[0]][1] if chosen else KINDS[suspension].STARTER
     copied = usual if template is None else template
     say(f"  {write_starter(path, template=copied, force=force)}")
     say(f"Edit it, then: kintrafo check {path}")

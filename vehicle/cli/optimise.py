@@ -10,6 +10,7 @@ from rich.table import Table
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
 from ...terminal.exits import Exit
+from .loading import variable_subject
 from .moved_values import moved_table
 from .options import File, argument
 from .outputs import CarOptions, name_files, title_of
@@ -39,10 +40,9 @@ def command(
     The exit code is 1 where limits cannot be kept, or the search does not come to its end.
     """
     from .. import studies as variation
-    from ..files.loading import load
 
     outputs = output.files(file, goals, car=output.car)
-    subject = load(file)
+    subject = variable_subject(file)
     asked = variation.read(goals)
     with progress_bar("optimisation") as progress:
         found = variation.optimise(

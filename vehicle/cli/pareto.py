@@ -11,6 +11,7 @@ from rich.table import Table
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
 from ...terminal.exits import Exit
+from .loading import variable_subject
 from .moved_values import moved_table
 from .options import OUTPUT, File, argument, option
 from .outputs import BarOptions, Outputs, name_files, title_of
@@ -64,11 +65,10 @@ def command(
     """
     from ...datasets import export
     from .. import studies as variation
-    from ..files.loading import load
 
     outputs = output.files(file, study, car=car)
     _refuse_member(member, population)
-    subject = load(file)
+    subject = variable_subject(file)
     asked = variation.read(study)
     with progress_bar("suspensions") as progress:
         found = variation.pareto(

@@ -8,6 +8,7 @@ from rich.table import Column, Table
 
 from ...core.tabulated import significant
 from ...terminal.console import console, note, print_json, progress_bar
+from .loading import variable_subject
 from .options import File, option
 from .outputs import BarOptions, name_files, title_of
 from .variation_options import Look, StudyOptions
@@ -48,10 +49,9 @@ def command(
     """
     from ...datasets import export
     from .. import studies as variation
-    from ..files.loading import load
 
     outputs = output.files(file)
-    subject = load(file)
+    subject = variable_subject(file)
     look = Look.of(subject, asked)
     with progress_bar("sensitivity") as progress:
         dataset = variation.sensitivity(

@@ -76,8 +76,10 @@ def command(
 ) -> None:
     """Simulate the suspension over a step, a sine or a measured road, with its rack moving.
 
-    Without --height it starts from rest on the road as it is at the beginning. The equations of an
-    axle are derived and compiled when they are first needed, which takes some seconds.
+    The body is held: a wheel alone is no quarter car. The file of a car, such as quarter_car, lets
+    its body move. Without --height it starts from rest on the road as it is at the beginning. The
+    equations of an axle are derived and compiled when they are first needed, which takes some
+    seconds.
     """
     from ...core.files import refuse
     from ..corner.wheel_loads import UNITS
@@ -119,6 +121,7 @@ class _Run:
         self.model, self.file, self.scenario = model, file, scenario
         assembly = assembly_of(model)
         self.names = {wheel: assembly.names_of(wheel) for wheel in assembly.wheels}
+        self.moves = assembly.body_moves
         if len(self.names) == 1 and wheels is not None:
             raise typer.BadParameter("--wheels is only for the file of an axle")
         self.wheels = wheels or "both"
@@ -235,6 +238,10 @@ def _told(result: "Simulation", run: _Run) -> list[str]:
     """Return what happened, and what it took."""
     crossings, counts = _crossings(result, run), _counts(result)
     lines = [f"{result.solver}: " + ", ".join(f"{v} {_WORDS[n]}" for n, v in counts.items())]
+    if not run.moves:
+        lines.append(
+            "The body is held; in the file of a car it moves (see docs/suspension/car.md)."
+        )
     for prefix in (own.prefix for own in run.names.values()):
         left = crossings[f"{prefix}wheel_leaves_ground"]
         if not left:

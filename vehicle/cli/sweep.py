@@ -10,6 +10,7 @@ from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
 from ...terminal.exits import Exit
 from ..models.sides import SIDES
+from .loading import variable_subject
 from .options import File, argument, option
 from .outputs import PlotOptions, name_files, title_of
 from .simulation_options import ScenarioOptions
@@ -61,10 +62,9 @@ def command(
     from ...datasets import export
     from .. import studies as variation
     from ..assembly.of import model_of
-    from ..files.loading import load
 
     outputs = output.files(file, driven.measured)
-    subject = load(file)
+    subject = variable_subject(file)
     scenario = driven.scenario()
     grid = dict(map(_numbers, values))
     if len(grid) < len(values):

@@ -8,6 +8,7 @@ from rich.table import Table
 
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, progress_bar, say
+from .loading import variable_subject
 from .options import File, argument, option
 from .outputs import BarOptions, name_files, title_of
 from .variation_options import Look, StudyOptions
@@ -46,11 +47,10 @@ def command(
     """
     from ...datasets import export
     from .. import studies as variation
-    from ..files.loading import load
     from ..studies.sweep_axes import sweep_axes_of
 
     outputs = output.files(file, tolerances)
-    subject = load(file)
+    subject = variable_subject(file)
     given = variation.read(tolerances)
     look = Look.of(subject, asked)
     with progress_bar("cars") as progress:

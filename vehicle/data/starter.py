@@ -15,6 +15,12 @@ AXLES = f"{__package__}.axles"
 RIGID_AXLES = f"{__package__}.rigid_axles"
 """Where the rigid axles are that come with kintrafo."""
 
+CARS = f"{__package__}.cars"
+"""Where the cars are that come with kintrafo."""
+
+CAR = "car"
+"""The top-level key that says that a file describes a car."""
+
 RIGID_AXLE = "rigid_axle"
 """The top-level key that says that a file describes a rigid axle; the packaged one has its name."""
 
@@ -63,7 +69,7 @@ def packaged_axles() -> tuple[str, ...]:
     Examples
     --------
     >>> packaged_axles()
-    ('reference_axle',)
+    ('rear_axle', 'reference_axle')
     """
     return tuple(data_sets(AXLES))
 
@@ -78,7 +84,8 @@ def write_starter(
     path : str or pathlib.Path
         A name that ends in ``.toml``.
     template : str, optional
-        Name of the packaged data set that is copied: of a suspension, an axle, or a rigid axle.
+        Name of the packaged data set that is copied: of a suspension, an axle, a rigid axle or a
+        car.
     force : bool, optional
         Whether a file that somebody else wrote or changed is replaced, see `kintrafo.core.files`.
 
@@ -91,7 +98,7 @@ def write_starter(
     InputError
         If there is a file already, or the name cannot be used.
     """
-    known = data_sets() | data_sets(AXLES) | data_sets(RIGID_AXLES)
+    known = data_sets() | data_sets(AXLES) | data_sets(RIGID_AXLES) | data_sets(CARS)
     if not isinstance(template, str) or template not in known:
         hint = suggestion(str(template), known)
         problem = f"no data set {template!r} comes with kintrafo. {hint}"

@@ -5,22 +5,24 @@ from pathlib import Path
 from ...core.arguments import Arguments
 from ..kinds import Suspension
 from ..models.axle.axle import Axle, is_axle
+from ..models.car.car import Car, is_car
 from ..models.rigid.axle import RigidAxle, is_rigid_axle
 
 
-def load(path_or_name: str | Path) -> Suspension | Axle | RigidAxle:
+def load(path_or_name: str | Path) -> Suspension | Axle | RigidAxle | Car:
     """Read a TOML file, and return what it describes.
 
     Parameters
     ----------
     path_or_name : str or pathlib.Path
         The file; or, as a string, the name of one that comes with kintrafo, such as
-        ``"reference_car"``, ``"reference_axle"`` or ``"rigid_axle"``.
+        ``"reference_car"``, ``"reference_axle"``, ``"rigid_axle"`` or ``"reference_vehicle"``.
 
     Returns
     -------
-    Suspension, Axle or RigidAxle
-        A suspension of one wheel, two of them with what couples them, or a rigid axle.
+    Suspension, Axle, RigidAxle or Car
+        A suspension of one wheel, two of them with what couples them, a rigid axle, or a body on
+        axles.
 
     Raises
     ------
@@ -37,6 +39,8 @@ def load(path_or_name: str | Path) -> Suspension | Axle | RigidAxle:
     """
     with Arguments("load") as given:
         given.path("path_or_name", path_or_name)
+    if is_car(path_or_name):
+        return Car.load(path_or_name)
     if is_rigid_axle(path_or_name):
         return RigidAxle.load(path_or_name)
     if is_axle(path_or_name):

@@ -13,13 +13,14 @@ from pydantic.json_schema import models_json_schema
 
 from ..corner.base import KIND
 from ..corner.bushes import BUSH_SCHEMA
-from ..data.starter import DEFAULT, RIGID_AXLE
+from ..data.starter import CAR, DEFAULT, RIGID_AXLE
 from ..input.bodies import RigidBody
 from ..input.messages import is_named
 from ..input.section import Section
 from ..input.units import unit_of
 from ..kinds import KINDS
 from ..models.axle.file import AxleFile
+from ..models.car.file import CarFile
 from ..models.rigid import RigidAxle
 
 _LIMITS = {
@@ -127,26 +128,33 @@ A file of its own, of a beam on four rods; `kintrafo new FILE --rigid-axle` writ
 are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center` of both wheels.
 """
 
+_A_CAR = """\
+## A car
+
+A file of its own, which names the files of its axles, or of the corner of a quarter car;
+`kintrafo new FILE --car` writes one. See [A car](../suspension/car.md).
+"""
+
 _TABLE_HEAD = "| key | unit | allowed | left out | meaning |\n|---|---|---|---|---|"
 
 
 def schema() -> dict[str, Any]:
-    """Return the JSON Schema of input files: of a suspension, an axle, and a rigid axle.
+    """Return the JSON Schema of input files: of a suspension, an axle, a rigid axle and a car.
 
     Returns
     -------
     dict
         Every key with its description, its unit as ``x-unit`` and its range. A file with ``axle``
-        is that of an axle, one with ``rigid_axle`` that of a rigid one; of others the kind that
-        they name decides which sections there are.
+        is that of an axle, one with ``rigid_axle`` that of a rigid one, one with ``car`` that of a
+        car; of others the kind that they name decides which sections there are.
     """
-    models: list[type[Section]] = [*KINDS.values(), AxleFile, RigidAxle]
+    models: list[type[Section]] = [*KINDS.values(), AxleFile, RigidAxle, CarFile]
     _, made = models_json_schema([(model, "validation") for model in models])
     sections = {name: _with_units(section) for name, section in made["$defs"].items()}
     kinds = {"description": "the kind of suspension", "enum": list(KINDS), "default": DEFAULT}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "suspension or axle",
+        "title": "suspension, axle or car",
         "type": "object",
         "if": {"required": [_AXLE]},
         "then": _reference(AxleFile),
@@ -154,8 +162,14 @@ def schema() -> dict[str, Any]:
             "if": {"required": [RIGID_AXLE]},
             "then": _reference(RigidAxle),
             "else": {
-                "properties": {KIND: kinds},
-                "allOf": [{"if": _names(name), "then": _reference(KINDS[name])} for name in KINDS],
+                "if": {"required": [CAR]},
+                "then": _reference(CarFile),
+                "else": {
+                    "properties": {KIND: kinds},
+                    "allOf": [
+                        {"if": _names(name), "then": _reference(KINDS[name])} for name in KINDS
+                    ],
+                },
             },
         },
         "$defs": sections | {"Bushing": BUSH_SCHEMA},
@@ -224,6 +238,8 @@ def page_text() -> str:
         if name not in shared or _model_of(RigidAxle, name) is not _model_of(first, name)
     ]
     parts += _described(sections, RigidAxle, own)
+    parts += [_A_CAR, *_table(sections[CarFile.__name__])]
+    parts += _described(sections, CarFile, CarFile.model_fields)
     return "\n".join(parts).rstrip() + "\n"
 
 

@@ -13,11 +13,8 @@ from ...core.named_types import ArrayLike
 from ...ensembles import ensemble
 from ...ensembles.variants import without_mass
 from ..analysis.scenario import Scenario, started
-from ..assembly.of import model_of
+from ..assembly.of import AnyModel, model_of
 from ..corner.wheel_loads import UNITS
-from ..models.axle.equations import AxleModel
-from ..models.model import Model
-from ..models.rigid.model import RigidAxleModel
 from .curves import changed, refuse_bushes
 from .design_variables import DesignVariable, matching
 from .evaluation import Subject, check_subject
@@ -169,11 +166,11 @@ class _Cars:
         except KintrafoError as error:
             self._reasons[car] = str(error)
 
-    def _start(self, model: Model | AxleModel | RigidAxleModel) -> Array:
+    def _start(self, model: AnyModel) -> Array:
         start, self.inputs = started(model, self._scenario)
         return np.array(start)
 
-    def _check_equations(self, model: Model | AxleModel | RigidAxleModel) -> None:
+    def _check_equations(self, model: AnyModel) -> None:
         if model.equations is not self.model.equations:
             message = (
                 f"values: some ask for the equations {model.equations.NAME}, which have more in "

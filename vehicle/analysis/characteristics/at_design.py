@@ -6,7 +6,7 @@ import xarray as xr
 
 from ....core.quantities import displayed, long_name, unit_or_stroke
 from ....core.tabulated import Tabulated, significant
-from ...assembly.by_wheel import WHEEL
+from ...assembly.by_wheel import AXLE, WHEEL
 
 
 def at_design(dataset: xr.Dataset, title: str) -> list[Tabulated]:
@@ -22,8 +22,8 @@ def at_design(dataset: xr.Dataset, title: str) -> list[Tabulated]:
     Returns
     -------
     list of Tabulated
-        Of a corner one; of an axle what each wheel has, and what the axle has. Those without rows
-        are left out.
+        Of a corner one; of an axle what each wheel has, and what the axle has; of a car what each
+        wheel and each axle has. Those without rows are left out.
     """
     if WHEEL not in dataset.dims:
         return _tables(title, [("at design", ("value",), [*dataset.values()])])
@@ -31,11 +31,16 @@ def at_design(dataset: xr.Dataset, title: str) -> list[Tabulated]:
     data = [*dataset.values()]
     of_wheels = [each for each in data if WHEEL in each.dims]
     of_axle = [each for each in data if WHEEL not in each.dims]
+    axles = [*map(str, dataset[AXLE].values)] if AXLE in dataset.dims else ("value",)
     return _tables(
         title,
         [
             ("each wheel, at design", wheels, of_wheels),
-            ("the axle, at design", ("value",), of_axle),
+            (
+                "the axle, at design" if AXLE not in dataset.dims else "each axle, at design",
+                axles,
+                of_axle,
+            ),
         ],
     )
 
@@ -56,7 +61,7 @@ def _tables(
 
 
 def _row(data: xr.DataArray) -> tuple[str, ...]:
-    (along,) = (dim for dim in data.dims if dim != WHEEL)
+    (along,) = (dim for dim in data.dims if dim not in (WHEEL, AXLE))
     index = int(abs(data[along].values).argmin())
     values = displayed(data)[..., index].ravel()
     cells = (significant(float(value)) for value in values)

@@ -8,7 +8,7 @@ from ....core.arguments import Arguments
 from ....core.memory import positions_given
 from ....core.named_types import ArrayLike
 from ...assembly.assembly import Assembly
-from ...assembly.by_wheel import of_wheels, wheel_coordinate
+from ...assembly.by_wheel import axle_coordinate, of_wheels, wheel_coordinate
 from ...assembly.measures import axle, corner, rigid_axle
 from ...assembly.measures.measure import columns
 from ...assembly.of import given_assembly
@@ -105,7 +105,7 @@ def over(
     ('wheel', 'wheel_travel')
     """
     with Arguments("characteristics") as given:
-        assembly = given_assembly(given, subject)
+        assembly = given_assembly(given, subject, cars=True)
         travel = given.number("travel", travel, "m")
         rack = given.number("rack_position", rack_position, "m")
         if extent is not None:
@@ -159,13 +159,14 @@ def dataset(
         if measure.scope == "wheel":
             variables[measure.name] = of_wheels(measure.quantity, how.along.name, found)
         else:
-            variables[measure.name] = xr.Variable(
-                how.along.name, found[0], measure.quantity.attributes()
-            )
+            dims = ("axle", how.along.name) if assembly.axles else (how.along.name,)
+            variables[measure.name] = xr.Variable(dims, found[0], measure.quantity.attributes())
     coordinates = {
         how.along.name: xr.Variable(how.along.name, along, how.along.attributes()),
         "wheel": wheel_coordinate(assembly.wheels),
     }
+    if assembly.axles:
+        coordinates["axle"] = axle_coordinate(assembly.axles)
     for quantity, value in held.items():
         coordinates[quantity.name] = xr.Variable((), float(value), quantity.attributes())
     return xr.Dataset(variables, coordinates, {"title": f"characteristics over {how.title}"})

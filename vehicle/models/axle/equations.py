@@ -85,7 +85,7 @@ def declared(axle: Axle, *, wheel_loads: bool = False) -> "Formulation":
     from ....generator.mechanisms import model_named  # noqa: PLC0415
     from ....generator.mechanisms.suspension import with_wheel_loads  # noqa: PLC0415
 
-    corner = model_named(_corner_of(axle))
+    corner = model_named(corner_of(axle))
     if wheel_loads:
         corner = with_wheel_loads(corner)
     pulls = axle.bar.link_on if axle.bar else ""
@@ -101,7 +101,7 @@ def declared(axle: Axle, *, wheel_loads: bool = False) -> "Formulation":
     return page.model(corner, mechanism)
 
 
-def _corner_of(axle: Axle) -> str:
+def corner_of(axle: Axle) -> str:
     """Return the name of the equations of one side that have everything that both have."""
     names = {str(model.equations.NAME): side for side, model in axle.models.items()}
     if len(names) != 1:
@@ -114,22 +114,32 @@ def _corner_of(axle: Axle) -> str:
 
 
 def _parameters(axle: Axle, *, wheel_loads: bool) -> dict[str, float]:
-    of_sides = {
-        side: model.parameters | (model.suspension.wheel_load_parameters() if wheel_loads else {})
-        for side, model in axle.models.items()
-    }
-    values = dict(of_sides[RIGHT])
-    if not axle.symmetric:
-        values |= {f"{LEFT}_{name}": value for name, value in of_sides[LEFT].items()}
-    if axle.bar is not None:
-        values |= {"bar_rate": axle.bar.rate(), "bar_free_angle": axle.bar.free_twist()}
-        for side, prefix in ((RIGHT, ""), (LEFT, f"{LEFT}_")):
-            half = axle.halves[side]
-            for name, vector in (
-                ("bar_bush", half.bush),
-                ("bar_axis", half.axis),
-                ("link_top", half.top),
-                ("link_foot", half.foot),
-            ):
-                values |= components(f"{prefix}{name}", vector)
-    return values
+    of_sides = parameters_by_side(axle)
+    if wheel_loads:
+        of_sides = {
+            side: values | axle.sides[side].wheel_load_parameters()
+            for side, values in of_sides.items()
+        }
+    left = {f"{LEFT}_{name}": value for name, value in of_sides[LEFT].items()}
+    return of_sides[RIGHT] | left | parameters_of_bar(axle)
+
+
+def parameters_by_side(axle: Axle) -> dict[str, dict[str, float]]:
+    """Return the parameters of each side with its half of the anti-roll bar, in SI units."""
+    found = {side: dict(model.parameters) for side, model in axle.models.items()}
+    for side, half in axle.halves.items():
+        for name, vector in (
+            ("bar_bush", half.bush),
+            ("bar_axis", half.axis),
+            ("link_top", half.top),
+            ("link_foot", half.foot),
+        ):
+            found[side] |= components(name, vector)
+    return found
+
+
+def parameters_of_bar(axle: Axle) -> dict[str, float]:
+    """Return the parameters of the anti-roll bar itself, in SI units; none without one."""
+    if axle.bar is None:
+        return {}
+    return {"bar_rate": axle.bar.rate(), "bar_free_angle": axle.bar.free_twist()}

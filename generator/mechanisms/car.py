@@ -1,0 +1,198 @@
+"""A car: suspensions on a body that moves, by as many freedoms as are asked for.
+
+The suspensions are those of one side, or whole axles, as they are declared on a ground: here the
+ground that they hang on is the body of the car, and the road takes its place. The body moves along
+the upward axis of the world (heave), turns about the axis to the left (pitch) and about the axis
+forward (roll), in this order, through its centre of mass. It does not travel: what drives and
+steers a car is none of this.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from .. import declare as d
+from ..declare.composition import replaced
+from ..declare.declared import parts
+from ..declare.parameters import Owner
+from ..program.vectors import Vector
+from . import axle
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+FREEDOMS = ("heave", "pitch", "roll")
+"""Coordinates of the body, in the order of its joints."""
+
+ENDS = ("front", "rear")
+
+ROAD = d.Ground("road")
+BODY = d.Body("body", 1200.0, (-1.15, 0.0, 0.55), (450.0, 1600.0, 1800.0))
+
+_TYRE = "tyre"
+_LEFTWARD = d.Direction("leftward", fixed=Vector.of(0, 1, 0))
+_MEANINGS = {
+    "heave": "height of the centre of mass of the body above that at design",
+    "pitch": "turn of the body about its axis to the left, positive nose down",
+    "roll": "turn of the body about its axis forward, positive with its left side up",
+}
+
+
+def quarter(corner: d.Formulation) -> d.Formulation:
+    """Return the equations of a quarter car: a suspension, whose body heaves.
+
+    Parameters
+    ----------
+    corner
+        Those of the suspension on a chassis that rests.
+    """
+    name, title = f"quarter_{corner.name}", f"Quarter car: {_lower(corner.mechanism.title)}"
+    return replace(_on_the_body(corner, FREEDOMS[:1]), name=name, title=title)
+
+
+def car(
+    name: str, title: str, axles: Sequence[d.Formulation], freedoms: Sequence[str]
+) -> d.Formulation:
+    """Return the equations of a car of two axles.
+
+    Parameters
+    ----------
+    name, title
+        What it is called.
+    axles
+        The front and the rear one, each from `of_corners` or `of_rigid_axle`.
+    freedoms
+        Coordinates of the body, the first ones of `FREEDOMS`.
+    """
+    carried = tuple(_on_the_body(one, freedoms) for one in axles)
+    copies = tuple(_copied(one, f"{end}_") for end, one in zip(ENDS, carried, strict=True))
+    mechanism = d.combined(name, title, copies)
+    mechanism = replace(mechanism, forces=tuple(map(_with_a_short_name, mechanism.forces)))
+    pairs = tuple(zip(carried, copies, strict=True))
+    motions = {
+        copy.of(guide): motion for one, copy in pairs for guide, motion in one.prescribed.items()
+    }
+    every = [joint.name for one, copy in pairs for joint in copy.of(one.independent)]
+    massive = [body.name for one, copy in pairs for body in copy.of(one.massive)]
+    return d.Formulation(
+        name=name,
+        title=title,
+        mechanism=mechanism,
+        independent=tuple(map(mechanism.joint, dict.fromkeys(every))),
+        prescribed=motions,
+        massive=tuple(map(mechanism.body, dict.fromkeys(massive))),
+        held={"rack_held": tuple(motions)} if motions else {},
+        allow_iteration=any(one.allow_iteration for one in axles),
+    )
+
+
+def _copied(axle_on_body: d.Formulation, prefix: str) -> d.Copy:
+    """Return an axle whose parts have names and parameters of their own, but for the body."""
+    source = axle_on_body.mechanism
+    moved = [joint for joint in source.joints if joint.name.startswith("body_")]
+    shared = tuple(joint.second for joint in moved)
+    own = [part for part in source.every(Owner) if part not in {*parts((tuple(moved), shared))}]
+    return d.Copy(source, prefix, shared=shared, own=own)
+
+
+def of_corners(corner: d.Formulation, *, pulls: str = "", steered: bool = True) -> d.Formulation:
+    """Return an axle of two suspensions for a car.
+
+    Parameters
+    ----------
+    corner
+        The equations of the suspension of the right side, on a chassis that rests.
+    pulls
+        The body of it that the drop link of an anti-roll bar is joined to; without it, no bar.
+    steered
+        Whether its rack, if any, moves; otherwise it is a part of the body.
+    """
+    one = corner if steered else with_a_fixed_rack(corner)
+    mechanism = axle.mechanism(_TYRE, one.title, one, pulls=pulls, own=True, end=_TYRE)
+    return axle.model(one, mechanism)
+
+
+def of_rigid_axle(rigid: d.Formulation) -> d.Formulation:
+    """Return a rigid axle for a car."""
+    forces = tuple(
+        replace(force, name=force.name.replace("axle", _TYRE))
+        if isinstance(force, d.LinearTyre)
+        else force
+        for force in rigid.mechanism.forces
+    )
+    return replace(rigid, mechanism=replace(rigid.mechanism, forces=forces))
+
+
+def with_a_fixed_rack(corner: d.Formulation) -> d.Formulation:
+    """Return a suspension whose rack, if it has one, is a part of the chassis."""
+    if not corner.prescribed:
+        return corner
+    guides = tuple(corner.prescribed)
+    source, ground = corner.mechanism, corner.mechanism.body(corner.mechanism.ground)
+    mechanism = replace(
+        source,
+        joints=tuple(joint for joint in source.joints if joint not in guides),
+        forces=tuple(force for force in source.forces if force.along not in guides),
+        coordinates=tuple(c for c in source.coordinates if c.joint not in guides),
+    )
+    fixed = {guide.second: ground for guide in guides}
+    return replace(
+        corner,
+        mechanism=replaced(mechanism, fixed),
+        independent=replaced(corner.independent, fixed),
+        prescribed={},
+        held={},
+        cites={},
+    )
+
+
+def _on_the_body(source: d.Formulation, freedoms: Sequence[str]) -> d.Formulation:
+    """Return equations in which the body of a car, which moves, takes the place of the ground."""
+    joints, coordinates = _body_joints(freedoms)
+    on = {source.mechanism.body(source.mechanism.ground): BODY}
+    mechanism = replace(
+        source.mechanism,
+        joints=(*joints, *replaced(source.mechanism.joints, on)),
+        forces=replaced(source.mechanism.forces, on),
+        coordinates=(*coordinates, *replaced(source.mechanism.coordinates, on)),
+    )
+    return replace(
+        source,
+        mechanism=mechanism,
+        independent=(*joints, *replaced(source.independent, on)),
+        massive=(BODY, *replaced(source.massive, on)),
+        prescribed=replaced(source.prescribed, on),
+        held=replaced(source.held, on),
+        cites={},
+    )
+
+
+def _body_joints(
+    freedoms: Sequence[str],
+) -> tuple[tuple[d.Joint, ...], tuple[d.RelativeCoordinate, ...]]:
+    """Return the joints from the road to the body, and their coordinates."""
+    bodies = [ROAD, *(d.Body(f"body_after_{f}", 0.0, BODY.center) for f in freedoms[:-1]), BODY]
+    joints: list[d.Joint] = []
+    coordinates = []
+    for freedom, first, second in zip(freedoms, bodies[:-1], bodies[1:], strict=True):
+        if freedom == "heave":
+            guide = d.Prismatic("body_guide", first, second, direction=d.UP)
+            joints.append(guide)
+            coordinates.append(guide.slide(freedom, _MEANINGS[freedom]))
+            continue
+        along = _LEFTWARD if freedom == "pitch" else d.FORWARD
+        hinge = d.Revolute(f"body_{freedom}_hinge", first, second, axis=d.Line(BODY.center, along))
+        joints.append(hinge)
+        coordinates.append(hinge.angle(freedom, _MEANINGS[freedom]))
+    return tuple(joints), tuple(coordinates)
+
+
+def _with_a_short_name(force: d.Force) -> d.Force:
+    if not isinstance(force, d.LinearTyre):
+        return force
+    return replace(force, name=force.name.removesuffix(f"_{_TYRE}"))
+
+
+def _lower(title: str) -> str:
+    return title[:1].lower() + title[1:] if title[1:2].islower() else title

@@ -1,0 +1,177 @@
+"""Cars: their files, their equations against independent ones, their rest and characteristics."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import kintrafo
+import numpy as np
+import pytest
+from kintrafo.vehicle.analysis.characteristics import datasets
+from kintrafo.vehicle.models.car import Car
+from kintrafo.vehicle.models.car.car import center_of_gravity, masses
+from kintrafo.vehicle.models.car.equations import CarModel
+
+
+@pytest.fixture(scope="module")
+def quarter() -> CarModel:
+    return CarModel(Car.load("quarter_car"))
+
+
+def test_load_returns_a_car() -> None:
+    car = kintrafo.load("reference_vehicle")
+    assert isinstance(car, Car)
+    assert car.coordinates == ("heave", "pitch", "roll")
+    assert car.wheels == ("front_left", "front_right", "rear_left", "rear_right")
+    assert [round(float(c[0]), 9) for c in car.wheel_centers.values()] == [0.0, 0.0, -2.6, -2.6]
+
+
+def test_a_car_is_written_and_read_again() -> None:
+    for name in ("quarter_car", "reference_vehicle"):
+        car = Car.load(name)
+        assert Car.from_dict(car.to_dict()).to_dict() == car.to_dict()
+
+
+def test_paths_count_from_the_file(tmp_path: Any) -> None:
+    kintrafo.load("reference_car").save(tmp_path / "corner.toml")
+    (tmp_path / "car.toml").write_text(
+        'car = "heave"\ncorner = "corner.toml"\n[body]\nmass_kg = 300.0\n', encoding="utf-8"
+    )
+    car = kintrafo.load(tmp_path / "car.toml")
+    assert car.corner.suspension == "macpherson"
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"wheelbase_mm": 2610.0}, "wheelbase_mm = 2610 mm, and the wheel centres of the axles"),
+        ({"rear_origin_mm": 0.0}, "rear_origin_mm = -2600 mm would agree"),
+        ({"body.mass_kg": 0.0}, r"\[body\] mass_kg = 0.0 kg is out of range"),
+        ({"body.com_mm.x": 100.0}, "would tip over"),
+        ({"body.com_mm": None}, "com_mm is missing"),
+        ({"body.inertia_yy_kg_m2": 0.0, "body.inertia_xx_kg_m2": 0.0}, "inertia_yy_kg_m2 = 0"),
+        ({"body.colour": 1.0}, r"\[body\] colour is not a known key"),
+        ({"corner": "reference_car"}, "corner is given, which is of a quarter car"),
+        ({"car": "heave"}, "corner is missing"),
+        ({"car": "fly"}, "car = 'fly' must be"),
+        ({"front": "rear_axle"}, "front: its file says that it is the rear axle"),
+        ({"front": "reference_car.toml"}, "front = 'reference_car.toml': There is no such file"),
+        ({"front.side.vehicle.wheelbase_mm": 2700.0}, "front: .* wheelbase_mm = 2700 mm, and"),
+        (
+            {"rear.side.vehicle.center_of_gravity_height_mm": 500.0},
+            "rear: .* = 500 mm, and that of the whole car is 546.7 mm",
+        ),
+        ({"rear.side.gravity.acceleration_m_per_s2": 1.62}, "is 1.62 m/s.2 and 9.81 m/s.2"),
+        ({"front.side.vehicle.front_brake_share": 0.6}, "front_brake_share is 0.6 and 0.7"),
+    ],
+)
+def test_what_contradicts_itself_is_refused(changes: dict[str, Any], words: str) -> None:
+    with pytest.raises(kintrafo.InputError, match=words):
+        Car.load("reference_vehicle").with_changes(changes)
+
+
+def test_what_is_not_taken_is_named() -> None:
+    car = Car.load("reference_vehicle")
+    assert [word.partition(":")[0] for word in car.unused] == ["rear"]
+    ride = car.with_changes({"car": "ride"})
+    assert ride.unused[:2] == ("[body] inertia_xx_kg_m2", "[body] inertia_zz_kg_m2")
+
+
+def test_the_gravity_centre_is_that_of_all_masses() -> None:
+    car = Car.load("reference_vehicle")
+    assert sum(mass for mass, _ in masses(car)) == pytest.approx(1382.4 + 2 * 42.0 + 2 * 41.5)
+    # by the numbers of the files: body, and of both sides arm, knuckle, wheel; arms, knuckle, wheel
+    moments = (
+        1382.4 * 577.4
+        + 2 * (5.0 * 590.0 / 3 + 22.0 * 300.0)
+        + 2 * 15.0 * (180.0 + 120.0 * 640.0 / np.sqrt(33.0**2 + 125.0**2 + 640.0**2))
+        + 2 * (5.0 * (195.0 + 195.0 + 185.0) / 3 + 2.5 * (500.0 + 474.0 + 505.0) / 3)
+        + 2 * (12.0 * 300.0 + 22.0 * 300.0)
+    )
+    assert 1e3 * center_of_gravity(car)[2] == pytest.approx(moments / (1382.4 + 167.0), abs=1e-9)
+
+
+def test_a_quarter_car_rests_on_its_spring(quarter: CarModel) -> None:
+    state = kintrafo.equilibrium(quarter)
+    assert quarter.signal("tyre_force", state) == pytest.approx(
+        9.81 * (345.36 + 42.0), rel=1e-12
+    )  # of all masses
+    raised = kintrafo.equilibrium(quarter, road_height=0.05)
+    assert raised[0] - state[0] == pytest.approx(0.05, abs=1e-12)
+    assert raised[1] == pytest.approx(state[1], abs=1e-12)
+
+
+def test_a_quarter_car_moves_like_its_suspension_in_an_accelerated_frame(
+    quarter: CarModel,
+) -> None:
+    """The suspension on a body with the acceleration a feels the gravity g + a, and no more."""
+    rng = np.random.default_rng(3)
+    alone = kintrafo.Model("reference_car")
+    for _ in range(5):
+        state = quarter.design_state + rng.normal(0.0, [0.05, 0.1, 1.0, 0.5, 2.0, 30.0])
+        inputs = quarter.inputs({"road_height": float(rng.normal(0.0, 0.02))})
+        rates = quarter.evaluate("rhs", state, inputs)
+        # the ground of the suspension moves: what counts is the road from the body
+        heave, acceleration = state[0], rates[3]
+        felt = kintrafo.System(
+            alone.equations, alone.parameters | {"gravity": 9.81 + float(acceleration)}
+        )
+        own = felt.inputs({"road_height": float(inputs[quarter.input_names.index("road_height")])})
+        own[felt.input_names.index("road_height")] -= heave
+        expected = felt.evaluate("rhs", state[[1, 2, 4, 5]], own)[2:]
+        np.testing.assert_allclose(rates[4:], expected, rtol=1e-10, atol=1e-9)
+
+
+def test_momentum_of_a_quarter_car(quarter: CarModel) -> None:
+    """The tyre alone and gravity move the common centre of mass: M q'' + B - Q in heave."""
+    rng = np.random.default_rng(4)
+    state = quarter.design_state + rng.normal(0.0, [0.05, 0.1, 1.0, 0.5, 2.0, 30.0])
+    inputs = quarter.inputs()
+    rates = quarter.evaluate("rhs", state, inputs)
+
+    def momentum(at: np.ndarray) -> float:
+        bodies = quarter.equations.BODIES
+        velocities = quarter.evaluate("velocities", at, inputs)[:, 5]
+        mass = {name: quarter.parameters[f"{name}_mass"] for name in bodies}
+        return float(sum(mass[name] * v for name, v in zip(bodies, velocities, strict=True)))
+
+    step = 1e-5
+    change = (momentum(state + step * rates) - momentum(state - step * rates)) / (2 * step)
+    a = quarter.evaluate("orientations", state, inputs)[quarter.equations.BODIES.index("knuckle")]
+    up = 1.0 - (a @ np.array([0.0, 1.0, 0.0]))[2] ** 2
+    force = float(quarter.signal("tyre_force", state, inputs)) * np.sqrt(up)
+    # rounding of the momentum over the step, and its third derivative
+    assert change == pytest.approx(force - 9.81 * (345.36 + 42.0), abs=2e-3)
+
+
+def test_a_car_without_rest_is_refused() -> None:
+    car = Car.load("quarter_car")
+    heavy = car.with_changes({"body.mass_kg": 4000.0})
+    with pytest.raises(kintrafo.PositionError, match="does not return to that"):
+        kintrafo.equilibrium(CarModel(heavy))
+
+
+@pytest.mark.parametrize("motion", ["heave", "pitch", "roll"])
+def test_characteristics_are_those_of_the_axles(motion: str) -> None:
+    car = Car.load("reference_vehicle")
+    along = np.array([-0.02, 0.0, 0.02])
+    found = datasets.over(car, motion, along)
+    assert found["camber"].dims == ("wheel", *[d for d in found.dims if d not in ("wheel", "axle")])
+    for end, lever in (("front", 1.3), ("rear", -1.3)):
+        travels = {"heave": -along, "pitch": lever * np.tan(along), "roll": along}[motion]
+        own = datasets.over(car.axles[end], "roll" if motion == "roll" else "bump", travels)
+        for side in ("left", "right"):
+            np.testing.assert_array_equal(
+                found["camber"].sel(wheel=f"{end}_{side}"), own["camber"].sel(wheel=side)
+            )
+        np.testing.assert_array_equal(
+            found["roll_center_height"].sel(axle=end), own["roll_center_height"]
+        )
+    assert np.isnan(found["bar_torque"].sel(axle="rear")).all()
+
+
+def test_other_analyses_refuse_a_car() -> None:
+    car = Car.load("reference_vehicle")
+    for analysis in (kintrafo.checkup.checkup, kintrafo.sheet.sheet, kintrafo.loads.static):
+        with pytest.raises(kintrafo.InputError, match="this is a whole car"):
+            analysis(car)

@@ -1,0 +1,411 @@
+"""A car as an assembly: its body on the wheels of two axles, or of one corner."""
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import Any, Literal, NoReturn
+
+import numpy as np
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...equations.errors import ModelError
+from ...systems.rest import rest
+from ..corner.corner import Array
+from ..input.units import in_metres
+from ..input.vehicle import Tyre
+from ..models.axle.axle import Axle
+from ..models.car.car import Car
+from ..models.car.equations import CarModel
+from ..models.model import Model
+from ..models.reach import PositionError
+from ..models.rigid.axle import RigidAxle
+from ..models.sides import SIDES
+from .assembly import Assembly, Bushings
+from .axle import AxleAssembly
+from .car_kinematics import CarKinematics, measures_of_axles
+from .corner import CornerAssembly
+from .held import RestConditions
+from .measures.measure import Measure
+from .part_poses import PartPoses
+from .quantity import HEAVE, PITCH, RACK, ROLL, Quantity
+from .rig import RigMotion, RigPosition, SweepRange, WheelReach
+from .rigid_axle import RigidAxleAssembly
+from .soft_lines import SoftLines
+from .usual import grid
+from .wheel_names import WheelNames
+
+NOT_A_CAR = (
+    "this is a whole car, and a suspension or an axle is needed. The commands characteristics and "
+    "simulate take a car; for others name the file of its axle or corner. In Python: "
+    'car.axles["front"], car.axles["rear"], car.corner.'
+)
+"""Said where something else is needed than a car."""
+
+_MOTIONS = {
+    "heave": RigMotion(HEAVE, "the body rises and falls on all wheels", "heave of the body"),
+    "pitch": RigMotion(PITCH, "the axles travel oppositely, as the body pitches", "pitch"),
+    "roll": RigMotion(ROLL, "the wheels of both axles travel oppositely", "roll"),
+}
+# Usual pitch to either side, and its step [rad].
+_MOST_PITCH, _PITCH_STEP = np.deg2rad(2.0), np.deg2rad(0.1)
+# By how much tyres are pressed where a search for rest begins above the road [m].
+_PRESSED = 0.01
+# A wheel that carries less than this has left the road [N].
+_LEAST_LOAD = 1.0
+
+
+class CarAssembly(Assembly):
+    """A car.
+
+    Parameters
+    ----------
+    car : Car
+    model : CarModel, optional
+        Its equations, where there are some already.
+    """
+
+    def __init__(self, car: Car, model: CarModel | None = None) -> None:
+        self.car, self._model = car, model
+        self.wheels = car.wheels
+        self.held = _held_parts(car)
+        known = _MOTIONS if car.axles else {"heave": _MOTIONS["heave"]}
+        self.motions = dict(known)
+
+    # -- what it is -------------------------------------------------------------------------------
+
+    @property
+    def subject(self) -> Car:
+        """The car."""
+        return self.car
+
+    @property
+    def axles(self) -> tuple[str, ...]:
+        """The ends at which there are axles."""
+        return tuple(self.car.axles)
+
+    @property
+    def body_moves(self) -> bool:
+        """It does."""
+        return True
+
+    @property
+    def steered(self) -> bool:
+        """Whether it has a rack that moves."""
+        return self.car.steered()
+
+    @property
+    def tyres(self) -> Sequence[Tyre]:
+        """The tyres, by wheel."""
+        return [tyre for part in self.held.values() for tyre in part.tyres]
+
+    @property
+    def tyre_radii(self) -> Sequence[float | None]:
+        """The radii of the wheels [m]."""
+        return [radius for part in self.held.values() for radius in part.tyre_radii]
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether one side is the mirror image of the other."""
+        return all(part.symmetric for part in self.held.values())
+
+    @property
+    def words(self) -> str:
+        """What it is, in sentences."""
+        return f"A {self.car.heading()}. The body moves: {', '.join(self.car.coordinates)}."
+
+    @property
+    def heading(self) -> str:
+        """What it is called."""
+        return self.car.heading()
+
+    @property
+    def has_bushes(self) -> bool:
+        """Whether its files have bushes."""
+        return any(part.has_bushes for part in self.held.values())
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """What decides where statics alone does not."""
+        return tuple(dict.fromkeys(rule for part in self.held.values() for rule in part.rules))
+
+    def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
+        """Return whether a wheel has a stop."""
+        end, side = self._place_of(wheel)
+        return self.held[end].has_stop(side, which)
+
+    def without_friction(self) -> "CarAssembly":
+        """Return the same without friction."""
+        parts = {
+            end or "corner": part.without_friction().subject for end, part in self.held.items()
+        }
+        data = {k: v for k, v in self.car.to_dict().items() if k not in parts}
+        return CarAssembly(Car.from_dict(data | parts))
+
+    def _place_of(self, wheel: str) -> tuple[str, str]:
+        """Return the end and the side of a wheel; no end of a quarter car."""
+        end, _, side = wheel.rpartition("_")
+        return end, side
+
+    # -- where a rig holds it ---------------------------------------------------------------------
+
+    def usual(
+        self,
+        motion: str,
+        extent: SweepRange | None = None,
+        *,
+        travel: float = 0.0,
+        rack: float = 0.0,
+    ) -> Array:
+        """Return the usual positions of a motion, zero included [m] or [rad]."""
+        del travel, rack
+        far = extent or SweepRange()
+        if motion == "pitch":
+            return grid(-_MOST_PITCH, _MOST_PITCH, _PITCH_STEP)
+        own = {"heave": None, "roll": "roll"}[motion]
+        found = [part.usual(own or part.usual_motion, far) for part in self.held.values()]
+        low, high = max(f[0] for f in found), min(f[-1] for f in found)
+        if motion == "roll":
+            return grid(low, high, float(found[0][1] - found[0][0]))
+        return grid(-high, -low, far.step)
+
+    def position(
+        self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
+    ) -> RigPosition:
+        """Return where the wheels are on the body along a motion of it.
+
+        Heave is that of the body over wheels that stay. In pitch the travels of an axle are its
+        distance from the body's centre of mass times the tangent of the angle. In roll each axle
+        has the opposite travels that incline the line through its wheel centres by the angle.
+        """
+        del travel
+        travels: dict[str, Array] = {}
+        for end, part in self.held.items():
+            if motion == "roll":
+                own = part.position("roll", along, rack=rack if part.steered else 0.0).travels
+            else:
+                risen = -along if motion == "heave" else self._lever(end) * np.tan(along)
+                own = part.at_travel(risen).travels
+            travels |= {f"{end}_{side}" if end else side: t for side, t in own.items()}
+        return RigPosition(travels, np.asarray(rack, float))
+
+    def _lever(self, end: str) -> float:
+        """Return how far an axle is in front of the body's centre of mass [m]."""
+        x = [self.car.wheel_centers[f"{end}_{side}"][0] for side in SIDES]
+        return float(np.mean(x) - self.car.com[0])
+
+    def held_in(self, motion: str, travel: float, rack: float) -> dict[Quantity, float]:
+        """Return what a motion holds."""
+        del motion, travel
+        return {RACK: rack} if self.steered else {}
+
+    def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
+        """Refuse a travel: the body moves over all wheels."""
+        del rack
+        if travel:
+            given.refuse(f"travel: the motion {motion!r} moves the body by along. Leave it out.")
+
+    def measures(self, motion: str) -> tuple[Measure, ...]:
+        """Return its characteristics over a motion: those of its axles, or of its corner."""
+        own = {end: part.measures(self._motion_of(part, motion)) for end, part in self.held.items()}
+        return measures_of_axles(own) if self.axles else own[""]
+
+    @staticmethod
+    def _motion_of(part: Assembly, motion: str) -> str:
+        return motion if motion == "roll" else part.usual_motion
+
+    def kinematics(self, position: RigPosition) -> Any:
+        """Return how the wheels are and how they move first."""
+        found = {}
+        for end, part in self.held.items():
+            travels = {
+                side: position.travels[f"{end}_{side}" if end else side] for side in part.wheels
+            }
+            rack = position.rack if part.steered and end != "rear" else np.zeros(())
+            found[end] = part.kinematics(RigPosition(travels, rack))
+        if not self.axles:
+            return found[""]
+        return CarKinematics(found, len(position.travels[self.wheels[0]]))
+
+    # -- its equations of motion ------------------------------------------------------------------
+
+    @cached_property
+    def model(self) -> CarModel:
+        """Its equations."""
+        return CarModel(self.car) if self._model is None else self._model
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The coordinates of the body, then those of the axles."""
+        own = [
+            f"{end}_{name}" if end else name
+            for end, p in self.held.items()
+            for name in p.coordinates
+        ]
+        return (*self.car.coordinates, *own)
+
+    def names_of(self, wheel: str) -> WheelNames:
+        """Return what its equations call what belongs to a wheel."""
+        end, side = self._place_of(wheel)
+        names = self.held[end].names_of(side)
+        if not end:
+            return names
+        prefix = f"{wheel}_"
+        return WheelNames(prefix, prefix, f"{end}_{names.spin}", f"{end}_{names.actuator}")
+
+    def coordinates_at_rest(self, held: RestConditions) -> Array:
+        """Return the coordinates of the state of rest that is nearest to design.
+
+        Raises
+        ------
+        PositionError
+            If there is none: if the car falls, tips over, or a wheel does not reach the road.
+        """
+        from .rest import at  # noqa: PLC0415 (both know assemblies)
+
+        if held.loads:
+            problem = (
+                "wheel_load: the wheels of a car carry what its weight asks for. Leave it out."
+            )
+            raise InputError([problem], "equilibrium")
+        model = self.model
+        rows = [model.state_names.index(name) for name in self.coordinates]
+        _, inputs = at(self, held, model.design_state[rows])
+        acting = dict(zip(model.input_names, inputs.tolist(), strict=True))
+        try:
+            found = np.asarray(rest(model, self._on_its_tyres(held), acting))
+        except (InputError, ModelError) as error:
+            problem = (
+                "the car has no rest near design: its springs and tyres do not carry it there. "
+                "Check [body] mass_kg, the springs, and free_height_mm of the tyres. "
+                f"The search ended with: {error}"
+            )
+            raise PositionError(problem) from None
+        slopes = model.evaluate("rhs_jacobian", found, inputs)[found.size // 2 :]
+        if np.linalg.eigvals(-slopes[np.ix_(rows, rows)]).real.min() <= 0.0:
+            problem = (
+                "the car rests, but does not return to that: it tips over, or a linkage snaps "
+                "through. Check the springs, and the height of the centre of mass in [body] com_mm."
+            )
+            raise PositionError(problem)
+        self._refuse_lifted(found, inputs)
+        self._refuse_on_stops(found, inputs)
+        return found[rows]
+
+    def _on_its_tyres(self, held: RestConditions) -> Array:
+        """Return the state at design, lowered until tyres that are above the road carry it."""
+        model = self.model
+        state: Array = model.design_state.copy()
+        gaps = [
+            self.car.wheel_centers[wheel][2] - in_metres(tyre.free_height_mm, "mm")
+            - held.roads.get(wheel, 0.0)
+            for wheel, tyre in zip(self.wheels, self.tyres, strict=True)
+        ]  # fmt: skip
+        if max(gaps) > 0.0:
+            state[model.state_names.index("heave")] = -max(gaps) - _PRESSED
+        return state
+
+    def _refuse_on_stops(self, state: Array, inputs: Array) -> None:
+        """Refuse a rest in which a stop carries something."""
+        signals = self.model.signals(state, inputs)
+        pressed = {n: abs(float(f)) for n, f in signals.items() if n.endswith("_stop_force")}
+        pressed = {name: force for name, force in pressed.items() if force > _LEAST_LOAD}
+        if pressed:
+            words = ", ".join(f"{name} = {force:.0f} N" for name, force in pressed.items())
+            problem = (
+                f"at rest the car is on its stops: {words}. Check [body] mass_kg, the springs, and "
+                "clearance_mm of the stops."
+            )
+            raise PositionError(problem)
+
+    def _refuse_lifted(self, state: Array, inputs: Array) -> None:
+        """Refuse a rest in which a wheel does not press on the road."""
+        model = self.model
+        loads = {
+            wheel: float(model.signal(f"{self.names_of(wheel).signals}tyre_force", state, inputs))
+            for wheel in self.wheels
+        }
+        lifted = [wheel for wheel, load in loads.items() if load < _LEAST_LOAD]
+        if lifted:
+            words = ", ".join(f"{wheel.replace('_', ' ')} {loads[wheel]:.0f} N" for wheel in lifted)
+            problem = (
+                f"at rest wheels do not press on the road: {words}. The car does not reach the "
+                "ground there, or tips over: check [body] com_mm, free_height_mm of the tyres and "
+                "the heights of the road."
+            )
+            raise PositionError(problem)
+
+    # -- what is of an axle alone -----------------------------------------------------------------
+
+    def _refuse(self) -> NoReturn:
+        raise InputError([NOT_A_CAR], self.heading)
+
+    def coordinates_at(self, position: RigPosition) -> Array:
+        """Refuse: a car begins at rest, or at a state of its equations."""
+        del position
+        problem = (
+            "heights of wheels: the body of a car moves too; it begins at rest. Leave them out."
+        )
+        raise InputError([problem], self.heading)
+
+    def coordinates_of(self, suffix: str) -> dict[str, str]:
+        """Refuse: parts are those of an axle."""
+        del suffix
+        self._refuse()
+
+    def joints(self, suffix: str) -> tuple[str, ...]:
+        """Refuse: hardpoints are those of an axle."""
+        del suffix
+        self._refuse()
+
+    def poses(self, position: RigPosition) -> dict[str, PartPoses]:
+        """Refuse: parts are those of an axle."""
+        del position
+        self._refuse()
+
+    def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
+        """Refuse: springs are those of an axle."""
+        del poses
+        self._refuse()
+
+    @property
+    def design_wheel_coordinates(self) -> Array:
+        """Refused: load cases are those of an axle."""
+        self._refuse()
+
+    def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
+        """Refuse: load cases are those of an axle."""
+        del travels, rack
+        self._refuse()
+
+    def wheel_reach(self, rack: float) -> Sequence[WheelReach] | None:
+        """Refuse: load cases are those of an axle."""
+        del rack
+        self._refuse()
+
+    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, PartPoses]:
+        """Refuse: load cases are those of an axle."""
+        del coordinates, racks
+        self._refuse()
+
+    def in_motion(
+        self, states: Array, inputs: Array
+    ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
+        """Refuse: loads along a motion are those of an axle."""
+        del states, inputs
+        self._refuse()
+
+    def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
+        """Refuse: bushes are those of an axle."""
+        del given, bushings
+        self._refuse()
+
+
+def _held_parts(car: Car) -> dict[str, Assembly]:
+    """Return the axles on a body that is held, by end; of a quarter car its corner."""
+    if car.corner is not None:
+        return {"": CornerAssembly(Model(car.corner))}
+    return {end: _assembly(axle) for end, axle in car.axles.items()}
+
+
+def _assembly(axle: Axle | RigidAxle) -> Assembly:
+    return RigidAxleAssembly(axle) if isinstance(axle, RigidAxle) else AxleAssembly(axle)

@@ -1,0 +1,480 @@
+"""A car: what the sections of its file make together."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import ValidationError
+
+from ....core.arguments import Arguments, shown
+from ....core.errors import InputError
+from ...data import data_sets, find
+from ...data.starter import AXLES, CAR, CARS, RIGID_AXLE, RIGID_AXLES
+from ...input.messages import messages_of
+from ...input.places import put
+from ...input.toml_file import read_toml
+from ...input.units import in_metres
+from ...kinds import Suspension
+from ..axle.axle import KIND as AXLE
+from ..axle.axle import Axle, is_axle
+from ..rigid.axle import RigidAxle, is_rigid_axle
+from ..sides import LEFT, SIDES
+from .file import COORDINATES, ENDS, CarFile
+
+Array = NDArray[np.float64]
+
+AnyAxle = Axle | RigidAxle
+
+WHEELS = tuple(f"{end}_{side}" for end in ENDS for side in SIDES)
+"""The names of the wheels of a car with two axles."""
+
+# Lengths that two files give agree to this [m]: the last digit of a length in mm.
+_CLOSE = 5e-4
+# The height of the gravity centre that files give is rounded more [m].
+_CLOSE_HEIGHT = 5e-3
+_PARTS = ("corner", *ENDS)
+
+
+@dataclass(frozen=True)
+class Car:
+    """A body on two axles, or on one suspension. Immutable.
+
+    Make one with `load` or `from_dict`.
+
+    Attributes
+    ----------
+    described : CarFile
+        What its own file says.
+    corner : Suspension or None
+        The suspension of a quarter car.
+    axles : dict of str to Axle or RigidAxle
+        The front and the rear one by the end that they are at; empty for a quarter car.
+
+    Examples
+    --------
+    >>> car = Car.load("reference_vehicle")
+    >>> car.wheels
+    ('front_left', 'front_right', 'rear_left', 'rear_right')
+    """
+
+    described: CarFile
+    corner: Suspension | None
+    axles: Mapping[str, AnyAxle]
+
+    NEEDED = 'a kintrafo.Car, such as kintrafo.load("reference_vehicle"), is needed'
+
+    @classmethod
+    def load(cls, path_or_name: str | Path) -> Self:
+        """Read a car from a TOML file, and the files that it names.
+
+        Parameters
+        ----------
+        path_or_name : str or pathlib.Path
+            The file; or, as a string, the name of one that comes with kintrafo:
+            ``"reference_vehicle"`` or ``"quarter_car"``.
+
+        Raises
+        ------
+        InputError
+            If a file cannot be read or no car can be like this; it lists everything that is wrong.
+        """
+        with Arguments(cls.__name__) as given:
+            given.path("path_or_name", path_or_name)
+        file = find(path_or_name, data_sets(CARS))
+        folder = file.parent if isinstance(file, Path) else Path()
+        return cls.from_dict(read_toml(file), source=str(path_or_name), folder=folder)
+
+    @classmethod
+    def from_dict(
+        cls, data: Mapping[str, Any], source: str = "input data", *, folder: str | Path = "."
+    ) -> Self:
+        """Make a car from nested dictionaries with the keys of the file.
+
+        Parameters
+        ----------
+        data : mapping
+            The sections, with their keys and units as in the file. A corner or an axle is the name
+            of a file, an object, or the nested dictionaries of one.
+        source : str, optional
+            Where the data come from, for error messages.
+        folder : str or pathlib.Path, optional
+            From where paths are counted.
+
+        Raises
+        ------
+        InputError
+            If no car can be like this; it lists everything that is wrong.
+        """
+        with Arguments(source) as checked:
+            for key in checked.mapping("data", data, "keys and values of a car's file"):
+                checked.kind("key of data", key, str, "a text is needed")
+            checked.path("folder", folder)
+        if CAR not in data:
+            problem = f'{CAR} is missing: how the body moves. Add a line `{CAR} = "roll"`.'
+            raise InputError([problem], source)
+        try:
+            described = CarFile(**data)
+        except ValidationError as error:
+            raise InputError(messages_of(error, CarFile, data), source) from None
+        parts = _parts_of(described, Path(folder), source)
+        axles = {end: parts[end] for end in ENDS if end in parts}
+        car = cls(described, parts.get("corner"), axles)
+        problems = _problems_of_axles(car) if axles else []
+        problems += _problems_of_gravity(car)
+        if problems:
+            raise InputError(problems, source)
+        return car
+
+    def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
+        """Return the sections as nested dictionaries, which `from_dict` takes back unchanged.
+
+        Parameters
+        ----------
+        exclude_defaults : bool, optional
+            Whether values that are as by default are left out.
+
+        Returns
+        -------
+        dict
+            A copy of all values, with the keys and units of the file; the sections of its corner
+            and of its axles are nested in the place of the names of their files.
+        """
+        own = self.described.model_dump(
+            mode="json", exclude_none=True, exclude_defaults=exclude_defaults, exclude={*_PARTS}
+        )
+        parts = {
+            name: part.to_dict(exclude_defaults=exclude_defaults)
+            for name, part in self.parts.items()
+        }
+        return {CAR: own.pop(CAR)} | parts | {name: v for name, v in own.items() if v != {}}
+
+    def with_changes(self, changes: Mapping[str, Any]) -> Self:
+        """Return a car that differs in some values; all checks are made again.
+
+        Parameters
+        ----------
+        changes : mapping of str to Any
+            For each place in the file, section and key with dots between them, the new value in
+            the file's unit: ``body.mass_kg``; of its corner behind ``corner``, of an axle behind
+            ``front`` or ``rear``: ``front.side.hardpoints.ball_joint.z``. None removes an optional
+            key.
+
+        Raises
+        ------
+        InputError
+            If there is no such place, or no car can be like this.
+
+        Examples
+        --------
+        >>> car = Car.load("quarter_car")
+        >>> car.with_changes({"body.mass_kg": 400.0}).described.body.mass_kg
+        400.0
+        """
+        with Arguments("car") as checked:
+            for key in checked.mapping("changes", changes, "places and values"):
+                checked.kind("key of changes", key, str, "a text is needed")
+        data = self.to_dict()
+        data |= self.parts
+        of_part: dict[str, dict[str, Any]] = {name: {} for name in self.parts}
+        problems = []
+        for place, value in changes.items():
+            section, _, key = place.partition(".")
+            if section in of_part and key:
+                of_part[section][key] = value
+            elif problem := put(data, place, value):
+                problems.append(problem)
+        source = f"car with changed {', '.join(changes)}"
+        if problems:
+            raise InputError(problems, source)
+        for name, own in of_part.items():
+            if own:
+                data[name] = self.parts[name].with_changes(own)
+        return self.from_dict(data, source)
+
+    # -- what it is -------------------------------------------------------------------------------
+
+    @property
+    def parts(self) -> dict[str, Any]:
+        """The corner, or both axles, by the keys of the file."""
+        return {"corner": self.corner} if self.corner is not None else dict(self.axles)
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The coordinates of the body: heave [m], positive up, pitch and roll [rad]."""
+        return COORDINATES[self.described.car]
+
+    @property
+    def wheels(self) -> tuple[str, ...]:
+        """The names of the wheels, the left one of an axle first."""
+        return WHEELS if self.corner is None else (self.corner.vehicle.side,)
+
+    def heading(self) -> str:
+        """Return what the car is called."""
+        if self.corner is not None:
+            return f"quarter car, {self.corner.TITLE}"
+        return f"car, {' and '.join(axle.heading() for axle in self.axles.values())}"
+
+    def steered(self) -> bool:
+        """Return whether its rack can be moved: that of the front axle."""
+        one = self.corner if self.corner is not None else self.axles["front"]
+        return isinstance(one, Axle | Suspension) and one.steered()
+
+    @property
+    def origins(self) -> dict[str, float]:
+        """The x of the origins of the axles' axes, in the axes of the car, by end [m]."""
+        return {"front": 0.0, "rear": in_metres(self.described.rear_origin_mm, "mm")}
+
+    @cached_property
+    def wheel_centers(self) -> dict[str, Array]:
+        """The wheel centres at design, axes of the car, by wheel [m]."""
+        if self.corner is not None:
+            return {self.wheels[0]: self.corner.hardpoints.metres("wheel_center")}
+        shift = np.array([1.0, 0.0, 0.0])
+        return {
+            f"{end}_{side}": center + self.origins[end] * shift
+            for end, axle in self.axles.items()
+            for side, center in _centers(axle).items()
+        }
+
+    @property
+    def com(self) -> Array:
+        """The centre of mass of the body at design, axes of the car [m]."""
+        given = self.described.body.com_mm
+        if given is None:  # of a quarter car, which only heaves
+            return np.array(self.wheel_centers[self.wheels[0]])
+        return np.array([in_metres(value, "mm") for value in given])
+
+    @property
+    def unused(self) -> tuple[str, ...]:
+        """What its files give and a body that moves so does not take, in words."""
+        body = self.described.body
+        turns = {"pitch": "yy", "roll": "xx"}
+        used = {turns[name] for name in self.coordinates if name in turns}
+        used |= {"xx", "yy", "zz", "xy", "xz", "yz"} if "roll" in self.coordinates else set()
+        given = {f"inertia_{name}_kg_m2": name for name, v in body.elements().items() if v}
+        words = [f"[body] {key}" for key, name in given.items() if name not in used]
+        if body.com_mm is not None and self.coordinates == ("heave",):
+            words.append("[body] com_mm")
+        rear = self.axles.get("rear")
+        if isinstance(rear, Axle) and rear.steered():
+            words.append("rear: [rack], which is a part of the body: its tie rods hold the toe")
+        return tuple(words)
+
+
+def packaged_cars() -> dict[str, Any]:
+    """Return the files of the cars that come with kintrafo, by their names."""
+    return data_sets(CARS)
+
+
+def is_car(path_or_name: str | Path) -> bool:
+    """Return whether a file, or a packaged name, is that of a car."""
+    if path_or_name in packaged_cars():
+        return True
+    packaged = data_sets() | data_sets(AXLES) | data_sets(RIGID_AXLES)
+    if path_or_name in packaged or not Path(path_or_name).is_file():
+        return False
+    try:
+        return CAR in read_toml(Path(path_or_name))
+    except InputError:
+        return False
+
+
+def _centers(axle: AnyAxle) -> dict[str, Array]:
+    """Return the wheel centres of an axle in its own axes [m]."""
+    if isinstance(axle, RigidAxle):
+        return {side: axle.points(side)["wheel_center"] for side in SIDES}
+    return {side: one.hardpoints.metres("wheel_center") for side, one in axle.sides.items()}
+
+
+def _parts_of(described: CarFile, folder: Path, source: str) -> dict[str, Any]:
+    """Return the corner, or the axles, by the keys that give them."""
+    found: dict[str, Any] = {}
+    problems = []
+    for key in _PARTS:
+        given = getattr(described, key)
+        if given is None:
+            continue
+        try:
+            found[key] = _corner(given, folder) if key == "corner" else _axle(given, key, folder)
+        except InputError as error:
+            named = f"{key} = {shown(given)}" if isinstance(given, str) else key
+            problems += [f"{named}: {problem}" for problem in error.problems]
+    if problems:
+        raise InputError(problems, source)
+    return found
+
+
+def _corner(given: Any, folder: Path) -> Suspension:
+    if isinstance(given, Suspension):
+        return given
+    if isinstance(given, Mapping):
+        return Suspension.from_dict(given)
+    if isinstance(given, str) and given in data_sets():
+        return Suspension.load(given)
+    if isinstance(given, str | Path):
+        return Suspension.load(folder / given)
+    problem = f"{shown(given)}: the name of a hardpoint file is needed."
+    raise InputError([problem], "corner")
+
+
+def _axle(given: Any, key: str, folder: Path) -> AnyAxle:
+    if isinstance(given, Axle | RigidAxle):
+        return given
+    if isinstance(given, Mapping):
+        kind = RigidAxle if RIGID_AXLE in given else Axle
+        return kind.from_dict(given)
+    if isinstance(given, str) and given in data_sets(AXLES):
+        return Axle.load(given)
+    if isinstance(given, str) and given in data_sets(RIGID_AXLES):
+        return RigidAxle.load(given)
+    if isinstance(given, str | Path):
+        file = folder / given
+        if is_rigid_axle(file):
+            return RigidAxle.load(file)
+        if is_axle(file) or not file.is_file() or AXLE in read_toml(file):
+            return Axle.load(file)
+        problem = (
+            f"{given} is no axle: it has no line `{AXLE} = ...` or `{RIGID_AXLE} = ...`. Name an "
+            "axle's file, which names the hardpoint file of its sides."
+        )
+        raise InputError([problem], key)
+    problem = f"{shown(given)}: the name of an axle's file is needed."
+    raise InputError([problem], key)
+
+
+def _end_of(axle: AnyAxle) -> str:
+    return axle.rigid_axle if isinstance(axle, RigidAxle) else axle.end
+
+
+def _problems_of_axles(car: Car) -> list[str]:
+    problems = [
+        f"{end}: its file says that it is the {_end_of(axle)} axle. Exchange the two, or correct "
+        "the file."
+        for end, axle in car.axles.items()
+        if _end_of(axle) != end
+    ]
+    problems += [
+        "rear: [steering]: the rear wheels are not steered, and their rack is a part of the body. "
+        "Remove that section."
+        for axle in [car.axles["rear"]]
+        if isinstance(axle, Axle) and axle.steering is not None
+    ]
+    problems += [
+        f"{end}: [rods] {', '.join(axle.rods)}: an axle on five rods moves only on its bushes, and "
+        "rods are rigid in a car. Leave one of them out."
+        for end, axle in car.axles.items()
+        if isinstance(axle, RigidAxle) and axle.overheld
+    ]
+    return problems or [*_problems_of_places(car), *_problems_of_shared(car)]
+
+
+def _problems_of_places(car: Car) -> list[str]:
+    """See that the axles are as far apart as the file says, and the body between them."""
+    x = {
+        end: float(np.mean([car.wheel_centers[f"{end}_{side}"][0] for side in SIDES]))
+        for end in ENDS
+    }
+    between, given = x["front"] - x["rear"], in_metres(car.described.wheelbase_mm or 0.0, "mm")
+    problems = []
+    if abs(between - given) > _CLOSE:
+        origin = 1e3 * car.origins["rear"]
+        problems.append(
+            f"wheelbase_mm = {1e3 * given:g} mm, and the wheel centres of the axles are "
+            f"{1e3 * between:g} mm apart: the front ones at x = {1e3 * x['front']:g} mm, the rear "
+            f"ones at {1e3 * x['rear']:g} mm with rear_origin_mm = {origin:g} mm. Correct one of "
+            f"them; rear_origin_mm = {origin + 1e3 * (between - given):g} mm would agree."
+        )
+    com = float(car.com[0])
+    if not problems and not x["rear"] < com < x["front"]:
+        problems.append(
+            f"[body] com_mm: x = {1e3 * com:g} mm is not between the wheel centres of the rear "
+            f"axle at {1e3 * x['rear']:g} mm and of the front axle at {1e3 * x['front']:g} mm, so "
+            "that the car would tip over. Correct it; x points forward."
+        )
+    return problems
+
+
+def _problems_of_shared(car: Car) -> list[str]:
+    """See that the files of the axles agree on what belongs to the whole car."""
+    problems = []
+    described = {end: _vehicle_of(axle) for end, axle in car.axles.items()}
+    for end, vehicle in described.items():
+        base = vehicle.wheelbase_mm
+        if base is not None and abs(base - (car.described.wheelbase_mm or 0.0)) > 1e3 * _CLOSE:
+            problems.append(
+                f"{end}: [vehicle] wheelbase_mm = {base:g} mm, and the car's wheelbase_mm = "
+                f"{car.described.wheelbase_mm:g} mm. Make them equal, or remove the first."
+            )
+        height = vehicle.center_of_gravity_height_mm
+        own = center_of_gravity(car)[2]
+        if height is not None and abs(in_metres(height, "mm") - own) > _CLOSE_HEIGHT:
+            problems.append(
+                f"{end}: [vehicle] center_of_gravity_height_mm = {height:g} mm, and that of the "
+                f"whole car is {1e3 * own:.1f} mm by the masses of body, axles and wheels. Make "
+                "them agree within 5 mm, or remove the first."
+            )
+    shares = {v.front_brake_share for v in described.values()} - {None}
+    if len(shares) > 1:
+        problems.append(
+            f"[vehicle] front_brake_share is {' and '.join(f'{s:g}' for s in sorted(shares))} in "
+            "the files of the axles. Make them equal."
+        )
+    return problems
+
+
+def _vehicle_of(axle: AnyAxle) -> Any:
+    return axle.vehicle if isinstance(axle, RigidAxle) else axle.right.vehicle
+
+
+def _problems_of_gravity(car: Car) -> list[str]:
+    found = {one.gravity.acceleration_m_per_s2 for one in _of_gravity(car)}
+    if len(found) == 1:
+        return []
+    values = " and ".join(f"{value:g} m/s^2" for value in sorted(found))
+    return [f"[gravity] acceleration_m_per_s2 is {values} in its files. Make them equal."]
+
+
+def _of_gravity(car: Car) -> list[Any]:
+    if car.corner is not None:
+        return [car.corner]
+    axles = car.axles.values()
+    return [a if isinstance(a, RigidAxle) else a.right for a in axles]
+
+
+def masses(car: Car) -> list[tuple[float, Array]]:
+    """Return every mass of a car with its centre at design, axes of the car [kg, m]."""
+    found = [(car.described.body.mass_kg, car.com)]
+    for end, axle in car.axles.items():
+        shift = np.array([car.origins[end], 0.0, 0.0])
+        for values, mirrored in _parameters_of_bodies(axle):
+            for name, mass in values.items():
+                if not name.endswith("_mass"):
+                    continue
+                body = name.removesuffix("_mass")
+                at = "wheel_center" if body == "wheel" else f"{body}_com"
+                center = np.array([values[f"{at}_{axis}"] for axis in "xyz"])
+                found.append((mass, center * mirrored + shift))
+    return found
+
+
+def _parameters_of_bodies(axle: AnyAxle) -> list[tuple[dict[str, float], Array]]:
+    """Return the parameters that have masses and their centres, by side of an axle."""
+    same = np.ones(3)
+    if isinstance(axle, Axle):
+        return [(dict(side.parameters()), same) for side in axle.sides.values()]
+    values = axle.parameters()
+    left = {n.removeprefix(f"{LEFT}_"): v for n, v in values.items() if n.startswith(f"{LEFT}_")}
+    right = {n: v for n, v in values.items() if not n.startswith(f"{LEFT}_")}
+    return [(right, same), (left, same)]
+
+
+def center_of_gravity(car: Car) -> Array:
+    """Return the centre of gravity of a whole car at design, axes of the car [m]."""
+    found = masses(car)
+    total = sum(mass for mass, _ in found)
+    center: Array = np.sum([mass * place for mass, place in found], axis=0) / total
+    return center

@@ -1,0 +1,173 @@
+"""The equations of motion of a car: shipped for some, otherwise derived when first needed."""
+
+import importlib
+from collections.abc import Callable, Mapping
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+from ....core.arguments import Arguments
+from ....core.vectors import components
+from ....systems.allowed import LengthLimit
+from ....systems.compile.build import compile_mechanism, require_generator
+from ....systems.system import System
+from ..axle.axle import Axle
+from ..axle.equations import corner_of, parameters_by_side, parameters_of_bar
+from ..model import Model
+from ..rigid.axle import RigidAxle
+from ..rigid.model import RigidAxleModel
+from .car import AnyAxle, Car
+
+if TYPE_CHECKING:
+    from ....generator import Formulation
+
+Report = Callable[[str], None]
+
+
+class CarModel(System):
+    """The compiled equations of a car: body, axles, tyres.
+
+    Those of the cars that come with kintrafo come with it; others are derived and compiled when
+    they are first needed, as by `kintrafo.compile`, and kept.
+
+    Parameters
+    ----------
+    car : Car
+    progress : callable, optional
+        Called with what is being done, in a few words.
+
+    Attributes
+    ----------
+    car : Car
+    parameters, constants, design_state
+        As of `System`. States are those of the body, ``heave``, ``pitch`` and ``roll``, then those
+        of the suspensions; their names, and those of inputs and signals, begin with that of the
+        wheel, ``front_left_``, or of the axle. Those of a quarter car have no such beginning.
+
+    Examples
+    --------
+    >>> from kintrafo import load
+    >>> CarModel(load("quarter_car")).state_names[:3]
+    ('heave', 'beta1', 'beta5')
+    """
+
+    NEEDED = 'a kintrafo.CarModel, such as CarModel(load("quarter_car")), is needed'
+
+    def __init__(self, car: Car, *, progress: Report | None = None) -> None:
+        with Arguments("CarModel") as given:
+            given.kind("car", car, Car, Car.NEEDED)
+            given.function("progress", progress)
+        equations = _equations(car, progress)
+        super().__init__(equations, _parameters(car, equations.PARAMETERS))
+        self.car = car
+        self.wheel_loads = False
+
+    def allowed_lengths(self) -> tuple[LengthLimit, ...]:
+        """Return the lengths that the files of the sides allow."""
+        if self.car.corner is not None:
+            return self.car.corner.allowed_lengths()
+        found = []
+        for end, axle in self.car.axles.items():
+            for prefix, limits in _limits(axle).items():
+                words = f"{end} {prefix.replace('_', ' ')}"
+                found += [
+                    one._replace(signal=f"{end}_{prefix}{one.signal}", part=f"{words}{one.part}")
+                    for one in limits
+                ]
+        return tuple(found)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return CarModel, (self.car,)
+
+    def __repr__(self) -> str:
+        return f"<CarModel {self.equations.NAME}>"
+
+
+def _limits(axle: AnyAxle) -> Mapping[str, tuple[LengthLimit, ...]]:
+    if isinstance(axle, RigidAxle):
+        return {"": RigidAxleModel(axle).allowed_lengths()}
+    return {f"{side}_": own.allowed_lengths() for side, own in axle.sides.items()}
+
+
+def name_of(car: Car) -> str:
+    """Return the name of the equations of a car, by what is in them."""
+    if car.corner is not None:
+        return f"quarter_{Model(car.corner).equations.NAME}"
+    return "_".join([car.described.car, "car", *map(_name_of_axle, car.axles.values())])
+
+
+def _name_of_axle(axle: AnyAxle) -> str:
+    if isinstance(axle, RigidAxle):
+        return "rigid_axle"
+    return f"{corner_of(axle)}_{axle.bar.link_on}" if axle.bar else corner_of(axle)
+
+
+def _equations(car: Car, progress: Report | None) -> ModuleType:
+    """Return the equations that come with the project, or those that are compiled here."""
+    name = name_of(car)
+    try:
+        return importlib.import_module(f"kintrafo.generated.{name}")
+    except ModuleNotFoundError as error:
+        if error.name != f"kintrafo.generated.{name}":
+            raise
+    return compile_mechanism(declared(car), progress=progress)
+
+
+def declared(car: Car) -> "Formulation":
+    """Return the declaration of a car, whose values are apart from it."""
+    require_generator()
+    from ....generator.mechanisms import car as page  # noqa: PLC0415 (an extra)
+    from ....generator.mechanisms import model_named  # noqa: PLC0415
+
+    if car.corner is not None:
+        return page.quarter(model_named(str(Model(car.corner).equations.NAME)))
+
+    def of(end: str, axle: AnyAxle) -> "Formulation":
+        if isinstance(axle, RigidAxle):
+            return page.of_rigid_axle(model_named("rigid_axle"))
+        pulls = axle.bar.link_on if axle.bar else ""
+        return page.of_corners(model_named(corner_of(axle)), pulls=pulls, steered=end == "front")
+
+    axles = [of(end, axle) for end, axle in car.axles.items()]
+    heading = car.heading()
+    return page.car(name_of(car), heading[:1].upper() + heading[1:], axles, car.coordinates)
+
+
+def _parameters(car: Car, described: Mapping[str, Mapping[str, Any]]) -> dict[str, float]:
+    """Return everything that the equations of a car need, in SI units.
+
+    Parameters
+    ----------
+    car : Car
+    described : mapping
+        The parameters of the equations, with their units.
+    """
+    body = car.described.body
+    values = {"body_mass": body.mass_kg, **components("body_com", car.com)}
+    values |= {f"body_inertia_{name}": value for name, value in body.elements().items()}
+    if car.corner is not None:
+        return values | Model(car.corner).parameters
+    for end, axle in car.axles.items():
+        own = _of_rigid_axle(axle) if isinstance(axle, RigidAxle) else _of_axle(axle)
+        values["gravity"] = own["right_gravity"]
+        values |= {f"{end}_{name}": value for name, value in own.items()}
+    known = {name: value for name, value in values.items() if name in described}
+    # places are in the axes of each axle, and have a unit where directions have none
+    return known | {
+        name: value + car.origins["rear"]
+        for name, value in known.items()
+        if name.startswith("rear_") and name.endswith("_x") and described[name]["unit"] == "m"
+    }
+
+
+def _of_axle(axle: Axle) -> dict[str, float]:
+    sides = parameters_by_side(axle).items()
+    return parameters_of_bar(axle) | {
+        f"{side}_{name}": value for side, values in sides for name, value in values.items()
+    }
+
+
+def _of_rigid_axle(axle: RigidAxle) -> dict[str, float]:
+    values = axle.parameters()
+    sided = {name.removeprefix("left_") for name in values if name.startswith("left_")}
+    named = {(f"right_{name}" if name in sided else name): v for name, v in values.items()}
+    return named | {"right_gravity": values["gravity"]}

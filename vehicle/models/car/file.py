@@ -1,0 +1,127 @@
+"""The sections of a car's file."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, get_args
+
+import numpy as np
+from pydantic import Field, WithJsonSchema
+
+from ....core.vectors import Vector
+from ...input.bodies import RigidBody
+from ...input.hardpoints import Hardpoints
+from ...input.section import Number, Positive, Section, Triple
+from ...input.units import in_metres
+
+Freedoms = Literal["heave", "ride", "roll"]
+
+COORDINATES: Mapping[str, tuple[str, ...]] = {
+    "heave": ("heave",),
+    "ride": ("heave", "pitch"),
+    "roll": ("heave", "pitch", "roll"),
+}
+"""The coordinates of the body, by the word for them in a file."""
+
+ENDS = ("front", "rear")
+
+# What a file can say; from Python it may also be what is in it.
+_BY_NAME = WithJsonSchema({"type": "string"})
+_FILE = "file beside this one, or the name of a packaged data set: "
+# How each coordinate of the body moves it against its own inertia.
+_INERTIA = {"pitch": "yy", "roll": "xx"}
+
+
+class CarBody(RigidBody):
+    """The body of a car with all that is fixed to it: what its springs carry."""
+
+    mass_kg: Positive = Field(description="mass of the body, without axles and wheels")
+    com_mm: Triple | None = Field(
+        default=None, description="centre of mass at design; needed but for a quarter car"
+    )
+
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return the origin: that of a quarter car, which only heaves, is of no importance."""
+        del points
+        return np.zeros(3)
+
+    def problems_with(self, coordinates: tuple[str, ...]) -> list[str]:
+        """Say what is missing for coordinates of the body."""
+        turning = [f"inertia_{_INERTIA[name]}_kg_m2" for name in coordinates if name in _INERTIA]
+        missing = [
+            f"{key} = {getattr(self, key):g} kg m^2: more than 0 kg m^2 is needed for a body that "
+            "turns. Enter its moment of inertia about the centre of mass."
+            for key in turning
+            if getattr(self, key) <= 0.0
+        ]
+        if turning and self.com_mm is None:
+            missing.append("com_mm is missing: the centre of mass. Add a line `com_mm = ...`.")
+        return missing
+
+
+class Seat(Section):
+    """A place on the body where its acceleration is felt."""
+
+    place_mm: Triple = Field(description="where it is at design, axes of the car")
+
+
+class CarFile(Section):
+    """A car as its file says it; `Car` has the axles that are named here."""
+
+    car: Freedoms = Field(
+        description='how its body moves: "heave" (a quarter car), "ride" (heave and pitch), "roll" '
+        "(heave, pitch and roll)"
+    )
+    corner: Annotated[
+        Any, Field(description=_FILE + "the suspension of a quarter car"), _BY_NAME
+    ] = None
+    front: Annotated[Any, Field(description=_FILE + "the front axle"), _BY_NAME] = None
+    rear: Annotated[Any, Field(description=_FILE + "the rear axle"), _BY_NAME] = None
+    wheelbase_mm: Positive | None = Field(
+        default=None, description="distance of front and rear wheel centres along x"
+    )
+    rear_origin_mm: Number = Field(
+        default=0.0,
+        description="x of the origin of the rear axle's axes, in the axes of the car, which are "
+        "those of the front axle",
+    )
+    body: CarBody = Field(description="the body")
+    seats: dict[str, Seat] = Field(
+        default_factory=dict, description="where the acceleration of the body is felt, by name"
+    )
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The coordinates of the body."""
+        return COORDINATES[self.car]
+
+    def problems(self) -> list[str]:
+        """Say what is missing, and what a quarter car does not have."""
+        of_axles = ("front", "rear", "wheelbase_mm")
+        given = [key for key in (*of_axles, "corner") if getattr(self, key) is not None]
+        needed = of_axles if len(self.coordinates) > 1 else ("corner",)
+        problems = [
+            f'{key} is missing: car = "{self.car}" needs {" and ".join(needed)}. Add a line '
+            f"`{key} = ...`."
+            for key in needed
+            if key not in given
+        ]
+        others = " and ".join(f'"{word}"' for word in get_args(Freedoms)[1:])
+        belongs = {"corner": 'a quarter car, car = "heave"'} | dict.fromkeys(
+            of_axles, f"a car of two axles, car = {others}"
+        )
+        problems += [
+            f"{key} is given, which is of {belongs[key]}. Remove that line, or change `car`."
+            for key in given
+            if key not in needed
+        ]
+        if "rear" not in needed and self.rear_origin_mm:
+            problems.append("rear_origin_mm is given, and a quarter car has no rear. Remove it.")
+        return problems + [
+            f"[body] {problem}" for problem in self.body.problems_with(self.coordinates)
+        ]
+
+    def seat_places(self) -> dict[str, Vector]:
+        """Return where the seats are [m]."""
+        return {
+            name: np.array([in_metres(value, "mm") for value in seat.place_mm])
+            for name, seat in self.seats.items()
+        }
