@@ -20,14 +20,14 @@ from typing import TYPE_CHECKING, ClassVar
 import sympy as sp
 
 from ..declare.joints import Revolute, Universal
-from ..kinematics.motion import Axes, BodyMotion, PointMotion
+from ..kinematics.motion import Axes, BodyMotion, PointMotion, once
 from ..loops.forms import ClosedForm
 from ..program.conditions import Assumption
 from ..program.functions import SignOf
 from ..program.vectors import NO_TWIST, ZERO, Twist, Vector
 from .cross import turn_on_cross
 from .guided_pair import GuidedPair
-from .lines import line_of_ends, once, projector
+from .lines import line_of_ends, projector
 from .yoke import DrivenYoke, GivenAxis, norm, second_axis, through_center, turn_through_cross
 
 if TYPE_CHECKING:

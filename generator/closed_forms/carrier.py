@@ -20,7 +20,7 @@ import sympy as sp
 from ...equations.following import ITERATIONS
 from ..declare.joints import Joint, Prismatic, Spherical
 from ..kinematics.hinge_angles import driven_coordinates
-from ..kinematics.motion import BodyMotion, PointMotion, from_axes
+from ..kinematics.motion import BodyMotion, PointMotion, from_axes, once
 from ..loops.errors import NoClosedFormError
 from ..loops.forms import Attempt, Iteration
 from ..program.function import LOST
@@ -29,7 +29,7 @@ from ..program.vectors import ZERO, Twist, Vector
 from .carrier_equations import Pose, RodEquation, block, rotation, split, turned
 from .guided_pair import GuidedPair
 from .inverse import Inverse, guarded_factor
-from .lines import once, place_rod, projector
+from .lines import place_rod, projector
 from .rigid_rod import RigidRod
 from .ups import Strut, is_strut
 

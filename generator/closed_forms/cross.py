@@ -22,11 +22,11 @@ import sympy as sp
 
 from ..declare.joints import Joint, Universal
 from ..kinematics.extent import require
-from ..kinematics.motion import Axes, BodyMotion, OnLine, from_axes
+from ..kinematics.motion import Axes, BodyMotion, OnLine, from_axes, once
 from ..loops.forms import Follower
 from ..program.floors import DIRECTION, LENGTH
 from ..program.vectors import ZERO, Twist, Vector
-from .lines import line_alpha, line_omega, once, projector
+from .lines import line_alpha, line_omega, projector
 
 if TYPE_CHECKING:
     from typing import Self

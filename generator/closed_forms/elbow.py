@@ -33,14 +33,13 @@ import sympy as sp
 from ..declare.joints import Revolute
 from ..kinematics.extent import extent_squared, require
 from ..kinematics.hinge_angles import HingeDesign, positive_axis_at_design
-from ..kinematics.motion import Axes, BodyMotion, PointMotion, to_axes
+from ..kinematics.motion import Axes, BodyMotion, PointMotion, once, to_axes
 from ..loops.forms import PlannedStep
 from ..program.floors import DIRECTION, LENGTH
 from ..program.functions import SignOf
 from ..program.vectors import UNIT_X, ZERO, Twist, Vector
 from .hinge import Hinge, report_angle
 from .leg import Leg, Rod
-from .lines import once
 from .turning_body import TurningBody
 
 if TYPE_CHECKING:

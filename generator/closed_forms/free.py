@@ -1,11 +1,10 @@
-"""A body that moves freely in the world: six coordinates say where it is."""
+"""A body that moves freely in the world: the base of what hangs on it (`kinematics.base`)."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, NoReturn
+from typing import TYPE_CHECKING, ClassVar
 
-from ..declare.declared import DeclarationError
 from ..declare.joints import Free, Joint
 from ..loops.forms import Follower
 
@@ -18,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PlaceFree(Follower):
-    """A body placed by the coordinates of a free joint, all of which are given."""
+    """A body placed by the positions of a free joint, which are states."""
 
     joint: Free
 
@@ -47,8 +46,5 @@ class PlaceFree(Follower):
         known.place(self.about)
         return set()
 
-    def carry_out(self, kin: Kinematics) -> NoReturn:
-        """Refuse: its pose has no formula yet."""
-        del kin
-        problem = f"there are no equations yet for a body that moves freely, like {self.about!r}"
-        raise DeclarationError(self.joint.name, [problem])
+    def carry_out(self, kin: Kinematics) -> None:
+        """Leave it where it is: in the axes in which what hangs on it is solved, it rests."""

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, to_axes
+from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, once, to_axes
 from ..program.vectors import UNIT_X, ZERO, Twist, Vector
 from .arm import Arm
-from .lines import once
 from .turning_body import TurningBody
 
 if TYPE_CHECKING:

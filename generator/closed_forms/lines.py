@@ -9,7 +9,7 @@ import sympy as sp
 from ..kinematics.extent import extent_squared, require
 from ..kinematics.motion import BodyMotion, OnLine, PointMotion, to_axes
 from ..program.floors import DIRECTION, LENGTH
-from ..program.vectors import ZERO, Twist, Vector
+from ..program.vectors import ZERO, Vector
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -172,15 +172,3 @@ def projector(kin: Kinematics, placed: BodyMotion) -> Callable[[str, Vector], Ve
         return kin.program.vector(f"{placed.body}_{label}", to_axes(placed.axes, v), "123")
 
     return to_body
-
-
-def once(compute: Callable[[], Twist]) -> Callable[[], Twist]:
-    """Compute a bias on first use only: many functions never need it."""
-    cache: list[Twist] = []
-
-    def bias() -> Twist:
-        if not cache:
-            cache.append(compute())
-        return cache[0]
-
-    return bias

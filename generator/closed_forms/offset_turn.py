@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..kinematics.extent import extent_squared, require
-from ..kinematics.motion import Axes, BodyMotion, OffLine, OnLine, PointMotion
+from ..kinematics.motion import Axes, BodyMotion, OffLine, OnLine, PointMotion, once
 from ..program.floors import BRANCH, NORMAL, ROOT
 from ..program.functions import SignOf
 from ..program.vectors import ZERO, Twist, Vector
-from .lines import once, place_rod, projector
+from .lines import place_rod, projector
 
 if TYPE_CHECKING:
     from ..kinematics.extent import Spanning

@@ -16,13 +16,12 @@ from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
-from ..kinematics.motion import BodyMotion, to_axes
+from ..kinematics.motion import BodyMotion, once, to_axes
 from ..loops.forms import ClosedForm
 from ..loops.parallel import ends_of, is_along
 from ..loops.turned import turn_alike
 from ..program.conditions import Assumption
 from ..program.vectors import ZERO, Twist
-from .lines import once
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -20,12 +20,12 @@ import sympy as sp
 
 from ..declare.joints import Prismatic
 from ..kinematics.extent import extent_squared, require
-from ..kinematics.motion import BodyMotion, from_axes
+from ..kinematics.motion import BodyMotion, from_axes, once
 from ..program.floors import BRANCH, ROOT
 from ..program.functions import SignOf
 from ..program.vectors import ZERO, Twist
 from .held import HeldOnJoint
-from .lines import once, place_rod, projector
+from .lines import place_rod, projector
 
 if TYPE_CHECKING:
     from ..kinematics.kinematics import Kinematics

@@ -35,14 +35,13 @@ import sympy as sp
 
 from ..declare.joints import Revolute
 from ..kinematics.extent import extent_squared, require
-from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, to_axes
+from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, once, to_axes
 from ..loops.forms import ClosedForm, PlannedStep
 from ..program.floors import BRANCH, DIRECTION, LENGTH, ROOT
 from ..program.functions import Positive, SignOf
 from ..program.vectors import UNIT_X, ZERO, Twist, Vector
 from .guided_pair import GuidedPair
 from .leg import Leg, Rod
-from .lines import once
 from .turning_body import TurningBody
 
 if TYPE_CHECKING:

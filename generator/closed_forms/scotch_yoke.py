@@ -21,11 +21,11 @@ import sympy as sp
 
 from ..declare.joints import Prismatic, Revolute
 from ..kinematics.extent import require
-from ..kinematics.motion import BodyMotion, PointMotion, from_axes
+from ..kinematics.motion import BodyMotion, PointMotion, from_axes, once
 from ..loops.forms import ClosedForm
 from ..program.floors import LENGTH
 from ..program.vectors import NO_TWIST, ZERO, Twist, Vector
-from .lines import once, projector
+from .lines import projector
 
 if TYPE_CHECKING:
     from typing import Self

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, ClassVar
 import sympy as sp
 
 from ..kinematics.extent import extent_squared
-from ..kinematics.motion import BodyMotion, OnLine, PointMotion, RodEnds
+from ..kinematics.motion import BodyMotion, OnLine, PointMotion, RodEnds, once
 from ..program.vectors import ZERO, Twist, Vector
 from .arm import Arm, Fit, Reach, fit_rod, solution_for
 from .held import HeldByLeg
-from .lines import line_alpha, line_omega, once, place_rod, projector
+from .lines import line_alpha, line_omega, place_rod, projector
 from .offset_turn import solve_offset_turn
 from .rigid_rod import RigidRod
 from .telescope import Telescope

@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING, ClassVar
 import sympy as sp
 
 from ..declare.joints import Spherical, Universal
-from ..kinematics.motion import BodyMotion, to_axes
+from ..kinematics.motion import BodyMotion, once, to_axes
 from ..loops.forms import ClosedForm, Follower
 from ..program.floors import LENGTH
 from ..program.vectors import NO_TWIST, ZERO, Twist, Vector
 from .guided_pair import GuidedPair
 from .leg import Leg, Rod
-from .lines import line_of_ends, once, projector
+from .lines import line_of_ends, projector
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

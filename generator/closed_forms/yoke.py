@@ -24,12 +24,12 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..kinematics.extent import require
-from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, to_axes
+from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, once, to_axes
 from ..program.conditions import Assumption
 from ..program.floors import BRANCH, DIRECTION, LENGTH
 from ..program.functions import SignOf
 from ..program.vectors import NO_TWIST, UNIT_X, ZERO, Twist, Vector
-from .lines import once, projector
+from .lines import projector
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -13,6 +13,7 @@ from .joints import Cylindrical, Free, Joint, Prismatic, Revolute, Spherical, Un
 from .known import repeated, strangers
 from .mechanism import Mechanism
 from .names import file_name_problems, input_name_problems, unwritable
+from .states import StateLayout
 
 # what the right-hand side has beside its variants: rhs_jacobian, rhs_input_jacobian
 _FUNCTIONS = ("jacobian", "input_jacobian")
@@ -76,6 +77,11 @@ class Formulation:
     def given(self) -> tuple[Joint, ...]:
         """The driven joints, and those that follow them through gears."""
         return (*self.driven, *self.mechanism.geared)
+
+    @property
+    def states(self) -> StateLayout:
+        """The layout of the state."""
+        return StateLayout.of(self.independent, self.mechanism.coordinates)
 
     @property
     def motions(self) -> dict[str, Motion]:

@@ -280,8 +280,11 @@ class Weld(Joint):
 class Free(Joint):
     """Six degrees of freedom: the second body moves freely in the world, which is the first.
 
-    Its coordinates are the position of the second body's centre of mass along the axes of the world
-    less that at design, and the angles of the body in the z-y-x sequence (yaw, pitch, roll).
+    The state has the displacement of its centre of mass from design in the world, ``<body>_x`` to
+    ``_z`` [m], and its unit quaternion, ``<body>_e0`` to ``_e3``, scalar first; then its velocity
+    ``<body>_u``, ``_v``, ``_w`` [m/s] and its angular velocity ``<body>_p``, ``_q``, ``_r`` [rad/s]
+    in its own axes, which are those of the world at design. What can be reported is that
+    displacement, and the angles of the body in the z-y-x sequence (yaw, pitch, roll).
     """
 
     first: Body = field(default=WORLD, init=False)

@@ -9,6 +9,9 @@ import keyword
 from dataclasses import fields
 from typing import TYPE_CHECKING
 
+from .joints import Free
+from .states import free_states
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
@@ -88,6 +91,12 @@ def name_problems(mechanism: Assembly) -> list[str]:
     owners: dict[str, str] = {}
     rates = [f"{name}_rate" for name in coordinates]
     read = {k: kinds[k] for k in ("parameter", "coordinate", "input")} | {"rate": rates}
+    read["state of a free body"] = [
+        entry.name
+        for j in dict.fromkeys(mechanism.joints)
+        if isinstance(j, Free)
+        for entry in free_states(j).entries
+    ]
     read["derived"] = list(mechanism.derived)
     for kind, names in read.items():
         for name in dict.fromkeys(names):

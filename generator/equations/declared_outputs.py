@@ -56,22 +56,21 @@ def _components(output: OfPoint, value: Vector, unit: str, what: str) -> Iterato
 
 def _position(dynamics: Dynamics, output: OfPoint) -> Vector:
     part = dynamics.part_of[output.body.name]
-    work = part.point_motion(output.body.name, output.point).position
-    return part.to_ground(work) + part.work_origin
+    return part.place_in_world(part.point_motion(output.body.name, output.point).position)
 
 
 def _velocity(dynamics: Dynamics, output: OfPoint) -> Vector:
     part, driven = dynamics.part_of[output.body.name], dynamics.coordinates
-    motion = part.point_motion(output.body.name, output.point).motion
-    return part.to_ground(_summed(motion, {k: driven.true_rate(k) for k in motion}))
+    motion = dynamics.moving.point_motion(output.body.name, output.point).motion
+    return part.in_world(_summed(motion, {k: driven.true_rate(k) for k in motion}))
 
 
 def _acceleration(dynamics: Dynamics, output: OfPoint) -> Vector:
     part = dynamics.part_of[output.body.name]
-    found = part.point_motion(output.body.name, output.point)
+    found = dynamics.moving.point_motion(output.body.name, output.point)
     rates = {k: dynamics.accelerations.get(k, NONE) for k in found.motion}
     rate_scale = dynamics.coordinates.rate_scale_of(dynamics.placed[output.body.name])
-    return part.to_ground(_summed(found.motion, rates) + found.bias * rate_scale**2)
+    return part.in_world(_summed(found.motion, rates) + found.bias * rate_scale**2)
 
 
 def _summed(motion: dict[str, Vector], rates: dict[str, sp.Expr]) -> Vector:
@@ -107,4 +106,4 @@ def _now(dynamics: Dynamics, body: Body, direction: Direction) -> Vector:
     """Return where a body has carried a unit direction, in the axes of the world."""
     part, placed = dynamics.part_of[body.name], dynamics.placed[body.name]
     work = from_axes(placed.axes, part.local_direction(placed, direction))
-    return dynamics.program.vector(f"{body.name}_{direction.name}_now", part.to_ground(work))
+    return dynamics.program.vector(f"{body.name}_{direction.name}_now", part.in_world(work))

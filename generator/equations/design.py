@@ -17,28 +17,21 @@ from ..program.steps import Step
 from ..program.vectors import Vector
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from ..declare.formulation import Formulation
 
 Steps = list[tuple[sp.Symbol, sp.Expr]]
 
 
-def design_state(formulation: Formulation, state: Sequence[str]) -> Function:
-    """Return the function from the parameters to the state at the design position, at rest.
-
-    Parameters
-    ----------
-    state
-        Names of the elements of the state, in order.
-    """
-    coordinates = design_coordinates(formulation)
+def design_state(formulation: Formulation) -> Function:
+    """Return the function from the parameters to the state at the design position, at rest."""
+    coordinates, entries = design_coordinates(formulation), formulation.states.entries
     steps = [Step(s, e, "design position") for found in coordinates.values() for s, e in found]
-    values = tuple(sp.Symbol(n) if n in coordinates else sp.Integer(0) for n in state)
-    doc = "State at the design position, at rest."
-    return Function(
-        "design_state", doc, tuple(steps), values, tuple(state), (len(values),), guards=()
+    values = tuple(
+        sp.Symbol(e.name) if e.name in coordinates else sp.Integer(e.at_design) for e in entries
     )
+    doc = "State at the design position, at rest."
+    names = tuple(entry.name for entry in entries)
+    return Function("design_state", doc, tuple(steps), values, names, (len(values),), guards=())
 
 
 def design_coordinates(formulation: Formulation) -> dict[str, Steps]:

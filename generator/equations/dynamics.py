@@ -7,6 +7,12 @@ the model:
 * the mass and the transverse inertia of a rotor are counted with its carrier, so that only the
   momentum about the spin axis remains;
 * for a body moved by a single coordinate, ``twist . (twist x* momentum)`` vanishes identically.
+
+What a free body carries is seen from it through six numbers: the momentum of each coordinate, and
+what inertia asks of the base, are summed up about its centre of mass, in its axes. So the mass
+matrix of the base is the inertia of all that it carries, and that of all coordinates is an arrow:
+parts of which neither moves the other meet in the rows of the base alone, which are eliminated
+last.
 """
 
 from __future__ import annotations
@@ -21,7 +27,7 @@ from ..declare.declared import DeclarationError
 from ..declare.geometry import Direction
 from ..declare.joints import Revolute
 from ..kinematics.hinge_angles import positive_axis_at_design
-from ..kinematics.motion import BodyMotion, to_axes
+from ..kinematics.motion import Axes, BodyMotion, from_axes, to_axes
 from ..program.conditions import Condition
 from ..program.floors import POSITIVE, SINGULAR
 from ..program.functions import Frozen
@@ -35,6 +41,7 @@ if TYPE_CHECKING:
     from ..declare.bodies import Body
     from ..declare.forces.force import Action, Force
     from ..declare.shown import Shown
+    from ..kinematics.carried import Carried
     from .in_motion import InMotion
     from .surroundings import Momenta
 
@@ -60,6 +67,11 @@ class Inertia:
         """Return the inertia of a massless body."""
         return cls(NONE, Vector.of(0, 0, 0), SymmetricTensor.zero())
 
+    def __add__(self, other: Inertia) -> Inertia:
+        return Inertia(
+            self.mass + other.mass, self.moment + other.moment, self.tensor + other.tensor
+        )
+
     def add_point(self, mass: sp.Expr, at: Vector) -> None:
         """Add a point mass."""
         self.mass += mass
@@ -70,6 +82,41 @@ class Inertia:
         """Return ``m v + omega x mc``."""
         momentum: Vector = twist.linear * self.mass + twist.angular.cross(self.moment)
         return momentum
+
+    @property
+    def is_none(self) -> bool:
+        """Whether there is no inertia at all."""
+        return self.mass == 0 and self.moment.is_zero and all(e == 0 for e in self.tensor)
+
+    def about(self, arm: Vector, axes: Axes) -> Inertia:
+        """Return it about another point, in other axes.
+
+        Parameters
+        ----------
+        arm
+            From that point to the origin, in the other axes.
+        axes
+            Its own axes, in the other ones.
+
+        Notes
+        -----
+        With c the first moment, the tensor gains that of a point mass at the arm, and
+        ``2 (r . c) 1 - r c^T - c r^T``.
+        """
+        moment = from_axes(axes, self.moment)
+        (x, y, z), (gx, gy, gz) = arm, arm * self.mass + moment * 2
+        half = sp.Rational(1, 2)
+        moved = SymmetricTensor(
+            y * gy + z * gz,
+            x * gx + z * gz,
+            x * gx + y * gy,
+            -half * (x * gy + y * gx),
+            -half * (x * gz + z * gx),
+            -half * (y * gz + z * gy),
+        )
+        x_axis, y_axis, z_axis = (Vector(*row) for row in zip(*axes, strict=True))
+        turned = self.tensor.in_axes((x_axis, y_axis, z_axis))
+        return Inertia(self.mass, moment + arm * self.mass, turned + moved)
 
     def spin_momentum(self, twist: Twist) -> Vector:
         """Return ``I omega + mc x v``."""
@@ -101,6 +148,7 @@ class Dynamics:
         self.program, self.mechanism = moving.program, moving.mechanism
         self.moving, self.placed, self.part_of = moving, moving.placed, moving.part_of
         self.coordinates, self.names = moving.coordinates, moving.coordinates.independent
+        self._of_base = {k: base.body for base in moving.free for k in base.coordinates}
         self.inertia: dict[str, Inertia] = {}
         self.rotors: list[Rotor] = []
         self.accelerations: dict[str, sp.Expr] = {}
@@ -110,6 +158,7 @@ class Dynamics:
         self._bias: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
         self._force: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
         self._momentum: Momenta = {}
+        self._at_base = {base.body: self.inertia[base.body] for base in moving.free}
         self._wrenches: list[tuple[BodyMotion, Inertia, Twist]] = []
         self._factors: dict[tuple[str, str], sp.Expr] = {}
         self._actions: list[Action] = []
@@ -135,8 +184,7 @@ class Dynamics:
                 carrier, at = placed.carrier
                 self.inertia[carrier].add_point(inertia.mass, at)
                 inertia.mass = NONE
-        for name, inertia in self.inertia.items():
-            self._name_inertia(name, inertia)
+        self.inertia = {name: self._name_inertia(name, i) for name, i in self.inertia.items()}
 
     def _add_rigid(self, body: Body) -> None:
         """Add a body given by mass, centre and tensor in ground axes at the design position."""
@@ -200,23 +248,31 @@ class Dynamics:
         n = to_axes(carrier.design_axes, positive)
         return self.program.vector(f"{joint.name}_axis_on_{carrier.body}", n, "123")
 
-    def _name_inertia(self, name: str, inertia: Inertia) -> None:
-        inertia.mass = self.program.define(f"{name}_carried_mass", inertia.mass)
-        inertia.moment = self.program.vector(f"{name}_first_moment", inertia.moment, "123")
-        inertia.tensor = SymmetricTensor(
-            *(
-                self.program.define(f"{name}_carried_inertia_{e}", v)
-                for e, v in zip(ELEMENTS, inertia.tensor, strict=True)
-            )
+    def _name_inertia(self, name: str, inertia: Inertia) -> Inertia:
+        return Inertia(
+            self.program.define(f"{name}_carried_mass", inertia.mass),
+            self.program.vector(f"{name}_first_moment", inertia.moment, "123"),
+            SymmetricTensor(
+                *(
+                    self.program.define(f"{name}_carried_inertia_{e}", v)
+                    for e, v in zip(ELEMENTS, inertia.tensor, strict=True)
+                )
+            ),
         )
 
     # -- bodies ---------------------------------------------------------------------------------
 
     def _add_bodies(self) -> None:
+        bases = [base.body for base in self.moving.free]
         for name, placed in self.placed.items():
-            if placed.motion and not self._is_rotor(name):
+            if placed.motion and not self._is_rotor(name) and name not in bases:
                 self.program.section(f"dynamics: {name}")
                 self._add_body(placed, self.inertia[name])
+        for name in bases:  # when all that they carry is known
+            self.program.section(f"dynamics: {name}")
+            self._add_body(
+                self.placed[name], self._name_inertia(f"{name}_in_all", self._at_base[name])
+            )
         for rotor in self.rotors:
             self.program.section(f"dynamics: spin of {rotor.body.name}")
             self._add_rotor(rotor)
@@ -226,7 +282,7 @@ class Dynamics:
 
     def _add_body(self, placed: BodyMotion, inertia: Inertia) -> None:
         body = placed.body
-        columns = [k for k in self.names if k in placed.motion]
+        columns = self._own(placed)
         angular: dict[str, Vector] = {}
         offset: dict[str, Vector] = {}
         for k in columns:
@@ -250,10 +306,51 @@ class Dynamics:
                     energy = one.angular.dot(angular[other]) + two.angular.dot(offset[k])
                 energy += inertia.mass * one.linear.dot(two.linear)
                 self._matrix[k, other] = self._matrix.get((k, other), NONE) + energy
+        self._add_to_base(
+            placed, inertia, {k: Twist(angular[k], self._momentum[body, k]) for k in columns}
+        )
         if len(columns) == 1 and columns[0] in self.coordinates.single_coordinate:
             self._add_single_bias(placed, columns[0], angular[columns[0]])
         else:
-            self._add_full_bias(placed, inertia, columns)
+            self._add_full_bias(placed, self.inertia[body])
+
+    def _own(self, placed: BodyMotion) -> list[str]:
+        """Return the coordinates that move a body on its base; of a free body, its own."""
+        others = [k for k, base in self._of_base.items() if base != placed.body]
+        return [k for k in self.names if k in placed.motion and k not in others]
+
+    def _base_of(self, placed: BodyMotion) -> Carried | None:
+        """Return how a free body carries another one; None where it rests on the ground."""
+        carried = self.moving.carried.get(placed.body)
+        return carried if carried and carried.base.body != placed.body else None
+
+    def _add_to_base(self, placed: BodyMotion, inertia: Inertia, momenta: dict[str, Twist]) -> None:
+        """Add inertia and momenta of a carried body to those of what carries it."""
+        carried = self._base_of(placed)
+        if carried is None or inertia.is_none:
+            return
+        base, label = carried.base, f"{placed.body}_on_{carried.base.body}"
+        self._at_base[base.body] += self._name_inertia(
+            label, inertia.about(carried.arm, carried.axes)
+        )
+        for k, momentum in momenta.items():
+            seen = carried.on_base(f"{label}_{k}", momentum)
+            for own, share in zip(base.coordinates, (*seen.linear, *seen.angular), strict=True):
+                self._matrix[own, k] = self._matrix.get((own, k), NONE) + share
+
+    def _project(
+        self, placed: BodyMotion, wrench: Twist, label: str, total: dict[str, sp.Expr]
+    ) -> None:
+        """Add what a wrench on a body does along every coordinate that moves it."""
+        for k in self._own(placed):
+            twist = placed.motion[k]
+            total[k] += twist.angular.dot(wrench.angular) + twist.linear.dot(wrench.linear)
+        carried = self._base_of(placed)
+        if carried is not None:
+            seen = carried.on_base(f"{placed.body}_{label}", wrench)
+            own = carried.base.coordinates
+            for k, share in zip(own, (*seen.linear, *seen.angular), strict=True):
+                total[k] += share
 
     def _add_single_bias(self, placed: BodyMotion, k: str, angular: Vector) -> None:
         """B = momentum . (d twist/dq) q'^2; the convective part vanishes identically."""
@@ -261,7 +358,7 @@ class Dynamics:
         linear = bias.linear - twist.angular.cross(twist.linear)
         self._bias[k] += angular.dot(bias.angular) + self._momentum[placed.body, k].dot(linear)
 
-    def _add_full_bias(self, placed: BodyMotion, inertia: Inertia, columns: list[str]) -> None:
+    def _add_full_bias(self, placed: BodyMotion, inertia: Inertia) -> None:
         """Newton-Euler at the bias acceleration, projected on each column."""
         body, program = placed.body, self.program
         bias, omega = placed.bias(), self.part_of[placed.body].total(placed).angular
@@ -277,10 +374,9 @@ class Dynamics:
             inertia.tensor @ bias.angular + omega.cross(spin) + inertia.moment.cross(bias.linear),
             "123",
         )
-        self._wrenches.append((placed, inertia, Twist(couple, force)))
-        for k in columns:
-            twist = placed.motion[k]
-            self._bias[k] += twist.angular.dot(couple) + twist.linear.dot(force)
+        wrench = Twist(couple, force)
+        self._wrenches.append((placed, inertia, wrench))
+        self._project(placed, wrench, "inertia", self._bias)
 
     def _add_rotor(self, rotor: Rotor) -> None:
         """Gyroscopic part of a rotor on its carrier; the rest is in `_solve` and `full`."""
@@ -339,8 +435,7 @@ class Dynamics:
         """
         program = self.program
         program.section("equations of motion")
-        spins = {rotor.coordinate for rotor in self.rotors}
-        rest = [k for k in self.names if k not in spins]
+        rest = self._rest
         for k in rest:
             self._bias[k] = program.define(f"bias_of_{k}", self._bias[k])
             self._force[k] = program.define(f"force_of_{k}", self._force[k])
@@ -352,6 +447,13 @@ class Dynamics:
         bias = {k: self._bias[k] * self.coordinates.rate_scale(k) ** 2 for k in rest}
         right = {k: program.define(f"net_{k}", self._net(k, bias[k])) for k in rest}
         return self._with_spins(self._cholesky(rest, matrix, right), "acceleration")
+
+    @property
+    def _rest(self) -> list[str]:
+        """All coordinates but spins of rotors, in the order of elimination: bases come last."""
+        spins = {rotor.coordinate for rotor in self.rotors}
+        rest = [k for k in self.names if k not in spins]
+        return sorted(rest, key=self._of_base.__contains__)  # stable
 
     def _with_spins(self, solution: dict[str, sp.Expr], label: str) -> dict[str, sp.Expr]:
         """Return accelerations in the order of the coordinates, those of rotors among them."""
@@ -443,8 +545,7 @@ class Dynamics:
         constant a is M times that of q''. ``B + M a`` is projected from what moves every body at
         these accelerations (d'Alembert), so that no element of M is differentiated.
         """
-        spins = {rotor.coordinate for rotor in self.rotors}
-        rest = [k for k in self.names if k not in spins]
+        rest = self._rest
         most = max((len(placed.motion.keys() & rest) for placed, *_ in self._wrenches), default=0)
         if most < MANY or self.coordinates.single_coordinate:
             return self.accelerations
@@ -469,9 +570,7 @@ class Dynamics:
             force = wrench.linear + inertia.linear_momentum(moved)
             couple = self.program.vector(f"{placed.body}_couple", couple, "123")
             force = self.program.vector(f"{placed.body}_force", force, "123")
-            for k in columns:
-                twist = placed.motion[k]
-                total[k] += twist.angular.dot(couple) + twist.linear.dot(force)
+            self._project(placed, Twist(couple, force), "imbalance", total)
         return total
 
     def _solved_again(self, names: list[str], right: dict[str, sp.Expr]) -> dict[str, sp.Expr]:

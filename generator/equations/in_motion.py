@@ -1,19 +1,24 @@
-"""A mechanism in motion: its parts that hang together through the ground alone.
+"""A mechanism in motion: its parts that hang together through what they are based on alone.
 
-Two sides of a machine are such parts: no closure equation has bodies of both. Each part is
-solved by a `Kinematics` of its own, whose axes are chosen for it, so that it costs what it would
-cost alone, and what is alike in the parts is one constant. Bodies whose motion is prescribed from
-the ground on, like a rod that both sides share, are part of the ground here: every part places them
-for itself.
+A base is the ground, or a body that moves freely. Two sides of a machine are parts of it: no
+closure equation has bodies of both. Each part is solved by a `Kinematics` of its own, whose axes
+are chosen for it, so that it costs what it would cost alone, and what is alike in the parts is one
+constant. Bodies whose motion is prescribed from the base on, like a rod that both sides share, are
+part of the base here: every part places them for itself. Each free body is a part by itself, too.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 import networkx as nx
+import sympy as sp
 
+from ..declare.declared import DeclarationError
+from ..declare.joints import Free
+from ..kinematics.base import FreeBase
+from ..kinematics.carried import Carried
 from ..kinematics.coordinates import Coordinates
 from ..kinematics.kinematics import Kinematics
 from ..kinematics.motion import BodyMotion, PointMotion
@@ -38,17 +43,24 @@ class InMotion:
         Has the steps.
     coordinates
         Those that are driven.
+    free
+        The bodies that move freely.
     parts
         The kinematics of each part.
     placed, part_of
-        Every body, and the part that it is in; of what all parts have in common, the first.
+        Every body with its motion in the world, and the part that it is in; of what all parts have
+        in common, the first.
+    carried
+        What a free body carries, and that body itself, by name.
     """
 
     program: Program
     coordinates: Coordinates
+    free: tuple[FreeBase, ...]
     parts: tuple[Kinematics, ...]
     placed: dict[str, BodyMotion]
     part_of: dict[str, Kinematics]
+    carried: dict[str, Carried]
 
     @classmethod
     def of(cls, program: Program, plan: Plan, held: Iterable[str] = ()) -> InMotion:
@@ -60,13 +72,25 @@ class InMotion:
             Prescribed joints that do not move in this variant.
         """
         coordinates = Coordinates(plan.formulation, held)
-        common, groups = independent_groups(plan)
-        parts = tuple(_moved(program, plan, common | group, coordinates) for group in groups)
+        joints = (part.joint for part in coordinates.states.free)
+        free = {j.second.name: FreeBase.of(program, j) for j in joints if isinstance(j, Free)}
+        parts = tuple(
+            _moved(program, plan, group.bodies, coordinates, group.base, free.get(group.base))
+            for group in groups_of(plan)
+        )
         part_of: dict[str, Kinematics] = {}
         for part in parts:
             part_of |= {body: part for body in part.placed if body not in part_of}
-        placed = {body: part.placed[body] for body, part in part_of.items()}
-        return cls(program, coordinates, parts, placed, part_of)
+        carried = {
+            body: Carried(part.free, part, part.placed[body])
+            for body, part in part_of.items()
+            if part.free is not None
+        }
+        placed = {
+            body: carried[body].motion if body in carried else part.placed[body]
+            for body, part in part_of.items()
+        }
+        return cls(program, coordinates, tuple(free.values()), parts, placed, part_of, carried)
 
     @property
     def formulation(self) -> Formulation:
@@ -82,54 +106,134 @@ class InMotion:
         """Return the part that has some bodies, and their motion in equal axes, if there is one."""
         return next((part for part in self.parts if part.bodies.issuperset(bodies)), None)
 
+    def directions(self) -> dict[str, dict[sp.Symbol, sp.Expr]]:
+        """Return the columns of N(q) in q' = N(q) v, by the coordinates in their order."""
+        found = {k: {sp.Symbol(k): sp.Integer(1)} for k in self.coordinates.independent}
+        for base in self.free:
+            found |= base.directions()
+        return found
+
+    def rates(self) -> dict[str, sp.Expr]:
+        """Return the rates of all positions of the state, by their names."""
+        found = {k: self.coordinates.true_rate(k) for k in self.coordinates.independent}
+        for base in self.free:
+            found |= base.rates()
+        return {entry.name: found[entry.name] for entry in self.coordinates.states.positions}
+
+    def point_motion(self, body: str, point: Point) -> PointMotion:
+        """Return the motion of a point in the world, in the work axes of its part."""
+        part = self.part_of[body]
+        if part.free is None:
+            return part.point_motion(body, point)
+        return part.motion_of(self.placed[body], point)
+
     def relative_motion(self, first: tuple[str, Point], second: tuple[str, Point]) -> PointMotion:
         """Return the motion of a point of one body relative to one of another.
 
-        It is in the work axes of their part, or in the axes of the ground between two parts.
+        It is in the work axes of their part, in the axes of their base between two parts of one,
+        or in those of the world. What the base of both does is left out: it changes no distance.
         """
         ends = first, second
         part = self.part_with(*(body for body, _ in ends))
         if part is None:
-            one, other = (_in_ground_axes(self.part_of[body], body, point) for body, point in ends)
+            parts = [self.part_of[body] for body, _ in ends]
+            whole = parts[0].free is not parts[1].free
+            one, other = (self._in_axes(body, point, whole) for body, point in ends)
         else:
             one, other = (part.point_motion(body, point) for body, point in ends)
         return other.minus(one)
 
+    def _in_axes(self, body: str, point: Point, whole: bool) -> PointMotion:
+        """Return the motion of a point in the axes of its base, or the whole of it in the world."""
+        part = self.part_of[body]
+        motion = self.point_motion(body, point) if whole else part.point_motion(body, point)
+        turned = part.in_world if whole else part.to_ground
+        place = part.to_ground(motion.position) + part.work_origin
+        return PointMotion(
+            part.place_in_world(motion.position) if whole else place,
+            {k: turned(velocity) for k, velocity in motion.motion.items()},
+            turned(motion.bias),
+        )
 
-def _moved(program: Program, plan: Plan, bodies: set[str], coordinates: Coordinates) -> Kinematics:
+
+def _moved(
+    program: Program,
+    plan: Plan,
+    bodies: set[str],
+    coordinates: Coordinates,
+    base: str,
+    free: FreeBase | None,
+) -> Kinematics:
     """Carry out the steps of a plan that are about some bodies.
 
     What else takes part in them is of this part too, since nothing closes between two parts.
     """
     steps = [step for step in plan.steps if step.about in bodies]
-    ground = plan.formulation.mechanism.ground
-    origin = next((point for step in steps if (point := step.origin_on(ground))), None)
-    kin = Kinematics(program, coordinates, plan.loops, bodies, origin)
+    center = None if free is None else free.joint.second.center
+    origin = next((point for step in steps if (point := step.origin_on(base))), center)
+    kin = Kinematics(program, coordinates, plan.loops, bodies, origin, free)
     for step in steps:
         program.section(step.title)
         step.carry_out(kin)
     return kin
 
 
-def _in_ground_axes(part: Kinematics, body: str, point: Point) -> PointMotion:
-    motion = part.point_motion(body, point)
-    return PointMotion(
-        part.to_ground(motion.position) + part.work_origin,
-        {k: part.to_ground(velocity) for k, velocity in motion.motion.items()},
-        part.to_ground(motion.bias),
-    )
+@dataclass(frozen=True)
+class Group:
+    """What is solved together, with the base on which it hangs.
+
+    Attributes
+    ----------
+    base
+        The ground, or a body that moves freely.
+    bodies
+        What prescribed joints tie to the base, itself among it, and the others.
+    """
+
+    base: str
+    bodies: set[str]
 
 
-def independent_groups(plan: Plan) -> tuple[set[str], list[set[str]]]:
-    """Return the ground with what prescribed joints tie to it, and the groups of other bodies.
+def groups_of(plan: Plan) -> list[Group]:
+    """Return the parts of a mechanism in which it is solved, those on the ground first.
 
-    Where all bodies are tied to it there is one group, of no others.
+    A free body is one by itself. Where all that hangs on a base is tied to it there is one group,
+    of no others.
+
+    Raises
+    ------
+    DeclarationError
+        If a loop closes through two bases.
     """
     mechanism, graph = plan.formulation.mechanism, plan.topology.graph
+    free = [part.joint.second.name for part in plan.formulation.states.free]
+    bases = [mechanism.ground, *free]
     tied = nx.Graph([joint.bodies for joint in plan.formulation.prescribed])
-    tied.add_node(mechanism.ground)
-    common = nx.node_connected_component(tied, mechanism.ground)
-    groups = nx.connected_components(graph.subgraph(set(graph) - common))
+    tied.add_nodes_from(bases)
+    common = {base: nx.node_connected_component(tied, base) for base in bases}
+    held = set().union(*common.values())
     numbers = {body.name: i for i, body in enumerate(mechanism.bodies)}
-    in_order = sorted(groups, key=lambda group: min(numbers[body] for body in group))
-    return common, in_order or [set()]
+    others = nx.connected_components(graph.subgraph(set(graph) - held))
+    on_base: dict[str, list[set[str]]] = {base: [] for base in bases}
+    for group in sorted(others, key=lambda group: min(numbers[body] for body in group)):
+        touched = {b for b in bases if nx.node_boundary(graph, group, common[b])}
+        if len(touched) > 1:
+            _refuse_loop(plan, touched, group)
+        on_base[touched.pop()].append(group)
+    found = []
+    for base in bases:
+        alone = Group(base, {base})
+        hung = [Group(base, common[base] | group) for group in on_base[base] or [set()]]
+        found += [alone, *(group for group in hung if group != alone)] if base in free else hung
+    return found
+
+
+def _refuse_loop(plan: Plan, bases: set[str], group: set[str]) -> NoReturn:
+    """Refuse bodies that hang on two bases: what is free there is not free."""
+    names, hung = (", ".join(map(repr, sorted(n))) for n in (bases, group))
+    problem = (
+        f"{hung} hang on several of the bodies {names}, of which one rests or moves freely, so "
+        "that the free one is not free. Leave out a joint of the loop through both, or let a "
+        "ForceElement connect the two"
+    )
+    raise DeclarationError(plan.formulation.name, [problem])

@@ -10,7 +10,7 @@ import sympy as sp
 from ..declare.checks import check_symbols
 from ..declare.declared import DeclarationError, parts
 from ..declare.inputs import Input
-from ..declare.joints import Free
+from ..declare.states import Entry
 from ..kinematics.motion import IDENTITY, BodyMotion, from_axes
 from ..memory import uncollected
 from ..planning.plan import Plan
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from ..declare.joints import Joint
     from ..declare.mechanism import Mechanism
     from ..declare.shown import Shown
+    from ..declare.states import StateLayout
     from ..program.conditions import Assumption, Condition
     from ..program.function import Function
     from ..program.steps import Guard
@@ -49,15 +50,6 @@ DERIVATIVES = "derivatives"
 
 BOUNDED = "bounded"
 """Of the signals, those that have ranges."""
-
-
-@dataclass(frozen=True)
-class Entry:
-    """One element of an array: its name, unit and meaning."""
-
-    name: str
-    unit: str
-    meaning: str
 
 
 TOGETHER = {
@@ -101,7 +93,7 @@ class Derivation:
 
     Attributes
     ----------
-    state, inputs, parameters
+    states, inputs, parameters
         What the functions read, in order.
     relative
         The relative coordinates, in order.
@@ -129,7 +121,7 @@ class Derivation:
 
     formulation: Formulation
     plan: Plan
-    state: tuple[Entry, ...]
+    states: StateLayout
     inputs: tuple[Input, ...]
     parameters: tuple[Entry, ...]
     relative: tuple[Entry, ...]
@@ -146,6 +138,11 @@ class Derivation:
     held_inputs: dict[str, tuple[str, ...]] = field(default_factory=dict)
     order: dict[str, int] = field(default_factory=dict)
     by_parameters: ParameterDerivatives = field(default_factory=ParameterDerivatives)
+
+    @property
+    def state(self) -> tuple[Entry, ...]:
+        """The elements of the state."""
+        return self.states.entries
 
     @property
     def bounded(self) -> Function | None:
@@ -218,19 +215,6 @@ def _with_parameter_derivatives(derivation: Derivation) -> Derivation:
     )
 
 
-def _refuse_free(formulation: Formulation) -> None:
-    """See that the mechanism is fixed in the world: how it moves in it cannot be derived yet."""
-    problems = [
-        f"body {joint.second.name!r} moves freely in the world (joint {joint.name!r}), and there "
-        "are no equations for that yet. Leave the joint out and let the body rest there, "
-        f"Ground({joint.second.name!r}); topology and plan can be had as it is"
-        for joint in formulation.mechanism.joints
-        if isinstance(joint, Free)
-    ]
-    if problems:
-        raise DeclarationError(formulation.name, problems)
-
-
 class _Builder:
     """Collects the functions of one model from one program."""
 
@@ -239,7 +223,7 @@ class _Builder:
         self._tell = tell
         self.derivatives = derivatives
         self.mechanism: Mechanism = formulation.mechanism
-        _refuse_free(formulation)
+        self.states = formulation.states
         self.plan = Plan.of(formulation)
         self.assumed = find_assumptions(self.plan)
         self.constants = ConstantStage(
@@ -264,12 +248,10 @@ class _Builder:
         """See that every independent coordinate moves some mass: else it has no acceleration."""
         moved = {k for body in self.massive for k in self.motion.placed[body].motion}
         idle = [
-            f"independent joint {joint.name!r} moves no body of massive; name one there that it "
-            "moves"
-            for joint, k in zip(
-                self.formulation.independent, self.motion.coordinates.independent, strict=True
-            )
-            if k not in moved
+            f"independent joint {part.joint.name!r} moves no body of massive; name one there that "
+            "it moves"
+            for part in self.states.joints
+            if moved.isdisjoint(part.coordinates)
         ]
         if idle:
             raise DeclarationError(self.formulation.name, idle)
@@ -301,14 +283,14 @@ class _Builder:
         return Derivation(
             formulation=self.formulation,
             plan=self.plan,
-            state=self._state_entries(),
+            states=self.states,
             inputs=tuple(self._inputs()),
             parameters=tuple(Entry(p.name, p.unit, p.meaning) for p in self.mechanism.parameters),
             relative=tuple(Entry(c.name, c.unit, c.meaning) for c in self.mechanism.coordinates),
             functions=self.functions,
             emitted=staged(self.functions, self.formulation.cites),
             prepare=prepare,
-            design=design_state(self.formulation, [e.name for e in self._state_entries()]),
+            design=design_state(self.formulation),
             guards=guards,
             assumptions=assumed,
             conditions=tuple(self.constants.conditions.values()),
@@ -339,7 +321,7 @@ class _Builder:
         varying = {s.name for f in self.functions.values() for s in f.free_symbols}
         varying -= set(prepare.labels)
         given = {f"given_{c.name}" for c in self.mechanism.coordinates}
-        states = {e.name for e in self._state_entries()}
+        states = {e.name for e in self.states.entries}
         check_symbols(
             self.formulation.name,
             varying - given - states - {e.name for e in self._inputs()},
@@ -350,20 +332,12 @@ class _Builder:
     def _varying_names(self) -> frozenset[str]:
         """Return the names of states, inputs and given coordinates."""
         coordinates = self.mechanism.coordinates
-        states = [c.name for c in coordinates if c.joint in self.formulation.independent]
-        rates = [f"{name}_rate" for name in states]
+        names = [c.name for c in coordinates if c.joint in self.formulation.independent]
+        names += [entry.name for entry in self.states.entries]
         given = [f"given_{c.name}" for c in coordinates]
-        return frozenset([*states, *rates, *given, *self.formulation.inputs])
+        return frozenset([*names, *given, *self.formulation.inputs])
 
     # -- arrays ---------------------------------------------------------------------------------
-
-    def _state_entries(self) -> tuple[Entry, ...]:
-        entries = {c.name: c for c in self.mechanism.coordinates}
-        positions = [entries[k] for k in self.motion.coordinates.independent]
-        return (
-            *(Entry(c.name, c.unit, c.meaning) for c in positions),
-            *(Entry(f"{c.name}_rate", f"{c.unit}/s", f"rate of {c.name}") for c in positions),
-        )
 
     def _inputs(self) -> Iterator[Input]:
         """Yield what is given, but for forces along joints whose motion is: they do no work."""
@@ -385,8 +359,7 @@ class _Builder:
         return tuple(g for g in self.program.guards.values() if g.name in acting)
 
     def _state_symbols(self) -> list[sp.Symbol]:
-        names = self.motion.coordinates.independent
-        return [sp.Symbol(n) for n in (*names, *(f"{n}_rate" for n in names))]
+        return [sp.Symbol(entry.name) for entry in self.states.entries]
 
     def _add(self, name: str, doc: str, results: dict[str, sp.Expr], *shape: int) -> None:
         doc = _cited(doc, self.formulation.cites.get(name))
@@ -422,9 +395,9 @@ class _Builder:
         )
 
     def _add_right_hand_side(self, dynamics: Dynamics, variant: str = "") -> None:
-        names, program = self.motion.coordinates.independent, dynamics.program
-        rates = {f"d({k})/dt": sp.Symbol(f"{k}_rate") for k in names}
-        rates |= {f"d({k}_rate)/dt": dynamics.accelerations[k] for k in names}
+        program, speed_of = dynamics.program, self.states.speed_of
+        rates = {f"d({name})/dt": rate for name, rate in dynamics.moving.rates().items()}
+        rates |= {f"d({speed_of[k]})/dt": a for k, a in dynamics.accelerations.items()}
         what = f" with {variant.replace('_', ' ')}" if variant else ""
         rhs, jacobian = ("_".join(filter(None, (n, variant))) for n in ("rhs", "rhs_jacobian"))
         self.variant_of |= dict.fromkeys((rhs, jacobian), variant)
@@ -437,8 +410,7 @@ class _Builder:
     ) -> None:
         program = dynamics.program
         program.section(f"derivatives of {rhs}")
-        rates = [sp.Symbol(f"{k}_rate") for k in self.motion.coordinates.independent]
-        values = [*rates, *dynamics.to_differentiate().values()]
+        values = [*dynamics.moving.rates().values(), *dynamics.to_differentiate().values()]
         self._add_derivatives(program, jacobian, f"of {rhs}", values, labels, "state")
         if rhs == "rhs":
             name = "rhs_input_jacobian"
@@ -477,11 +449,14 @@ class _Builder:
     # -- relative kinematics ----------------------------------------------------------------------
 
     def _add_relative(self) -> None:
-        values = self._in_order([relative.values for relative in self.relative.values()])
+        values = self._in_order([self._free(), *(r.values for r in self.relative.values())])
         names = self.motion.coordinates.independent
         self.program.section("relative Jacobian")
         self._add("relative_coordinates", "Relative joint coordinates beta.", values)
-        columns = [self.program.tangents(sp.Symbol(k), values.values(), f"by_{k}") for k in names]
+        columns = [
+            self.program.along(direction, values.values(), f"by_{k}")
+            for k, direction in self.motion.directions().items()
+        ]
         self._add(
             "relative_jacobian",
             "Relative Jacobian, d(beta)/dq at fixed inputs, row-major.",
@@ -503,7 +478,17 @@ class _Builder:
         self._add_global()
 
     def _residuals(self) -> dict[str, sp.Expr]:
-        return self._in_order([relative.residuals() for relative in self.relative.values()])
+        free = {name: sp.Symbol(f"given_{name}") - value for name, value in self._free().items()}
+        return self._in_order([free, *(r.residuals() for r in self.relative.values())])
+
+    def _free(self) -> dict[str, sp.Expr]:
+        """Return the relative coordinates of bodies that move freely."""
+        bases = {base.joint: base for base in self.motion.free}
+        return {
+            c.name: self.program.define(f"{c.name}_now", bases[c.joint].reported(c.kind))
+            for c in self.mechanism.coordinates
+            if c.joint in bases
+        }
 
     def _in_order(self, parts: Iterable[dict[str, sp.Expr]]) -> dict[str, sp.Expr]:
         """Return what the parts have for each relative coordinate, in the order of the report."""
@@ -555,7 +540,7 @@ class _Builder:
         center = self.motion.part_of[placed.body].local(placed, self.mechanism.body(body).center)
         velocity = twist.linear + twist.angular.cross(center)
         parts = (from_axes(placed.axes, v) for v in (twist.angular, velocity))
-        return [c for part in parts for c in self.motion.part_of[placed.body].to_ground(part)]
+        return [c for part in parts for c in self.motion.part_of[placed.body].in_world(part)]
 
     # -- poses ----------------------------------------------------------------------------------
 
@@ -596,14 +581,13 @@ class _Builder:
         """Return the centre of mass in ground axes."""
         part = self.motion.part_of[placed.body]
         local = part.local(placed, self.mechanism.body(placed.body).center)
-        work = placed.origin + from_axes(placed.axes, local)
-        return part.to_ground(work) + part.work_origin
+        return part.place_in_world(placed.origin + from_axes(placed.axes, local))
 
     def _orientation(self, placed: BodyMotion) -> dict[str, sp.Expr]:
-        if placed.axes is IDENTITY:
-            return {f"R{a}{b}": sp.Integer(int(a == b)) for a in AXES for b in AXES}
         part = self.motion.part_of[placed.body]
-        now = [part.to_ground(axis) for axis in placed.axes]
+        if placed.axes is IDENTITY and part.free is None:
+            return {f"R{a}{b}": sp.Integer(int(a == b)) for a in AXES for b in AXES}
+        now = [part.in_world(axis) for axis in placed.axes]
         design = [part.to_ground(axis) for axis in placed.design_axes]
         return {
             f"R{a}{b}": sum(

@@ -8,7 +8,7 @@ import sympy as sp
 
 from ...core.suggestions import suggestion
 from ..declare.geometry import UP
-from ..declare.joints import Cylindrical, Joint, Prismatic, Revolute
+from ..declare.joints import Cylindrical, Free, Joint, Prismatic, Revolute
 from ..declare.surroundings import UnseenError
 from ..kinematics.guide_slides import slide_of, sliding_rates
 from ..kinematics.hinge_angles import angle_of, turning_rates
@@ -68,6 +68,9 @@ class Seen:
     def coordinate(self, joint: str) -> str:
         """Return the coordinate of a driven joint."""
         found = self._joint(joint)
+        if isinstance(found, Free):
+            names = ", ".join(self._driven.all_of(found))
+            raise UnseenError(f"joint {joint!r} is free, and has no single coordinate: {names}")
         if found not in self._driven.driven:
             problem = f"joint {joint!r} is neither independent nor prescribed"
             if found.gear:
@@ -118,7 +121,7 @@ class Seen:
         if follows:
             return self.direction(body, direction)
         placed = self._body(body)
-        line = to_axes(placed.axes, self._part_of[body].design_direction(direction))
+        line = to_axes(placed.axes, self._part_of[body].from_world(direction))
         name = "up" if direction == UP else f"{direction.name}_in_world"
         return self.program.vector(f"{body}_{name}", line, "123")
 
@@ -137,19 +140,18 @@ class Seen:
     def height(self, body: str, local: Vector) -> sp.Expr:
         """Return the height of a point of a body in the world."""
         placed, part = self._body(body), self._part_of[body]
-        origin = placed.origin.dot(part.design_direction(UP)) + part.work_origin.z
+        origin = placed.origin.dot(part.from_world(UP)) + part.height_of_origin
         return origin + local.dot(self.up(body))
 
     def place(self, body: str, local: Vector) -> Vector:
         """Return the position of a point of a body in the world."""
         placed, part = self._body(body), self._part_of[body]
-        work = placed.origin + from_axes(placed.axes, local)
-        return part.to_ground(work) + part.work_origin
+        return part.place_in_world(placed.origin + from_axes(placed.axes, local))
 
     def in_world(self, body: str, vector: Vector) -> Vector:
         """Return the components in the world of a vector in body axes."""
         placed = self._body(body)
-        return self._part_of[body].to_ground(from_axes(placed.axes, vector))
+        return self._part_of[body].in_world(from_axes(placed.axes, vector))
 
     def rising(self, body: str, local: Vector) -> sp.Expr:
         """Return the upward acceleration of a point that the coordinates' own leave over."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import networkx as nx
 
-from ..declare.joints import Cylindrical
+from ..declare.joints import Cylindrical, Free
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,10 +23,15 @@ def reported(mechanism: Mechanism, joint: str, kind: str) -> str | None:
 
 
 def chain_to(mechanism: Mechanism, body: str) -> list[Joint] | None:
-    """Return the joints from the ground to a body, as few as can be; None if none lead there."""
+    """Return the joints from the ground to a body, as few as can be; None if none lead there.
+
+    None leads to what moves freely in the world, or hangs on it.
+    """
     graph = nx.DiGraph()
     for joint in mechanism.joints:
-        if all(reported(mechanism, joint.name, kind) for kind in joint.coordinates):
+        if not isinstance(joint, Free) and all(
+            reported(mechanism, joint.name, kind) for kind in joint.coordinates
+        ):
             graph.add_edge(*joint.bodies, joint=joint)
     ends = mechanism.ground, body
     if not all(end in graph for end in ends) or not nx.has_path(graph, *ends):

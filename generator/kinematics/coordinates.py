@@ -31,12 +31,15 @@ class Coordinates:
 
     Attributes
     ----------
+    states
+        The layout of the state.
     symbols
-        The symbol of each coordinate by its name: a reported name, or that of a motion.
+        The symbol of each coordinate by its name: a reported name, or that of a motion. That of a
+        free body, which has none but speeds, is its speed.
     moving
         The names of those that move.
     independent
-        The names of the independent ones, in the order of the state.
+        The names of the independent ones, in the order of the speeds of the state.
 
     Notes
     -----
@@ -52,12 +55,14 @@ class Coordinates:
         self._motions = {motion.name: motion for motion in formulation.prescribed.values()}
         self._motion_of = {name: motion.name for name, motion in formulation.motions.items()}
         self._held = frozenset(held)
+        self.states = formulation.states
+        self._speeds = self.states.speed_of
         self.driven = formulation.driven
         self.given = formulation.given
         self._given_names = frozenset(joint.name for joint in self.given)
-        self.symbols = {self.of(j): sp.Symbol(self._symbol(j)) for j in self.driven}
-        self.moving = [self.of(j) for j in self.driven if j.name not in self._held]
-        self.independent = [self.of(j) for j in formulation.independent]
+        self.symbols = {k: sp.Symbol(self._symbol(k)) for j in self.driven for k in self.all_of(j)}
+        self.moving = [k for j in self.driven if j.name not in self._held for k in self.all_of(j)]
+        self.independent = list(self.states.coordinates)
 
     def of(self, joint: Joint) -> str:
         """Return the name of the coordinate that moves a driven joint, or what follows it."""
@@ -65,6 +70,12 @@ class Coordinates:
         if joint.name in self._motion_of:
             return self._motion_of[joint.name]
         return next(c.name for c in self._mechanism.coordinates if c.joint.name == joint.name)
+
+    def all_of(self, joint: Joint) -> tuple[str, ...]:
+        """Return the names of all coordinates of a driven joint, of which a free one has six."""
+        if joint in self.formulation.independent:
+            return self.states.part_of(joint).coordinates
+        return (self.of(joint),)
 
     def ratio(self, joint: Joint) -> sp.Expr:
         """Return by how much a joint moves for one unit of the coordinate that moves it."""
@@ -80,8 +91,7 @@ class Coordinates:
         """Return whether a given joint moves in this variant."""
         return self.of(joint) in self.moving
 
-    def _symbol(self, joint: Joint) -> str:
-        name = self.of(joint)
+    def _symbol(self, name: str) -> str:
         return self._motions[name].inputs[0].name if name in self._motions else name
 
     # -- rates ------------------------------------------------------------------------------------
@@ -89,7 +99,7 @@ class Coordinates:
     def true_rate(self, coordinate: str) -> sp.Symbol:
         """Return the symbol of the rate of a coordinate."""
         motion = self._motions.get(coordinate)
-        return sp.Symbol(f"{coordinate}_rate" if motion is None else motion.rates[0])
+        return sp.Symbol(self._speeds[coordinate] if motion is None else motion.rates[0])
 
     def rate(self, coordinate: str) -> sp.Expr:
         """Return the rate of a coordinate at which biases are computed."""
@@ -146,13 +156,14 @@ class Coordinates:
     def _pacing(self) -> Iterator[set[str]]:
         """Yield the coordinates that move bodies which hang together."""
         graph = nx.Graph([joint.bodies for joint in self._mechanism.joints])
-        drives = {
-            j.second.name: self.of(j)
+        drives = [
+            (j.second.name, k)
             for j in self.given
-            if self.moves(j) and self.of(j) not in self.rotors
-        }
+            for k in self.all_of(j.first_followed)
+            if k in self.moving and k not in self.rotors
+        ]
         for bodies in nx.connected_components(graph.subgraph(set(graph) - self._still())):
-            yield {k for body, k in drives.items() if body in bodies}
+            yield {k for body, k in drives if body in bodies}
 
     def _still(self) -> set[str]:
         """Return the ground, and the bodies that held joints tie to it."""

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
     from ..declare.joints import RelativeCoordinate
     from ..program.program import Program
+    from .base import FreeBase
     from .coordinates import Coordinates
 
 
@@ -56,16 +57,22 @@ class Kinematics:
     bodies
         Those to place, with the ground: all, or a part that can be solved by itself.
     origin
-        A point of the ground at which positions are best counted; None: the origin of its axes.
+        A point of the base at which positions are best counted; None: the origin of its axes.
+    free
+        The body that moves freely on which those bodies hang; None: they hang on the ground.
 
     Notes
     -----
     *Records.* `spans` and `turned` say which telescopes and rods placed a body, `meetings` what a
     hinge or guide was solved for, by the joint: the residuals are derived from them.
 
-    *Work axes.* The ground-fixed axes in which positions are computed are chosen so that most
-    components vanish: x along the hinge of the first ground-fixed revolute joint, z upward, origin
-    at the ground-fixed point of the first transformer.
+    *Base.* What the bodies hang on, ground or free body, is at rest here: motion is relative to it,
+    and ground axes are those of the base at design. `FreeBase` says what its own motion adds, and
+    `in_world`, `from_world` and `place_in_world` lead from here to the world.
+
+    *Work axes.* The base-fixed axes in which positions are computed are chosen so that most
+    components vanish: x along the hinge of the first revolute joint on the base, z upward, origin
+    at the point of the base at the first transformer.
     """
 
     def __init__(
@@ -75,10 +82,13 @@ class Kinematics:
         loops: Mapping[object, Loop],
         bodies: Collection[str],
         origin: Point | None = None,
+        free: FreeBase | None = None,
     ) -> None:
         self.program = program
         self.coordinates = coordinates
         self.mechanism = coordinates.formulation.mechanism
+        self.free = free
+        self.base = self.mechanism.ground if free is None else free.body
         self._loops = loops
         self.at_defaults = AtDefaults(self.mechanism)
         self.bodies = frozenset(bodies)
@@ -104,7 +114,7 @@ class Kinematics:
             (
                 j
                 for j in self.coordinates.driven
-                if isinstance(j, Revolute) and j.first.name == self.mechanism.ground and j.angle_to
+                if isinstance(j, Revolute) and j.first.name == self.base and j.angle_to
                 if j.second.name in self.bodies
             ),
             None,
@@ -117,8 +127,7 @@ class Kinematics:
             if self.work_hinge.angle_from == UP:  # z leans from up towards x: y stays level
                 y = Vector(y.x, y.y, sp.Integer(0))
             self.work_axes = (x, y, z)
-        ground = self.mechanism.ground
-        self.placed[ground] = BodyMotion(ground)
+        self.placed[self.base] = BodyMotion(self.base)
 
     def _hinge_axes(self, hinge: Revolute) -> tuple[Vector, Vector]:
         """Return the positive hinge axis and the reference of its angle, in ground axes."""
@@ -171,6 +180,28 @@ class Kinematics:
     def to_ground(self, work: Vector) -> Vector:
         """Return the ground components of a vector in work axes."""
         return from_axes(self.work_axes, work)
+
+    def in_world(self, work: Vector) -> Vector:
+        """Return the components in the world of a vector in work axes."""
+        v = self.to_ground(work)
+        return v if self.free is None else self.free.to_world(v)
+
+    def place_in_world(self, work: Vector) -> Vector:
+        """Return the position in the world of a place in work axes."""
+        place = self.to_ground(work) + self.work_origin
+        return place if self.free is None else self.free.place(place)
+
+    def from_world(self, direction: Direction) -> Vector:
+        """Return a unit direction that is fixed in the world, in work axes."""
+        design = self.design_direction(direction)
+        if self.free is None:
+            return design
+        return self.to_work(self.free.from_world(self.to_ground(design)))
+
+    @property
+    def height_of_origin(self) -> sp.Expr:
+        """How high the origin of the work axes is in the world."""
+        return self.work_origin.z if self.free is None else self.free.place(self.work_origin).z
 
     def design_direction(self, direction: Direction) -> Vector:
         """Return a unit direction in work axes at the design position."""
@@ -226,6 +257,8 @@ class Kinematics:
 
     def total(self, placed: BodyMotion) -> Twist:
         """Return the twist at the rates at which biases are computed."""
+        if placed.total is not None:
+            return placed.total()
         twist = NO_TWIST
         for coordinate, motion in placed.motion.items():
             twist += motion * self.coordinates.rate(coordinate)
@@ -254,8 +287,12 @@ class Kinematics:
         """Return position, velocities and bias acceleration of a point, in work axes."""
         if (body, point) in self._points:
             return self._points[body, point]
-        placed, label = self.placed[body], self._label(body, point)
-        local = self.local(placed, point)
+        self._points[body, point] = self.motion_of(self.placed[body], point)
+        return self._points[body, point]
+
+    def motion_of(self, placed: BodyMotion, point: Point) -> PointMotion:
+        """Append the motion of a point of a body that moves in some way."""
+        label, local = self._label(placed.body, point), self.local(placed, point)
         motion = {}
         for coordinate, twist in placed.motion.items():
             velocity = from_axes(placed.axes, twist.linear + twist.angular.cross(local))
@@ -263,8 +300,7 @@ class Kinematics:
         bias = self.program.vector(
             f"bias_{label}", from_axes(placed.axes, self.point_bias(placed, local))
         )
-        self._points[body, point] = PointMotion(self.position(placed, point), motion, bias)
-        return self._points[body, point]
+        return PointMotion(self.position(placed, point), motion, bias)
 
     @property
     def reported(self) -> list[RelativeCoordinate]:

@@ -36,6 +36,18 @@ def from_axes(axes: Axes, v: Vector) -> Vector:
     return work
 
 
+def once(compute: Callable[[], Twist]) -> Callable[[], Twist]:
+    """Compute a bias on first use only: many functions never need it."""
+    cache: list[Twist] = []
+
+    def bias() -> Twist:
+        if not cache:
+            cache.append(compute())
+        return cache[0]
+
+    return bias
+
+
 @dataclass
 class BodyMotion:
     """A body whose pose is known.
@@ -55,6 +67,8 @@ class BodyMotion:
         there may be counted with either body.
     hinge
         The hinge whose axis is the first of the body axes, if one placed the body.
+    total
+        The twist at the true rates, of a body that a free one carries; None: the sum of `motion`.
     """
 
     body: str
@@ -67,6 +81,7 @@ class BodyMotion:
     carrier: tuple[str, Vector] | None = None
     hinge: str | None = None
     bias: Callable[[], Twist] = lambda: NO_TWIST
+    total: Callable[[], Twist] | None = None
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..core.physical import inertia_of_no_body, out_of_range
 from .directions import ADJOINTS, TANGENTS, Behind, Directions
 from .errors import HEAVIER, WEIGHTLESS, ClosureError, ModelError, ParameterError, located, place_of
+from .layout import StateLayout
 from .residuals import Residuals
 from .status import LAST_GUARD_BIT, NOT_FINITE, bit_of, mask_of
 
@@ -58,6 +59,8 @@ class Equations:
     manifest : mapping
     name : str
     parameter_names, state_names, input_names, relative_names, constant_names : tuple of str
+    layout : StateLayout
+        Which elements of the state are positions, and which speeds.
     guards : tuple of dict
         ``name``, ``meaning`` and ``unit`` of each.
     addresses : dict
@@ -75,6 +78,7 @@ class Equations:
         self.parameter_names = tuple(manifest["parameters"])
         self.state_names = tuple(manifest["state"])
         self.input_names = tuple(manifest["inputs"])
+        self.layout = StateLayout.of(manifest["layout"])
         self.relative_names = tuple(manifest["relative_coordinates"])
         self.constant_names = tuple(manifest["constants"])
         self.guards = tuple(manifest["guards"])
@@ -125,6 +129,7 @@ class Equations:
             "DEFAULT_CONSTANTS": self.default_constants,
             "PARAMETERS": manifest["parameters"],
             "STATE": manifest["state"],
+            "LAYOUT": self.layout,
             "INPUTS": manifest["inputs"],
             "RELATIVE_COORDINATES": manifest["relative_coordinates"],
             "SIGNALS": manifest["signals"],

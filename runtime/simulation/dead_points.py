@@ -87,7 +87,7 @@ class Approach:
         meaning = meanings(model.equations)
         self._acts, self._singular = (meaning & ACTS) > 0, (meaning & SINGULAR) > 0
         self._greatest = model.usual_margins
-        self._half = model.design_state.size // 2
+        self._layout = model.layout
 
     def margins(self, time: float, state: Array) -> Array:
         """Return the margins of a state."""
@@ -101,9 +101,17 @@ class Approach:
         """Return the margins of a state, and by how much they change in a short time."""
         lapse *= self._direction
         moved = state.copy()
-        moved[: self._half] += lapse * state[self._half :]
         now = self.margins(time, state)
+        if self.crossed(now) is None:
+            moved[: self._layout.positions] += lapse * self._rates(time, state)
         return now, self.margins(time + lapse, moved) - now
+
+    def _rates(self, time: float, state: Array) -> Array:
+        """Return the rates of the positions of a state that the model takes."""
+        positions = self._layout.positions
+        if not self._layout.free:
+            return state[positions:]
+        return self._model.evaluate("rhs", state, self._inputs_at(time))[:positions]
 
     def doubt(self, now: Array, gained: Array, lapse: float, step: float) -> int | None:
         """Return a guard that says that a step is not to be believed."""

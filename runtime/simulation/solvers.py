@@ -191,6 +191,7 @@ def solve_native(
     signals = model.signal_names
     raw = sundials.integrate(
         tuple(equations.ADDRESSES.get(name, 0) for name in names),  # signals may be none
+        model.layout,
         model.constants,
         inputs.constant,
         [_contiguous(spline.curve, spline.targets) for spline in segment.splines],

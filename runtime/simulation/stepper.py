@@ -125,6 +125,7 @@ class Stepper:
         addresses = model.equations.ADDRESSES
         self._motion = sundials.Motion(
             tuple(addresses[name] for name in ("rhs", "rhs_jacobian", "margins")),
+            model.layout,
             model.constants,
             self._state,
             self._inputs,

@@ -12,6 +12,7 @@ motion only as long as the state stays near: the modes are those of frozen coeff
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,10 +21,12 @@ from numpy.typing import NDArray
 from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.named_types import ArrayLike
+from ..equations.layout import StateLayout
 from .inputs import rates_of
 from .modes import Mode, eigenvalues_of, mode_of_states, modes_of
 from .state import inputs_of
 from .system import System
+from .tangent import Tangent
 
 if TYPE_CHECKING:
     from scipy.signal import StateSpace
@@ -53,6 +56,8 @@ class Linearisation:
     C : ndarray, shape (outputs, states)
     D : ndarray, shape (outputs, inputs)
         Derivatives of rate and outputs by state and inputs, exact; SI units.
+    layout : StateLayout
+        Which elements of the state are positions, and which are speeds.
     state_names, input_names, output_names : tuple of str
     state_units, input_units, output_units : tuple of str
     input_rates : mapping
@@ -67,6 +72,7 @@ class Linearisation:
     B: Array
     C: Array
     D: Array
+    layout: StateLayout
     state_names: tuple[str, ...]
     input_names: tuple[str, ...]
     output_names: tuple[str, ...]
@@ -79,22 +85,36 @@ class Linearisation:
     def steady(self) -> bool:
         """Whether nothing changes at the point but what no equation depends on.
 
-        That is the angle of a spinning rotor: it looks the same at every angle.
+        That is the angle of a spinning rotor: it looks the same at every angle. A free body may
+        move on as long as its accelerations stay what they are, as along a circle on level ground.
         """
-        changing = self.A.any(axis=0)
+        changing: NDArray[np.bool_] = np.array(self.A.any(axis=0))
+        free = np.ones(self.layout.positions, dtype=bool)
+        free[[position for position, _ in self.layout.own]] = False
+        changing[: free.size][free] = False
         # the size of what has to cancel: a state off by 1e-6 rad or m, or so
         scale = float(np.abs(self.A[changing]).max(initial=1.0))
-        return bool(np.abs(self.rate[changing]).max(initial=0.0) <= _STEADY * scale)
+        drift = self.A[free.size :, : free.size][:, free] @ self.rate[: free.size][free]
+        greatest = max(np.abs(part).max(initial=0.0) for part in (self.rate[changing], drift))
+        return bool(greatest <= _STEADY * scale)
 
     @property
     def eigenvalues(self) -> Complex:
-        """Eigenvalues of A [1/s], those with the largest imaginary part first."""
-        return eigenvalues_of(self.A)
+        """Eigenvalues of the motions [1/s], those with the largest imaginary part first.
+
+        They are those of A, but for those that belong to the norms of quaternions; see `tangent`.
+        """
+        return eigenvalues_of(self.tangent.A)
+
+    @cached_property
+    def tangent(self) -> Tangent:
+        """The motions near the point, counted in as many coordinates as there are speeds."""
+        return Tangent.at(self.A, self.state, self.layout)
 
     @property
     def modes(self) -> tuple[Mode, ...]:
         """The modes: one for each conjugate pair and for each real eigenvalue."""
-        return modes_of(self.A, self.state_names)
+        return modes_of(self.tangent.A, self.state_names, self.tangent.lift)
 
     def mode_of(self, coordinate: str) -> Mode:
         """Return the mode of a coordinate.
@@ -102,7 +122,8 @@ class Linearisation:
         Parameters
         ----------
         coordinate : str
-            The first half of `state_names`; the other half are their rates.
+            A position, the first of `state_names`; of a free body the displacement along an axis,
+            or a component e1, e2 or e3 of its quaternion for the turn about one.
 
         Returns
         -------
@@ -115,11 +136,12 @@ class Linearisation:
         InputError
             If there is no such coordinate.
         """
-        half = len(self.state_names) // 2
+        known = [self.state_names[place] for place in self.layout.partners]
         with Arguments("mode") as given:
-            given.among("coordinate", coordinate, self.state_names[:half])
-        rate = self.state_names[half + self.state_names.index(coordinate)]
-        return mode_of_states(self.A, self.state_names, (coordinate, rate))
+            given.among("coordinate", coordinate, known)
+        place = known.index(coordinate)
+        places = place, len(known) + place
+        return mode_of_states(self.tangent.A, self.state_names, places, self.tangent.lift)
 
     def state_space(self) -> "StateSpace":
         """Return the matrices as SciPy's ``StateSpace``."""
@@ -245,6 +267,7 @@ def linearise(
         B=evaluated("rhs_input_jacobian", states, entries),
         C=evaluated("signals_jacobian", signals, states)[rows],
         D=evaluated("signals_input_jacobian", signals, entries)[rows],
+        layout=model.layout,
         state_names=model.state_names,
         input_names=model.input_names,
         output_names=names,

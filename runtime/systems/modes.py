@@ -108,7 +108,7 @@ def eigenvalues_of(matrix: Array) -> Complex:
     return values[_order(values)]
 
 
-def modes_of(matrix: Array, names: tuple[str, ...]) -> tuple[Mode, ...]:
+def modes_of(matrix: Array, names: tuple[str, ...], lift: Array | None = None) -> tuple[Mode, ...]:
     """Return the modes: one for each conjugate pair and for each real eigenvalue.
 
     Parameters
@@ -117,20 +117,25 @@ def modes_of(matrix: Array, names: tuple[str, ...]) -> tuple[Mode, ...]:
         A.
     names : tuple of str
         Names of the states.
+    lift : ndarray, shape (states, n), optional
+        From what the matrix is about to changes of the states: they are the same, by default.
 
     Returns
     -------
     tuple of Mode
     """
     values, _, right = _decompose(matrix)
+    shapes = right if lift is None else lift @ right
     return tuple(
-        _mode((value, value.conjugate()) if value.imag else (value,), right[:, k], names)
+        _mode((value, value.conjugate()) if value.imag else (value,), shapes[:, k], names)
         for k, value in enumerate(values)
         if value.imag >= 0.0
     )
 
 
-def mode_of_states(matrix: Array, names: tuple[str, ...], states: Sequence[str]) -> Mode:
+def mode_of_states(
+    matrix: Array, names: tuple[str, ...], places: Sequence[int], lift: Array | None = None
+) -> Mode:
     """Return the pair of eigenvalues in which some states take part most.
 
     The participation of a state in an eigenvalue is the product of its elements in the left and in
@@ -142,8 +147,10 @@ def mode_of_states(matrix: Array, names: tuple[str, ...], states: Sequence[str])
         A.
     names : tuple of str
         Names of the states.
-    states : sequence of str
-        Those of the mode that is looked for: a coordinate and its rate.
+    places : sequence of int
+        Of those by which the mode is looked for, in the matrix: a coordinate and its rate.
+    lift : ndarray, shape (states, n), optional
+        As in `modes_of`.
 
     Returns
     -------
@@ -151,7 +158,8 @@ def mode_of_states(matrix: Array, names: tuple[str, ...], states: Sequence[str])
         A conjugate pair, or the two real eigenvalues in which the states take part most.
     """
     values, left, right = _decompose(matrix)
-    shares = _participation(left, right)[[names.index(name) for name in states]].sum(axis=0)
+    shares = _participation(left, right)[list(places)].sum(axis=0)
+    shapes = right if lift is None else lift @ right
     best = int(np.argmax(shares))
     if values[best].imag != 0.0:
         upper = (
@@ -159,10 +167,10 @@ def mode_of_states(matrix: Array, names: tuple[str, ...], states: Sequence[str])
             if values[best].imag > 0.0
             else int(np.argmin(np.abs(values - values[best].conj())))
         )
-        return _mode((values[upper], values[upper].conjugate()), right[:, upper], names)
+        return _mode((values[upper], values[upper].conjugate()), shapes[:, upper], names)
     shares[values.imag != 0.0] = -1.0
     pair = sorted(np.argsort(shares)[-2:], key=lambda k: values[k].real)
-    return _mode(tuple(values[k] for k in pair), right[:, pair[0]], names)
+    return _mode(tuple(values[k] for k in pair), shapes[:, pair[0]], names)
 
 
 def _mode(values: tuple[complex, ...], shape: Complex, names: tuple[str, ...]) -> Mode:

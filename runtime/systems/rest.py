@@ -75,23 +75,24 @@ def rest(
     held = inputs_of(start, system.names_of_states)
     known = {} if held is None else dict(zip(system.input_names, held.tolist(), strict=True))
     own = system.inputs({**known, **acting})
-    position = _Search(system, own).from_position(np.array(state[: size // 2]))
-    elements = np.concatenate([position, np.zeros(size - size // 2)])
-    return State.of(elements, own, system.names_of_states)
+    search = _Search(system, own)
+    position = search.from_position(np.array(state[: system.layout.positions]))
+    return State.of(search.at_rest(position), own, system.names_of_states)
 
 
 class _Search:
     """Newton's method on the accelerations of a system under some inputs, at rest."""
 
     def __init__(self, system: System, inputs: Array) -> None:
-        self._system, self._inputs = system, inputs
+        self._system, self._inputs, self._layout = system, inputs, system.layout
 
     def from_position(self, position: Array) -> Array:
+        position = self._layout.normalised(position)
         left = self._accelerations(position)
         for _ in range(_MOST_STEPS):
-            slopes = self._slopes(position)
+            slopes, directions = self._slopes(position)
             step = np.asarray(-np.linalg.pinv(slopes, rcond=_NOTHING) @ left)
-            position, left, part = self._shortened(position, left, step)
+            position, left, part = self._shortened(position, left, directions @ step)
             if np.abs(part * step).max(initial=0.0) <= _LAST_STEP:
                 break
         # what no step can take away is no rounding
@@ -103,33 +104,38 @@ class _Search:
         """Return where a step leads, halved until it leads nearer; or nowhere."""
         part = 1.0
         for _ in range(_HALVINGS):
+            moved = self._layout.normalised(position + part * step)
             try:
-                after = self._accelerations(position + part * step)
+                after = self._accelerations(moved)
             except ModelError:
                 part *= 0.5
                 continue
             if np.linalg.norm(after) < np.linalg.norm(left):
-                return position + part * step, after, part
+                return moved, after, part
             part *= 0.5
         return position, left, 0.0
 
-    def _state(self, position: Array) -> Array:
-        return np.concatenate([position, np.zeros(position.size)])
+    def at_rest(self, position: Array) -> Array:
+        """Return the state of a position, with all speeds zero."""
+        return np.concatenate([position, np.zeros(len(self._system.state_names) - position.size)])
 
     def _accelerations(self, position: Array) -> Array:
-        rates = self._system.evaluate("rhs", self._state(position), self._inputs)
+        rates = self._system.evaluate("rhs", self.at_rest(position), self._inputs)
         return rates[position.size :]
 
-    def _slopes(self, position: Array) -> Array:
-        slopes = self._system.evaluate("rhs_jacobian", self._state(position), self._inputs)
-        return slopes[position.size :, : position.size]
+    def _slopes(self, position: Array) -> tuple[Array, Array]:
+        """Return the slopes of the accelerations along what speeds change, and the latter."""
+        slopes = self._system.evaluate("rhs_jacobian", self.at_rest(position), self._inputs)
+        directions = slopes[: position.size, position.size : position.size + self._layout.speeds]
+        return slopes[position.size :, : position.size] @ directions, directions
 
     def _refuse(self, position: Array, left: Array) -> None:
         described = self._system.equations.STATE
         values = dict(zip(self._system.state_names, position.tolist(), strict=False))
         worst = int(np.abs(left).argmax())
-        name = self._system.state_names[worst]
-        unit = described[name]["unit"]
+        own = {speed: place for place, speed in self._layout.own}
+        name = self._system.state_names[own.get(worst, position.size + worst)]
+        unit = described[name]["unit"].removesuffix("/s")
         words = (
             f"no rest was found: at {located(values, described)}, {name} is still accelerated by "
             f"{left[worst]:.3g} {unit}/s^2. Begin nearer to it, with other inputs, or see "

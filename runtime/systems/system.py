@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 
 from ..core.arguments import Arguments, shown
 from ..core.named_types import ArrayLike
+from ..equations.layout import StateLayout
 from .allowed import LengthLimit
 from .compile.loader import find
 from .modes import eigenvalues_of
 from .state import StateNames, inputs_of
+from .tangent import Tangent
 
 Array = NDArray[np.float64]
 
@@ -80,6 +82,12 @@ class System:
         return usual
 
     # -- names ----------------------------------------------------------------------------------
+
+    @property
+    def layout(self) -> StateLayout:
+        """Which elements of the state are positions, and which are speeds."""
+        layout: StateLayout = self.equations.LAYOUT
+        return layout
 
     @property
     def state_names(self) -> tuple[str, ...]:
@@ -216,7 +224,8 @@ class System:
             Eigenvalues of the exact Jacobian of the right-hand side [1/s], those with the largest
             imaginary part first. `kintrafo.linearise` has the modes that belong to them.
         """
-        return eigenvalues_of(self.evaluate("rhs_jacobian", state, inputs))
+        jacobian = self.evaluate("rhs_jacobian", state, inputs)
+        return eigenvalues_of(Tangent.at(jacobian, np.asarray(state), self.layout).A)
 
 
 @cache

@@ -36,6 +36,7 @@ from kintrafo.generator import (
     Cylindrical,
     DamperTable,
     ForceElement,
+    Free,
     Friction,
     JointForce,
     LinearDamper,
@@ -295,7 +296,7 @@ class Oracle:
 
     def closure(self, motion: Motion) -> Jet:
         """Return what all joints hold at zero, in m and rad; shape (equations,)."""
-        joints = self.mechanism.joints
+        joints = [joint for joint in self.mechanism.joints if not isinstance(joint, Free)]
         held = [jet for joint in joints for jet in self.equations(motion, joint)]
         geared = [self._slip(motion, joint) for joint in joints if joint.gear]
         return stacked([*held, *geared], self.size)
@@ -433,9 +434,24 @@ class Oracle:
         return Jet(angle, np.full((1, 6 * self.size), np.nan), nothing, nothing)
 
     def driven(self, motion: Motion, joint: str) -> Jet:
-        """Return the coordinate of an independent or prescribed joint."""
+        """Return the coordinate of an independent or prescribed joint.
+
+        Of a free one it is six that nobody integrates: only their rates mean anything, which are
+        velocity and angular velocity in the body's own axes.
+        """
         declared = self.mechanism.joint(joint)
+        if isinstance(declared, Free):
+            return self._own_speeds(motion, declared)
         return self.coordinate(motion, declared, declared.coordinates[0])
+
+    def _own_speeds(self, motion: Motion, joint: Free) -> Jet:
+        i = self.index[joint.second.name]
+        to_body, (velocity, omega) = motion.rotation[i].T, motion.twist[i].reshape(2, 3)
+        rows = np.zeros((6, self.size + 1, 6))
+        rows[:3, i, :3] = rows[3:, i, 3:] = to_body
+        turning = np.concatenate((to_body @ np.cross(velocity, omega), np.zeros(3)))
+        rate = np.concatenate((to_body @ velocity, to_body @ omega))
+        return Jet(np.full(6, np.nan), rows[:, 1:].reshape(6, -1), rate, turning)
 
     # -- forces -----------------------------------------------------------------------------------
 
@@ -581,7 +597,7 @@ class Oracle:
         names = [joint.name for joint in self.model.independent]
         driven = [self.driven(motion, j) for j in (*names, *given)]
         driving = stacked(driven, self.size)
-        count = len(self.model.independent)
+        count = sum(len(jet.value) for jet in driven[: len(names)])
         rows = np.concatenate((closure.rows, driving.rows))
         target = np.zeros((len(rows), count + 1))
         target[len(closure.value) :, :count] = np.eye(len(driving.value), count)

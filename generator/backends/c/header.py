@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from ...declare.inputs import Input
     from ...declare.shown import Shown
-    from ...equations.outputs import Entry
+    from ...declare.states import Entry
     from ...program.conditions import Assumption, Condition
     from ...program.function import Function, Stage
 
@@ -36,9 +36,7 @@ class Header(CText):
                 f"Parameters, SI units, at the design position, {self.formulation.mechanism.axes}.",
                 self.derivation.parameters,
             ),
-            self._enum(
-                "state", "State: independent coordinates, then their rates.", self.derivation.state
-            ),
+            self._enum("state", self._state_title(), self.derivation.state),
             self._enum("input", "Time-varying inputs.", self.derivation.inputs),
             self._enum("relative", "Relative joint coordinates.", self.derivation.relative),
             self._enum("signal", "Elements of the signals function.", self.derivation.signals),
@@ -67,6 +65,11 @@ class Header(CText):
             "the results then are finite but meaningless."
             f"{self._iteration_note()}"
         )
+
+    def _state_title(self) -> str:
+        if self.derivation.states.free:
+            return "State: positions, then speeds; of free bodies the latter are in their own axes."
+        return "State: independent coordinates, then their rates."
 
     def _iteration_note(self) -> str:
         note = iteration_note(self.derivation)

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from ...declare.mechanism import Mechanism
     from ...declare.parameters import Parameter
     from ...declare.shown import Level, Shown
-    from ...equations.outputs import Derivation, Entry
+    from ...declare.states import Entry, StateLayout
+    from ...equations.outputs import Derivation
     from ...loops.planner import Transformer
     from ...program.function import Function, Stage
 
@@ -50,6 +51,7 @@ def _facts(derivation: Derivation) -> dict[str, Any]:
         ],
         "parameters": parameters_of(derivation.formulation.mechanism),
         "state": _described(derivation.state),
+        "layout": _layout(derivation.states),
         "inputs": _inputs(derivation.inputs),
         "relative_coordinates": _described(derivation.relative),
         "signals": {
@@ -98,6 +100,23 @@ def _facts(derivation: Derivation) -> dict[str, Any]:
 
 def _described(entries: Iterable[Entry]) -> dict[str, dict[str, str]]:
     return {e.name: {"unit": e.unit, "meaning": e.meaning} for e in entries}
+
+
+def _layout(states: StateLayout) -> dict[str, Any]:
+    """Return how many positions and speeds there are, and where those of free bodies begin."""
+    positions, speeds = ([e.name for e in entries] for entries in (states.positions, states.speeds))
+    return {
+        "positions": len(positions),
+        "speeds": len(speeds),
+        "free": [
+            {
+                "body": part.joint.second.name,
+                "position": positions.index(part.positions[0].name),
+                "speed": speeds.index(part.speeds[0].name),
+            }
+            for part in states.free
+        ],
+    }
 
 
 def _signal(mechanism: Mechanism, shown: Shown) -> dict[str, Any]:

@@ -95,8 +95,7 @@ class Motion:
         if first != coordinate.name:
             return f"copy of {inline(beta(self.numbers[first]))}"
         if joint in self.formulation.independent:
-            place = self.formulation.independent.index(joint) + 1
-            return f"independent, {inline(f'q_{{{place}}}')}"
+            return f"independent, {self._place_of(joint)}"
         if joint in self.formulation.prescribed:
             return f"prescribed by `{self.formulation.prescribed[joint].inputs[0].name}`"
         if joint.gear is not None:
@@ -106,6 +105,15 @@ class Motion:
             if name in transformer.outputs:
                 return f"transformer {transformer.number}"
         return "follows from the poses"
+
+    def _place_of(self, joint: Joint) -> str:
+        """Say where the positions of an independent joint are in q."""
+        positions = self.derivation.states.positions
+        first, *others = self.derivation.states.part_of(joint).positions
+        place = positions.index(first) + 1
+        if not others:
+            return inline(f"q_{{{place}}}")
+        return f"{inline(f'q_{{{place}}}')} to {inline(f'q_{{{place + len(others)}}}')}"
 
     # -- screws ---------------------------------------------------------------------------------
 
@@ -544,6 +552,19 @@ def _dynamics(motion: Motion, number: Equations) -> list[Block]:
             r"system for $`\ddot{\mathbf{q}}`$."
         ),
     ]
+    for part in motion.derivation.states.free:
+        body = part.joint.second.name
+        names = ", ".join(f"`{entry.name}`" for entry in part.speeds)
+        sections.append(
+            Paragraph(
+                f"Body {numbers[body]}, `{body}`, moves freely. Its rates are no derivatives of "
+                f"coordinates: {names} are velocity and angular velocity in its own axes, and "
+                r"stand in the place of elements of $`\dot{\mathbf{q}}`$. Positions change by "
+                r"$`\dot{\mathbf{q}} = \mathbf{N}(\mathbf{q})\,\mathbf{v}`$, in which the "
+                r"quaternion e follows $`\dot{e} = \tfrac12\,e\circ(0, p, q, r)`$ and is kept at "
+                "length one."
+            )
+        )
     for rotor in motion.rotors():
         name = inline(rf"\boldsymbol{{\Theta}}_{{{numbers[rotor.name]}}}")
         sections.append(

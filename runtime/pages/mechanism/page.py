@@ -109,8 +109,8 @@ def _modes(system: System) -> dict[str, Any]:
         modes = linearise(system, found).modes
     except KintrafoError as error:
         return {"words": f"None near the design position: {error}", "rest": [], "modes": []}
-    half = len(system.state_names) // 2
-    at = zip(system.state_names[:half], np.asarray(found)[:half], strict=True)
+    count = system.layout.positions
+    at = zip(system.state_names[:count], np.asarray(found)[:count], strict=True)
     units = system.equations.STATE
     return {
         "words": "Found by Newton's method from the design position, without inputs."

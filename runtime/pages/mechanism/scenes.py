@@ -80,11 +80,13 @@ def of_motion(skeleton: Skeleton, result: Simulation, remark: str = "") -> Scene
 def by_hand(skeleton: Skeleton) -> Iterator[Scene]:
     """Yield a scene for each coordinate, and for each input that moves the mechanism.
 
-    The others stay where they are at the design position.
+    The others stay where they are at the design position, and so do free bodies: where they are
+    moves the whole scene.
     """
     system = skeleton.system
     start, none = system.design_state, np.zeros(len(system.input_names))
-    for place, name in enumerate(system.state_names[: start.size // 2]):
+    for place, _ in system.layout.own:
+        name = system.state_names[place]
         yield from _scene(skeleton, name, system.equations.STATE[name], _moving(start, place, none))
     for place, name in enumerate(system.input_names):
         told = system.equations.INPUTS[name]

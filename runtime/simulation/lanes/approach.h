@@ -51,10 +51,10 @@ static bits changed(const crew *w, real step, real next)
 /* Evaluate the margins of what is a short time ahead of the step's end, on a straight way. */
 static void look_ahead(crew *w, real time, real lapse)
 {
-    int half = w->p->state_count / 2;
-    for (int i = 0; i < half; ++i) {
-        w->stage[i] = w->end_state[i] + lapse * w->end_state[half + i];
-        w->stage[half + i] = w->end_state[half + i];
+    int n = w->p->state_count, positions = w->p->position_count;
+    const real *rates = w->rates + (STAGES - 1) * n; /* at the end */
+    for (int i = 0; i < n; ++i) {
+        w->stage[i] = i < positions ? w->end_state[i] + lapse * rates[i] : w->end_state[i];
     }
     evaluate_inputs(w, time + lapse);
     w->margins(w->constants, w->stage, w->inputs, w->ahead);

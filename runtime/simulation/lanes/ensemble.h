@@ -57,6 +57,7 @@ typedef struct {
     /* functions of the model in lanes; those that it has not are null */
     void *prepare, *design_state, *rhs, *signals, *margins;
     int parameter_count, constant_count, state_count, input_count, signal_count, guard_count;
+    int position_count; /* so many elements of the state are positions, and come first */
     const int *guards; /* what each means, as in margins.h beside the other solver */
 
     /* the systems; a stride of zero: the same for all */

@@ -196,7 +196,15 @@ class _Problem(ctypes.Structure):
         *((n, ctypes.c_void_p) for n in ("prepare", "design_state", "rhs", "signals", "margins")),
         *(
             (f"{n}_count", ctypes.c_int)
-            for n in ("parameter", "constant", "state", "input", "signal", "guard")
+            for n in (
+                "parameter",
+                "constant",
+                "state",
+                "input",
+                "signal",
+                "guard",
+                "position",
+            )
         ),
         ("guards", _INTS),
         ("parameters", _DOUBLES),
@@ -340,6 +348,7 @@ class Problem:
             "input_count": len(model.input_names),
             "signal_count": self._shown.signal_count,
             "guard_count": len(guards),
+            "position_count": model.layout.positions,
             "guards": self._ints(guards),
         }
 

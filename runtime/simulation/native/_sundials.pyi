@@ -4,11 +4,14 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from ...equations.layout import StateLayout
+
 Array: TypeAlias = NDArray[np.float64]
 
 def version() -> str: ...
 def integrate(
     addresses: tuple[int, int, int, int],
+    layout: StateLayout,
     constants: Array,
     inputs: Array,
     splines: Sequence[tuple[Array, Array, tuple[int, int, int]]],
@@ -39,6 +42,7 @@ class Motion:
     def __init__(
         self,
         addresses: tuple[int, int, int],
+        layout: StateLayout,
         constants: Array,
         state: Array,
         inputs: Array,

@@ -29,6 +29,8 @@ cdef extern from "integrate.h" nogil:
         int state_count
         int input_count
         int signal_count
+        int position_count
+        int speed_count
         const double *constants
         const double *inputs
         int spline_count
@@ -158,7 +160,7 @@ cdef _copy(const kt_table *table):
 
 
 def integrate(
-    addresses, const double[::1] constants, const double[::1] inputs, splines,
+    addresses, layout, const double[::1] constants, const double[::1] inputs, splines,
     const double[::1] milestones, const double[::1] state, const double[::1] times, *, method, double rtol,
     const double[::1] atol, double first_step, double max_step, long max_steps,
     bint every_step, bint stop_at_outputs, bint dense, int signal_count, events, roots,
@@ -197,6 +199,7 @@ def integrate(
         problem.state_count = n
         problem.input_count = inputs.shape[0]
         problem.signal_count = signal_count
+        problem.position_count, problem.speed_count = layout.positions, layout.speeds
         problem.constants = &constants[0]
         problem.inputs = &inputs[0]
         problem.spline_count = len(splines)
@@ -278,7 +281,7 @@ cdef class Motion:
     cdef public long taken
 
     def __cinit__(
-        self, addresses, const double[::1] constants, double[::1] state, double[::1] inputs, moving,
+        self, addresses, layout, const double[::1] constants, double[::1] state, double[::1] inputs, moving,
         double length, *, method, double rtol, const double[::1] atol, double max_step, long max_steps,
         const int[::1] guards, const double[::1] usual_margins,
     ):
@@ -301,6 +304,7 @@ cdef class Motion:
         self.problem.margins = <kt_function><uintptr_t> addresses[2]
         self.problem.state_count = state.shape[0]
         self.problem.input_count = inputs.shape[0]
+        self.problem.position_count, self.problem.speed_count = layout.positions, layout.speeds
         self.problem.constants = &constants[0]
         self.problem.inputs = &inputs[0] if inputs.shape[0] else NULL
         self.problem.spline_count = len(moving)

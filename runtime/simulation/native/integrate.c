@@ -233,11 +233,16 @@ static void evaluate_margins(worker *w, double time, const double *state, double
 /* Evaluate the margins of what is a short time ahead of a state on its way. */
 static void look_ahead(worker *w, double time, const double *state, double lapse)
 {
-    int n = w->problem->state_count, half = n / 2;
+    const kt_problem *p = w->problem;
     double signed_lapse = w->end > w->start ? lapse : -lapse;
-    for (int i = 0; i < half; ++i) {
-        w->moved[i] = state[i] + signed_lapse * state[half + i];
-        w->moved[half + i] = state[half + i];
+    const double *rates = state + p->position_count;
+    if (p->position_count != p->speed_count) {
+        kt_evaluate_inputs(w, time);
+        p->rhs(p->constants, state, w->inputs, w->moved); /* the model took the state before */
+        rates = w->moved;
+    }
+    for (int i = 0; i < p->state_count; ++i) {
+        w->moved[i] = i < p->position_count ? state[i] + signed_lapse * rates[i] : state[i];
     }
     evaluate_margins(w, time + signed_lapse, w->moved, w->margins.ahead);
 }

@@ -34,8 +34,10 @@ typedef struct {
     kt_function rhs;
     kt_function jacobian; /* row-major */
     kt_function signals;
-    kt_function margins; /* coordinates come first in the state, and then their rates */
+    kt_function margins;
     int state_count, input_count, signal_count;
+    int position_count, speed_count; /* positions come first in the state, and then speeds; of as many of
+                                        both each is the rate of one */
     const double *constants;
     const double *inputs; /* values of those that do not vary */
     int spline_count;

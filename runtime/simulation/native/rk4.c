@@ -225,25 +225,29 @@ static int attempt(worker *w, double end, double step)
 /* -- jumps ------------------------------------------------------------------------------------ */
 
 /*
- * Tell whether rates jump between the second and the third stage, which are at one time. Rates of coordinates,
- * the first half of the state, do not; what the others change by is measured against both halves.
+ * Tell whether rates jump between the second and the third stage, which are at one time. Rates of positions do
+ * not; what the others change by is measured against all.
  */
 static int jumps(const worker *w, double step)
 {
     const method *m = w->own;
-    int n = w->problem->state_count, half = n / 2;
+    int n = w->problem->state_count, positions = w->problem->position_count, others = n - positions;
     const double *a = m->rates, *b = a + n, *c = b + n;
     double beyond = 0.0, moved = 0.0, rounding = 0.0;
-    for (int i = 0; i < half; ++i) {
-        double told = 0.0;
-        for (int j = 0; j < n; ++j) {
-            double entry = m->jacobian[(half + i) * n + j];
-            told += entry * 0.5 * step * (b[j] - a[j]);
-            rounding += fabs(entry * m->state[j]);
+    for (int i = 0; i < others || i < positions; ++i) {
+        double told = 0.0, faster = 0.0;
+        if (i < others) {
+            int row = positions + i;
+            for (int j = 0; j < n; ++j) {
+                double entry = m->jacobian[row * n + j];
+                told += entry * 0.5 * step * (b[j] - a[j]);
+                rounding += fabs(entry * m->state[j]);
+            }
+            beyond += fabs(c[row] - b[row] - told);
+            faster = fabs(step * (b[row] - a[row]));
+            rounding += fabs(b[row]);
         }
-        beyond += fabs(c[half + i] - b[half + i] - told);
-        moved += 0.5 * (fabs(step * (b[half + i] - a[half + i])) + fabs(b[i] - a[i]));
-        rounding += fabs(b[half + i]);
+        moved += 0.5 * (faster + (i < positions ? fabs(b[i] - a[i]) : 0.0));
     }
     return fabs(step) * beyond > JUMP * moved && beyond > ROUNDINGS * DBL_EPSILON * rounding;
 }

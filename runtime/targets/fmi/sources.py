@@ -96,6 +96,8 @@ def _model(known: Description) -> str:
         "constants": list(map(quoted, equations.CONSTANTS)),
         "states": list(map(quoted, manifest["state"])),
         "signals": list(map(quoted, manifest["signals"])),
+        "positions": manifest["layout"]["positions"],
+        "speeds": manifest["layout"]["speeds"],
     }
     template = environment("fmi").get_template("model.c.jinja")
     return template.render(

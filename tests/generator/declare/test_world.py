@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from changes import changed
+from free_bodies import state_near
 from kintrafo.generator import (
     Body,
     Copy,
@@ -15,9 +16,9 @@ from kintrafo.generator import (
     Spherical,
     combined,
 )
+from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.backends.report.derivation import joint_rows, mobility_line
 from kintrafo.generator.closed_forms.free import PlaceFree
-from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.loops.graph import Topology
 from kintrafo.generator.loops.mobility import Mobility
 from kintrafo.generator.mechanisms.double_wishbone import (
@@ -30,6 +31,7 @@ from kintrafo.generator.mechanisms.double_wishbone import (
 from kintrafo.generator.mechanisms.suspension import RACK_MOTION
 from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.planning.proposal import Search, proposals
+from own_models import Built, derive, own
 
 FIXED = MODELS[0]
 MOVING = Body("chassis", 300.0, (0.0, 0.0, 0.5), (30.0, 30.0, 30.0), order=CHASSIS.order)
@@ -104,11 +106,33 @@ def test_proposals_keep_the_free_body():
     assert [joint.name for joint in model.independent] == ["body", *found.independent]
 
 
-def test_its_equations_are_refused_for_now():
-    with pytest.raises(DeclarationError, match="'chassis' moves freely in the world") as refused:
-        generate(free_model())
-    assert "no equations for that yet" in str(refused.value)
-    assert "Ground('chassis')" in str(refused.value)
+def test_its_equations_are_those_of_maximal_coordinates():
+    """Two loops, a tyre, a spring, a wheel that spins and a rack that is given, in the air."""
+    model = free_model()
+    built = Built.of(model, own(model, arrays=True, derivatives=False))
+    random, layout = np.random.default_rng(0), built.module.LAYOUT
+    for _ in range(3):
+        state = state_near(built, random)
+        inputs = random.uniform(-0.02, 0.02, len(built.module.INPUTS))
+        motion, named = built.motion(state, inputs), built.named(inputs)
+        assert np.abs(built.oracle.closure(motion).rate).max() < 1e-12
+        given = {joint: named[moved.rates[1]] for joint, moved in model.motions.items()}
+        expected = built.oracle.reduced(motion, named, given)
+        found = built("rhs", state, inputs)[layout.positions :]
+        scale = np.abs(expected.accelerations).max()
+        np.testing.assert_allclose(found, expected.accelerations, atol=1e-12 * scale)
+        np.testing.assert_allclose(
+            built("mass_matrix", state, inputs), expected.mass_matrix, atol=1e-10
+        )
+
+
+def test_a_corner_costs_on_it_what_it_costs_on_the_ground():
+    """Where bodies are, relative to it: its own motion adds nothing to how loops are solved."""
+    fixed, free = (
+        derive(m, derivatives=False).functions["relative_coordinates"]
+        for m in (FIXED, free_model())
+    )
+    assert operations_of(free).total() == operations_of(fixed).total()
 
 
 def test_a_free_body_that_nobody_drives_has_no_pose():

@@ -82,7 +82,7 @@ def _show(module: ModuleType, file: Path, chosen: str | None, seconds: float) ->
     loops = [" - ".join(loop) for loop in module.LOOPS]
     how = "C" if module.ADDRESSES else "NumPy"
     rows = {
-        "coordinates": ", ".join(list(module.STATE)[: len(module.STATE) // 2]),
+        "coordinates": ", ".join(list(module.STATE)[: module.LAYOUT.positions]),
         "inputs": ", ".join(module.INPUTS) or "none",
         "loops": "\n".join(loops) or "none",
         "right-hand side": f"{module.rhs.operations['total']} operations, {how}",

@@ -60,6 +60,7 @@ typedef struct {
 typedef struct {
     const char *name;
     int states, inputs, signals, parameters, constants, guards, events, assumptions, tensors;
+    int positions, speeds; /* of the states */
     int linearised; /* size of what `linearisation` computes */
     km_of_parameters prepare, design_state;
     km_function rates, jacobian, signals_of, margins, linearisation;

@@ -72,6 +72,7 @@ int ku_open_steps(unit *u)
     u->problem = (kt_problem){
         .rhs = m->rates, .jacobian = m->jacobian, .signals = m->signals_of, .margins = m->margins,
         .state_count = m->states, .input_count = m->inputs, .signal_count = m->signals,
+        .position_count = m->positions, .speed_count = m->speeds,
         .constants = u->constants, .inputs = u->now.inputs, .splines = u->splines,
         .guard_count = m->guards, .guards = m->guard_use, .usual_margins = u->usual,
         .spline_count = m->inputs,

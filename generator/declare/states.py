@@ -1,0 +1,146 @@
+"""The state of a formulation: its positions q, its speeds v, and how they are called.
+
+What a hinge or a guide does has one coordinate and its rate. A body that moves freely has seven
+positions, of which four are a unit quaternion, and six speeds in its own axes. Speeds are what
+velocities, the mass matrix and the forces are counted in; positions change by ``q' = N(q) v``,
+which is ``q' = v`` but for bodies that move freely (`kinematics.base`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from .joints import Free, Joint
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from .joints import RelativeCoordinate
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One element of an array: its name, unit and meaning; of a state, also its value at design.
+
+    That value is none of the parameters: see `equations.design` for what depends on these.
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    at_design: int = 0
+
+
+@dataclass(frozen=True)
+class JointStates:
+    """The part of the state that belongs to an independent joint.
+
+    Attributes
+    ----------
+    joint
+        Whose it is.
+    positions, speeds
+        Elements of q and of v.
+    coordinates
+        What the speeds are the rates of, as velocities per unit rate are called: the coordinate of
+        a hinge or a guide; of a free body, which has no such coordinates, the speeds themselves.
+    """
+
+    joint: Joint
+    positions: tuple[Entry, ...]
+    speeds: tuple[Entry, ...]
+    coordinates: tuple[str, ...]
+
+    @property
+    def entries(self) -> tuple[Entry, ...]:
+        """Positions, then speeds."""
+        return (*self.positions, *self.speeds)
+
+
+@dataclass(frozen=True)
+class StateLayout:
+    """The state x = [q, v] of a formulation, joint by joint.
+
+    Attributes
+    ----------
+    joints
+        The part of each independent joint, in their order.
+    """
+
+    joints: tuple[JointStates, ...]
+
+    @classmethod
+    def of(
+        cls, independent: Iterable[Joint], coordinates: Sequence[RelativeCoordinate]
+    ) -> StateLayout:
+        """Return the layout for independent joints, with the names of reported coordinates."""
+        return cls(tuple(_states_of(joint, coordinates) for joint in independent))
+
+    @property
+    def positions(self) -> tuple[Entry, ...]:
+        """The elements of q."""
+        return tuple(entry for part in self.joints for entry in part.positions)
+
+    @property
+    def speeds(self) -> tuple[Entry, ...]:
+        """The elements of v."""
+        return tuple(entry for part in self.joints for entry in part.speeds)
+
+    @property
+    def entries(self) -> tuple[Entry, ...]:
+        """All elements, in the order of the state."""
+        return (*self.positions, *self.speeds)
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """What the speeds are the rates of, in their order."""
+        return tuple(name for part in self.joints for name in part.coordinates)
+
+    @property
+    def speed_of(self) -> dict[str, str]:
+        """The name of the speed of each coordinate."""
+        return dict(zip(self.coordinates, (entry.name for entry in self.speeds), strict=True))
+
+    @property
+    def free(self) -> tuple[JointStates, ...]:
+        """The parts of bodies that move freely."""
+        return tuple(part for part in self.joints if isinstance(part.joint, Free))
+
+    def part_of(self, joint: Joint) -> JointStates:
+        """Return the part of an independent joint."""
+        return next(part for part in self.joints if part.joint == joint)
+
+
+def _states_of(joint: Joint, coordinates: Sequence[RelativeCoordinate]) -> JointStates:
+    if isinstance(joint, Free):
+        return free_states(joint)
+    # the same coordinate may be reported again, under another name
+    c = next(c for c in coordinates if c.joint == joint)
+    position = Entry(c.name, c.unit, c.meaning)
+    rate = Entry(f"{c.name}_rate", f"{c.unit}/s", f"rate of {c.name}")
+    return JointStates(joint, (position,), (rate,), (c.name,))
+
+
+def free_states(joint: Free) -> JointStates:
+    """Return the part of the state that belongs to a body that moves freely."""
+    body = joint.second.name
+    place = f"of the centre of mass of the {body} from design, in the world"
+    turn = f"of the unit quaternion that turns the {body} from design"
+    own = f"in axes of the {body}"
+    positions = (
+        *(Entry(f"{body}_{a}", "m", f"displacement {place}, {a}") for a in "xyz"),
+        Entry(f"{body}_e0", "1", f"scalar part {turn}", at_design=1),
+        *(Entry(f"{body}_e{i}", "1", f"{a} component {turn}") for i, a in enumerate("xyz", 1)),
+    )
+    speeds = (
+        *(
+            Entry(f"{body}_{s}", "m/s", f"velocity of the centre of mass of the {body} {own}, {a}")
+            for s, a in zip("uvw", "xyz", strict=True)
+        ),
+        *(
+            Entry(f"{body}_{s}", "rad/s", f"angular velocity of the {body} {own}, {a}")
+            for s, a in zip("pqr", "xyz", strict=True)
+        ),
+    )
+    return JointStates(joint, positions, speeds, tuple(entry.name for entry in speeds))

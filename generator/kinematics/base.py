@@ -1,0 +1,182 @@
+r"""A body that moves freely in the world, as the base of what hangs on it.
+
+What hangs on a free body is solved in the axes of that body, as on the ground, and no closed form
+knows that the body moves; `carried` adds what its motion does. With R its axes in the world,
+``(u, v, w)`` the velocity of its centre of mass O and ``(p, q, r)`` its angular velocity, both in
+its own axes:
+
+    r_O' = R (u, v, w),    e' = 1/2 e o (0, p, q, r) + k (1 - |e|^2) e.
+
+The unit quaternion e = (e0, e1, e2, e3), scalar first, turns the body from design. R is that of
+e / |e|, so that its columns are orthonormal whatever the norm is, and the motion does not depend on
+the norm. The second term is along e: it moves the norm towards one, which the steps of an
+integration would carry away in the long run, and leaves the rotation as it is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..declare.states import free_states
+from ..program.floors import SMALLEST
+from ..program.vectors import Vector
+from .motion import Axes, from_axes, to_axes
+
+if TYPE_CHECKING:
+    from ..declare.joints import Free
+    from ..program.program import Program
+
+KEEPS_NORM = sp.Integer(1)
+"""How fast the norm of the quaternion comes back to one: half of that rate [1/s].
+
+Slow beside any motion, so that no step is shorter for it, and fast beside what an integration does
+to the norm.
+"""
+
+NONE = sp.Integer(0)
+
+
+@dataclass(frozen=True)
+class FreeBase:
+    """A body that moves freely, in the world.
+
+    Attributes
+    ----------
+    joint
+        Whose second body it is.
+    center
+        Its centre of mass at design.
+    axes
+        Its axes.
+    """
+
+    program: Program
+    joint: Free
+    center: Vector
+    axes: Axes
+
+    @classmethod
+    def of(cls, program: Program, joint: Free) -> FreeBase:
+        """Append the axes of a body from its quaternion."""
+        body = joint.second.name
+        program.section(f"{body}: free in the world")
+        _, _, _, *names = (entry.name for entry in free_states(joint).positions)
+        e0, e1, e2, e3 = map(sp.Symbol, names)
+        squared = program.guarded(
+            f"{body}_quaternion_squared",
+            e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3,
+            f"the quaternion of {body} is zero and turns it nowhere",
+            "1",
+            SMALLEST,
+        )
+        twice = program.define(f"{body}_twice", 2 / squared)
+        x, y, z = program.vector(f"{body}_twice_e", Vector(e1, e2, e3) * twice, "123")
+        xx, xy, xz, yy, yz, zz = (
+            program.define(f"{body}_e{i}{j}", one * other)
+            for i, j, one, other in (
+                (1, 1, e1, x), (1, 2, e1, y), (1, 3, e1, z),
+                (2, 2, e2, y), (2, 3, e2, z), (3, 3, e3, z),
+            )
+        )  # fmt: skip
+        wx, wy, wz = (program.define(f"{body}_e0{i}", e0 * e) for i, e in ((1, x), (2, y), (3, z)))
+        columns = (
+            Vector(1 - yy - zz, xy + wz, xz - wy),
+            Vector(xy - wz, 1 - xx - zz, yz + wx),
+            Vector(xz + wy, yz - wx, 1 - xx - yy),
+        )
+        axes = program.axes((f"{body}_forward", f"{body}_left", f"{body}_up"), columns)
+        return cls(program, joint, joint.second.center.position, axes)
+
+    @property
+    def body(self) -> str:
+        """Its name."""
+        return self.joint.second.name
+
+    @cached_property
+    def _symbols(self) -> tuple[list[sp.Symbol], list[sp.Symbol]]:
+        states = free_states(self.joint)
+        return (
+            [sp.Symbol(entry.name) for entry in states.positions],
+            [sp.Symbol(entry.name) for entry in states.speeds],
+        )
+
+    @cached_property
+    def coordinates(self) -> tuple[str, ...]:
+        """What moves it: three velocities, then three angular velocities."""
+        return free_states(self.joint).coordinates
+
+    @property
+    def position(self) -> Vector:
+        """Where its centre of mass is, in the world."""
+        x, y, z = self._symbols[0][:3]
+        place: Vector = self.center + Vector(x, y, z)
+        return place
+
+    @property
+    def velocity(self) -> Vector:
+        """That of its centre of mass, in its own axes."""
+        return Vector(*self._symbols[1][:3])
+
+    @property
+    def omega(self) -> Vector:
+        """Its angular velocity, in its own axes."""
+        return Vector(*self._symbols[1][3:])
+
+    # -- positions and speeds ---------------------------------------------------------------------
+
+    def directions(self) -> dict[str, dict[sp.Symbol, sp.Expr]]:
+        """Return the columns of N(q): how positions change per unit of each speed."""
+        (x, y, z, e0, e1, e2, e3), _ = self._symbols
+        half = sp.Rational(1, 2)
+        moved = ({x: a.x, y: a.y, z: a.z} for a in self.axes)
+        turned = (
+            {e0: -half * e1, e1: half * e0, e2: half * e3, e3: -half * e2},
+            {e0: -half * e2, e1: -half * e3, e2: half * e0, e3: half * e1},
+            {e0: -half * e3, e1: half * e2, e2: -half * e1, e3: half * e0},
+        )
+        return dict(zip(self.coordinates, (*moved, *turned), strict=True))
+
+    def rates(self) -> dict[str, sp.Expr]:
+        """Return the rates of its positions, by their names."""
+        positions, speeds = self._symbols
+        columns = self.directions()
+        body, quaternion = self.body, positions[3:]
+        squared = sum((e * e for e in quaternion), NONE)
+        norm = self.program.define(f"{body}_norm_rate", KEEPS_NORM * (1 - squared))
+        found = {}
+        for s in positions:
+            rate = sum((columns[v.name].get(s, NONE) * v for v in speeds), NONE)
+            back = norm * s if s in quaternion else NONE
+            found[s.name] = self.program.define(f"{s}_rate", rate + back)
+        return found
+
+    def reported(self, kind: str) -> sp.Expr:
+        """Return a coordinate of its joint as reports have it: a displacement or an angle."""
+        (x, y, z, *_), (forward, left, up) = self._symbols[0], self.axes
+        return {
+            "x": lambda: x,
+            "y": lambda: y,
+            "z": lambda: z,
+            "yaw": lambda: sp.atan2(forward.y, forward.x),
+            "pitch": lambda: sp.atan2(-forward.z, sp.sqrt(left.z**2 + up.z**2)),
+            "roll": lambda: sp.atan2(left.z, up.z),
+        }[kind]()
+
+    # -- world and base ---------------------------------------------------------------------------
+
+    def to_world(self, v: Vector) -> Vector:
+        """Return the components in the world of a vector in its axes."""
+        return from_axes(self.axes, v)
+
+    def from_world(self, v: Vector) -> Vector:
+        """Return the components in its axes of a vector in the world."""
+        return to_axes(self.axes, v)
+
+    def place(self, at: Vector) -> Vector:
+        """Return where a point of the base is in the world, by its place at design."""
+        place: Vector = self.position + self.to_world(at - self.center)
+        return place

@@ -1,0 +1,181 @@
+"""Bodies that move freely in the world, and what hangs on them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from changes import changed
+from kintrafo.generator import (
+    AccelerationOf,
+    AlongLine,
+    AppliedForce,
+    Body,
+    DamperRate,
+    Direction,
+    DistanceBetween,
+    ForceElement,
+    Formulation,
+    Free,
+    Gravity,
+    Ground,
+    Input,
+    Length,
+    Line,
+    LinearDamper,
+    LinearSpring,
+    Mechanism,
+    Point,
+    PositionOf,
+    Revolute,
+    Rotor,
+    SpringRate,
+    VelocityOf,
+    Weight,
+)
+from kintrafo.generator.declare.world import WORLD
+
+INERTIA = (0.11, 0.23, 0.31, 0.02, -0.03, 0.01)
+
+
+def freed(model: Formulation) -> Formulation:
+    """Return a model whose ground is a body that moves freely in the world."""
+    mechanism = model.mechanism
+    ground = next(body for body in mechanism.bodies if isinstance(body, Ground))
+    moving = Body(ground.name, 4.0, (0.1, -0.1, 0.2), INERTIA, order=ground.order)
+    joint = Free("flight", moving)
+    pairs = [(ground, moving)]
+    parts = ("joints", "forces", "coordinates", "outputs")
+    found = {name: changed(getattr(mechanism, name), *pairs) for name in parts}
+    moved = replace(mechanism, **found | {"joints": (joint, *found["joints"])})
+    return replace(
+        model,
+        name=f"free_{model.name}",
+        mechanism=moved,
+        independent=(joint, *changed(model.independent, *pairs)),
+        prescribed=changed(dict(model.prescribed), *pairs),
+        held=changed(dict(model.held), *pairs),
+        massive=(moving, *model.massive),
+    )
+
+
+def thrown() -> Formulation:
+    """Return a body in the air."""
+    body = Body("block", 3.0, (0.4, -0.2, 0.9), INERTIA)
+    joint = Free("flight", body)
+    kinds = ("x", "y", "z", "yaw", "pitch", "roll")
+    mechanism = Mechanism(
+        "thrown",
+        "a body in the air",
+        joints=(joint,),
+        forces=(Weight(),),
+        coordinates=tuple(joint.coordinate(kind, kind, f"{kind} of the block") for kind in kinds),
+    )
+    return Formulation("thrown", "a body in the air", mechanism, independent=(joint,))
+
+
+def rig() -> Formulation:
+    """Return a box with a limb and a flywheel, and a ball beside it: both move freely."""
+    box = Body("box", 5.0, (0.0, 0.1, 0.8), INERTIA)
+    ball = Body("ball", 0.7, (0.4, 0.8, 0.5), (0.02, 0.03, 0.025))
+    limb = Body("limb", 1.2, (0.5, 0.3, 0.7), tuple(0.3 * value for value in INERTIA))
+    spin_axis = Direction("spin_axis", (0.3, 0.9, -0.2))
+    flywheel = Rotor(
+        "flywheel", 0.8, Point("hub", (-0.2, 0.1, 0.9)), axis=spin_axis, spin=0.05, diametral=0.03
+    )
+    shoulder = Point("shoulder", (0.2, 0.2, 0.8), "shoulder")
+    tip, hook, post, eye = (
+        Point("tip", (0.8, 0.5, 0.6)),
+        Point("hook", (-0.1, -0.2, 0.9)),
+        Point("post", (-0.4, 0.3, 1.4)),
+        Point("eye", (0.45, 0.7, 0.55)),
+    )
+    swing = Revolute("swing", box, limb, Line(shoulder, Direction("swing_line", (0.2, -0.5, 0.8))))
+    spinning = Revolute("spinning", box, flywheel, Line(flywheel.center, spin_axis))
+    joints = (Free("box_flight", box), Free("ball_flight", ball), swing, spinning)
+    mechanism = Mechanism(
+        "rig",
+        "a box with a limb, and a ball",
+        joints=joints,
+        forces=(
+            Weight(Gravity("gravity", 9.81, "acceleration of gravity")),
+            _spring("tether", (WORLD, post), (box, hook), damping=4.0),
+            _spring("band", (ball, eye), (limb, tip)),
+            AppliedForce(
+                limb,
+                tip,
+                Direction("pull_line", (0.6, 0.5, -0.7)),
+                Input("pull", "N", "pull at the tip"),
+            ),
+        ),
+        coordinates=(
+            swing.angle("swing_angle", "angle of the limb"),
+            spinning.angle("spin_angle", "angle of the flywheel"),
+        ),
+        outputs=(
+            PositionOf("tip_place", limb, tip, "tip"),
+            VelocityOf("tip_velocity", limb, tip, "tip"),
+            AccelerationOf("tip_acceleration", limb, tip, "tip"),
+            DistanceBetween("gap", (box, hook), (ball, eye), "gap of hook and eye"),
+        ),
+    )
+    return Formulation("rig", "a box with a limb, and a ball", mechanism, independent=joints)
+
+
+def _spring(
+    name: str, first: tuple[Body, Point], second: tuple[Body, Point], damping: float = 0.0
+) -> ForceElement:
+    spring = LinearSpring(
+        SpringRate(f"{name}_stiffness", 90.0, f"rate of the {name}"),
+        free_length=Length(f"{name}_free_length", 0.3, f"length of the {name} without force"),
+    )
+    damper = LinearDamper(DamperRate(f"{name}_damping", damping, f"damping of the {name}"))
+    return ForceElement(name, AlongLine(first, second), (spring, damper))
+
+
+def unit_quaternion(random: np.random.Generator) -> np.ndarray:
+    """Return a rotation, any one as likely as any other."""
+    q = random.normal(size=4)
+    return q / np.linalg.norm(q)
+
+
+def product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return the product of two quaternions, scalar first."""
+    scalar = a[0] * b[0] - a[1:] @ b[1:]
+    return np.array([scalar, *(a[0] * b[1:] + b[0] * a[1:] + np.cross(a[1:], b[1:]))])
+
+
+def rotation(q: np.ndarray) -> np.ndarray:
+    """Return the matrix of a unit quaternion, by its products with the axes."""
+    back = q * [1.0, -1.0, -1.0, -1.0]
+    columns = [product(product(q, np.array([0.0, *axis])), back)[1:] for axis in np.eye(3)]
+    return np.array(columns).T
+
+
+def state_near(
+    built, random: np.random.Generator, reach: float = 0.05, speed: float = 2.0
+) -> np.ndarray:
+    """Return a state of a compiled model with free bodies anywhere, and joints near design."""
+    layout, state = built.module.LAYOUT, built.module.design_state(built.parameters)
+    for place, _ in layout.own:
+        state[place] += random.uniform(-reach, reach)
+    for place, _ in layout.free:
+        state[place : place + 3] += random.normal(size=3) * reach
+        state[place + 3 : place + 7] = unit_quaternion(random)
+    state[layout.positions :] = random.uniform(-speed, speed, layout.speeds)
+    return state
+
+
+def tethered() -> Formulation:
+    """Return a body in the air that hangs on a spring, with a damper beside it."""
+    block = Body("block", 3.0, (0.4, -0.2, 0.9), INERTIA)
+    hook, post = Point("hook", (0.5, -0.1, 1.1)), Point("post", (0.6, 0.1, 1.6))
+    joint = Free("flight", block)
+    mechanism = Mechanism(
+        "tethered",
+        "a body on a spring",
+        joints=(joint,),
+        forces=(Weight(), _spring("tether", (WORLD, post), (block, hook))),
+        outputs=(PositionOf("hook_place", block, hook, "hook"),),
+    )
+    return Formulation("tethered", "a body on a spring", mechanism, independent=(joint,))
