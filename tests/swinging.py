@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from kintrafo import Model, PositionError, Suspension, travel_range
 from kintrafo.core.errors import InputError
-from kintrafo.vehicle.models.fleet import Fleet
-from kintrafo.vehicle.models.fleet_positions import fleet_angles
-from kintrafo.vehicle.models.positions import arm_angles
+from kintrafo.vehicle.models.model_batch import ModelBatch
+from kintrafo.vehicle.models.positions import arm_angles, arm_angles_of_batch
 from kintrafo.vehicle.models.reach import at_rest
 from oracle.continuation import Followed, Poses, Rods
 
@@ -50,7 +49,7 @@ class Judged:
     short
         Ways that it follows farther than the range goes.
     in_batches
-        Suspensions whose positions were found as those of a fleet, too.
+        Suspensions whose positions were found as those of a batch, too.
     """
 
     sets: int = 0
@@ -128,7 +127,7 @@ def _asked(model: Model, rack: float, random: Random) -> Asked | None:
 
 
 def _in_a_batch(models: list[Model], ways: Ways, rack: float, random: Random) -> Judged:
-    """Hold the positions of all as one fleet against the continuation."""
+    """Hold the positions of all as one batch against the continuation."""
     values = {
         f"hardpoints.{name}.{axis}": np.array(
             [getattr(model.suspension.hardpoints, name)[i] for model in models]
@@ -136,11 +135,11 @@ def _in_a_batch(models: list[Model], ways: Ways, rack: float, random: Random) ->
         for name in CAR.hardpoints.given()
         for i, axis in enumerate("xyz")
     }
-    fleet = Fleet(models[0].suspension, values, free_rack=False)
+    batch = ModelBatch(models[0].suspension, values, free_rack=False)
     found = Judged()
     for travel in random.uniform(-0.1, 0.1, 3):
-        angles, met = fleet_angles(fleet, np.array([travel]), np.array([rack]))
-        met &= fleet.there
+        angles, met = arm_angles_of_batch(batch, np.array([travel]), np.array([rack]))
+        met &= batch.valid
         for k in np.flatnonzero(met):
             found.wrong += ways.compared(int(k), models[k], angles[k]).wrong
         found.in_batches += int(met.sum())

@@ -1,12 +1,12 @@
-"""Numbers of many at once where code was written for one.
+"""Numbers of a whole batch where code was written for one.
 
-A `Column` replaces a float: it has a number for each of many, and arithmetic with it is
-that of each. A comparison has one answer, since code branches on it: that of the first. Those to
-whom it does not apply are struck from the `Ledger`, and somebody has to do them one by one. So code
-for one runs once for many, and nobody gets a result of a branch that is not theirs.
+A `BatchNumber` takes the place of a float: it has a number for each member of a batch, and
+arithmetic with it is that of each. A comparison has one answer, since code branches on it: that of
+the first member. Members with another answer are taken out of the `BatchMask`, and are computed one
+by one. So code for one runs once for many, and no member has a result of a branch of others.
 
 The functions below are those of `math` and NumPy for floats, to the last bit, and go through every
-element of columns with the same functions of `math`.
+element of a batch with the same functions of `math`.
 """
 
 import math
@@ -19,141 +19,110 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-class Ledger:
-    """Who is still there.
+class BatchMask:
+    """Which members of a batch are computed together.
 
     Parameters
     ----------
     count : int
-        How many there are.
+        How many members there are.
 
     Attributes
     ----------
-    there : ndarray of bool, shape (count,)
-        False for those who took another branch than the first.
+    valid : ndarray of bool, shape (count,)
+        False for those that took another branch than the first.
     """
 
     def __init__(self, count: int) -> None:
-        self.there = np.ones(count, dtype=bool)
+        self.valid = np.ones(count, dtype=bool)
 
     def decide(self, answers: NDArray[np.bool_]) -> bool:
-        """Return the answer of the first, and strike those who have another."""
-        self.there &= answers == answers[0]
+        """Return the answer of the first, and take out those with another one."""
+        self.valid &= answers == answers[0]
         return bool(answers[0])
 
 
-class Truth:
-    """The answers of many to a question; as a condition, that of the first."""
+def _arithmetic(operation: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
+    def method(self: "BatchNumber", other: Any) -> Any:
+        # of an array and a number of a batch NumPy makes an array of such numbers
+        if isinstance(other, np.ndarray):
+            return NotImplemented
+        with np.errstate(all="ignore"):  # as floats, but that what is wrong is taken out later on
+            return self.of(operation(self.values, other_values(other)))
 
-    def __init__(self, answers: NDArray[np.bool_], ledger: Ledger) -> None:
-        self._answers, self._ledger = answers, ledger
-
-    def __bool__(self) -> bool:
-        return self._ledger.decide(self._answers)
+    return method
 
 
-class Column:
-    """A number for each of many.
+def _comparison(question: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
+    def method(self: "BatchNumber", other: Any) -> bool:
+        return self.mask.decide(question(self.values, other_values(other)))
+
+    return method
+
+
+class BatchNumber:
+    """A number for each member of a batch.
 
     Parameters
     ----------
     values : ndarray, shape (count,)
-    ledger : Ledger
-        Shared by all columns of the same many.
+    mask : BatchMask
+        Shared by all numbers of the batch.
     """
 
-    # of an array and a column NumPy makes an array of columns
-    __slots__ = ("ledger", "values")
+    __slots__ = ("mask", "values")
 
-    def __init__(self, values: Array, ledger: Ledger) -> None:
-        self.values, self.ledger = values, ledger
+    def __init__(self, values: Array, mask: BatchMask) -> None:
+        self.values, self.mask = values, mask
 
-    def of(self, values: Array) -> "Column":
-        """Return another column of the same many."""
-        return Column(values, self.ledger)
+    def of(self, values: Array) -> "BatchNumber":
+        """Return another number of the same batch."""
+        return BatchNumber(values, self.mask)
 
     def __repr__(self) -> str:
-        return f"<Column from {self.values[0]}>"
+        return f"<BatchNumber from {self.values[0]}>"
 
     def __format__(self, how: str) -> str:
         return format(float(self.values[0]), how)
 
-    def _with(self, other: Any, operation: Callable[[Any, Any], Any]) -> Any:
-        if isinstance(other, np.ndarray):
-            return NotImplemented
-        with np.errstate(all="ignore"):  # as floats, but that what is wrong is struck later on
-            return self.of(operation(self.values, other_values(other)))
+    __add__ = __radd__ = _arithmetic(np.add)
+    __mul__ = __rmul__ = _arithmetic(np.multiply)
+    __sub__ = _arithmetic(np.subtract)
+    __rsub__ = _arithmetic(lambda a, b: b - a)
+    __truediv__ = _arithmetic(np.divide)
+    __rtruediv__ = _arithmetic(lambda a, b: b / a)
+    __pow__ = _arithmetic(np.power)
 
-    def _asked(self, other: Any, question: Callable[[Any, Any], Any]) -> Any:
-        return Truth(question(self.values, other_values(other)), self.ledger)
-
-    def __add__(self, other: Any) -> Any:
-        return self._with(other, np.add)
-
-    __radd__ = __add__
-
-    def __mul__(self, other: Any) -> Any:
-        return self._with(other, np.multiply)
-
-    __rmul__ = __mul__
-
-    def __sub__(self, other: Any) -> Any:
-        return self._with(other, np.subtract)
-
-    def __rsub__(self, other: Any) -> Any:
-        return self._with(other, lambda a, b: b - a)
-
-    def __truediv__(self, other: Any) -> Any:
-        return self._with(other, np.divide)
-
-    def __rtruediv__(self, other: Any) -> Any:
-        return self._with(other, lambda a, b: b / a)
-
-    def __pow__(self, other: Any) -> Any:
-        return self._with(other, np.power)
-
-    def __neg__(self) -> "Column":
-        return self.of(-self.values)
-
-    def __abs__(self) -> "Column":
-        return self.of(np.abs(self.values))
-
-    def __lt__(self, other: Any) -> Any:
-        return self._asked(other, np.less)
-
-    def __le__(self, other: Any) -> Any:
-        return self._asked(other, np.less_equal)
-
-    def __gt__(self, other: Any) -> Any:
-        return self._asked(other, np.greater)
-
-    def __ge__(self, other: Any) -> Any:
-        return self._asked(other, np.greater_equal)
-
-    def __eq__(self, other: object) -> Any:
-        return self._asked(other, np.equal)
-
-    def __ne__(self, other: object) -> Any:
-        return self._asked(other, np.not_equal)
-
+    __lt__ = _comparison(np.less)
+    __le__ = _comparison(np.less_equal)
+    __gt__ = _comparison(np.greater)
+    __ge__ = _comparison(np.greater_equal)
+    __eq__ = _comparison(np.equal)
+    __ne__ = _comparison(np.not_equal)
     __hash__ = None  # type: ignore[assignment] # equal for some, and not for others
 
+    def __neg__(self) -> "BatchNumber":
+        return self.of(-self.values)
+
+    def __abs__(self) -> "BatchNumber":
+        return self.of(np.abs(self.values))
+
     def __bool__(self) -> bool:
-        return self.ledger.decide(self.values != 0.0)
+        return self.mask.decide(self.values != 0.0)
 
 
 def other_values(other: Any) -> Any:
-    """Return the numbers of a column, or what else it is."""
-    return other.values if isinstance(other, Column) else other
+    """Return the numbers of a batch, or what else it is."""
+    return other.values if isinstance(other, BatchNumber) else other
 
 
-def _first_column(values: Iterable[Any]) -> Column | None:
-    return next((value for value in values if isinstance(value, Column)), None)
+def _of_a_batch(values: Iterable[Any]) -> BatchNumber | None:
+    return next((value for value in values if isinstance(value, BatchNumber)), None)
 
 
 def each(function: Callable[..., float], *values: Any) -> Any:
-    """Return a function of floats, of every one of many where one of its arguments is a column."""
-    column = _first_column(values)
+    """Return a function of floats, of each member where an argument is a number of a batch."""
+    column = _of_a_batch(values)
     if column is None:
         return function(*values)
     count = column.values.size
@@ -172,8 +141,8 @@ def _or_nan(function: Callable[..., float], *values: float) -> float:
 
 
 def number(value: Any) -> Any:
-    """Return a float, or a column as it is."""
-    return value if isinstance(value, Column) else float(value)
+    """Return a float, or a number of a batch as it is."""
+    return value if isinstance(value, BatchNumber) else float(value)
 
 
 def hypot(*values: Any) -> Any:
@@ -203,16 +172,16 @@ def degrees(angle: Any) -> Any:
 
 def length(vector: Any) -> Any:
     """Return the length of a vector: that of NumPy for floats."""
-    if _first_column(vector) is None:
+    if _of_a_batch(vector) is None:
         return float(np.linalg.norm(vector))
     square: Any = sum(component * component for component in vector)
     return square.of(np.sqrt(square.values))
 
 
 def greatest(values: Iterable[Any]) -> Any:
-    """Return the greatest of some numbers; of columns the greatest of each."""
+    """Return the greatest of some numbers; in a batch that of each member."""
     found = list(values)
-    column = _first_column(found)
+    column = _of_a_batch(found)
     if column is None:
         return max(found)
     return column.of(np.maximum.reduce(np.broadcast_arrays(*map(other_values, found))))
@@ -220,7 +189,7 @@ def greatest(values: Iterable[Any]) -> Any:
 
 def sorted_moments(matrix: Any) -> tuple[Any, Any, Any]:
     """Return the eigenvalues of a symmetric matrix of three rows, the smallest first."""
-    column = _first_column(value for row in matrix for value in row)
+    column = _of_a_batch(value for row in matrix for value in row)
     low: Any
     middle: Any
     high: Any
@@ -234,28 +203,17 @@ def sorted_moments(matrix: Any) -> tuple[Any, Any, Any]:
 
 def least_singular_value(matrix: Any) -> Any:
     """Return the least singular value of a matrix."""
-    column = _first_column(value for row in matrix for value in row)
+    column = _of_a_batch(value for row in matrix for value in row)
     least = np.linalg.svd(stacked(matrix), compute_uv=False)[..., -1]
     return float(least) if column is None else column.of(np.array(least))
 
 
 def stacked(values: Any) -> Array:
-    """Return an array of floats; one of columns has many of them in front.
-
-    Parameters
-    ----------
-    values : array_like
-        Floats, columns or both; nested as NumPy takes them.
-
-    Returns
-    -------
-    ndarray
-        Of the shape of `values`, with (count,) in front of it if there is a column.
-    """
+    """Return an array of the shape of some values; of a batch with (count,) in front of it."""
     array = np.asarray(values)
     if array.dtype != object:
         return array.astype(np.float64, copy=False)
-    column = _first_column(array.flat)
+    column = _of_a_batch(array.flat)
     if column is None:
         return array.astype(np.float64)
     rows = [np.broadcast_to(other_values(v), column.values.size) for v in array.flat]
@@ -263,6 +221,6 @@ def stacked(values: Any) -> Array:
 
 
 def spread(values: Any) -> Array:
-    """Return what is broadcast over the positions of each: (count, 1, ...) for columns."""
+    """Return what is broadcast over the positions of each member: of a batch (count, 1, ...)."""
     array = stacked(values)
     return array if array.ndim == np.ndim(values) else array[:, None]

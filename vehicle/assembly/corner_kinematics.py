@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...core.columns import Column, spread
+from ...core.columns import BatchNumber, spread
 from ...core.named_types import ArrayLike
 from ...core.vectors import cross, turned
 from ...systems.inputs import rates_of
@@ -121,7 +121,7 @@ def _metres(length: float | None) -> float | None:
 
 def _spread(value: Any) -> Any:
     """Return a number as it is, and those of many over their positions."""
-    return spread(value) if isinstance(value, Column) else value
+    return spread(value) if isinstance(value, BatchNumber) else value
 
 
 def design_axis(suspension: Suspension) -> Array:

@@ -1,4 +1,4 @@
-"""Positions of a suspension at given wheel heights."""
+"""Positions of a suspension, or of a batch of them, at given wheel heights."""
 
 import math
 from collections.abc import Sequence
@@ -12,7 +12,22 @@ from ...core.named_types import ArrayLike
 from ...systems.state import State
 from ..input.vehicle import Tyre
 from .model import Model
-from .reach import Branch, PositionError, Range, at_rest, branch, height_and_slope, travel_range
+from .model_batch import ModelBatch
+from .reach import (
+    ARM_STEPS,
+    Branch,
+    PositionError,
+    Range,
+    at_rest,
+    branch,
+    height_and_slope,
+    margins_at,
+    steps_covering,
+    tabulated,
+    travel_range,
+    way_of_rack,
+)
+from .swing import margins_stay
 
 __all__ = [
     "PositionError",
@@ -97,6 +112,72 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
     found, error, most = solve(model, within[:, None], distinct[index], table.of(index))
     _refuse_missed(within, distinct[index], error[:, 0], most[:, 0])
     return found.reshape(heights.shape)
+
+
+def arm_angles_of_batch(
+    batch: ModelBatch, travel: Array, rack: Array
+) -> tuple[Array, NDArray[np.bool_]]:
+    """Return the arm angles of a batch at which the wheel centres have travelled so far.
+
+    The reach of each is tabulated from its design position, as far as the heights of the first ask
+    for, and to its end for those whose table does not get there. Suspensions that do not get there
+    even so, or whose height is not met to rounding, are marked: those are computed one by one.
+
+    Parameters
+    ----------
+    batch : ModelBatch
+    travel, rack : ndarray, shape (positions,)
+        Wheel travel, and displacement of the rack [m].
+
+    Returns
+    -------
+    angles : ndarray, shape (count, positions)
+        [rad]; those of design where they are not found.
+    found : ndarray of bool, shape (count,)
+        Which suspensions reach all of them for sure.
+    """
+    design = batch.design_state[..., 0]
+    wanted = height_and_slope(batch, design)[0] + travel
+    angles = np.broadcast_to(design, wanted.shape).copy()
+    found = _racks_reach(batch, rack)
+    for at in np.unique(rack):
+        same = np.flatnonzero(rack == at)
+        heights = wanted[:, same]
+        steps = steps_covering(
+            branch(batch.first, [at]).height, (heights[0].min(), heights[0].max())
+        )
+        rows, met = np.arange(len(wanted)), np.zeros(len(wanted), dtype=bool)
+        for how_far, to_the_end in ((steps, False), ((ARM_STEPS, ARM_STEPS), True)):
+            racks = np.full(rows.size, at)
+            table = tabulated(batch.of(rows), racks, how_far, to_the_end=to_the_end)
+            within = np.flatnonzero(_covers(table, heights[rows]))
+            some = rows[within]
+            if some.size:
+                part = solve(batch.of(some), heights[some], racks[within], table.of(within))
+                angles[np.ix_(some, same)], met[some] = part[0], (part[1] <= part[2]).all(axis=1)
+            rows = np.delete(rows, within)
+            if not rows.size:
+                break
+        found &= met
+    angles[~found] = design[~found]
+    return angles, found
+
+
+def _covers(table: Branch, heights: Array) -> NDArray[np.bool_]:
+    """Return which rows of a table have all heights, of a reach that is more than a point."""
+    low, high = table.height[:, :1], table.height[:, -1:]
+    return np.asarray(((heights >= low) & (heights <= high) & (low < high)).all(axis=1))
+
+
+def _racks_reach(batch: ModelBatch, rack: Array) -> NDArray[np.bool_]:
+    """Return the cars whose rack gets to both of its ends with the arm in its design position."""
+    design = batch.design_state[..., 0]
+    valid = np.ones(len(design), dtype=bool)
+    for end in {float(rack.min()), float(rack.max())} - {0.0}:
+        way = way_of_rack(end)
+        angles = np.broadcast_to(design, (len(design), way.size))
+        valid &= margins_stay(margins_at(batch, *at_rest(batch, angles, way))).all(axis=1)
+    return valid
 
 
 def state_at_height(

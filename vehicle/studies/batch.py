@@ -25,8 +25,8 @@ from ..assembly.mirrored_corner import MirroredCorner
 from ..assembly.of import assembly_of
 from ..corner.corner import Corner
 from ..kinds import Suspension
-from ..models.fleet import Fleet
-from ..models.fleet_positions import fleet_angles
+from ..models.model_batch import ModelBatch
+from ..models.positions import arm_angles_of_batch
 from .curves import Curves, changed
 from .design_variables import DesignVariable, is_factor
 from .evaluation import Subject
@@ -116,13 +116,13 @@ def _some(
     count = next(iter(values.values())).size
     found = [np.full((count, len(look.names), look.positions.size), np.nan) for look in looks]
     reasons = [""] * count
-    there = np.zeros(count, dtype=bool)
+    together = np.zeros(count, dtype=bool)
     alone = any(look.over in HELD for look in looks)
     alone = alone or any(map(is_factor, values))
     alone = alone or any("bushings" in place.split(".")[:2] for place in values)
     if isinstance(suspension, Suspension) and count >= _FEWEST and not alone:
-        there = _together(suspension, values, looks, found)
-    for car in np.flatnonzero(~there).tolist():
+        together = _together(suspension, values, looks, found)
+    for car in np.flatnonzero(~together).tolist():
         if unwanted():
             break
         changes = {place: float(column[car]) for place, column in values.items()}
@@ -145,68 +145,68 @@ def _together(
 ) -> NDArray[np.bool_]:
     """Fill what can be found of all together, and return for whom."""
     nominal = _in_file(suspension, values)
-    there = np.ones(next(iter(values.values())).size, dtype=bool)
+    valid = np.ones(next(iter(values.values())).size, dtype=bool)
     for _ in range(_MOST_TRIES):
-        cars = np.flatnonzero(there)
+        cars = np.flatnonzero(valid)
         if cars.size < _FEWEST:
             break
         whole = {place: np.append(nominal[place], values[place][cars]) for place in values}
         try:
-            curves, fit = _of_fleet(suspension, whole, looks)
+            curves, fit = _of_batch(suspension, whole, looks)
         except ClosureError as error:
             # of one that is at a position which the equations refuse
             which = error.index[0] - 1 if error.index else -1
             if which < 0:
                 break
-            there[cars[which]] = False
+            valid[cars[which]] = False
             continue
         except KintrafoError:
             break
-        there[cars] = fit
+        valid[cars] = fit
         if curves:
             for rows, each in zip(found, curves, strict=True):
                 rows[cars] = each
-            return there
-    return np.zeros_like(there)
+            return valid
+    return np.zeros_like(valid)
 
 
-def _of_fleet(
+def _of_batch(
     suspension: Suspension, whole: Mapping[str, Array], looks: Sequence[Curves]
 ) -> tuple[list[Array], NDArray[np.bool_]]:
     """Return the curves of all behind the first, if all of them can be, and who can be."""
-    fleet = Fleet(suspension, whole, free_rack=bool(suspension.neglected_masses()))
-    corners = [list(_corners(fleet, look)) for look in looks if fleet.there.all()]
-    if not fleet.there.all():
-        return [], fleet.there[1:]
+    batch = ModelBatch(suspension, whole, free_rack=bool(suspension.neglected_masses()))
+    corners = [list(_corners(batch, look)) for look in looks if batch.valid.all()]
+    if not batch.valid.all():
+        return [], batch.valid[1:]
     every = [_values(look, own) for look, own in zip(looks, corners, strict=True)]
-    shape = fleet.there.size
+    shape = batch.valid.size
     curves = [
         np.stack(
             [np.broadcast_to(by[n], (shape, look.positions.size))[1:] for n in look.names], axis=1
         )
         for look, by in zip(looks, every, strict=True)
     ]
-    return curves, fleet.there[1:]
+    return curves, batch.valid[1:]
 
 
-def _corners(fleet: Fleet, look: Curves) -> Iterator[Corner]:
+def _corners(batch: ModelBatch, look: Curves) -> Iterator[Corner]:
     """Yield the corner at the positions of a look, and those of both sides if they are needed.
 
     These are that of the other side, and the own one with the rack in its middle.
 
-    Who does not get there is struck, and no more corners are looked at then.
+    Suspensions that do not get there are taken out, and no more corners are looked at then.
     """
     at = look.positions
     still = np.zeros(at.size)
     travel, rack = (at, still) if look.over == "travel" else (still, at)
     both = look.over == "rack" and some_of_axle(OVER_RACK, look.names)
-    sides = [(fleet, travel, rack)]
+    sides = [(batch, travel, rack)]
     if both:
-        sides += [(fleet.mirror_image, travel, rack), (fleet, still[:1], still[:1])]
+        sides += [(batch.mirror_image, travel, rack), (batch, still[:1], still[:1])]
     for side, *place in sides:
-        angles, reached = fleet_angles(side, *place)
-        fleet.strike(~(side.there & reached))
-        if not fleet.there.all():
+        angles, reached = arm_angles_of_batch(side, *place)
+        batch.mask.valid &= side.valid & reached
+        if not batch.valid.all():
             return
         yield corner(side, angles, place[1])
 

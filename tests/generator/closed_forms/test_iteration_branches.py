@@ -16,9 +16,8 @@ import rigid_ways
 import swinging
 from following import FAMILIES, Judged, judged
 from kintrafo import Model, PositionError, characteristics, loads, state_at_height, travel_range
-from kintrafo.vehicle.models.fleet import Fleet
-from kintrafo.vehicle.models.fleet_positions import fleet_angles
-from kintrafo.vehicle.models.positions import design_height
+from kintrafo.vehicle.models.model_batch import ModelBatch
+from kintrafo.vehicle.models.positions import arm_angles_of_batch, design_height
 from placements import Placements
 from scipy.spatial.transform import Rotation
 
@@ -171,9 +170,9 @@ def test_positions_on_another_branch_are_refused(travel: float) -> None:
 def test_positions_on_another_branch_are_no_part_of_a_batch() -> None:
     model = two_branches()
     values = {"hardpoints.tie_rod_inner.x": np.array([TWO_BRANCHES["hardpoints.tie_rod_inner"][0]])}
-    fleet = Fleet(model.suspension, values, free_rack=False)
+    batch = ModelBatch(model.suspension, values, free_rack=False)
     for travel, reached in ((-0.01, True), (-0.015, False), (-0.08, False)):
-        assert fleet_angles(fleet, np.array([travel]), np.array([RACK]))[1] == reached
+        assert arm_angles_of_batch(batch, np.array([travel]), np.array([RACK]))[1] == reached
 
 
 @pytest.mark.parametrize("seed", range(2))

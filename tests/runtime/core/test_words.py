@@ -17,6 +17,7 @@ from kintrafo.generated import four_bar
 from kintrafo.pages.embedded import embedded
 from kintrafo.vehicle import cli
 from kintrafo.vehicle.analysis.sheet import sheet
+from kintrafo.vehicle.cli.option_groups import with_groups
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -61,7 +62,7 @@ def number_options() -> list[tuple[str, str, str, bool]]:
     found = []
     root = typer.main.get_command(cli.app)
     for name, module in cli.COMMANDS.items():
-        hints = get_type_hints(module.command, include_extras=True)
+        hints = get_type_hints(with_groups(module.command), include_extras=True)
         command: Any = root
         for word in name.split():
             command = command.commands[word]
@@ -174,8 +175,12 @@ GRID = "--bump 20 --rebound 20 --step 10"
         (f"characteristics reference_axle {GRID} --over bump --of toe", "toe angle", "camber"),
         (f"characteristics reference_axle {GRID} --over roll --of toe", "toe left", "camber"),
         (f"characteristics rigid_axle {GRID} --over roll --of roll_steer", "roll steer", "toe"),
-        ("compliance reference_car b.toml --of toe_by_lateral", "lateral force", "camber"),
-        ("compliance rigid_axle b.toml --of axle_steer_by_lateral_parallel", "steer [deg]", "toe"),
+        ("compliance reference_car --bushes b.toml --of toe_by_lateral", "lateral force", "camber"),
+        (
+            "compliance rigid_axle --bushes b.toml --of axle_steer_by_lateral_parallel",
+            "steer",
+            "toe",
+        ),
         ("compare reference_car reference_car --of toe", "toe", "camber"),
         ("sensitivity reference_car --of toe", "toe", "camber"),
     ],

@@ -468,7 +468,7 @@ def test_what_the_suspension_cannot_do_ends_a_command_with_1(kintrafo: Any, tmp_
     """As the page of the command line says of all that is no mistake in what was given."""
     soft = "[bushings.arm_rear]\naxial_N_per_mm = 1.0\nradial_N_per_mm = 1.0\n"
     (tmp_path / "soft.toml").write_text(soft, encoding="utf-8")
-    line = "compliance reference_car soft.toml --nonlinear --under braking --most 900000"
+    line = "compliance reference_car --bushes soft.toml --nonlinear --under braking --most 900000"
     code, _, err = kintrafo(*line.split())
     assert (code, "no equilibrium that lasts" in err) == (1, True)
     code, _, err = kintrafo(*line.replace("braking", "sideways").split())

@@ -1,9 +1,10 @@
-"""Many suspensions of one kind that differ in values of their files, and their models as one.
+"""A batch of suspensions of one kind that differ in values of their files, as one model.
 
-The file of the first is read and checked as ever. The others have its sections with columns in the
-places that differ (see `core.columns`), so that checks, centres of mass, free lengths and all that
-the equations take of a file come from the code that one suspension has, once for all of them. Who
-fails a check that the first passes, or takes another branch, is not in the fleet.
+The file of the first is read and checked as usual. The sections of the batch have numbers of a
+batch in the places that differ (see `core.columns`), so that checks, centres of mass, free lengths
+and all that the equations take of a file come from the code that one suspension has, once for all:
+20 microseconds a suspension, where reading and checking its file takes a millisecond. A suspension
+that fails a check that the first one passes, or takes another branch, is not in the batch.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -13,7 +14,7 @@ from typing import Any, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.columns import Column, Ledger, stacked
+from ...core.columns import BatchMask, BatchNumber, stacked
 from ...core.physical import impossible
 from ...systems.allowed import LengthLimit
 from ..corner.geometry import problems_of_sections
@@ -32,8 +33,8 @@ _REVERSED = {
 }
 
 
-class Fleet(Model):
-    """The models of many suspensions, as one whose numbers have an axis for them in front.
+class ModelBatch(Model):
+    """The models of a batch of suspensions, as one whose arrays have an axis for them in front.
 
     It is evaluated as a `Model`, with states of shape (count, positions, elements).
 
@@ -51,7 +52,7 @@ class Fleet(Model):
     first : Model
         That of the first.
     suspension : Suspension
-        With columns in place of what differs.
+        With numbers of a batch where they differ.
     constants, design_state : ndarray, shape (count, 1, ...)
     """
 
@@ -60,17 +61,17 @@ class Fleet(Model):
     ) -> None:
         # all that a model has is put together here otherwise
         count = next(iter(values.values())).size
-        ledger = Ledger(count)
+        mask = BatchMask(count)
         self._first, self._values = suspension, values
-        self._ledger = ledger
-        columns = {place: Column(column, ledger) for place, column in values.items()}
-        ledger.there &= np.isfinite(np.array([*values.values()])).all(axis=0)
+        self.mask = mask
+        columns = {place: BatchNumber(column, mask) for place, column in values.items()}
+        mask.valid &= np.isfinite(np.array([*values.values()])).all(axis=0)
         self.suspension = _with_columns(suspension, columns)
         self.free_rack, self.wheel_loads = free_rack, False
         self.names = suspension.NAMES
         self.equations = suspension.equations(free_rack=free_rack)
         _check(self.suspension)
-        # what decides upon equations and ends; who has others is struck
+        # what decides upon equations and ends; suspensions with others are taken out
         self.suspension.equations(free_rack=free_rack)
         self.suspension.neglected_masses()
         self.suspension.tyre_radius()
@@ -81,48 +82,44 @@ class Fleet(Model):
         table = np.array(
             [np.broadcast_to(own.get(name, known), count) for name, known in parameters.items()]
         ).T
-        ledger.there &= np.isfinite(table).all(axis=1)
-        table[~ledger.there] = table[0]
+        mask.valid &= np.isfinite(table).all(axis=1)
+        table[~mask.valid] = table[0]
         named = dict(zip(parameters, table.T, strict=True))
-        ledger.there &= ~impossible(named, self.equations.PARAMETERS, count)
-        table[~ledger.there] = table[0]
+        mask.valid &= ~impossible(named, self.equations.PARAMETERS, count)
+        table[~mask.valid] = table[0]
         constants, design, failed = self.equations.prepare_many(table)
-        ledger.there &= ~failed
+        mask.valid &= ~failed
         constants[failed], design[failed] = constants[0], design[0]
         self.parameters = parameters
         self.constants, self.design_state = constants[:, None], design[:, None]
 
     @property
-    def there(self) -> NDArray[np.bool_]:
-        """Who is in the fleet."""
-        return self._ledger.there
+    def valid(self) -> NDArray[np.bool_]:
+        """Which suspensions are in the batch."""
+        return self.mask.valid
 
-    def of(self, some: NDArray[np.int64]) -> "Fleet":
+    def of(self, some: NDArray[np.int64]) -> "ModelBatch":
         """Return the equations of some of them, for states of theirs; it has no files."""
         if some.size == len(self.constants):
             return self
-        part = object.__new__(Fleet)
+        part = object.__new__(ModelBatch)
         vars(part).update(vars(self))
         part.constants, part.design_state = self.constants[some], self.design_state[some]
         part._allowed = tuple(_allowed_of(one, some) for one in self._allowed)
         return part
-
-    def strike(self, gone: NDArray[np.bool_]) -> None:
-        """Take some out of the fleet."""
-        self._ledger.there &= ~gone
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
         """Return the lengths that the files allow; limits of shape (count, 1) where they differ."""
         return self._allowed
 
     @cached_property
-    def mirror_image(self) -> "Fleet":
-        """The fleet of the same suspensions on the other side of the vehicle."""
+    def mirror_image(self) -> "ModelBatch":
+        """The batch of the same suspensions on the other side of the vehicle."""
         values = {
             place: 0.0 - column if _is_reversed(place) else column
             for place, column in self._values.items()
         }
-        return Fleet(self._first.mirrored(), values, free_rack=self.free_rack)
+        return ModelBatch(self._first.mirrored(), values, free_rack=self.free_rack)
 
 
 def _is_reversed(place: str) -> bool:
@@ -131,7 +128,7 @@ def _is_reversed(place: str) -> bool:
 
 def _allowed(one: LengthLimit) -> LengthLimit:
     limit: Any = one.limit
-    if not isinstance(limit, Column):
+    if not isinstance(limit, BatchNumber):
         return one
     limits: Any = limit.values[:, None]
     return one._replace(limit=limits)
@@ -142,9 +139,9 @@ def _allowed_of(one: LengthLimit, some: NDArray[np.int64]) -> LengthLimit:
     return one._replace(limit=limit[some]) if np.ndim(limit) else one
 
 
-def _with_columns(section: Any, columns: Mapping[str, Column]) -> Any:
-    """Return a section with columns in some places of it, their ranges checked."""
-    inner: dict[str, dict[str, Column]] = {}
+def _with_columns(section: Any, columns: Mapping[str, BatchNumber]) -> Any:
+    """Return a section with numbers of a batch in some places of it, their ranges checked."""
+    inner: dict[str, dict[str, BatchNumber]] = {}
     changed: dict[str, Any] = {}
     for place, column in columns.items():
         key, _, rest = place.partition(".")
@@ -165,14 +162,14 @@ def _with_columns(section: Any, columns: Mapping[str, Column]) -> Any:
     return section.model_copy(update=changed)
 
 
-def _check_range(kind: type[Section], key: str, column: Column) -> None:
-    """Strike who has a value that its field does not allow."""
+def _check_range(kind: type[Section], key: str, column: BatchNumber) -> None:
+    """Take out suspensions with a value that the field does not allow."""
     field = kind.model_fields[key]
     for limit in (*field.metadata, *_metadata(field.annotation)):
         for name, question in _QUESTIONS.items():
             bound = getattr(limit, name, None)
             if bound is not None:
-                column.ledger.there &= question(column.values, bound)
+                column.mask.valid &= question(column.values, bound)
 
 
 _QUESTIONS: dict[str, Callable[[Array, float], NDArray[np.bool_]]] = {
@@ -191,7 +188,7 @@ def _metadata(annotation: Any) -> Iterator[Any]:
 
 
 def _check(suspension: Suspension) -> None:
-    """Make all checks of a suspension, by which who fails one is struck."""
+    """Make all checks of a suspension: those that fail one are taken out."""
     sections = {name: getattr(suspension, name) for name in type(suspension).model_fields}
     for section in _sections(suspension):
         section.problems()
