@@ -74,7 +74,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--update-baseline",
         action="store_true",
-        help="store the present operation counts in tests/generator/backends/operation_counts.json",
+        help="store the present operation counts in tests/generator/backends/operation_counts",
     )
 
 

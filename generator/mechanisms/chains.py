@@ -97,4 +97,5 @@ BRICARD = ring(
     half_turned([(0.1, 1.0, 0.4), (1.0, -0.2, 0.3), (0.2, 0.5, -1.0)]),
 )
 
+EMITTED = False  # they are in tests and examples
 MODELS = (SEVEN_HINGES, BRICARD)

@@ -212,6 +212,7 @@ def _model(mechanism: d.Mechanism, driving: d.Joint) -> d.Formulation:
     )
 
 
+EMITTED = False  # they are in tests and examples
 MODELS = (
     _model(CONTROL_ARM, LOWER_HINGE),
     _model(FIVE_LINK, ROCKER_HINGE),

@@ -242,3 +242,4 @@ GENERAL_FREE_RACK = d.Formulation(
     general(free_rack=True),
     independent=(OA, HG, Y),
 )
+SELDOM = (GENERAL_FREE_RACK,)

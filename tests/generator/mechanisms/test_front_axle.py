@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 SIDES = ("right", "left")
 PAGE = ROOT / "docs/mechanisms/composition.md"
-BASELINE = Path(__file__).with_name("operation_counts.json")
+BASELINE = ROOT / "tests/generator/backends/operation_counts"
 SEEDS = range(4)  # 0 is the reference car
 AGAINST = {  # of the right side's parameters, those that the left one has with the other sign
     "spin_axis": "xz",
@@ -454,17 +454,22 @@ def cells(page: str, first: str) -> list[str]:
     return [cell.strip().replace(" ", "") for cell in row.split("|")[2:-1]]
 
 
+def counts_of(model: str) -> dict[str, dict[str, int]]:
+    """Return the operation counts of a model that are stored."""
+    text = (BASELINE / f"{model}.json").read_text(encoding="utf-8")
+    return json.loads(text)
+
+
 @pytest.mark.parametrize("function", COUNTED)
 def test_operations_on_the_page_are_the_present_ones(function: str) -> None:
-    stored = json.loads(BASELINE.read_text(encoding="utf-8"))
-    one, axle = (sum(stored[m][function].values()) for m in ("macpherson", "front_axle"))
+    one, axle = (sum(counts_of(m)[function].values()) for m in ("macpherson", "front_axle"))
     row = cells(PAGE.read_text(encoding="utf-8"), COUNTED[function])
     assert [row[0], row[1], row[3]] == [str(one), str(2 * one), str(axle)]
 
 
 def test_two_suspensions_in_one_cost_what_they_cost_alone_but_for_signs() -> None:
     bare = generate(declaration.model(declaration.without_bar()))
-    stored = json.loads(BASELINE.read_text(encoding="utf-8"))["macpherson"]
+    stored = counts_of("macpherson")
     page = PAGE.read_text(encoding="utf-8")
     functions = bare.emitted | {"prepare": bare.prepare}
     for name, what in COUNTED.items():
