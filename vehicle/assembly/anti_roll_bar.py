@@ -1,6 +1,8 @@
-"""An anti-roll bar, by what it does between two sides or to a rigid axle."""
+"""An anti-roll bar, by what it does between two sides, to a rigid axle or between two parts."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,3 +55,34 @@ class RollBar:
         """Return the moment at an inclination [N m]."""
         found: Array = self.rate * twist
         return found
+
+
+@dataclass(frozen=True)
+class TwistBar:
+    """What resists that one part turns against another, as the beam of a twist-beam axle.
+
+    Attributes
+    ----------
+    first, second : str
+        The parts.
+    axis : ndarray, shape (3,)
+        About which they turn against each other, chassis axes.
+    rate : float
+        Torque by the twist, the turn of the second part less that of the first one [N m/rad].
+    twist_of : callable
+        Takes the parts with rigid joints, returns their twist, (n,) [rad].
+    """
+
+    first: str
+    second: str
+    axis: Array
+    rate: float
+    twist_of: Callable[[Any], Array]
+
+    def torque(self, twist: Array) -> Array:
+        """Return the torque at a twist [N m]."""
+        found: Array = self.rate * twist
+        return found
+
+
+AnyBar = Bar | RollBar | TwistBar

@@ -16,7 +16,7 @@ from ..input.vehicle import Tyre
 from ..models.axle.file import TorqueReaction
 from ..models.model import Model
 from ..models.plausibility import Plausibility
-from .anti_roll_bar import Bar, RollBar
+from .anti_roll_bar import AnyBar
 from .coupling import BodyPose
 from .held import RestConditions
 from .load import Load, known
@@ -579,11 +579,11 @@ class Assembly(ABC):
     """When the torque of the anti-roll bar is positive."""
 
     @property
-    def bar(self) -> Bar | RollBar | None:
+    def bar(self) -> AnyBar | None:
         """The anti-roll bar, if it has one."""
         return None
 
-    def bar_loads(self, poses: Mapping[str, PartPoses]) -> dict[str, Load]:
+    def bar_loads(self, poses: Mapping[str, PartPoses]) -> dict[str, list[Load]]:
         """Return what a unit torque of the bar does to each group; empty without a bar."""
         del poses
         return {}

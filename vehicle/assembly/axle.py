@@ -464,11 +464,11 @@ class AxleAssembly(Assembly):
         halves = self.axle.halves[LEFT], self.axle.halves[RIGHT]
         return Bar(halves, self.axle.bar.rate(), self.axle.bar.free_twist())
 
-    def bar_loads(self, poses: Mapping[str, Any]) -> dict[str, Load]:
+    def bar_loads(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
         """Return the pull of the drop link of each side by a unit torque of the bar."""
         if not self.axle.halves:
             return {}
-        return {f"_{side}": pull_of_bar(self.axle, side, poses[f"_{side}"]) for side in SIDES}
+        return {f"_{side}": [pull_of_bar(self.axle, side, poses[f"_{side}"])] for side in SIDES}
 
     def bar_twist(self, poses: Mapping[str, Any]) -> dict[str, Array]:
         """Return what each side adds to the twist of the bar, (n,) [rad]."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.vectors import cross
-from ...assembly.anti_roll_bar import Bar, RollBar
+from ...assembly.anti_roll_bar import AnyBar, Bar, RollBar, TwistBar
 from ...assembly.part_poses import PartPoses
 from ...corner.bushes import RACK, Bush
 from ...corner.structure import FixedJoint, ForceElement, Joint, frame
@@ -71,8 +71,8 @@ class Connections:
     sides : sequence of tuple of PartPoses and CompliantJoints
         Each in as many positions, with rigid joints. They have one rack: its deflection and
         carries is that of the first.
-    bar : Bar or RollBar, optional
-        Between the two sides, or on a rigid axle.
+    bar : AnyBar, optional
+        Between the two sides, on a rigid axle, or between two parts of one.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class Connections:
     """
 
     def __init__(
-        self, sides: Sequence[tuple[PartPoses, CompliantJoints]], bar: Bar | RollBar | None = None
+        self, sides: Sequence[tuple[PartPoses, CompliantJoints]], bar: AnyBar | None = None
     ) -> None:
         self._sides: list[_Side] = []
         centers = [np.zeros((len(sides[0][0].states), 3))]
@@ -126,8 +126,11 @@ class Connections:
             feet = (side.foot(half) for side, half in zip(self._sides, bar.halves, strict=True))
             self._groups.append(Bars(*feet))
             self.laws.append(LinearLaw(bar.rate, -bar.rate * bar.free_twist))
-        elif bar is not None:
+        elif isinstance(bar, RollBar):
             self._groups.append(self._sides[0].inclination(bar.body))
+            self.laws.append(LinearLaw(bar.rate))
+        elif bar is not None:
+            self._groups.append(self._sides[0].twist(bar))
             self.laws.append(LinearLaw(bar.rate))
 
     def index(self, side: int, body: str) -> int:
@@ -208,6 +211,18 @@ class _Side:
     def inclination(self, body: str) -> Inclinations:
         """Return how far what points left of a body at design has its end up."""
         return Inclinations(self.index(body), self.poses.turned[body][..., 1])
+
+    def twist(self, bar: TwistBar) -> Torsions:
+        """Return how far the second part of a bar has turned against its first one."""
+        _, across, other = frame(bar.axis)
+        twist = bar.twist_of(self.poses)[:, None]
+        both = np.cos(twist) * across + np.sin(twist) * other
+        further = np.cos(twist) * other - np.sin(twist) * across
+        shape = both.shape
+        first = (np.broadcast_to(each, shape)[:, None] for each in (across, other))
+        # at rest with rigid joints they are turned by the twist that they have there
+        bodies = np.array([[self.index(bar.first), self.index(bar.second)]])
+        return Torsions(bodies, *first, both[:, None], further[:, None])
 
     # -- what is measured: bodies, vectors, and the law ------------------------------------------
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ....core.threads import in_one_thread
 from ....core.vectors import cross
-from ...assembly.anti_roll_bar import Bar, RollBar
+from ...assembly.anti_roll_bar import AnyBar
 from ...assembly.part_poses import PartPoses
 from ...assembly.wheel import lowest_point
 from ...corner.corner import UP
@@ -80,7 +80,7 @@ class ElasticEquilibrium:
     sides : sequence of tuple of PartPoses and CompliantJoints
         With rigid joints, and what deflects: of a suspension, of both of an axle, or of a rigid
         axle.
-    bar : Bar or RollBar, optional
+    bar : AnyBar, optional
         An anti-roll bar between both, or on a rigid axle.
 
     Attributes
@@ -94,7 +94,7 @@ class ElasticEquilibrium:
     """
 
     def __init__(
-        self, sides: Sequence[tuple[PartPoses, CompliantJoints]], bar: Bar | RollBar | None = None
+        self, sides: Sequence[tuple[PartPoses, CompliantJoints]], bar: AnyBar | None = None
     ) -> None:
         self.poses, self._connections = [poses for poses, _ in sides], Connections(sides, bar)
         self.wheels = [wheel for poses in self.poses for wheel in poses.wheels.values()]

@@ -6,7 +6,7 @@ carries another is an energy; what statics does not decide gives the least of it
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
@@ -49,14 +49,14 @@ class Side:
     bushes : sequence of Bush
     lines : SoftLines or None
         None with locked springs.
-    bar : Load or None
-        What an anti-roll bar does on it for a unit torque.
+    bar : sequence of Load
+        What an anti-roll bar does on it for a unit torque; empty without one.
     """
 
     poses: PartPoses
     bushes: Sequence[Bush]
     lines: SoftLines | None
-    bar: Load | None = field(default=None)
+    bar: Sequence[Load] = ()
 
 
 def flexibility(
@@ -275,12 +275,12 @@ class _Forces:
             at = touching(on_road)
             loads += [Load(part, CONTACT, "road", axis, still, at) for axis in np.eye(3)]
             loads += [Load(part, CONTACT, "road", still, axis, at) for axis in np.eye(3)]
-        loads += [side.bar] if side.bar else []
-        applied = [equations.applied([load]) for load in loads]
+        groups = [*([load] for load in loads), *([side.bar] if side.bar else [])]
+        applied = [equations.applied(group) for group in groups]
         applied += [equations.applied(equations.pushed(line)) for line in stopped]
         unknowns = equations.solve(np.stack(applied, axis=-1))
         tensions = [joint.tensions(poses.points) for joint in equations.joints]
-        count, begin = sum(t.shape[-1] for t in tensions), len(loads)
+        count, begin = sum(t.shape[-1] for t in tensions), len(groups)
         # behind the tensions of single joints come those of several together
         by_loads, by_stops = np.split(unknowns, [begin], axis=-1)
         further = np.concatenate([equations.indeterminate, by_stops], axis=-1)
@@ -290,11 +290,11 @@ class _Forces:
         of_loads, of_further = of_springs
         self.spring = np.concatenate([of_loads, nothing, of_further], axis=-1)
         self.carried = []
-        after = len(loads) + count
+        after = len(groups) + count
         both = zip(equations.at_joints(by_loads), equations.at_joints(further), strict=True)
         for (at_joint, at_further), own in zip(both, tensions, strict=True):
-            every = np.zeros((*at_joint.shape[:-1], len(loads) + self.tensions))
-            every[..., : len(loads)] = at_joint
+            every = np.zeros((*at_joint.shape[:-1], len(groups) + self.tensions))
+            every[..., : len(groups)] = at_joint
             every[..., after:] = at_further
             every[..., begin : begin + own.shape[-1]] = own
             begin += own.shape[-1]

@@ -147,7 +147,7 @@ def linear(
     lines = {} if held == "locked" else assembly.soft_lines(poses)
     bars = assembly.bar_loads(poses)
     sides = [
-        Side(own, bushes.by_suffix[suffix], lines.get(suffix), bars.get(suffix))
+        Side(own, bushes.by_suffix[suffix], lines.get(suffix), bars.get(suffix, ()))
         for suffix, own in poses.items()
     ]
     by_torque = 1.0 / assembly.bar.rate if assembly.bar and bars else 0.0

@@ -62,8 +62,8 @@ def _carried_at_design(assembly: Assembly, bushes: Bushings) -> dict[str, Carrie
     poses = assembly.poses(assembly.at_travel(np.zeros(1)))
     torque = assembly.bar_torque(poses)[:, None]
     pulled = {
-        suffix: [replace(unit, force=torque * unit.force, moment=torque * unit.moment)]
-        for suffix, unit in assembly.bar_loads(poses).items()
+        suffix: [replace(o, force=torque * o.force, moment=torque * o.moment) for o in units]
+        for suffix, units in assembly.bar_loads(poses).items()
     }
     found = {
         suffix: dict(carried_at(own, pulled.get(suffix, ()), bushes.by_suffix[suffix]))

@@ -267,8 +267,7 @@ class _Search:
 
     def _by_torque(self, poses: Mapping[str, PartPoses]) -> Array:
         """Return what each wheel misses by a unit torque of the bar, (n, wheels) [1/m]."""
-        unit = {suffix: [load] for suffix, load in self.assembly.bar_loads(poses).items()}
-        return VirtualWork.of(poses, unit).missing()
+        return VirtualWork.of(poses, self.assembly.bar_loads(poses)).missing()
 
     def _torque(self, poses: Mapping[str, PartPoses], shape: tuple[int, ...]) -> Array:
         """Return the torque of the bar on a mesh, (..., 1) [N m]."""
