@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from .systems.system import System
     from .targets.export import export_model
     from .vehicle.assembly.equilibrium import equilibrium
+    from .vehicle.assembly.of import model_of
     from .vehicle.files.loading import load
     from .vehicle.kinds import Suspension
     from .vehicle.models.axle import Axle
@@ -96,6 +97,7 @@ __all__ = [
     "gradient",
     "linearise",
     "load",
+    "model_of",
     "motion_gradient",
     "motion_sensitivity",
     "proposals",
@@ -111,6 +113,7 @@ __all__ = [
 # where no model has been generated or compiled yet.
 _MODULES = {
     ".vehicle.assembly.equilibrium": ("equilibrium",),
+    ".vehicle.assembly.of": ("model_of",),
     ".core.errors": ("InputError", "KintrafoError"),
     ".simulation.events": ("SignalEvent",),
     ".equations.errors": ("ClosureError", "ModelError", "ParameterError"),

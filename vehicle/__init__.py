@@ -21,7 +21,7 @@ show(
         ("kintrafo.vehicle.corner.base", "Suspension"): (_PAGES, "suspension"),
         ("kintrafo.vehicle.models.model", "Model"): (_PAGES, "model"),
         ("kintrafo.vehicle.models.axle.axle", "Axle"): (_PAGES, "axle"),
-        ("kintrafo.vehicle.models.rigid.axle", "RigidAxle"): (_PAGES, "rigid_axle"),
+        ("kintrafo.vehicle.models.whole_axle", "WholeAxle"): (_PAGES, "whole_axle"),
         ("kintrafo.simulation.result", "Simulation"): (_PAGES, "simulation"),
     }
 )

@@ -11,10 +11,10 @@ from ..simulation.result import Simulation
 from .kinds import Suspension
 from .models.axle import Axle
 from .models.model import Model
-from .models.rigid import RigidAxle
+from .models.whole_axle import WholeAxle
 from .plots.curves import figure, grouped
 from .plots.overview import from_behind
-from .plots.rigid_axle import views
+from .plots.whole_axle import views
 
 # Of a motion so many groups of curves are drawn, those that are looked at first.
 _GROUPS = 2
@@ -40,9 +40,10 @@ def axle(shown: Axle) -> str:
     )
 
 
-def rigid_axle(shown: RigidAxle) -> str:
-    """Return the page of a rigid axle: three views."""
-    return heading("Rigid axle") + picture(views(shown))
+def whole_axle(shown: WholeAxle) -> str:
+    """Return the page of an axle without sides, such as a rigid one: three views."""
+    title = shown.KEY.replace("_", " ")
+    return heading(f"{title[:1].upper()}{title[1:]}") + picture(views(shown))
 
 
 def simulation(shown: Simulation) -> str:

@@ -1,6 +1,7 @@
 """The assembly of what a file describes."""
 
 from collections.abc import Callable
+from importlib import import_module
 from typing import Any
 
 from ...core.arguments import Arguments
@@ -11,13 +12,13 @@ from ..models.axle.equations import AxleModel
 from ..models.car import Car
 from ..models.car.equations import CarModel
 from ..models.model import Model
-from ..models.rigid.axle import RigidAxle
-from ..models.rigid.model import RigidAxleModel
+from ..models.whole_axle import WholeAxle
+from ..models.whole_axle_model import WholeAxleModel
 from .assembly import Assembly
 from .axle import AxleAssembly
 from .car import NOT_A_CAR, CarAssembly
 from .corner import CornerAssembly
-from .rigid_axle import RigidAxleAssembly
+from .whole_axle import WholeAxleAssembly
 
 
 def assembly_of(subject: Any) -> Assembly:
@@ -30,6 +31,25 @@ def assembly_of(subject: Any) -> Assembly:
     """
     with Arguments("assembly") as given:
         return given_assembly(given, subject, cars=True)
+
+
+def whole_axle_assembly(key: str) -> type[WholeAxleAssembly]:
+    """Return the assembly of an axle that one file describes: that of the module with its name.
+
+    Parameters
+    ----------
+    key : str
+        One of `data.starter.whole_axles`.
+    """
+    module = import_module(f".{key}", __package__)
+    (found,) = (
+        kind
+        for kind in vars(module).values()
+        if isinstance(kind, type)
+        and issubclass(kind, WholeAxleAssembly)
+        and kind.__module__ == module.__name__
+    )
+    return found
 
 
 def _found(subject: Any) -> Assembly | None:
@@ -50,19 +70,19 @@ _ASSEMBLIES: dict[type, Callable[[Any], Assembly]] = {
     Suspension: _of_suspension,
     Axle: AxleAssembly,
     AxleModel: lambda model: AxleAssembly(model.axle, model),
-    RigidAxle: RigidAxleAssembly,
-    RigidAxleModel: lambda model: RigidAxleAssembly(model.axle, model),
+    WholeAxle: lambda axle: whole_axle_assembly(axle.KEY)(axle),
+    WholeAxleModel: lambda model: whole_axle_assembly(model.axle.KEY)(model.axle, model),
     Car: CarAssembly,
     CarModel: lambda model: CarAssembly(model.car, model),
 }
 
 
-AnyModel = Model | AxleModel | RigidAxleModel | CarModel
+AnyModel = Model | AxleModel | WholeAxleModel | CarModel
 """The equations of motion of an assembly."""
 
 
 def model_of(
-    subject: Suspension | Axle | RigidAxle | Car,
+    subject: Suspension | Axle | WholeAxle | Car,
     *,
     wheel_loads: bool = False,
     progress: Callable[[str], None] | None = None,
@@ -71,7 +91,7 @@ def model_of(
 
     Parameters
     ----------
-    subject : Suspension, Axle, RigidAxle or Car
+    subject : Suspension, Axle, WholeAxle or Car
     wheel_loads : bool, optional
         Whether what acts on the wheels are inputs.
     progress : callable, optional
@@ -83,8 +103,8 @@ def model_of(
         return CarModel(subject, progress=progress)
     if isinstance(subject, Axle):
         return AxleModel(subject, progress=progress, wheel_loads=wheel_loads)
-    if isinstance(subject, RigidAxle):
-        return RigidAxleModel(subject, wheel_loads=wheel_loads)
+    if isinstance(subject, WholeAxle):
+        return whole_axle_assembly(subject.KEY).MODEL(subject, wheel_loads=wheel_loads)
     free_rack = bool(subject.neglected_masses())
     return Model(subject, free_rack=free_rack, wheel_loads=wheel_loads)
 
@@ -94,7 +114,7 @@ _NO_WHEEL_LOADS = (
     "Leave them out."
 )
 
-MODELS = (Model, AxleModel, RigidAxleModel, CarModel)
+MODELS = (Model, AxleModel, WholeAxleModel, CarModel)
 """The equations of motion of the assemblies."""
 
 _MODEL_NEEDED = (

@@ -6,28 +6,23 @@ Lengths of springs, and their forces, are differentiated by the equations themse
 unit rates are first derivatives, and the derivatives of these are second ones.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from ...core.vectors import cross
-from ..corner.corner import UP, Array, Vehicle
-from ..input.spring_table import rate_at
-from ..input.units import in_metres
+from ..corner.corner import UP, Array
 from ..models.rigid.axle import RigidAxle
 from ..models.rigid.model import HEAVE, ROLL, RigidAxleModel
 from ..models.sides import LEFT, RIGHT, SIDES
-from .wheel import lowest_point, lowest_point_rate
+from .whole_axle_kinematics import SENSE, WholeAxleKinematics
 
-SENSE = {LEFT: 1.0, RIGHT: -1.0}
-"""Where a wheel is along the axle, in half tracks to the left."""
 COORDINATES = (HEAVE, ROLL)
 
 
 @dataclass(frozen=True)
-class RigidAxleKinematics:
+class RigidAxleKinematics(WholeAxleKinematics):
     """A rigid axle at rest in many positions, of shape (n,).
 
     Attributes
@@ -43,16 +38,6 @@ class RigidAxleKinematics:
     def axle(self) -> RigidAxle:
         """The axle."""
         return self.model.axle
-
-    @property
-    def end(self) -> str:
-        """At which end of the vehicle it is."""
-        return self.axle.rigid_axle
-
-    @cached_property
-    def vehicles(self) -> tuple[Vehicle, ...]:
-        """What the vehicle adds, the left wheel first."""
-        return tuple(vehicle_of(self.axle, side) for side in SIDES)
 
     # -- where it is ----------------------------------------------------------------------------
 
@@ -96,19 +81,6 @@ class RigidAxleKinematics:
         """Return the centre of a wheel [m], (n, 3)."""
         return self.center + SENSE[side] * self.axle.half_track * self._axes[2]
 
-    def contact(self, side: str) -> Array:
-        """Return the lowest point of a wheel as a thin disc [m], (n, 3)."""
-        radius = self.axle.tyre_radius()
-        assert radius is not None
-        return lowest_point(self.wheel_center(side), self._spin_axis(side), radius)
-
-    def contact_rate(self, side: str, by: str) -> Array:
-        """Return how fast this point goes per unit of heave or roll, (n, 3)."""
-        radius = self.axle.tyre_radius()
-        assert radius is not None
-        velocity = self.velocity(self.wheel_center(side), by)
-        return lowest_point_rate(velocity, self._spin_axis(side), self.turning(by), radius)
-
     def _spin_axis(self, side: str) -> Array:
         _, ahead, across = self._axes
         pitch = self.coordinate("pitch")[:, None]
@@ -131,6 +103,15 @@ class RigidAxleKinematics:
         middle = np.stack([self.slope(name, by) for name in ("shift", "sway", "heave")], -1)
         velocity: Array = middle + cross(self.turning(by), place - self.center)
         return velocity
+
+    def carrier_turning(self, side: str, by: str) -> Array:
+        """Return the angular velocity of the axle per unit of heave [rad/m] or roll, (n, 3)."""
+        del side
+        return self.turning(by)
+
+    def center_velocity(self, side: str, by: str) -> Array:
+        """Return the velocity of the centre of a wheel per unit of heave or roll, (n, 3)."""
+        return self.velocity(self.wheel_center(side), by)
 
     @cached_property
     def lever(self) -> Array:
@@ -160,38 +141,6 @@ class RigidAxleKinematics:
         return slope
 
     # -- its springs ----------------------------------------------------------------------------
-
-    @cached_property
-    def _signals(self) -> dict[str, Array]:
-        return self.model.signals(self.states)
-
-    @cached_property
-    def _at_unit_rate(self) -> dict[str, tuple[dict[str, Array], dict[str, Array]]]:
-        """Signals in heave and in roll at unit rates, and their derivatives by both, (n, 2)."""
-        found = {}
-        for by in COORDINATES:
-            states = self.states.copy()
-            states[:, self.model.state_names.index(f"{by}_rate")] = 1.0
-            slopes = self.model.evaluate("signals_jacobian", states)[..., : len(COORDINATES)]
-            by_name = dict(zip(self.model.signal_names, np.moveaxis(slopes, -2, 0), strict=True))
-            found[by] = self.model.signals(states), by_name
-        return found
-
-    def signal(self, name: str) -> Array:
-        """Return a signal of the equations at rest."""
-        return self._signals[name]
-
-    def compression(self, part: str, by: str) -> Array:
-        """Return how a spring or a damper is compressed per unit of heave [1] or roll [m/rad]."""
-        signals, _ = self._at_unit_rate[by]
-        return -signals[f"{part}_velocity"]
-
-    @cached_property
-    def of_springs(self) -> tuple[Array, Array]:
-        """What springs and stops do in heave and roll, (n, 2), and its derivatives, (n, 2, 2)."""
-        forces = [self._virtual_work(f"{side}_{part}", force) for side, part, force in _SPRINGS]
-        work, slopes = zip(*forces, strict=True)
-        return np.sum(work, axis=0), np.sum(slopes, axis=0)
 
     @cached_property
     def of_bar(self) -> tuple[Array, Array]:
@@ -232,69 +181,3 @@ class RigidAxleKinematics:
         # heave is the mean of the travels; roll grows by half their difference over the lever
         heave, roll = by_coordinates[..., 0], by_coordinates[..., 1] / lever[:, None]
         return np.stack([0.5 * (heave + sign * roll) for sign in signs], -1)
-
-    def growth(self, path: str) -> Array:
-        """Return how the length of a spring or a damper grows in heave and in roll, (n, 2)."""
-        return np.stack([self._at_unit_rate[by][0][f"{path}_velocity"] for by in COORDINATES], -1)
-
-    def rate_of_stops(self, side: str) -> Array:
-        """Return the rate of the stops beside a damper, along it, (n,) [N/m]."""
-        path = f"{side}_damper"
-        growth, slopes = self.growth(path), self._at_unit_rate[HEAVE][1]
-        changes = slopes[f"{path}_bump_stop_force"] + slopes[f"{path}_rebound_stop_force"]
-        rate: Array = -(changes * growth).sum(-1) / (growth * growth).sum(-1)
-        return rate
-
-    def rate_of_spring(self, side: str) -> Array:
-        """Return the rate of a spring, along it, (n,) [N/m]."""
-        of_side = parameters_of(self.model, side)
-        return rate_at(of_side, self._signals[f"{side}_spring_length"])
-
-    def _virtual_work(self, path: str, force: str) -> tuple[Array, Array]:
-        """Return what a force along a path does in heave and roll, and its derivatives by them."""
-        acting, growth = self._signals[force], self.growth(path)
-        bends = [self._at_unit_rate[by][1][f"{path}_velocity"] for by in COORDINATES]
-        changes = self._at_unit_rate[HEAVE][1][force]
-        work = acting[:, None] * growth
-        slopes_of_work = growth[..., :, None] * changes[..., None, :]
-        return work, slopes_of_work + acting[:, None, None] * np.stack(bends, -2)
-
-
-def vehicle_of(axle: RigidAxle, side: str) -> Vehicle:
-    """Return what the vehicle adds to a wheel of a rigid axle, in SI units."""
-    tyre, given = axle.tyre, axle.vehicle
-    lengths = given.wheelbase_mm, given.center_of_gravity_height_mm
-    wheelbase, height = (None if n is None else in_metres(n, "mm") for n in lengths)
-    front = axle.rigid_axle == "front"
-    return Vehicle(
-        side=SENSE[side],
-        tyre_radius=axle.tyre_radius(),
-        tyre_rate=tyre.rate_N_per_m,
-        tyre_lateral_rate=tyre.lateral_rate_N_per_m,
-        tyre_longitudinal_rate=tyre.longitudinal_rate_N_per_m,
-        wheelbase=wheelbase,
-        center_of_gravity_height=height,
-        front_brake_share=given.front_brake_share,
-        front=True if front else None,
-        rear=None if front else True,
-        steered=None,
-    )
-
-
-def parameters_of(model: RigidAxleModel, side: str) -> Mapping[str, float]:
-    """Return the parameters of a side, by the names that those of the right one have."""
-    values = model.parameters
-    if side == RIGHT:
-        return values
-    return {n.removeprefix("left_"): v for n, v in values.items() if n.startswith("left_")}
-
-
-_SPRINGS = tuple(
-    (side, part, f"{side}_{part}_{force}")
-    for side in SIDES
-    for part, force in (
-        ("spring", "spring_force"),
-        ("damper", "bump_stop_force"),
-        ("damper", "rebound_stop_force"),
-    )
-)

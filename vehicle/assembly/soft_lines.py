@@ -8,7 +8,7 @@ from ...core.errors import InputError
 from ..corner.corner import Array, Corner
 from ..models.sides import SIDES
 from . import wheel
-from .rigid_axle_kinematics import RigidAxleKinematics
+from .whole_axle_kinematics import WholeAxleKinematics
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ def soft_lines(there: Corner) -> SoftLines:
     return SoftLines(spring, stops[:, None])
 
 
-def lines_by_rates(beam: RigidAxleKinematics) -> SoftLines:
+def lines_by_rates(beam: WholeAxleKinematics) -> SoftLines:
     """Return how springs and stops deflect by their rates alone.
 
     Five rods have no motion with which the directions of forces would change.
@@ -66,16 +66,16 @@ def lines_by_rates(beam: RigidAxleKinematics) -> SoftLines:
         return SoftLines(np.eye(2) / rates[:, None, :], 1.0 / np.abs(stops))
 
 
-def lines_of_beam(beam: RigidAxleKinematics) -> SoftLines:
+def lines_of_beam(beam: WholeAxleKinematics) -> SoftLines:
     """Return how springs and stops deflect along their lines, for a unit force along each."""
     growth = np.stack([beam.growth(f"{side}_spring") for side in SIDES], axis=1)
     rates = np.stack([beam.rate_of_stops(side) for side in SIDES], axis=1)
     by_stops = np.stack([beam.growth(f"{side}_damper") for side in SIDES], axis=1)
-    # in heave and roll; what remains without the stops is of the springs
+    # by both coordinates; what remains without the stops is of the springs
     stiffness = -beam.of_springs[1] - by_stops.mT @ (rates[..., None] * by_stops)
     least = np.linalg.eigvalsh(0.5 * (stiffness + stiffness.mT))[:, 0]
     if not (least > 0.0).all():
-        at = 1e3 * float(beam.coordinate("heave")[least.argmin()])
+        at = 1e3 * float(beam.heave[least.argmin()])
         problem = (
             f"at a wheel travel of {at:.1f} mm the springs do not hold the axle: in heave or in "
             "roll they deflect by themselves. Enter a rate, or another travel."

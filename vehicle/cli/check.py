@@ -54,10 +54,10 @@ def command(file: File, *, json: Json = False) -> None:
 
 def _refuse_missing(file: str) -> None:
     """Refuse a file that is not there, so that what a check says is about its content."""
-    from ..data.starter import RIGID_AXLE, packaged, packaged_axles
+    from ..data.starter import packaged, packaged_axles, whole_axles
     from ..kinds import Suspension
 
-    names = {*packaged(), *packaged_axles(), RIGID_AXLE}
+    names = {*packaged(), *packaged_axles(), *whole_axles()}
     if file not in names and not Path(file).is_file():
         Suspension.load(file)  # says so, and what was probably meant
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from ..kinds import Suspension
     from ..models.axle import Axle
     from ..models.model import Model
-    from ..models.rigid import RigidAxle
+    from ..models.whole_axle import WholeAxle
 
 
 def assembly_of_file(file: str) -> "Assembly":
@@ -48,7 +48,7 @@ def model_of(file: str, *, wheel_loads: bool = False) -> "AnyModel":
         )
 
 
-def variable_subject(file: str) -> "Suspension | Axle | RigidAxle":
+def variable_subject(file: str) -> "Suspension | Axle | WholeAxle":
     """Return what a file describes, whose values studies vary; a car is refused."""
     from ...core.errors import InputError
     from ..assembly.car import NOT_A_CAR

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from ...terminal.console import say
-from ..data.starter import DEFAULT, RIGID_AXLE, kinds
+from ..data.starter import DEFAULT, kinds, whole_axles
 from .options import Force, argument, option
 
 EXAMPLES = (
@@ -23,13 +23,13 @@ EXAMPLES = (
 if TYPE_CHECKING:
     Kind = str
 else:
-    Kind = Literal[kinds()]
+    Kind = Literal[(*kinds(), *whole_axles())]
 
 
 def command(
     path: Annotated[Path, argument("File to write; ends in .toml.", "PATH")],
     *,
-    suspension: Annotated[Kind, option("What guides the wheel.")] = DEFAULT,
+    suspension: Annotated[Kind, option("What guides the wheel, or both.")] = DEFAULT,
     template: Annotated[
         str | None, option("Packaged data set to copy. Default: by --suspension.", "NAME")
     ] = None,
@@ -50,7 +50,7 @@ def command(
 
     whole = {
         "--axle": (axle, "reference_axle", "such an axle names its sides"),
-        "--rigid-axle": (rigid_axle, RIGID_AXLE, "such an axle has none"),
+        "--rigid-axle": (rigid_axle, "rigid_axle", "such an axle has none"),
         "--car": (car, "reference_vehicle", "a car names its axles"),
     }
     chosen = [option for option, (given, *_) in whole.items() if given]
@@ -59,7 +59,8 @@ def command(
     if chosen and (template is not None or suspension != DEFAULT):
         other = "--suspension" if template is None else "--template"
         raise typer.BadParameter(f"{chosen[0]} and {other} are both given: {whole[chosen[0]][2]}")
-    usual = whole[chosen[0]][1] if chosen else KINDS[suspension].STARTER
+    of_kind = suspension if suspension in whole_axles() else KINDS[suspension].STARTER
+    usual = whole[chosen[0]][1] if chosen else of_kind
     copied = usual if template is None else template
     say(f"  {write_starter(path, template=copied, force=force)}")
     say(f"Edit it, then: kintrafo check {path}")

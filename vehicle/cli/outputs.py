@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from ..kinds import Suspension
     from ..models.axle import Axle
-    from ..models.rigid import RigidAxle
+    from ..models.whole_axle import WholeAxle
     from ..studies.goals import Goal
 
 Out = Annotated[
@@ -250,7 +250,7 @@ class Outputs:
         """Write the pages by a function of what is shown and of a path, and return them."""
         return [write(shown, path, *rest, **options, **self.rule) for path in self.pages]
 
-    def write_car(self, subject: "Suspension | Axle | RigidAxle", head: str) -> list[Path]:
+    def write_car(self, subject: "Suspension | Axle | WholeAxle", head: str) -> list[Path]:
         """Write the hardpoint file that was found, with a comment at its head, and return it."""
         from ..input.toml_writer import write_toml
 

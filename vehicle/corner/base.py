@@ -23,8 +23,14 @@ from ...core.errors import InputError
 from ...core.suggestions import suggestion
 from ...core.vectors import components, unit_vector
 from ...systems.allowed import LengthLimit
-from ..data import data_sets, find
-from ..data.starter import DEFAULT, NOT_A_RIGID_AXLE, RIGID_AXLE, RIGID_AXLES, packaged_axles
+from ..data import find
+from ..data.starter import (
+    DEFAULT,
+    not_of_a_suspension,
+    packaged_axles,
+    whole_axle_in,
+    whole_axles,
+)
 from ..input.bodies import Bodies
 from ..input.damper import NO_CURVE, Damper
 from ..input.hardpoints import Hardpoints
@@ -165,8 +171,8 @@ class Suspension(Section):
             given.path("path_or_name", path_or_name)
         if path_or_name in packaged_axles():
             raise InputError([_AN_AXLE], str(path_or_name))
-        if path_or_name in data_sets(RIGID_AXLES):
-            raise InputError([NOT_A_RIGID_AXLE], str(path_or_name))
+        if path_or_name in whole_axles():
+            raise InputError([not_of_a_suspension(str(path_or_name))], str(path_or_name))
         file = find(path_or_name)
         # Printing the path inside the package would not help whoever asked for a name.
         return cls.from_dict(read_toml(file), source=str(path_or_name))
@@ -590,8 +596,9 @@ def _kind_of(data: Mapping[str, Any], wanted: type[SuspensionT]) -> type[Suspens
     """
     if "axle" in data and "hardpoints" not in data:
         raise InputError([_AN_AXLE])
-    if RIGID_AXLE in data:
-        raise InputError([NOT_A_RIGID_AXLE])
+    other = whole_axle_in(data)
+    if other is not None:
+        raise InputError([not_of_a_suspension(other)])
     name = data.get(KIND, DEFAULT)
     if not isinstance(name, str) or name not in _known:
         meant = suggestion(str(name), known_kinds())

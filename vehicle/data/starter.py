@@ -1,5 +1,6 @@
 """The first file of a new project: an annotated copy of a packaged data set."""
 
+from collections.abc import Container
 from importlib import resources
 from pathlib import Path
 
@@ -12,24 +13,14 @@ _ENDING = ".toml"
 AXLES = f"{__package__}.axles"
 """Where the axles are that come with kintrafo."""
 
-RIGID_AXLES = f"{__package__}.rigid_axles"
-"""Where the rigid axles are that come with kintrafo."""
+WHOLE_AXLES = f"{__package__}.whole_axles"
+"""Where the axles are that come with kintrafo and have no sides, such as rigid ones."""
 
 CARS = f"{__package__}.cars"
 """Where the cars are that come with kintrafo."""
 
 CAR = "car"
 """The top-level key that says that a file describes a car."""
-
-RIGID_AXLE = "rigid_axle"
-"""The top-level key that says that a file describes a rigid axle; the packaged one has its name."""
-
-NOT_A_RIGID_AXLE = (
-    "this is the file of a rigid axle, and that of a suspension is needed. The commands of "
-    "kintrafo mechanism and export --to points do not take a rigid axle; all others do. In "
-    "Python: kintrafo.RigidAxle."
-)
-"""Said where something else is needed than a rigid axle."""
 
 DEFAULT = "macpherson"
 """The kind of a file that does not say it."""
@@ -74,6 +65,45 @@ def packaged_axles() -> tuple[str, ...]:
     return tuple(data_sets(AXLES))
 
 
+def whole_axles() -> tuple[str, ...]:
+    """Return what axles there are that one file describes with both wheels, such as a rigid axle.
+
+    Each is the top-level key that says so in a file, the name of the data set that comes with
+    kintrafo, and that of the modules with its equations and its assembly.
+
+    Examples
+    --------
+    >>> "rigid_axle" in whole_axles()
+    True
+    """
+    return tuple(data_sets(WHOLE_AXLES))
+
+
+def whole_axle_in(data: Container[str]) -> str | None:
+    """Return which of these axles the top-level keys of a file are of; None for other files."""
+    return next((key for key in whole_axles() if key in data), None)
+
+
+def words_of(key: str) -> str:
+    """Return what such an axle is called.
+
+    Examples
+    --------
+    >>> words_of("rigid_axle")
+    'a rigid axle'
+    """
+    return f"a {key.replace('_', ' ')}"
+
+
+def not_of_a_suspension(key: str) -> str:
+    """Return what is said of the file of such an axle where that of a suspension is needed."""
+    return (
+        f"this is the file of {words_of(key)}, and that of a suspension is needed. The commands of "
+        f"kintrafo mechanism and export --to points do not take {words_of(key)}; all others do. In "
+        "Python: kintrafo.load."
+    )
+
+
 def write_starter(
     path: str | Path, *, template: str = "reference_car", force: bool = False
 ) -> Path:
@@ -84,8 +114,7 @@ def write_starter(
     path : str or pathlib.Path
         A name that ends in ``.toml``.
     template : str, optional
-        Name of the packaged data set that is copied: of a suspension, an axle, a rigid axle or a
-        car.
+        Name of the packaged data set that is copied, of any of them.
     force : bool, optional
         Whether a file that somebody else wrote or changed is replaced, see `kintrafo.core.files`.
 
@@ -98,7 +127,7 @@ def write_starter(
     InputError
         If there is a file already, or the name cannot be used.
     """
-    known = data_sets() | data_sets(AXLES) | data_sets(RIGID_AXLES) | data_sets(CARS)
+    known = data_sets() | data_sets(AXLES) | data_sets(WHOLE_AXLES) | data_sets(CARS)
     if not isinstance(template, str) or template not in known:
         hint = suggestion(str(template), known)
         problem = f"no data set {template!r} comes with kintrafo. {hint}"

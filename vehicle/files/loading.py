@@ -3,13 +3,14 @@
 from pathlib import Path
 
 from ...core.arguments import Arguments
+from ..assembly.of import whole_axle_assembly
 from ..kinds import Suspension
 from ..models.axle.axle import Axle, is_axle
 from ..models.car.car import Car, is_car
-from ..models.rigid.axle import RigidAxle, is_rigid_axle
+from ..models.whole_axle import WholeAxle, whole_axle_of
 
 
-def load(path_or_name: str | Path) -> Suspension | Axle | RigidAxle | Car:
+def load(path_or_name: str | Path) -> Suspension | Axle | WholeAxle | Car:
     """Read a TOML file, and return what it describes.
 
     Parameters
@@ -20,9 +21,9 @@ def load(path_or_name: str | Path) -> Suspension | Axle | RigidAxle | Car:
 
     Returns
     -------
-    Suspension, Axle, RigidAxle or Car
-        A suspension of one wheel, two of them with what couples them, a rigid axle, or a body on
-        axles.
+    Suspension, Axle, WholeAxle or Car
+        A suspension of one wheel, two of them with what couples them, an axle without sides, such
+        as a `RigidAxle`, or a body on axles.
 
     Raises
     ------
@@ -41,8 +42,9 @@ def load(path_or_name: str | Path) -> Suspension | Axle | RigidAxle | Car:
         given.path("path_or_name", path_or_name)
     if is_car(path_or_name):
         return Car.load(path_or_name)
-    if is_rigid_axle(path_or_name):
-        return RigidAxle.load(path_or_name)
+    key = whole_axle_of(path_or_name)
+    if key is not None:
+        return whole_axle_assembly(key).AXLE.load(path_or_name)
     if is_axle(path_or_name):
         return Axle.load(path_or_name)
     return Suspension.load(path_or_name)

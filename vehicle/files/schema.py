@@ -5,15 +5,16 @@
 
 import json
 import sys
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from pydantic.json_schema import models_json_schema
 
+from ..assembly.of import whole_axle_assembly
 from ..corner.base import KIND
 from ..corner.bushes import BUSH_SCHEMA
-from ..data.starter import CAR, DEFAULT, RIGID_AXLE
+from ..data.starter import CAR, DEFAULT, whole_axles, words_of
 from ..input.bodies import RigidBody
 from ..input.messages import is_named
 from ..input.section import Section
@@ -21,7 +22,7 @@ from ..input.units import unit_of
 from ..kinds import KINDS
 from ..models.axle.file import AxleFile
 from ..models.car.file import CarFile
-from ..models.rigid import RigidAxle
+from ..models.whole_axle import WholeAxle
 
 _LIMITS = {
     "ge": "minimum",
@@ -118,16 +119,6 @@ one. See [Axles](../suspension/axles.md).
 
 _AXLE = "axle"  # the key of a file of an axle, and of no other
 
-_A_RIGID_AXLE = """\
-## A rigid axle
-
-A file of its own, of a beam on four rods; `kintrafo new FILE --rigid-axle` writes one. See
-[Rigid axles](../suspension/rigid-axle.md). The other sections are those of every suspension:
-`[tyre]`,
-`[gravity]`, the stops, and `[wheel]`, which may be left out; and `[bushings.POINT]`, whose points
-are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center` of both wheels.
-"""
-
 _A_CAR = """\
 ## A car
 
@@ -139,16 +130,17 @@ _TABLE_HEAD = "| key | unit | allowed | left out | meaning |\n|---|---|---|---|-
 
 
 def schema() -> dict[str, Any]:
-    """Return the JSON Schema of input files: of a suspension, an axle, a rigid axle and a car.
+    """Return the JSON Schema of input files: of a suspension, an axle, axles without sides and a car.
 
     Returns
     -------
     dict
         Every key with its description, its unit as ``x-unit`` and its range. A file with ``axle``
-        is that of an axle, one with ``rigid_axle`` that of a rigid one, one with ``car`` that of a
-        car; of others the kind that they name decides which sections there are.
+        is that of an axle, one with ``rigid_axle`` that of a rigid one, and so on, one with ``car``
+        that of a car; of others the kind that they name decides which sections there are.
     """
-    models: list[type[Section]] = [*KINDS.values(), AxleFile, RigidAxle, CarFile]
+    whole = _whole_axles()
+    models: list[type[Section]] = [*KINDS.values(), AxleFile, *whole.values(), CarFile]
     _, made = models_json_schema([(model, "validation") for model in models])
     sections = {name: _with_units(section) for name, section in made["$defs"].items()}
     kinds = {"description": "the kind of suspension", "enum": list(KINDS), "default": DEFAULT}
@@ -158,22 +150,25 @@ def schema() -> dict[str, Any]:
         "type": "object",
         "if": {"required": [_AXLE]},
         "then": _reference(AxleFile),
-        "else": {
-            "if": {"required": [RIGID_AXLE]},
-            "then": _reference(RigidAxle),
-            "else": {
-                "if": {"required": [CAR]},
-                "then": _reference(CarFile),
-                "else": {
-                    "properties": {KIND: kinds},
-                    "allOf": [
-                        {"if": _names(name), "then": _reference(KINDS[name])} for name in KINDS
-                    ],
-                },
-            },
-        },
+        "else": _chosen(whole | {CAR: CarFile}, kinds),
         "$defs": sections | {"Bushing": BUSH_SCHEMA},
     }
+
+
+def _whole_axles() -> dict[str, type[WholeAxle]]:
+    """Return the axles without sides by the keys that say so in their files."""
+    return {key: whole_axle_assembly(key).AXLE for key in whole_axles()}
+
+
+def _chosen(by_key: Mapping[str, type[Section]], kinds: dict[str, Any]) -> dict[str, Any]:
+    """Return the schema of files that are not of axles with sides: the keys choose in turn."""
+    found: dict[str, Any] = {
+        "properties": {KIND: kinds},
+        "allOf": [{"if": _names(name), "then": _reference(KINDS[name])} for name in KINDS],
+    }
+    for key, model in reversed([*by_key.items()]):
+        found = {"if": {"required": [key]}, "then": _reference(model), "else": found}
+    return found
 
 
 def _names(kind: str) -> dict[str, Any]:
@@ -231,13 +226,14 @@ def page_text() -> str:
         parts += _described(sections, kind, own)
     parts += [_AN_AXLE, *_table(sections[AxleFile.__name__])]
     parts += _described(sections, AxleFile, AxleFile.model_fields)
-    parts += [_A_RIGID_AXLE, *_table(sections[RigidAxle.__name__])]
-    own = [
-        name
-        for name in RigidAxle.model_fields
-        if name not in shared or _model_of(RigidAxle, name) is not _model_of(first, name)
-    ]
-    parts += _described(sections, RigidAxle, own)
+    for key, axle in _whole_axles().items():
+        own = [
+            name
+            for name in axle.model_fields
+            if name not in shared or _model_of(axle, name) is not _model_of(first, name)
+        ]
+        parts += [f"## {_capital(words_of(key))}\n", axle.PAGE, *_table(sections[axle.__name__])]
+        parts += _described(sections, axle, own)
     parts += [_A_CAR, *_table(sections[CarFile.__name__])]
     parts += _described(sections, CarFile, CarFile.model_fields)
     return "\n".join(parts).rstrip() + "\n"

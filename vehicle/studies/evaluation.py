@@ -16,10 +16,10 @@ from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import flat
 from ..kinds import Suspension
 from ..models.axle import Axle
-from ..models.rigid import RigidAxle
+from ..models.whole_axle import WholeAxle
 
 Array = NDArray[np.float64]
-Subject = Suspension | Axle | RigidAxle
+Subject = Suspension | Axle | WholeAxle
 """What has design variables: the numbers of its files."""
 
 _NEEDED = "a kintrafo.Suspension, a kintrafo.Axle or a kintrafo.RigidAxle is needed"
@@ -27,7 +27,7 @@ _NEEDED = "a kintrafo.Suspension, a kintrafo.Axle or a kintrafo.RigidAxle is nee
 
 def check_subject(given: Arguments, subject: Any) -> None:
     """Refuse what has no design variables."""
-    given.kind("suspension", subject, (Suspension, Axle, RigidAxle), _NEEDED)
+    given.kind("suspension", subject, (Suspension, Axle, WholeAxle), _NEEDED)
 
 
 def usual_positions(assembly: Assembly, over: str) -> Array:

@@ -12,7 +12,7 @@ from folders import ROOT
 from kintrafo import Model, Suspension, characteristics
 from kintrafo.core.tabulated import number, significant
 from kintrafo.vehicle import cli
-from kintrafo.vehicle.data.starter import NOT_A_RIGID_AXLE
+from kintrafo.vehicle.data.starter import not_of_a_suspension
 from matplotlib.image import imread
 
 CAR = "reference_car"
@@ -133,7 +133,7 @@ def test_what_does_not_take_a_rigid_axle_says_so(kintrafo, line):
     page = (ROOT / "docs/suspension/rigid-axle.md").read_text(encoding="utf-8")
     (listed,) = re.findall(r"All commands take its file but (.*?)\.", page, flags=re.DOTALL)
     named = "export --to points" if line.startswith("export") else "mechanism"
-    assert named in NOT_A_RIGID_AXLE
+    assert named in not_of_a_suspension("rigid_axle")
     assert f"`{named}`" in listed
     kintrafo("new", "rear.toml", "--rigid-axle")
     code, _, err = kintrafo(*line.split())

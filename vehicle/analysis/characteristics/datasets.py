@@ -9,7 +9,7 @@ from ....core.memory import positions_given
 from ....core.named_types import ArrayLike
 from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import axle_coordinate, of_wheels, wheel_coordinate
-from ...assembly.measures import axle, corner, rigid_axle
+from ...assembly.measures import axle, corner, of_whole_axles
 from ...assembly.measures.measure import columns
 from ...assembly.of import given_assembly
 from ...assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
@@ -29,7 +29,7 @@ KNOWN: dict[str, dict[str, Quantity]] = {
 }
 """Characteristics of a corner by name, over wheel travel and over the rack."""
 
-_MOVING = columns((*axle.OVER_TRAVEL, *rigid_axle.MEASURES), SIDES)
+_MOVING = columns((*axle.OVER_TRAVEL, *of_whole_axles()), SIDES)
 _STEERED = columns(axle.OVER_RACK, SIDES)
 OF_AXLES = {
     TRAVEL.name: _MOVING,

@@ -11,3 +11,15 @@
 
 The formulas of a wheel are in `kintrafo.vehicle.assembly.wheel`.
 """
+
+from collections.abc import Iterator
+from importlib import import_module
+
+from ...data.starter import whole_axles
+from .measure import Measure
+
+
+def of_whole_axles() -> Iterator[Measure]:
+    """Yield the measures of all axles without sides: those of the modules with their names."""
+    for key in reversed(whole_axles()):
+        yield from import_module(f".{key}", __package__).MEASURES

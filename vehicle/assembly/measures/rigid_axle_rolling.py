@@ -8,7 +8,8 @@ import numpy as np
 from ...corner.corner import Array
 from ...models.rigid.model import HEAVE, ROLL
 from ...models.sides import LEFT, RIGHT, SIDES
-from ..rigid_axle_kinematics import SENSE, RigidAxleKinematics
+from ..rigid_axle_kinematics import RigidAxleKinematics
+from ..whole_axle_kinematics import SENSE
 
 
 def roll_center_height(beam: RigidAxleKinematics) -> Array:

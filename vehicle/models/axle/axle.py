@@ -15,7 +15,7 @@ from ....core.suggestions import suggestion
 from ....core.vectors import unit_vector
 from ...corner.bushes import RACK
 from ...data import data_sets, find
-from ...data.starter import AXLES, NOT_A_RIGID_AXLE, RIGID_AXLE, RIGID_AXLES
+from ...data.starter import AXLES, not_of_a_suspension, whole_axle_in, whole_axles
 from ...input.messages import messages_of
 from ...input.places import put
 from ...input.toml_file import read_toml
@@ -102,8 +102,8 @@ class Axle:
         with Arguments(cls.__name__) as given:
             given.path("path_or_name", path_or_name)
         packaged = packaged_axles()
-        if path_or_name in data_sets(RIGID_AXLES):
-            raise InputError([NOT_A_RIGID_AXLE], str(path_or_name))
+        if path_or_name in whole_axles():
+            raise InputError([not_of_a_suspension(str(path_or_name))], str(path_or_name))
         file = find(path_or_name, packaged)
         folder = file.parent if isinstance(file, Path) else Path()
         return cls.from_dict(read_toml(file), source=str(path_or_name), folder=folder)
@@ -292,7 +292,7 @@ def is_axle(path_or_name: str | Path) -> bool:
     """
     if path_or_name in packaged_axles():
         return True
-    packaged = data_sets() | data_sets(RIGID_AXLES)
+    packaged = {*data_sets(), *whole_axles()}
     if path_or_name in packaged or not Path(path_or_name).is_file():
         return False
     try:
@@ -303,8 +303,9 @@ def is_axle(path_or_name: str | Path) -> bool:
 
 def _refuse_other_files(data: Mapping[str, Any], source: str) -> None:
     problem = f'{KIND} is missing: where the axle is. Add a line `{KIND} = "front"` or "rear".'
-    if RIGID_AXLE in data:
-        problem = NOT_A_RIGID_AXLE
+    other = whole_axle_in(data)
+    if other is not None:
+        problem = not_of_a_suspension(other)
     elif "hardpoints" in data:
         problem = (
             "this is the file of one suspension, not of an axle. Name it in an axle's file, as "

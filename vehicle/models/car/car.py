@@ -13,7 +13,7 @@ from pydantic import ValidationError
 from ....core.arguments import Arguments, shown
 from ....core.errors import InputError
 from ...data import data_sets, find
-from ...data.starter import AXLES, CAR, CARS, RIGID_AXLE, RIGID_AXLES
+from ...data.starter import AXLES, CAR, CARS, WHOLE_AXLES
 from ...input.messages import messages_of
 from ...input.places import put
 from ...input.toml_file import read_toml
@@ -21,8 +21,9 @@ from ...input.units import in_metres
 from ...kinds import Suspension
 from ..axle.axle import KIND as AXLE
 from ..axle.axle import Axle, is_axle
-from ..rigid.axle import RigidAxle, is_rigid_axle
+from ..rigid.axle import RigidAxle
 from ..sides import LEFT, SIDES
+from ..whole_axle import whole_axle_of
 from .file import COORDINATES, ENDS, CarFile
 
 Array = NDArray[np.float64]
@@ -274,7 +275,7 @@ def is_car(path_or_name: str | Path) -> bool:
     """Return whether a file, or a packaged name, is that of a car."""
     if path_or_name in packaged_cars():
         return True
-    packaged = data_sets() | data_sets(AXLES) | data_sets(RIGID_AXLES)
+    packaged = data_sets() | data_sets(AXLES) | data_sets(WHOLE_AXLES)
     if path_or_name in packaged or not Path(path_or_name).is_file():
         return False
     try:
@@ -325,20 +326,20 @@ def _axle(given: Any, key: str, folder: Path) -> AnyAxle:
     if isinstance(given, Axle | RigidAxle):
         return given
     if isinstance(given, Mapping):
-        kind = RigidAxle if RIGID_AXLE in given else Axle
+        kind = RigidAxle if RigidAxle.KEY in given else Axle
         return kind.from_dict(given)
     if isinstance(given, str) and given in data_sets(AXLES):
         return Axle.load(given)
-    if isinstance(given, str) and given in data_sets(RIGID_AXLES):
+    if isinstance(given, str) and given in data_sets(WHOLE_AXLES):
         return RigidAxle.load(given)
     if isinstance(given, str | Path):
         file = folder / given
-        if is_rigid_axle(file):
+        if whole_axle_of(file) == RigidAxle.KEY:
             return RigidAxle.load(file)
         if is_axle(file) or not file.is_file() or AXLE in read_toml(file):
             return Axle.load(file)
         problem = (
-            f"{given} is no axle: it has no line `{AXLE} = ...` or `{RIGID_AXLE} = ...`. Name an "
+            f"{given} is no axle: it has no line `{AXLE} = ...` or `{RigidAxle.KEY} = ...`. Name an "
             "axle's file, which names the hardpoint file of its sides."
         )
         raise InputError([problem], key)

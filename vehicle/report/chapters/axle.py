@@ -15,7 +15,7 @@ from ...analysis.checkup import checkup
 from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import WHEEL
 from ...assembly.of import given_assembly
-from ...plots.rigid_axle import views
+from ...plots.whole_axle import views
 from ...studies.goals import Goal, check_goals
 from .chapter import Chapter, Picture
 from .curves import pictures, positions_of, with_wanted

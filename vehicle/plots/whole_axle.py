@@ -1,4 +1,4 @@
-"""A rigid axle at design from above, from the left and from behind."""
+"""An axle that one file describes at design from above, from the left and from behind."""
 
 from collections.abc import Iterator
 
@@ -9,11 +9,10 @@ from matplotlib.patches import Ellipse, Rectangle
 
 from ...core.arguments import Arguments
 from ..corner.corner import Array
-from ..models.rigid.axle import RigidAxle
 from ..models.sides import SIDES
+from ..models.whole_axle import WholeAxle
 
-_RODS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7")
-_BEAM, _SPRING, _DAMPER, _WHEEL = "#4a525a", "#e69f00", "#56b4e9", "#cfd6dc"
+_SPRING, _DAMPER, _WHEEL = "#e69f00", "#56b4e9", "#cfd6dc"
 # What a view has to the right and upward: a component of a point, and its sense.
 _VIEWS = {
     "from above": ((1, -1.0), (0, 1.0)),
@@ -27,19 +26,19 @@ _WIDTH = 0.6
 _RADIUS = 0.33  # of wheels that stand on no ground [m]
 
 
-def views(axle: RigidAxle) -> Figure:
-    """Draw a rigid axle at its design position in three views.
+def views(axle: WholeAxle) -> Figure:
+    """Draw such an axle at its design position in three views.
 
     Parameters
     ----------
-    axle : RigidAxle
+    axle : WholeAxle
 
     Returns
     -------
     matplotlib.figure.Figure
     """
     with Arguments("views") as given:
-        given.kind("axle", axle, RigidAxle, RigidAxle.NEEDED)
+        given.kind("axle", axle, WholeAxle, "an axle without sides, such as a RigidAxle, is needed")
     result = Figure(figsize=(6.4, 5.6), layout="constrained")
     grid = result.add_gridspec(2, 2)
     places = (grid[0, 0], grid[0, 1], grid[1, 0])
@@ -55,12 +54,9 @@ def views(axle: RigidAxle) -> Figure:
     return result
 
 
-def _lines(axle: RigidAxle) -> Iterator[tuple[str, str, float, Array]]:
+def _lines(axle: WholeAxle) -> Iterator[tuple[str, str, float, Array]]:
     """Yield what is drawn as lines: its label, colour, width and points, (n, 3) [m]."""
-    half = axle.half_track * _LEFTWARD
-    yield "axle", _BEAM, 5.0, np.array([axle.center - half, axle.center + half])
-    for color, (name, ends) in zip(_RODS, axle.ends().items(), strict=True):
-        yield name.replace("_", " "), color, 2.4, np.array(ends)
+    yield from axle.drawn_lines()
     for part, color in (("spring", _SPRING), ("damper", _DAMPER)):
         for side in SIDES:
             points = axle.points(side)
@@ -70,7 +66,7 @@ def _lines(axle: RigidAxle) -> Iterator[tuple[str, str, float, Array]]:
 
 def _draw(
     axes: Axes,
-    axle: RigidAxle,
+    axle: WholeAxle,
     lines: list[tuple[str, str, float, Array]],
     ways: tuple[tuple[int, float], tuple[int, float]],
 ) -> None:

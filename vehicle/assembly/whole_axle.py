@@ -1,0 +1,304 @@
+"""An axle that one file describes as an assembly: what is the same of all, such as a rigid axle."""
+
+from abc import abstractmethod
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ..corner.bushes import described_bushings
+from ..corner.corner import Array
+from ..data.starter import words_of
+from ..input.vehicle import Tyre
+from ..models.axle.file import TorqueReaction
+from ..models.plausibility import Plausibility
+from ..models.reach import PositionError
+from ..models.sides import SIDES
+from ..models.whole_axle import WholeAxle
+from ..models.whole_axle_model import WholeAxleModel
+from .assembly import Assembly, Bushings
+from .axle import motions_of_two
+from .held import RestConditions
+from .load import Load
+from .motions import MOTIONS, USUAL_ROLL, USUAL_ROLL_STEP
+from .part_poses import PartPoses
+from .rest import settled
+from .rig import RigPosition, SweepRange
+from .usual import USUAL_TRAVEL, grid
+from .wheel_names import WheelNames
+from .whole_axle_parts import WholeAxleParts
+
+# What each wheel travels per metre of what varies; in roll it is the half track times the sine.
+_SHARES = {"bump": (1.0, 1.0), "left": (1.0, 0.0), "right": (0.0, 1.0)}
+_MOST_ROLL = np.pi / 4.0
+# A sweep that is not told otherwise keeps clear of the ends of the motion by this part of them.
+_CLEARANCE = 0.02
+# So far both wheels are moved when its reach is looked for [m].
+_FAR = 0.4
+_NO_REST = (
+    "the axle has no stable equilibrium near its design position. Check the springs' rate and "
+    "free length, the tyres' rate and free height, the load of the wheels, or the road."
+)
+# Where the axle is under a load, it could go as many times as far.
+_CLEAR = 1.02
+
+
+class WholeAxleAssembly(Assembly):
+    """An axle of two wheels whose heights are those of two coordinates.
+
+    Parameters
+    ----------
+    axle : WholeAxle
+    model : WholeAxleModel, optional
+        Its equations, where there are some already.
+
+    Attributes
+    ----------
+    AXLE, MODEL : type
+        What it is made of: the data of a file, and their equations.
+    """
+
+    AXLE: ClassVar[type[WholeAxle]]
+    MODEL: ClassVar[type[WholeAxleModel]]
+    wheels = SIDES
+    motions = motions_of_two(MOTIONS)
+    BAR_SIGN = "positive with the left wheel up"
+
+    axle: Any
+
+    def __init__(self, axle: Any, model: Any = None) -> None:
+        self.axle = axle
+        self.model = self._model() if model is None else model
+
+    def _model(self) -> WholeAxleModel:
+        """Return its equations."""
+        return self.MODEL(self.axle)
+
+    @property
+    def subject(self) -> Any:
+        """The axle."""
+        return self.axle
+
+    @property
+    def steered(self) -> bool:
+        """No rack steers it."""
+        return False
+
+    @property
+    def tyres(self) -> Sequence[Tyre]:
+        """The tyres."""
+        return [self.axle.tyre] * len(SIDES)
+
+    @property
+    def tyre_radii(self) -> Sequence[float | None]:
+        """The radii of the wheels [m]."""
+        return [self.axle.tyre_radius()] * len(SIDES)
+
+    @property
+    def has_bushes(self) -> bool:
+        """Whether its file has bushes."""
+        return bool(self.axle.bushings)
+
+    def usual(
+        self,
+        motion: str,
+        extent: SweepRange | None = None,
+        *,
+        travel: float = 0.0,
+        rack: float = 0.0,
+    ) -> Array:
+        """Return the usual positions of a motion, zero included [m] or [rad]."""
+        del travel, rack
+        far = extent or SweepRange()
+        if motion == "roll":
+            with Arguments("roll") as given:
+                amount = 0.0 if far.roll is None else far.roll
+                given.number("roll", amount, "rad", least=0.0, below=_MOST_ROLL)
+            most = self._ends(motion, USUAL_ROLL) if far.roll is None else [-amount, amount]
+            both = min(-most[0], most[1])
+            return grid(-both, both, USUAL_ROLL_STEP)
+        with Arguments("wheel travel") as given:
+            for name in ("rebound", "bump"):
+                value = getattr(far, name)
+                given.number(name, 0.0 if value is None else value, "m", least=0.0)
+        low, high = self._ends(motion, USUAL_TRAVEL)
+        low = low if far.rebound is None else -far.rebound
+        high = high if far.bump is None else far.bump
+        return grid(low, high, far.step)
+
+    def _ends(self, motion: str, most: float) -> list[float]:
+        """Return how far a motion goes either way, at most so far and clear of its ends."""
+        ends = []
+        for value in (-most, most):
+            left, right = self._travels(motion, np.array(value))
+            part = self.model.farthest(float(left), float(right))
+            ends.append(value if part == 1.0 else (1.0 - _CLEARANCE) * part * value)
+        return ends
+
+    def _travels(self, motion: str, along: Array) -> tuple[Array, Array]:
+        """Return the travels of the left and the right wheel along a motion [m]."""
+        if motion == "roll":
+            half = self.axle.half_track * np.sin(along)
+            return -half, half
+        left, right = _SHARES[motion]
+        return left * along, right * along
+
+    def position(
+        self, motion: str, along: Array, *, travel: float = 0.0, rack: float = 0.0
+    ) -> RigPosition:
+        """Return where the wheels are along a motion."""
+        del travel, rack
+        if motion == "roll" and np.abs(along).max(initial=0.0) >= _MOST_ROLL:
+            worst = np.degrees(np.abs(along).max())
+            message = f"roll of {worst:.4g} deg: less than 45 deg is needed; Python's unit is rad."
+            raise PositionError(message)
+        travels = self._travels(motion, along)
+        return RigPosition(dict(zip(SIDES, travels, strict=True)), np.zeros(()))
+
+    def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
+        """Refuse a travel that is for steering, and a rack."""
+        if rack:
+            given.refuse(f"rack_position: {words_of(self.axle.KEY)} has no rack. Leave it out.")
+        if travel:
+            given.refuse(f"travel: the motion {motion!r} moves the wheels by along. Leave it out.")
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The two that move the wheels up and down."""
+        found: tuple[str, ...] = self.model.COORDINATES
+        return found
+
+    def coordinates_at_rest(self, held: RestConditions) -> Array:
+        """Return the coordinates of the state of rest near the design position, (2,)."""
+        found = settled(self, held, np.zeros(2), _NO_REST)
+        signals = self.model.signals(self.at_rest(found, 0.0)[0])
+        design = self.axle.center[2]
+        names = (f"{self.names_of(wheel).signals}wheel_center_z" for wheel in self.wheels)
+        if self.model.farthest(*(float(signals[name] - design) for name in names)) < 1.0:
+            raise PositionError(_NO_REST)
+        return found
+
+    def names_of(self, wheel: str) -> WheelNames:
+        """Return what its equations call what belongs to a wheel."""
+        prefix = f"{wheel}_"
+        return WheelNames(
+            prefix, f"{prefix}axle_", f"{prefix}spin_angle", f"{prefix}spring_actuator"
+        )
+
+    def coordinates_of(self, suffix: str) -> dict[str, str]:
+        """Return what the coordinates are called."""
+        del suffix
+        return {name: name for name in self.coordinates}
+
+    def joints(self, suffix: str) -> tuple[str, ...]:
+        """Return the moving points."""
+        del suffix
+        found: tuple[str, ...] = self.axle.joint_names
+        return found
+
+    @abstractmethod
+    def parts(self, states: Array, inputs: Array | None = None) -> WholeAxleParts:
+        """Return its parts in states of its equations."""
+
+    def poses(self, position: RigPosition) -> dict[str, PartPoses]:
+        """Return its parts with rigid joints."""
+        left, right = (position.travels[side] for side in SIDES)
+        return {"": self.parts(self.model.states_at(left, right))}
+
+    @property
+    def design_wheel_coordinates(self) -> Array:
+        """Travels of zero."""
+        return np.zeros(len(SIDES))
+
+    def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
+        """Return the travels, if the axle can be there [m]."""
+        del rack
+        found = np.array([travel or 0.0 for travel in travels])
+        self.model.states_at(*found)
+        return found
+
+    def wheel_reach(self, rack: float) -> None:
+        """Return None: how far a wheel goes depends on the other one."""
+        del rack
+
+    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, PartPoses]:
+        """Return its parts at rest; the coordinates are the travels of both wheels [m]."""
+        del racks
+        return {"": self._parts(coordinates)}
+
+    def _parts(self, travels: Array) -> WholeAxleParts:
+        return self.parts(self.model.placed(*travels.T))
+
+    def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
+        """Return where it and its dampers reach, with springs and dampers upright."""
+        del racks
+        margins = self.model.margins(self.model.placed(*coordinates.T))
+        found = np.asarray((margins > 0.0).all(axis=-1))
+        found[found] = self._parts(coordinates[found]).upright()
+        return found
+
+    def locked(self, coordinates: Array) -> NDArray[np.bool_]:
+        """Return where it locks, or where it does not come from design."""
+        beyond = self.model.parts_of_ways(*coordinates.T) < 1.0
+        margins = self.model.margins(self.model.placed(*(_CLEAR * coordinates).T))
+        # those of the loops; a damper may be near the end of its length
+        closing = margins[:, : len(self.model.equations.GUARDS)]
+        return np.asarray(beyond | ~(closing > 0.0).all(axis=-1))
+
+    def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
+        """Return whether it has a stop, of both wheels."""
+        del wheel
+        return getattr(self.axle, which) is not None
+
+    def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueReaction | None:
+        """Return what holds the torque of brakes or drive."""
+        part = getattr(self.axle, what)
+        return None if part is None else part.torque_on
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """What decides where statics alone does not."""
+        found: tuple[str, ...] = self.axle.structure().rules
+        return found
+
+    def acting(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
+        """Return what acts on its parts, and the couple of the anti-roll bar."""
+        return {"": poses[""].acting()}
+
+    def in_motion(
+        self, states: Array, inputs: Array
+    ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
+        """Return its parts in some states, and the rates of these."""
+        rates = self.model.evaluate("rhs", states, inputs)
+        return {"": self.parts(states, inputs)}, {"": rates}
+
+    def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
+        """Return bushes as a caller describes them, or those of the file."""
+        described = described_bushings(given, bushings, self.axle.bushings)
+        return Bushings({"": self.axle.bushes(given, described)}, 0.0)
+
+    @property
+    def heading(self) -> str:
+        """What it is called."""
+        found: str = self.axle.heading()
+        return found
+
+    def plausibility(self) -> Plausibility:
+        """Return what is unlikely of its file."""
+        found: Plausibility = self.axle.plausibility()
+        return found
+
+    def reach(self) -> dict[str, tuple[float, bool]]:
+        """Return how far it goes up and down, and whether something ends that."""
+        found = {}
+        for name, far in (("down", -_FAR), ("up", _FAR)):
+            part = self.model.farthest(far, far)
+            found[name] = far * part, part < 1.0
+        return found
+
+    def without_friction(self) -> "WholeAxleAssembly":
+        """Return the same without the friction of its dampers."""
+        smooth = self.axle.with_changes({"damper.friction_N": 0.0})
+        return type(self)(smooth, self.MODEL(smooth))

@@ -1,0 +1,204 @@
+"""The parts of an axle that one file describes at many positions, and what acts on them by itself.
+
+Names of points and of parts of which there are two end in ``_left`` and ``_right``, as those of
+other axles do.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...systems.allowed import LengthLimit
+from ..corner.corner import UP, RoadWheel
+from ..corner.structure import ForceElement, Structure
+from ..corner.wheel_loads import UNITS
+from ..models.sides import SIDES
+from ..models.whole_axle import of_side
+from ..models.whole_axle_model import WholeAxleModel
+from .load import Load, known
+from .mass import PartMass
+from .part_poses import CENTER, forces_along
+from .wheel import upward_across
+from .whole_axle_kinematics import SENSE, vehicle_of
+
+Array = NDArray[np.float64]
+
+BAR = "bar"
+
+
+@dataclass(frozen=True)
+class WholeAxleParts(ABC):
+    """Such an axle in n positions.
+
+    Attributes
+    ----------
+    model : WholeAxleModel
+    states, inputs : ndarray
+        As in the compiled module.
+    centers, turned : dict of str to ndarray
+        Of each part a point, (n, 3) [m]: the centre of mass if it has one; and the rotation from
+        design, (n, 3, 3).
+    points : dict of str to ndarray
+        By name, (n, 3) [m].
+    PARAMETERS : mapping of str to str
+        What begins the names of the parameters of parts with mass, by part.
+    MASSIVE : mapping of str to str
+        What they are called in the equations.
+    """
+
+    model: WholeAxleModel
+    states: Array
+    inputs: Array
+    centers: dict[str, Array]
+    turned: dict[str, Array]
+    points: dict[str, Array]
+
+    PARAMETERS: ClassVar[Mapping[str, str]]
+    MASSIVE: ClassVar[Mapping[str, str]]
+
+    @property
+    def axle(self) -> Any:
+        """The axle."""
+        return self.model.axle
+
+    @property
+    def structure(self) -> Structure:
+        """What holds the parts together."""
+        found: Structure = self.axle.structure()
+        return found
+
+    @property
+    @abstractmethod
+    def design(self) -> dict[str, Array]:
+        """The points at design, (3,) [m]."""
+
+    @abstractmethod
+    def carrier(self, side: str) -> str:
+        """Return the part that carries a wheel."""
+
+    @cached_property
+    def wheels(self) -> dict[str, RoadWheel]:
+        """Both wheels, the left one first, by their parts."""
+        return {
+            f"wheel_{side}": RoadWheel(
+                vehicle_of(self.axle, side),
+                self.points[f"{CENTER}_{side}"],
+                self.design[f"{CENTER}_{side}"],
+                SENSE[side] * self.wheel_axis(side),
+                SENSE[side] * self.axle.wheel.spin_axis(SENSE[side]),
+            )
+            for side in SIDES
+        }
+
+    @property
+    def rack_axis(self) -> Array | None:
+        """No rack steers it."""
+        return None
+
+    def parameters_of(self, line: ForceElement) -> Mapping[str, float]:
+        """Return the parameters of the spring or the stops on a line, as the right side's are."""
+        return of_side(self.model.parameters, line.name.rpartition("_")[2])
+
+    def signals(self) -> dict[str, Array]:
+        """Return the signals of the equations, (n,)."""
+        return self.model.signals(self.states, self.inputs)
+
+    def counted_by(self, line: ForceElement) -> str:
+        """Return the signal by which the stops beside a damper count: its length."""
+        name, _, side = line.name.rpartition("_")
+        return f"{side}_{name}_length"
+
+    def carried_by(self, part: str, point: str) -> Array:
+        """Return where a part has a point: where all that are joined there have it, (n, 3) [m]."""
+        del part
+        return self.points[point]
+
+    def allowed_lengths(self) -> Sequence[LengthLimit]:
+        """Return the lengths of the dampers that the file allows."""
+        return self.model.allowed_lengths()
+
+    def mass(self, part: str) -> float:
+        """Return the mass of a part [kg]."""
+        return self.model.parameters[f"{self.PARAMETERS[part]}_mass"]
+
+    def wheel_axis(self, side: str) -> Array:
+        """Return the spin axis of a wheel, which points left, (n, 3)."""
+        axis: Array = self.turned[self.carrier(side)] @ self.axle.wheel.spin_axis(SENSE[side])
+        return axis
+
+    def twists(self) -> dict[str, Array]:
+        """Return how parts with mass move for a unit rate of each coordinate, (n, 2, 6)."""
+        found = []
+        for coordinate in self.model.COORDINATES:
+            states = self.states.copy()
+            states[:, self.model.state_names.index(f"{coordinate}_rate")] = 1.0
+            found.append(self.model.evaluate("velocities", states, self.inputs))
+        both = np.stack(found, axis=-2)
+        bodies = self.model.equations.BODIES
+        return {part: both[:, bodies.index(body)] for part, body in self.MASSIVE.items()}
+
+    def masses(self) -> dict[str, PartMass]:
+        """Return what the acceleration of the parts moves."""
+        axes = {f"wheel_{side}": self.axle.wheel.spin_axis(SENSE[side]) for side in SIDES}
+        return {
+            part: PartMass.of(self.model.parameters, self.PARAMETERS[part], body, axes.get(part))
+            for part, body in self.MASSIVE.items()
+        }
+
+    def rates_of_inputs(self) -> Array:
+        """Return zeros: nothing but the states moves the parts."""
+        return np.zeros_like(self.inputs)
+
+    def tyre_forces(self) -> dict[str, Array]:
+        """Return the forces of the tyres, in the planes of their wheels, (n, 3) [N]."""
+        forces = {
+            side: self.model.signal(f"{side}_axle_tyre_force", self.states, self.inputs)
+            for side in SIDES
+        }
+        return {
+            f"wheel_{side}": force[:, None] * upward_across(self.wheel_axis(side))
+            for side, force in forces.items()
+        }
+
+    def inputs_of_wheels(self) -> dict[str, dict[str, Array]]:
+        """Return the inputs on both wheels; empty where the equations have none."""
+        if not self.model.wheel_loads:
+            return {}
+        given = dict(zip(self.model.input_names, self.inputs.T, strict=True))
+        return {
+            f"wheel_{side}": {name: given[f"{side}_{name}"] for name in UNITS} for side in SIDES
+        }
+
+    def upright(self) -> NDArray[np.bool_]:
+        """Return where springs and dampers have turned by less than a right angle from design."""
+        fine = np.ones(len(self.states), dtype=bool)
+        for side in SIDES:
+            design = self.axle.points(side)
+            for name in ("spring", "damper"):
+                way = self.points[f"{name}_top_{side}"] - self.points[f"{name}_seat_{side}"]
+                fine &= way @ (design[f"{name}_top"] - design[f"{name}_seat"]) > 0.0
+        return fine
+
+    # -- what acts ------------------------------------------------------------------------------
+
+    def acting(self) -> list[Load]:
+        """Return what acts without anybody's doing: weights, springs, dampers, stops, the bar."""
+        return [*known(self), *self._of_bar()]
+
+    def weights(self) -> dict[str, Array]:
+        """Return the weight of each part that has a mass, (3,) [N]."""
+        gravity = self.model.parameters["gravity"]
+        return {part: -self.mass(part) * gravity * UP for part in self.MASSIVE}
+
+    def forces_along_lines(self) -> dict[str, Array]:
+        """Return the force of each spring and damper, positive when it pushes, (n,) [N]."""
+        return forces_along(self.structure, self.model, self.states, self.inputs)
+
+    @abstractmethod
+    def _of_bar(self) -> list[Load]:
+        """Return the loads of what couples both wheels."""

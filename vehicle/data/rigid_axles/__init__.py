@@ -1,1 +1,0 @@
-"""Rigid axles that come with the project."""

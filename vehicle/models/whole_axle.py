@@ -1,0 +1,434 @@
+"""Axles that one file describes with both wheels, such as a rigid axle: what is the same of all."""
+
+from abc import abstractmethod
+from collections.abc import Iterable, Mapping
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+import numpy as np
+from pydantic import ValidationError
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...core.vectors import components
+from ..corner.bushes import Bush
+from ..corner.corner import Array
+from ..corner.structure import Structure
+from ..corner.wheel_loads import needed_radius
+from ..data import data_sets, find
+from ..data.starter import WHOLE_AXLES, whole_axle_in, whole_axles, words_of
+from ..input.damper import NO_CURVE
+from ..input.messages import is_named, messages_of
+from ..input.places import put
+from ..input.section import Section
+from ..input.spring import rate_key
+from ..input.stop import NO_STOP
+from ..input.toml_file import read_toml
+from ..input.units import in_metres
+from .plausibility import Plausibility, beyond_the_table, unusual_alignment
+from .sides import LEFT, RIGHT, SIDES
+
+if TYPE_CHECKING:
+    from ..corner.bushes import Bushings
+    from ..input.hardpoints import Hardpoints
+    from ..input.spring import Spring
+    from ..input.stop import Stop
+    from ..input.vehicle import Gravity, Tyre, Wheel
+    from .axle.file import Brakes, End
+    from .whole_axle_file import AxleDamper, AxleDrive, WholeAxleVehicle
+
+# A wheel centre nearer to the vehicle's centre plane than this is on neither side [m].
+_SMALLEST_HALF_TRACK = 0.1
+# Two ends of a spring or a damper are farther apart than this [m].
+SHORTEST = 0.001
+# A wheel centre lower than this above z = 0 says that z = 0 is not the ground [m].
+_SMALLEST_WHEEL_RADIUS = 0.1
+_MIRROR = np.array([1.0, -1.0, 1.0])
+
+
+class WholeAxle(Section):
+    """An axle with both wheels, at its design position, as one file describes it. Immutable.
+
+    Make one with `load`, `from_dict` or `with_changes`. The attributes are the sections of the
+    file, with the file's keys and units; each class has them in the order of its file.
+
+    Parameters
+    ----------
+    **data : Any
+        The sections, as in a file.
+
+    Raises
+    ------
+    InputError
+        With all problems, if no axle can be like this.
+
+    Attributes
+    ----------
+    KEY : str
+        The top-level key that says that a file is one of these, whose value is the end of the
+        vehicle: the name of the data set, see `data.starter.whole_axles`.
+    NEEDED : str
+        What is said where something else is given.
+    PAGE : str
+        The text in the reference of input files before its sections; Markdown.
+    """
+
+    KEY: ClassVar[str]
+    NEEDED: ClassVar[str]
+    PAGE: ClassVar[str]
+
+    if TYPE_CHECKING:
+        # sections that every class has, in places of its own
+        vehicle: WholeAxleVehicle
+        hardpoints: Hardpoints
+        wheel: Wheel
+        spring: Spring
+        damper: AxleDamper
+        bump_stop: Stop | None
+        rebound_stop: Stop | None
+        tyre: Tyre
+        gravity: Gravity
+        brakes: Brakes
+        drive: AxleDrive | None
+        bushings: Bushings | None
+
+    def __init__(self, /, **data: Any) -> None:
+        try:
+            super().__init__(**data)
+        except ValidationError as error:
+            raise InputError(messages_of(error, type(self), data)) from None
+        problems = self._problems_of_points() or self._own_problems() or self._lengths_refused()
+        if problems:
+            raise InputError(problems)
+        if self.bushings is not None:
+            with Arguments("bushings") as given:
+                self._check_bushes(given, self.bushes(given, self.bushings))
+
+    # -- making one -----------------------------------------------------------------------------
+
+    @classmethod
+    def load(cls, path_or_name: str | Path) -> Self:
+        """Read such an axle from a TOML file.
+
+        Parameters
+        ----------
+        path_or_name : str or pathlib.Path
+            The file; or, as a string, the name of one that comes with kintrafo.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be read or no axle can be like this; it lists everything that is
+            wrong.
+        """
+        with Arguments(cls.__name__) as given:
+            given.path("path_or_name", path_or_name)
+        file = find(path_or_name, data_sets(WHOLE_AXLES))
+        return cls.from_dict(read_toml(file), source=str(path_or_name))
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any], source: str = "input data") -> Self:
+        """Make such an axle from nested dictionaries with the keys of the file.
+
+        Parameters
+        ----------
+        data : mapping
+            The sections, with their keys and units as in the file.
+        source : str, optional
+            Where the data come from, for error messages.
+
+        Raises
+        ------
+        InputError
+            If no axle can be like this; it lists everything that is wrong.
+        """
+        with Arguments(source) as checked:
+            words = f"keys and values of {words_of(cls.KEY)}'s file"
+            for key in checked.mapping("data", data, words):
+                checked.kind("key of data", key, str, "a text is needed")
+        if cls.KEY not in data:
+            problem = (
+                f"{cls.KEY} is missing: where the axle is. Add a line "
+                f'`{cls.KEY} = "rear"` or "front"; `kintrafo new FILE --suspension {cls.KEY}` '
+                "writes such a file."
+            )
+            raise InputError([problem], source)
+        try:
+            return cls(**data)
+        except InputError as error:
+            raise InputError(error.problems, source) from None
+
+    def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
+        """Return the sections as nested dictionaries, which `from_dict` takes back unchanged.
+
+        Parameters
+        ----------
+        exclude_defaults : bool, optional
+            Whether values that are as by default are left out.
+        """
+        return self.model_dump(mode="json", exclude_none=True, exclude_defaults=exclude_defaults)
+
+    def with_changes(self, changes: Mapping[str, Any]) -> Self:
+        """Return an axle that differs in some values; all checks are made again.
+
+        Parameters
+        ----------
+        changes : mapping of str to Any
+            For each place in the file, section and key with dots between them, the new value in
+            the file's unit, such as ``{"hardpoints.wheel_center.z": 390.0}``. None removes an
+            optional key, or a section with a name of any choice.
+
+        Raises
+        ------
+        InputError
+            If there is no such place, or no axle can be like this.
+        """
+        said = self.KEY.replace("_", " ")
+        with Arguments(said) as checked:
+            for key in checked.mapping("changes", changes, "places and values"):
+                checked.kind("key of changes", key, str, "a text is needed")
+        data = self.to_dict()
+        source = f"{said} with changed {', '.join(changes)}"
+        problems = [problem for place in changes if (problem := put(data, place, changes[place]))]
+        if problems:
+            raise InputError(problems, source)
+        for section in filter(partial(is_named, type(self)), data):
+            if isinstance(data[section], dict):
+                data[section] = {n: v for n, v in data[section].items() if v is not None}
+        return self.from_dict(data, source)
+
+    # -- what it is -----------------------------------------------------------------------------
+
+    @abstractmethod
+    def heading(self) -> str:
+        """Return what the axle is called."""
+
+    @property
+    def end(self) -> "End":
+        """At which end of the vehicle it is."""
+        found: End = getattr(self, self.KEY)
+        return found
+
+    @property
+    def center(self) -> Array:
+        """The middle between the wheels at design [m]."""
+        center: Array = self.hardpoints.metres("wheel_center") * [1.0, 0.0, 1.0]
+        return center
+
+    @property
+    def half_track(self) -> float:
+        """Half the distance of the wheel centres [m]."""
+        return -float(self.hardpoints.metres("wheel_center")[1])
+
+    def points(self, side: str) -> dict[str, Array]:
+        """Return the hardpoints of a side at design [m]."""
+        with Arguments("points") as given:
+            given.among("side", side, (RIGHT, LEFT))
+        found = self.hardpoints.at_design()
+        if side == RIGHT:
+            return found
+        return {name: point * _MIRROR for name, point in found.items()} | self._left_points()
+
+    def _left_points(self) -> dict[str, Array]:
+        """Return the points of the left side that are not the image of the right one's [m]."""
+        return {}
+
+    @abstractmethod
+    def drawn_lines(self) -> Iterable[tuple[str, str, float, Array]]:
+        """Return what it is drawn by besides wheels, springs and dampers.
+
+        Returns
+        -------
+        iterable of tuple of str, str, float and ndarray
+            Label, colour, width and the points of each line, (n, 3) [m].
+        """
+
+    def tyre_radius(self) -> float | None:
+        """Return the radius of a wheel as a thin disc [m]; None where nothing says it.
+
+        ``tyre.radius_mm`` where it is given, otherwise the height of the wheel centre above z = 0.
+        """
+        if self.tyre.radius_mm is not None:
+            return in_metres(self.tyre.radius_mm, "mm")
+        height = float(self.center[2])
+        return height if height >= _SMALLEST_WHEEL_RADIUS else None
+
+    @abstractmethod
+    def structure(self) -> Structure:
+        """Return what holds its parts together."""
+
+    @abstractmethod
+    def bushes(self, given: Arguments, described: Mapping[str, Any]) -> list[Bush]:
+        """Return bushes as they are described by their hardpoints.
+
+        Parameters
+        ----------
+        given : Arguments
+            Gets what is wrong.
+        described : mapping
+        """
+
+    @property
+    @abstractmethod
+    def joint_names(self) -> tuple[str, ...]:
+        """The moving points, by their names in the parts."""
+
+    # -- its equations --------------------------------------------------------------------------
+
+    @abstractmethod
+    def parameters(self) -> dict[str, float]:
+        """Return everything that the equations of motion need, by their names, in SI units."""
+
+    def parameters_of(self, side: str) -> Mapping[str, float]:
+        """Return the parameters of a side, by the names that those of the right one have."""
+        return of_side(self.parameters(), side)
+
+    def wheel_load_parameters(self) -> dict[str, float]:
+        """Return what equations need besides that have the loads on the wheels as inputs [m].
+
+        Raises
+        ------
+        InputError
+            If the radius of the wheels is not known.
+        """
+        return {"tyre_radius": needed_radius(self.tyre_radius())}
+
+    def length(self, part: str, side: str) -> float:
+        """Return the length of a spring or a damper at design [m].
+
+        Parameters
+        ----------
+        part : {'spring', 'damper'}
+        side : {'left', 'right'}
+        """
+        return _length(self.points(side), part)
+
+    def rate_key(self, part: str) -> str:
+        """Return where the rate of the springs or the dampers is, or the springs' curve."""
+        return rate_key(part, self.spring)
+
+    def _of_wheels(self, bodies: Mapping[str, float]) -> dict[str, float]:
+        """Return the parameters of wheels, springs, dampers, stops and tyres of both sides.
+
+        Parameters
+        ----------
+        bodies : mapping
+            Of each body of a side.
+        """
+        values: dict[str, float] = {}
+        for prefix, side, sign in (("", RIGHT, -1.0), ("left_", LEFT, 1.0)):
+            own = {**bodies, **self._of_side(side, sign)}
+            values |= {f"{prefix}{name}": value for name, value in own.items()}
+        return values
+
+    def _of_side(self, side: str, sign: float) -> dict[str, float]:
+        """Return the parameters of spring, damper, stops and tyre of a side, without its name."""
+        points, damper = self.points(side), self.damper
+        length = _length(points, "damper")
+        curve = dict(NO_CURVE) if damper.curve is None else damper.curve.parameters()
+        values = {
+            **self.tyre.parameters(),
+            **components("spin_axis", self.wheel.spin_axis(sign)),
+            **curve,
+            **(self.bump_stop or NO_STOP).parameters("bump", length),
+            **(self.rebound_stop or NO_STOP).parameters("rebound", length),
+            **self.spring.parameters(_length(points, "spring"), general=True),
+            "damper_rate": damper.rate_N_s_per_m or 0.0,
+            "damper_friction": damper.friction_N,
+            "damper_friction_speed": damper.friction_velocity_m_per_s,
+            "tyre_damper_rate": self.tyre.damper_rate_N_s_per_m,
+            "tyre_lifts_off": float(self.tyre.lifts_off),
+        }
+        for name, point in points.items():
+            values |= components(name, point)
+        return values
+
+    # -- its checks -----------------------------------------------------------------------------
+
+    def plausibility(self) -> Plausibility:
+        """Return what is unlikely of its file."""
+        notes = [*unusual_alignment(self.wheel)]
+        for side in SIDES:
+            notes += beyond_the_table(self.parameters_of(side), self.length("spring", side))
+        if self.tyre_radius() is None:
+            notes.append(
+                "[tyre] radius_mm is not given, and wheel_center is no wheel's radius above z = 0: "
+                "what needs the ground is left out"
+            )
+        return Plausibility(tuple(self._unlikely()), tuple(notes))
+
+    @abstractmethod
+    def _unlikely(self) -> Iterable[str]:
+        """Say what is almost surely a mistake: units, points that are swapped."""
+
+    def _own_problems(self) -> list[str]:
+        """Say what else cannot be, where the points are good."""
+        return []
+
+    def _check_bushes(self, given: Arguments, bushes: list[Bush]) -> None:
+        """Refuse bushes of the file with which it cannot move."""
+
+    def _problems_of_points(self) -> list[str]:
+        points = self.hardpoints
+        problems = points.unit_problems() or points.geometry_problems()
+        if self.half_track < _SMALLEST_HALF_TRACK:
+            problems.append(
+                f"{points.text('wheel_center')}: the points are those of the right side, and y "
+                f"points left; less than {-1e3 * _SMALLEST_HALF_TRACK:g} mm is needed. Correct the "
+                "sign of y."
+            )
+        left = {name: p for name, p in self.points(LEFT).items() if p[1] <= 0.0}
+        if left and not problems:
+            problems.append(
+                f"[left_hardpoints] {', '.join(left)}: not on the left side, where y is more than "
+                "0. Correct the sign of y."
+            )
+        for name in ("spring", "damper"):
+            length = _length(self.points(LEFT), name)
+            if length < SHORTEST and not problems:
+                problems.append(
+                    f"[left_hardpoints] {name}_top and {name}_seat are {1e3 * length:.3f} mm "
+                    f"apart; at least {1e3 * SHORTEST:g} mm are needed. Move one of them."
+                )
+        return problems
+
+    def _lengths_refused(self) -> list[str]:
+        """Say why a damper cannot be as long as it is at design."""
+        found = [
+            self.damper.length_problems(_length(self.points(side), "damper")) for side in SIDES
+        ]
+        return list(dict.fromkeys(problem for problems in found for problem in problems))
+
+
+def of_side(values: Mapping[str, float], side: str) -> Mapping[str, float]:
+    """Return the parameters of a side, by the names that those of the right one have.
+
+    Parameters
+    ----------
+    values : mapping
+        Of the whole axle.
+    side : {'left', 'right'}
+    """
+    if side == RIGHT:
+        return values
+    return {n.removeprefix("left_"): v for n, v in values.items() if n.startswith("left_")}
+
+
+def _length(points: Mapping[str, Array], name: str) -> float:
+    return float(np.linalg.norm(points[f"{name}_top"] - points[f"{name}_seat"]))
+
+
+def whole_axle_of(path_or_name: str | Path) -> str | None:
+    """Return which axle a file, or a packaged name, describes with both wheels; None for others.
+
+    A file that is missing or cannot be read has none: its reader then says why.
+    """
+    if path_or_name in whole_axles():
+        return str(path_or_name)
+    if path_or_name in data_sets() or not Path(path_or_name).is_file():
+        return None
+    try:
+        return whole_axle_in(read_toml(Path(path_or_name)))
+    except InputError:
+        return None
