@@ -4,7 +4,7 @@ from pathlib import Path
 
 from kintrafo import RigidAxle
 from kintrafo.pictures.figures import STYLE, save
-from kintrafo.vehicle.plots.rigid_axle import views
+from kintrafo.vehicle.plots.whole_axle import views
 from matplotlib import rc_context
 
 if __name__ == "__main__":

@@ -17,8 +17,6 @@ from kintrafo import (
     Axle,
     AxleModel,
     Model,
-    RigidAxle,
-    RigidAxleModel,
     Suspension,
     characteristics,
     checkup,
@@ -31,10 +29,12 @@ from kintrafo import (
 )
 from kintrafo.vehicle.assembly.by_wheel import flat
 
-from .subjects import AXLES, BUSHES, CORNERS, RIGID_AXLES
+from .subjects import AXLES, BUSHES, CORNERS, WHOLE_AXLES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from kintrafo.vehicle.models.whole_axle import WholeAxle
 
     Analyses = dict[str, Callable[[], xr.Dataset]]
 
@@ -56,7 +56,7 @@ def analyses(subject: str) -> Analyses:
         axle = AXLES[subject]()
         found = _of_axle(axle, bushes)
         return found | _of_axle_in_motion(AxleModel(axle)) if subject == SHIPPED else found
-    return _of_rigid_axle(RIGID_AXLES[subject](), bushes)
+    return _of_whole_axle(WHOLE_AXLES[subject](), bushes)
 
 
 def _of_corner(suspension: Suspension, bushes: Any) -> Analyses:
@@ -123,8 +123,8 @@ def _of_axle_in_motion(model: AxleModel) -> Analyses:
     }
 
 
-def _of_rigid_axle(axle: RigidAxle, bushes: Any) -> Analyses:
-    model = RigidAxleModel(axle)
+def _of_whole_axle(axle: WholeAxle, bushes: Any) -> Analyses:
+    model = kintrafo.model_of(axle)
 
     def run() -> tuple[Any, xr.Dataset]:
         return scenario.run(model, _step(), wheels="left", method="DormandPrince")
@@ -147,7 +147,7 @@ def _of_rigid_axle(axle: RigidAxle, bushes: Any) -> Analyses:
     } | _compliance(axle, bushes)
 
 
-def _compliance(axle: Axle | RigidAxle, bushes: Any) -> Analyses:
+def _compliance(axle: Axle | WholeAxle, bushes: Any) -> Analyses:
     """Return compliance and deflection of an axle of two corners, or of a rigid one."""
     found: Analyses = {
         f"compliance, {held}": partial(compliance.linear, axle, bushes, TRAVEL[1:4], held=held)

@@ -16,14 +16,14 @@ from kintrafo.vehicle.assembly.by_wheel import flat
 
 from .analyses import analyses
 from .commands import observed
-from .subjects import AXLES, CORNERS, RIGID_AXLES
+from .subjects import AXLES, CORNERS, WHOLE_AXLES
 
 if TYPE_CHECKING:
     import xarray as xr
 
 VALUES = Path(__file__).parent / "values"
 COMMANDS = "commands"
-SUBJECTS = (*CORNERS, *AXLES, *RIGID_AXLES)
+SUBJECTS = (*CORNERS, *AXLES, *WHOLE_AXLES)
 
 
 def computed(name: str) -> dict[str, Any]:

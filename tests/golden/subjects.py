@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import tomllib
+from functools import partial
+from pathlib import Path
 from typing import Any
 
-from kintrafo import Axle, RigidAxle, Suspension
+import kintrafo
+from kintrafo import Axle, Suspension
+from kintrafo.vehicle.data.starter import whole_axles
 
 ARM = {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0}
 ROD = {"axial_N_per_mm": 5000.0}
@@ -24,7 +29,11 @@ BUSHES: dict[str, dict[str, dict[str, float]]] = {
     "rigid_axle": {"left_link_chassis": ROD, "panhard_rod_axle": ROD},
     "trailing_arm_car": {"arm_inner": ARM, "arm_outer": ARM},
 }
-"""Bushes of each subject, one set for both sides."""
+BUSHES |= {
+    file.stem: tomllib.loads(file.read_text(encoding="utf-8"))
+    for file in sorted((Path(__file__).parent / "bushes").glob("*.toml"))
+}
+"""Bushes of each subject, one set for both sides; of further axles without sides a file each."""
 
 STEERING = {"angle_deg": [-90.0, 0.0, 90.0], "rack_mm": [11.0, 0.0, -12.0]}
 BAR: dict[str, Any] = {
@@ -75,4 +84,4 @@ AXLES = {
     ),
     "push_rod_axle": lambda: Axle.from_dict({"axle": "front", "side": "push_rod_car"}),
 }
-RIGID_AXLES = {"rigid_axle": lambda: RigidAxle.load("rigid_axle")}
+WHOLE_AXLES = {name: partial(kintrafo.load, name) for name in whole_axles()}

@@ -130,7 +130,7 @@ _TABLE_HEAD = "| key | unit | allowed | left out | meaning |\n|---|---|---|---|-
 
 
 def schema() -> dict[str, Any]:
-    """Return the JSON Schema of input files: of a suspension, an axle, axles without sides and a car.
+    """Return the JSON Schema of input files: of suspensions, axles with and without sides, cars.
 
     Returns
     -------

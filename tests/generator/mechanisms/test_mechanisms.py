@@ -445,14 +445,14 @@ AFLOAT = {
         for name, value in ((f"{prefix}tyre_rate", 0.0), (f"{prefix}spring_free_length", 0.258))
     },
 }
-"""Suspensions without a road, on springs that carry the arms only."""
+"""Suspensions without a road, on springs that carry the arms only; others have no tyres alone."""
 
 
 @each_model(CONSERVATIVE)
 def test_energy_stays_where_nothing_dissipates(name: str, module: Modules) -> None:
     built = Built.of(MODELS[name], module(name))
     lossless = {p: 0.0 for p in built.parameters if "damper" in p and not p.endswith("_speed")}
-    lossless |= AFLOAT.get(name, {})
+    lossless |= AFLOAT.get(name, {p: 0.0 for p in built.parameters if p.endswith("tyre_rate")})
     built = Built.of(MODELS[name], module(name), lossless)
     inputs = np.zeros(len(built.module.INPUTS))
     start = np.concatenate((built.design, np.full(built.size, START.get(name, 2.0))))

@@ -219,10 +219,10 @@ class _Side:
         both = np.cos(twist) * across + np.sin(twist) * other
         further = np.cos(twist) * other - np.sin(twist) * across
         shape = both.shape
-        first = (np.broadcast_to(each, shape)[:, None] for each in (across, other))
+        first, first_other = (np.broadcast_to(way, shape)[:, None] for way in (across, other))
         # at rest with rigid joints they are turned by the twist that they have there
         bodies = np.array([[self.index(bar.first), self.index(bar.second)]])
-        return Torsions(bodies, *first, both[:, None], further[:, None])
+        return Torsions(bodies, first, first_other, both[:, None], further[:, None])
 
     # -- what is measured: bodies, vectors, and the law ------------------------------------------
 

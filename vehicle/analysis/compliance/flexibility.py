@@ -275,7 +275,7 @@ class _Forces:
             at = touching(on_road)
             loads += [Load(part, CONTACT, "road", axis, still, at) for axis in np.eye(3)]
             loads += [Load(part, CONTACT, "road", still, axis, at) for axis in np.eye(3)]
-        groups = [*([load] for load in loads), *([side.bar] if side.bar else [])]
+        groups = [*([load] for load in loads), *([[*side.bar]] if side.bar else [])]
         applied = [equations.applied(group) for group in groups]
         applied += [equations.applied(equations.pushed(line)) for line in stopped]
         unknowns = equations.solve(np.stack(applied, axis=-1))

@@ -339,8 +339,8 @@ def _axle(given: Any, key: str, folder: Path) -> AnyAxle:
         if is_axle(file) or not file.is_file() or AXLE in read_toml(file):
             return Axle.load(file)
         problem = (
-            f"{given} is no axle: it has no line `{AXLE} = ...` or `{RigidAxle.KEY} = ...`. Name an "
-            "axle's file, which names the hardpoint file of its sides."
+            f"{given} is no axle: it has no line `{AXLE} = ...` or `{RigidAxle.KEY} = ...`. Name "
+            "an axle's file, which names the hardpoint file of its sides."
         )
         raise InputError([problem], key)
     problem = f"{shown(given)}: the name of an axle's file is needed."
