@@ -40,7 +40,7 @@ def main() -> None:
             times.append(milliseconds(_quickest(axle, motion)))
         table.append(f"| `{motion}` | {count} | {' | '.join(times)} |")
     table += ["", f"On {platform.machine()}, Python {platform.python_version()}; the quickest of"]
-    table[-1] += f" {REPEATED} runs, the search for how far the wheels go included."
+    table[-1] += f" {REPEATED} runs, the search for the range of the wheels included."
     print("\n".join(table))
     fill_page(PAGE, {"axles": "\n".join(table)})
     _draw()

@@ -27,7 +27,7 @@ from .report import fill_page
 
 Array = NDArray[np.float64]
 
-PAGE = Path(__file__).parent.parent / "docs/suspension/loads.md"
+PAGE = Path(__file__).parent.parent / "docs/suspension/compliance.md"
 QUANTITIES = ("toe_change", "camber_change", "displacement")
 SMALL = 40.0
 AMOUNTS = (-4000.0, -1000.0, SMALL, 1000.0, 4000.0)

@@ -36,7 +36,7 @@ PAGES = (
         if re.search(r"\nkintrafo |\n```\n\n```text", page.read_text(encoding="utf-8"))
     ),
 )
-COMPILED = ("get-started/first-mechanism", "suspension/axles", "mechanisms/own-mechanism")
+COMPILED = ("get-started/first-mechanism", "simulation/roads", "mechanisms/own-mechanism")
 BUSHES = "[bushings.arm_rear]\naxial_N_per_mm = 400.0\nradial_N_per_mm = 900.0\n"
 # A crank-rocker, called as the examples call it.
 MECHANISM = """
@@ -120,10 +120,9 @@ def shown(page: str, name: str = "") -> Callable[[Path], Any]:
     return lambda path: path.write_text(documented(page, name or path.name), encoding="utf-8")
 
 
-def csv_of_the_page(number: int) -> Callable[[Path], Any]:
-    found = blocks_of("reference/command-line")
-    tables = [text for language, text in found if language == "csv"]
-    return lambda path: path.write_text(tables[number], encoding="utf-8")
+def csv_of_the_page(page: str) -> Callable[[Path], Any]:
+    (table,) = (text for language, text in blocks_of(page) if language == "csv")
+    return lambda path: path.write_text(table, encoding="utf-8")
 
 
 # How the files come to be that examples read.
@@ -131,6 +130,7 @@ FILES: Files = {
     "my_car.toml": car,
     "my_wishbones.toml": lambda path: car(path, template="double_wishbone_car"),
     "my_axle.toml": lambda path: car(path, template="reference_axle"),
+    "my_rear.toml": lambda path: car(path, template="rigid_axle"),
     "before.toml": lambda path: car(path, BUSHES),
     "after.toml": lambda path: car(path, BUSHES.replace("900", "700")),
     "points.csv": points,
@@ -143,12 +143,12 @@ FILES: Files = {
         .replace("lca_outer", "my_lca_outer"),
         encoding="utf-8",
     ),
-    "cad.csv": csv_of_the_page(0),
-    "rig.csv": csv_of_the_page(1),
-    "road.csv": csv_of_the_page(2),
+    "cad.csv": csv_of_the_page("suspension/hardpoints"),
+    "rig.csv": csv_of_the_page("suspension/comparison"),
+    "road.csv": csv_of_the_page("simulation/roads"),
     "cases.toml": shown("suspension/loads.md"),
-    "bushes.toml": shown("suspension/loads.md"),
-    "axle_bushes.toml": shown("suspension/rigid-axle.md"),
+    "bushes.toml": shown("suspension/compliance.md"),
+    "axle_bushes.toml": shown("suspension/compliance.md"),
     **dict.fromkeys(
         ("tolerances.toml", "goals.toml", "objectives.toml"), shown("suspension/design-studies.md")
     ),
@@ -222,7 +222,6 @@ def soft_rig(path: Path) -> None:
 
 
 MADE_FOR: dict[str, Files] = {
-    "reference/command-line": {"rig.csv": csv_of_the_page(1)},
     "mechanisms/own-mechanism": {
         "pushrod_suspension.py": lambda path: shutil.copy(ROOT / "examples" / path.name, path)
     },
@@ -235,19 +234,21 @@ MADE_FOR: dict[str, Files] = {
 }
 # What the files of a page have in them, and what they do not, as patterns.
 WITH: dict[str, dict[str, list[str]]] = {
-    "suspension/axles": {"curves_roll.csv": ["^roll_angle"]},
+    "suspension/characteristics": {"curves_roll.csv": ["^roll_angle"]},
     "mechanisms/own-mechanism": {
         f"equations/pushrod_suspension.{end}": [] for end in ("c", "h", "md")
     },
     "suspension/report": {
         f"{name}.html": ["(?s)MIT License.*MIT License"] for name in ("my_car", "front_axle")
     },
-    "suspension/rigid-axle": {"my_rear.html": [r"\[rods\.panhard_rod\]", "roll-centre height"]},
+    "suspension/types": {"my_rear.html": [r"\[rods\.panhard_rod\]", "roll-centre height"]},
     "get-started/first-car": {"front_axle.html": ["Front axle, stage 1"]},
 }
-WITHOUT = {
-    "suspension/rigid-axle": {"my_rear.html": r'(src|href)="(?!data:|#)'},
-    "suspension/trailing-arm": {"my_arm.html": ">tie rod<|>Typical"},
+WITHOUT: dict[str, dict[str, str]] = {
+    "suspension/types": {
+        "my_rear.html": r'(src|href)="(?!data:|#)',
+        "my_arm.html": ">tie rod<|>Typical",
+    },
 }
 # Of the code of a page, what it leaves.
 CODE: dict[str, Callable[[dict[str, Any]], bool]] = {
@@ -337,7 +338,7 @@ def test_the_commands_of_a_page_run(
     """In their order, in one folder; one page draws all groups of curves."""
     if page in COMPILED and find_compiler() is None:
         pytest.skip("no C compiler")
-    every = page == "reference/command-line"
+    every = page == "suspension/characteristics"
     request.getfixturevalue("each_page_of_curves_once" if every else "first_page_of_curves")
     write_files(page)
     for language, text, output in shown_by(page):

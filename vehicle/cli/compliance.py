@@ -71,7 +71,8 @@ def command(
         ),
     ] = None,
     held: Annotated[
-        Held | None, option("What holds the wheel: see docs/suspension/loads.md. Default: height.")
+        Held | None,
+        option("What holds the wheel: see docs/suspension/compliance.md. Default: height."),
     ] = None,
     at: At = 0.0,
     rack: Annotated[float, option("Rack held there.", "MM")] = 0.0,

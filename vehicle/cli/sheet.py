@@ -18,7 +18,9 @@ def command(
     file: File,
     *,
     bushes: Bushes = None,
-    held: Annotated[Held, option("What holds the wheel: see docs/suspension/loads.md.")] = "height",
+    held: Annotated[
+        Held, option("What holds the wheel: see docs/suspension/compliance.md.")
+    ] = "height",
     output: DataOptions,
 ) -> None:
     """Print the K&C sheet: kinematic and compliance gradients at design, as measured on a rig.

@@ -243,7 +243,7 @@ def bushes_of(
     design: Points,
     spin: Array,
 ) -> list[Bush]:
-    """Read bushes by their hardpoints; see `docs/suspension/loads.md`.
+    """Read bushes by their hardpoints; see `docs/suspension/compliance.md`.
 
     Parameters
     ----------

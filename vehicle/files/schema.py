@@ -65,7 +65,7 @@ check FILE` tests that. The schema and this page are written by `make format-pag
 _BUSHINGS = """\
 ### [bushings.POINT] (optional)
 
-The compliance of the joint at a hardpoint, for [compliance](../suspension/loads.md#compliance). A
+The compliance of the joint at a hardpoint, for [compliance](../suspension/compliance.md). A
 direction without an entry is rigid. One stiffness or curve is needed. `[bushings.rack]` has
 `axial_N_per_mm` alone, the stiffness of the steering at the rack. Analyses other than compliance
 take joints as rigid.

@@ -687,11 +687,11 @@ def test_what_the_pages_say_of_small_loads_under_a_static_one() -> None:
     """Preloaded parts turn, which first order leaves out."""
     small = [-10.0, 10.0]
     car = compliance.nonlinear(
-        Model("reference_car"), _of_page("loads.md", "bushes.toml"), "lateral", small,
+        Model("reference_car"), _of_page("compliance.md", "bushes.toml"), "lateral", small,
         held="spring",
     )  # fmt: skip
     found = {"toe": (_slope_over_first_order(car["toe_change"]), 1.28)}
-    axle, bushes = RigidAxle.load("rigid_axle"), _of_page("rigid-axle.md", "axle_bushes.toml")
+    axle, bushes = RigidAxle.load("rigid_axle"), _of_page("compliance.md", "axle_bushes.toml")
     for under, ratios in {
         "lateral": {
             "axle_steer_change": 1.19,

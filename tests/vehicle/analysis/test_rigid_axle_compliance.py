@@ -535,7 +535,7 @@ def test_what_else_cannot_be() -> None:
 
 
 def test_the_page_has_what_the_command_prints() -> None:
-    page = (ROOT / "docs/suspension/rigid-axle.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs/suspension/compliance.md").read_text(encoding="utf-8")
     (text,) = re.findall(r"```toml\n# axle_bushes\.toml\n(.*?)```", page, flags=re.DOTALL)
     found = flat(compliance.linear(AXLE, tomllib.loads(text)["bushings"], [0.0]))
     (table,) = compliances_of_beam(found, "")

@@ -45,7 +45,7 @@ from rigid_axles import (
 from scipy.interpolate import PchipInterpolator
 
 Array = np.ndarray
-PAGE = ROOT / "docs/suspension/rigid-axle.md"
+PAGE = ROOT / "docs/suspension/types.md"
 PLACES = [(0.0, 0.0), (0.06, 0.0), (-0.05, 0.08), (0.03, -0.1), (-0.08, -0.03)]
 
 
@@ -640,7 +640,7 @@ def test_two_axles_are_compared_over_the_same_positions() -> None:
 
 
 def test_every_characteristic_is_on_the_page() -> None:
-    text = PAGE.read_text(encoding="utf-8")
+    text = (ROOT / "docs/suspension/characteristics.md").read_text(encoding="utf-8")
     for measure in MEASURES:
         stem = measure.quantity.name.removesuffix("_left").removesuffix("_right")
         assert f"`{stem}`" in text or f"`{stem}_left`" in text, stem

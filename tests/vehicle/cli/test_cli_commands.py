@@ -130,7 +130,7 @@ def test_the_first_screen_has_no_command_of_few(kintrafo):
 )
 def test_what_does_not_take_a_rigid_axle_says_so(kintrafo, line):
     """Its page and the refusal name the same commands."""
-    page = (ROOT / "docs/suspension/rigid-axle.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs/suspension/types.md").read_text(encoding="utf-8")
     (listed,) = re.findall(r"All commands take its file but (.*?)\.", page, flags=re.DOTALL)
     named = "export --to points" if line.startswith("export") else "mechanism"
     assert named in not_of_a_suspension("rigid_axle")

@@ -166,13 +166,13 @@ def test_linearisation_knows_the_wheel_hop_and_the_spinning_wheel():
 
 # -- the page of the documentation ---------------------------------------------------------------
 
-PAGE = (ROOT / "docs/suspension/double-wishbone.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs/suspension/types.md").read_text(encoding="utf-8")
 
 
 def test_the_documented_code_prints_what_it_says(capsys):
     blocks = re.findall(r"```python\n(.*?)```", PAGE, flags=re.DOTALL)
     code = "".join(blocks)
-    exec(compile(code, "double-wishbone.md", "exec"), {})
+    exec(compile(code, "types.md", "exec"), {})
     said = re.findall(r"print.*# (.*)\n", code)
     assert len(said) == len(blocks)
     assert capsys.readouterr().out.splitlines() == said

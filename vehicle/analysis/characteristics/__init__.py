@@ -5,7 +5,7 @@
     `groups`     which belongs beside which others
 
 Formulas, names, units, definitions and signs are in `kintrafo.vehicle.assembly.measures`; see
-docs/suspension/characteristics.md, docs/suspension/axles.md, docs/suspension/rigid-axle.md.
+docs/suspension/characteristics.md, docs/suspension/axles.md.
 """
 
 from ...assembly.rig import SweepRange

@@ -78,7 +78,7 @@ class RigidAxle(WholeAxle):
     NEEDED: ClassVar[str] = 'a kintrafo.RigidAxle, such as RigidAxle.load("rigid_axle"), is needed'
     PAGE: ClassVar[str] = """\
 A file of its own, of a beam on four rods; `kintrafo new FILE --rigid-axle` writes one. See
-[Rigid axles](../suspension/rigid-axle.md). The other sections are those of every suspension:
+[Rigid axles](../suspension/types.md#rigid-axle). The other sections are those of every suspension:
 `[tyre]`,
 `[gravity]`, the stops, and `[wheel]`, which may be left out; and `[bushings.POINT]`, whose points
 are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center` of both wheels.
@@ -169,7 +169,7 @@ are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center
         return structure_of(self.rods)
 
     def bushes(self, given: Arguments, described: Mapping[str, Any]) -> list[Bush]:
-        """Return bushes by their hardpoints; see `docs/suspension/rigid-axle.md`.
+        """Return bushes by their hardpoints; see `docs/suspension/compliance.md`.
 
         Parameters
         ----------
