@@ -11,6 +11,7 @@ at negative y, a left one at positive y.
 
 from abc import abstractmethod
 from collections.abc import Mapping
+from importlib.resources.abc import Traversable
 from pathlib import Path
 from types import ModuleType
 from typing import Any, ClassVar, Self, TypeVar, get_args
@@ -23,7 +24,7 @@ from ...core.errors import InputError
 from ...core.suggestions import suggestion
 from ...core.vectors import components, unit_vector
 from ...systems.allowed import LengthLimit
-from ..data import find
+from ..data import data_sets
 from ..data.starter import (
     DEFAULT,
     not_of_a_suspension,
@@ -33,14 +34,12 @@ from ..data.starter import (
 )
 from ..input.bodies import Bodies
 from ..input.damper import NO_CURVE, Damper
+from ..input.described import DescribedSection, check_keys
 from ..input.hardpoints import Hardpoints
 from ..input.messages import messages_of
-from ..input.places import put, reverse
-from ..input.section import Section
+from ..input.places import reverse
 from ..input.spring import rate_key
 from ..input.stop import NO_STOP, Stop
-from ..input.toml_file import read_toml
-from ..input.toml_writer import write_toml
 from ..input.units import in_metres
 from ..input.vehicle import Gravity, Steering, Tyre, Vehicle, Wheel
 from .bushes import Bush, Bushings, bushes_of, mirrored_bushings, softness_of_rack
@@ -64,7 +63,7 @@ _AN_AXLE = (
 _SMALLEST_WHEEL_RADIUS = 0.1
 
 
-class Suspension(Section):
+class Suspension(DescribedSection):
     """A suspension at its design position. Immutable.
 
     Make one with `load`, `from_dict` or `with_changes`: they return the kind that the data name
@@ -147,35 +146,20 @@ class Suspension(Section):
             _known[name] = cls
 
     @classmethod
-    def load(cls, path_or_name: str | Path) -> Self:
-        """Read a suspension from a TOML file.
+    def packaged(cls) -> Mapping[str, Traversable]:
+        """Return the files of those that come with kintrafo, by their names."""
+        return data_sets()
 
-        Parameters
-        ----------
-        path_or_name : str or pathlib.Path
-            The file; or, as a string, the name of one that comes with kintrafo:
-            ``"reference_car"``.
-
-        Returns
-        -------
-        Suspension
-            The suspension, of the kind that the file names.
-
-        Raises
-        ------
-        InputError
-            If the file cannot be read or no suspension can be like this; it lists everything that
-            is wrong.
-        """
-        with Arguments(cls.__name__) as given:
-            given.path("path_or_name", path_or_name)
+    @classmethod
+    def _problem_of_name(cls, path_or_name: str | Path) -> str:
         if path_or_name in packaged_axles():
-            raise InputError([_AN_AXLE], str(path_or_name))
-        if path_or_name in whole_axles():
-            raise InputError([not_of_a_suspension(str(path_or_name))], str(path_or_name))
-        file = find(path_or_name)
-        # Printing the path inside the package would not help whoever asked for a name.
-        return cls.from_dict(read_toml(file), source=str(path_or_name))
+            return _AN_AXLE
+        is_whole = path_or_name in whole_axles()
+        return not_of_a_suspension(str(path_or_name)) if is_whole else ""
+
+    @classmethod
+    def _called(cls) -> str:
+        return "suspension"
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any], source: str = "input data") -> Self:
@@ -198,87 +182,11 @@ class Suspension(Section):
         InputError
             If no suspension can be like this; it lists everything that is wrong.
         """
-        _check_keys("data", data, source)
+        check_keys(source, "data", data, "keys and values of the input file")
         try:
             return _kind_of(data, cls)(**data)
         except InputError as error:
             raise InputError(error.problems, source) from None
-
-    def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
-        """Return the sections as nested dictionaries, which `from_dict` takes back unchanged.
-
-        Parameters
-        ----------
-        exclude_defaults : bool, optional
-            Whether values that are as by default are left out.
-
-        Returns
-        -------
-        dict
-            A copy of all values, with the keys and units of the input file; points are lists.
-        """
-        return self.model_dump(mode="json", exclude_none=True, exclude_defaults=exclude_defaults)
-
-    def save(self, path: str | Path, *, force: bool = False) -> Path:
-        """Write the input file that gives exactly this suspension.
-
-        Parameters
-        ----------
-        path : str or Path
-            A name that ends in ``.toml``.
-        force : bool, optional
-            Whether a file that somebody else wrote or changed is replaced.
-
-        Returns
-        -------
-        Path
-
-        Raises
-        ------
-        InputError
-            If there is a file already, or the name cannot be used.
-        """
-        with Arguments(type(self).__name__) as given:
-            given.path("path", path)
-            given.flag("force", force)
-        return write_toml(self, path, force=force)
-
-    def with_changes(self, changes: Mapping[str, Any]) -> Self:
-        """Return a suspension that differs in some values; all checks are made again.
-
-        Parameters
-        ----------
-        changes : mapping of str to Any
-            For each place in the file, section and key with dots between them, the new value in
-            the file's unit. A component of a point is a place too. None removes an optional key.
-
-        Returns
-        -------
-        Suspension
-            The changed suspension.
-
-        Raises
-        ------
-        InputError
-            If there is no such place, or no suspension can be like this.
-
-        Examples
-        --------
-        >>> from kintrafo import Suspension
-        >>> car = Suspension.load("reference_car")
-        >>> stiffer = car.with_changes(
-        ...     {"strut.spring_rate_N_per_m": 30e3, "hardpoints.ball_joint.z": 185.0}
-        ... )
-        >>> stiffer.hardpoints.ball_joint
-        (5.0, -710.0, 185.0)
-        """
-        _check_keys("changes", changes, "suspension")
-        data = self.to_dict()
-        source = f"suspension with changed {', '.join(changes)}"
-        problems = [problem for place in changes if (problem := put(data, place, changes[place]))]
-        if problems:
-            raise InputError(problems, source)
-        return self.from_dict(data, source)
 
     @classmethod
     def heading(cls) -> str:
@@ -633,10 +541,3 @@ def _points_of(name: str) -> set[str]:
     """Return the names of the hardpoints of a kind."""
     hardpoints = _known[name].model_fields["hardpoints"].annotation
     return set(getattr(hardpoints, "model_fields", ()))
-
-
-def _check_keys(name: str, given: Any, source: str) -> None:
-    """Refuse what is no dict with texts as keys."""
-    with Arguments(source) as checked:
-        for key in checked.mapping(name, given, "keys and values of the input file"):
-            checked.kind(f"key of {name}", key, str, "a text is needed")

@@ -19,6 +19,9 @@ WHOLE_AXLES = f"{__package__}.whole_axles"
 CARS = f"{__package__}.cars"
 """Where the cars are that come with kintrafo."""
 
+AXLE = "axle"
+"""The top-level key that says that a file describes an axle."""
+
 CAR = "car"
 """The top-level key that says that a file describes a car."""
 

@@ -4,10 +4,12 @@ from pathlib import Path
 
 from ...core.arguments import Arguments
 from ..assembly.of import whole_axle_assembly
+from ..data.starter import AXLE, CAR
+from ..input.described import described_by
 from ..kinds import Suspension
-from ..models.axle.axle import Axle, is_axle
-from ..models.car.car import Car, is_car
-from ..models.whole_axle import WholeAxle, whole_axle_of
+from ..models.axle.axle import Axle
+from ..models.car.car import Car
+from ..models.whole_axle import WholeAxle
 
 
 def load(path_or_name: str | Path) -> Suspension | Axle | WholeAxle | Car:
@@ -40,11 +42,10 @@ def load(path_or_name: str | Path) -> Suspension | Axle | WholeAxle | Car:
     """
     with Arguments("load") as given:
         given.path("path_or_name", path_or_name)
-    if is_car(path_or_name):
-        return Car.load(path_or_name)
-    key = whole_axle_of(path_or_name)
-    if key is not None:
-        return whole_axle_assembly(key).AXLE.load(path_or_name)
-    if is_axle(path_or_name):
-        return Axle.load(path_or_name)
-    return Suspension.load(path_or_name)
+    key = described_by(path_or_name)
+    if key in _KINDS:
+        return _KINDS[key].load(path_or_name)
+    return whole_axle_assembly(key).AXLE.load(path_or_name)
+
+
+_KINDS: dict[str, type[Suspension | Axle | Car]] = {"": Suspension, AXLE: Axle, CAR: Car}

@@ -2,8 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Iterable, Mapping
-from functools import partial
-from pathlib import Path
+from importlib.resources.abc import Traversable
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
@@ -16,15 +15,13 @@ from ..corner.bushes import Bush
 from ..corner.corner import Array
 from ..corner.structure import Structure
 from ..corner.wheel_loads import needed_radius
-from ..data import data_sets, find
-from ..data.starter import WHOLE_AXLES, whole_axle_in, whole_axles, words_of
+from ..data import data_sets
+from ..data.starter import WHOLE_AXLES, words_of
 from ..input.damper import NO_CURVE
-from ..input.messages import is_named, messages_of
-from ..input.places import put
-from ..input.section import Section
+from ..input.described import DescribedSection, check_keys
+from ..input.messages import messages_of
 from ..input.spring import rate_key
 from ..input.stop import NO_STOP
-from ..input.toml_file import read_toml
 from ..input.units import in_metres
 from .plausibility import Plausibility, beyond_the_table, unusual_alignment
 from .sides import LEFT, RIGHT, SIDES
@@ -47,7 +44,7 @@ _SMALLEST_WHEEL_RADIUS = 0.1
 _MIRROR = np.array([1.0, -1.0, 1.0])
 
 
-class WholeAxle(Section):
+class WholeAxle(DescribedSection):
     """An axle with both wheels, at its design position, as one file describes it. Immutable.
 
     Make one with `load`, `from_dict` or `with_changes`. The attributes are the sections of the
@@ -108,24 +105,13 @@ class WholeAxle(Section):
     # -- making one -----------------------------------------------------------------------------
 
     @classmethod
-    def load(cls, path_or_name: str | Path) -> Self:
-        """Read such an axle from a TOML file.
+    def packaged(cls) -> Mapping[str, Traversable]:
+        """Return the files of those that come with kintrafo, by their names."""
+        return data_sets(WHOLE_AXLES)
 
-        Parameters
-        ----------
-        path_or_name : str or pathlib.Path
-            The file; or, as a string, the name of one that comes with kintrafo.
-
-        Raises
-        ------
-        InputError
-            If the file cannot be read or no axle can be like this; it lists everything that is
-            wrong.
-        """
-        with Arguments(cls.__name__) as given:
-            given.path("path_or_name", path_or_name)
-        file = find(path_or_name, data_sets(WHOLE_AXLES))
-        return cls.from_dict(read_toml(file), source=str(path_or_name))
+    @classmethod
+    def _called(cls) -> str:
+        return cls.KEY.replace("_", " ")
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any], source: str = "input data") -> Self:
@@ -143,10 +129,7 @@ class WholeAxle(Section):
         InputError
             If no axle can be like this; it lists everything that is wrong.
         """
-        with Arguments(source) as checked:
-            words = f"keys and values of {words_of(cls.KEY)}'s file"
-            for key in checked.mapping("data", data, words):
-                checked.kind("key of data", key, str, "a text is needed")
+        check_keys(source, "data", data, f"keys and values of {words_of(cls.KEY)}'s file")
         if cls.KEY not in data:
             problem = (
                 f"{cls.KEY} is missing: where the axle is. Add a line "
@@ -158,45 +141,6 @@ class WholeAxle(Section):
             return cls(**data)
         except InputError as error:
             raise InputError(error.problems, source) from None
-
-    def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
-        """Return the sections as nested dictionaries, which `from_dict` takes back unchanged.
-
-        Parameters
-        ----------
-        exclude_defaults : bool, optional
-            Whether values that are as by default are left out.
-        """
-        return self.model_dump(mode="json", exclude_none=True, exclude_defaults=exclude_defaults)
-
-    def with_changes(self, changes: Mapping[str, Any]) -> Self:
-        """Return an axle that differs in some values; all checks are made again.
-
-        Parameters
-        ----------
-        changes : mapping of str to Any
-            For each place in the file, section and key with dots between them, the new value in
-            the file's unit, such as ``{"hardpoints.wheel_center.z": 390.0}``. None removes an
-            optional key, or a section with a name of any choice.
-
-        Raises
-        ------
-        InputError
-            If there is no such place, or no axle can be like this.
-        """
-        said = self.KEY.replace("_", " ")
-        with Arguments(said) as checked:
-            for key in checked.mapping("changes", changes, "places and values"):
-                checked.kind("key of changes", key, str, "a text is needed")
-        data = self.to_dict()
-        source = f"{said} with changed {', '.join(changes)}"
-        problems = [problem for place in changes if (problem := put(data, place, changes[place]))]
-        if problems:
-            raise InputError(problems, source)
-        for section in filter(partial(is_named, type(self)), data):
-            if isinstance(data[section], dict):
-                data[section] = {n: v for n, v in data[section].items() if v is not None}
-        return self.from_dict(data, source)
 
     # -- what it is -----------------------------------------------------------------------------
 
@@ -417,18 +361,3 @@ def of_side(values: Mapping[str, float], side: str) -> Mapping[str, float]:
 
 def _length(points: Mapping[str, Array], name: str) -> float:
     return float(np.linalg.norm(points[f"{name}_top"] - points[f"{name}_seat"]))
-
-
-def whole_axle_of(path_or_name: str | Path) -> str | None:
-    """Return which axle a file, or a packaged name, describes with both wheels; None for others.
-
-    A file that is missing or cannot be read has none: its reader then says why.
-    """
-    if path_or_name in whole_axles():
-        return str(path_or_name)
-    if path_or_name in data_sets() or not Path(path_or_name).is_file():
-        return None
-    try:
-        return whole_axle_in(read_toml(Path(path_or_name)))
-    except InputError:
-        return None

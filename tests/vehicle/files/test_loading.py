@@ -35,3 +35,14 @@ def test_what_describes_nothing_is_refused(tmp_path: Path) -> None:
     file.write_text("", encoding="utf-8")
     with pytest.raises(kintrafo.InputError, match="hardpoints"):
         kintrafo.load(file)
+
+
+@pytest.mark.parametrize("name", ["double_wishbone_car", "rear_axle", "rigid_axle", "quarter_car"])
+def test_what_is_saved_is_loaded_again(tmp_path: Path, name: str) -> None:
+    """An axle and a car have in their own file what is in those that they name."""
+    subject = kintrafo.load(name)
+    file = subject.save(tmp_path / "saved.toml")
+    assert kintrafo.load(file).to_dict() == subject.to_dict()
+    file.write_text("# mine", encoding="utf-8")
+    with pytest.raises(kintrafo.InputError, match="there already"):
+        subject.save(file)

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any, Self
 
@@ -14,21 +15,17 @@ from ....core.errors import InputError
 from ....core.suggestions import suggestion
 from ....core.vectors import unit_vector
 from ...corner.bushes import RACK
-from ...data import data_sets, find
-from ...data.starter import AXLES, not_of_a_suspension, whole_axle_in, whole_axles
+from ...data import data_sets
+from ...data.starter import AXLE, AXLES, not_of_a_suspension, whole_axle_in, whole_axles
+from ...input.described import Described, check_keys, described_by
 from ...input.messages import messages_of
 from ...input.places import put
-from ...input.toml_file import read_toml
 from ...kinds import Suspension
 from ..model import Model
 from ..sides import LEFT, RIGHT
 from .bar import AntiRollBar, HalfBar, mirrored_points
 from .file import SECTIONS_OF_SIDES, AxleFile, Brakes, Drive, End
 from .steering import SteeringCurve
-
-KIND = "axle"
-"""The top-level key that says that a file describes an axle."""
-
 
 # Bodies that no drop link is joined to.
 _NEVER_PULLED = ("tie_rod", "rack")
@@ -45,7 +42,7 @@ _OF_THE_RACK = (("rack", "travel_per_turn_mm"),)
 
 
 @dataclass(frozen=True)
-class Axle:
+class Axle(Described):
     """Two suspensions on one rack, if they have one, with an anti-roll bar. Immutable.
 
     Make one with `load` or `from_dict`.
@@ -85,28 +82,18 @@ class Axle:
     NEEDED = 'a kintrafo.Axle, such as Axle.load("reference_axle"), is needed'
 
     @classmethod
-    def load(cls, path_or_name: str | Path) -> Self:
-        """Read an axle from a TOML file, and the hardpoint files that it names.
+    def packaged(cls) -> Mapping[str, Traversable]:
+        """Return the files of those that come with kintrafo, by their names."""
+        return data_sets(AXLES)
 
-        Parameters
-        ----------
-        path_or_name : str or pathlib.Path
-            The file; or, as a string, the name of one that comes with kintrafo:
-            ``"reference_axle"``.
+    @classmethod
+    def _problem_of_name(cls, path_or_name: str | Path) -> str:
+        is_whole = path_or_name in whole_axles()
+        return not_of_a_suspension(str(path_or_name)) if is_whole else ""
 
-        Raises
-        ------
-        InputError
-            If a file cannot be read or no axle can be like this; it lists everything that is wrong.
-        """
-        with Arguments(cls.__name__) as given:
-            given.path("path_or_name", path_or_name)
-        packaged = packaged_axles()
-        if path_or_name in whole_axles():
-            raise InputError([not_of_a_suspension(str(path_or_name))], str(path_or_name))
-        file = find(path_or_name, packaged)
-        folder = file.parent if isinstance(file, Path) else Path()
-        return cls.from_dict(read_toml(file), source=str(path_or_name), folder=folder)
+    @classmethod
+    def _of_file(cls, data: Mapping[str, Any], source: str, folder: Path) -> Self:
+        return cls.from_dict(data, source, folder=folder)
 
     @classmethod
     def from_dict(
@@ -133,11 +120,10 @@ class Axle:
         InputError
             If no axle can be like this; it lists everything that is wrong.
         """
+        check_keys(source, "data", data, "keys and values of an axle's file")
         with Arguments(source) as checked:
-            for key in checked.mapping("data", data, "keys and values of an axle's file"):
-                checked.kind("key of data", key, str, "a text is needed")
             checked.path("folder", folder)
-        if KIND not in data:
+        if AXLE not in data:
             _refuse_other_files(data, source)
         try:
             described = AxleFile(**data)
@@ -188,7 +174,7 @@ class Axle:
         }
         how: Any = {"mode": "json", "exclude_none": True, "exclude_defaults": exclude_defaults}
         written = {name: s.model_dump(**how) for name, s in sections.items() if s is not None}
-        return {KIND: self.end} | {name: values for name, values in written.items() if values}
+        return {AXLE: self.end} | {name: values for name, values in written.items() if values}
 
     def with_changes(self, changes: Mapping[str, Any]) -> Self:
         """Return an axle that differs in some values; all checks are made again.
@@ -213,9 +199,8 @@ class Axle:
         >>> lower.left.hardpoints.ball_joint[2], lower.right.hardpoints.ball_joint[2]
         (190.0, 180.0)
         """
+        check_keys("axle", "changes", changes, "places and values")
         with Arguments("axle") as checked:
-            for key in checked.mapping("changes", changes, "places and values"):
-                checked.kind("key of changes", key, str, "a text is needed")
             if not self.symmetric and any(key.startswith("side.") for key in changes):
                 checked.refuse("side: the file gives right and left. Name one of these.")
         of_side: dict[str, dict[str, Any]] = {"side": {}, RIGHT: {}, LEFT: {}}
@@ -280,29 +265,8 @@ class Axle:
         return f"{self.end} axle, {kinds}"
 
 
-def packaged_axles() -> dict[str, Any]:
-    """Return the files of the axles that come with kintrafo, by their names."""
-    return data_sets(AXLES)
-
-
-def is_axle(path_or_name: str | Path) -> bool:
-    """Return whether a file, or a packaged name, is that of an axle.
-
-    A file that is missing or cannot be read has none: its reader then says why.
-    """
-    if path_or_name in packaged_axles():
-        return True
-    packaged = {*data_sets(), *whole_axles()}
-    if path_or_name in packaged or not Path(path_or_name).is_file():
-        return False
-    try:
-        return KIND in read_toml(Path(path_or_name))
-    except InputError:
-        return False
-
-
 def _refuse_other_files(data: Mapping[str, Any], source: str) -> None:
-    problem = f'{KIND} is missing: where the axle is. Add a line `{KIND} = "front"` or "rear".'
+    problem = f'{AXLE} is missing: where the axle is. Add a line `{AXLE} = "front"` or "rear".'
     other = whole_axle_in(data)
     if other is not None:
         problem = not_of_a_suspension(other)
@@ -340,7 +304,7 @@ def _suspension(given: Any, key: str, folder: Path) -> Suspension:
     if isinstance(given, str) and given in data_sets():
         return Suspension.load(given)
     if isinstance(given, str | Path):
-        if is_axle(folder / given):
+        if described_by(folder / given) == AXLE:
             raise InputError([f"{given} is itself an axle. Name a hardpoint file."], key)
         return Suspension.load(folder / given)
     problem = f"{shown(given)}: the name of a hardpoint file is needed."

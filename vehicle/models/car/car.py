@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any, Self
 
@@ -12,18 +13,17 @@ from pydantic import ValidationError
 
 from ....core.arguments import Arguments, shown
 from ....core.errors import InputError
-from ...data import data_sets, find
-from ...data.starter import AXLES, CAR, CARS, WHOLE_AXLES
+from ...data import data_sets
+from ...data.starter import AXLE, AXLES, CAR, CARS, WHOLE_AXLES
+from ...input.described import Described, check_keys, described_by
 from ...input.messages import messages_of
 from ...input.places import put
 from ...input.toml_file import read_toml
 from ...input.units import in_metres
 from ...kinds import Suspension
-from ..axle.axle import KIND as AXLE
-from ..axle.axle import Axle, is_axle
+from ..axle.axle import Axle
 from ..rigid.axle import RigidAxle
 from ..sides import LEFT, SIDES
-from ..whole_axle import whole_axle_of
 from .file import COORDINATES, ENDS, CarFile
 
 Array = NDArray[np.float64]
@@ -41,7 +41,7 @@ _PARTS = ("corner", *ENDS)
 
 
 @dataclass(frozen=True)
-class Car:
+class Car(Described):
     """A body on two axles, or on one suspension. Immutable.
 
     Make one with `load` or `from_dict`.
@@ -69,25 +69,13 @@ class Car:
     NEEDED = 'a kintrafo.Car, such as kintrafo.load("reference_vehicle"), is needed'
 
     @classmethod
-    def load(cls, path_or_name: str | Path) -> Self:
-        """Read a car from a TOML file, and the files that it names.
+    def packaged(cls) -> Mapping[str, Traversable]:
+        """Return the files of those that come with kintrafo, by their names."""
+        return data_sets(CARS)
 
-        Parameters
-        ----------
-        path_or_name : str or pathlib.Path
-            The file; or, as a string, the name of one that comes with kintrafo:
-            ``"reference_vehicle"`` or ``"quarter_car"``.
-
-        Raises
-        ------
-        InputError
-            If a file cannot be read or no car can be like this; it lists everything that is wrong.
-        """
-        with Arguments(cls.__name__) as given:
-            given.path("path_or_name", path_or_name)
-        file = find(path_or_name, data_sets(CARS))
-        folder = file.parent if isinstance(file, Path) else Path()
-        return cls.from_dict(read_toml(file), source=str(path_or_name), folder=folder)
+    @classmethod
+    def _of_file(cls, data: Mapping[str, Any], source: str, folder: Path) -> Self:
+        return cls.from_dict(data, source, folder=folder)
 
     @classmethod
     def from_dict(
@@ -110,9 +98,8 @@ class Car:
         InputError
             If no car can be like this; it lists everything that is wrong.
         """
+        check_keys(source, "data", data, "keys and values of a car's file")
         with Arguments(source) as checked:
-            for key in checked.mapping("data", data, "keys and values of a car's file"):
-                checked.kind("key of data", key, str, "a text is needed")
             checked.path("folder", folder)
         if CAR not in data:
             problem = f'{CAR} is missing: how the body moves. Add a line `{CAR} = "roll"`.'
@@ -175,9 +162,7 @@ class Car:
         >>> car.with_changes({"body.mass_kg": 400.0}).described.body.mass_kg
         400.0
         """
-        with Arguments("car") as checked:
-            for key in checked.mapping("changes", changes, "places and values"):
-                checked.kind("key of changes", key, str, "a text is needed")
+        check_keys("car", "changes", changes, "places and values")
         data = self.to_dict()
         data |= self.parts
         of_part: dict[str, dict[str, Any]] = {name: {} for name in self.parts}
@@ -266,24 +251,6 @@ class Car:
         return tuple(words)
 
 
-def packaged_cars() -> dict[str, Any]:
-    """Return the files of the cars that come with kintrafo, by their names."""
-    return data_sets(CARS)
-
-
-def is_car(path_or_name: str | Path) -> bool:
-    """Return whether a file, or a packaged name, is that of a car."""
-    if path_or_name in packaged_cars():
-        return True
-    packaged = data_sets() | data_sets(AXLES) | data_sets(WHOLE_AXLES)
-    if path_or_name in packaged or not Path(path_or_name).is_file():
-        return False
-    try:
-        return CAR in read_toml(Path(path_or_name))
-    except InputError:
-        return False
-
-
 def _centers(axle: AnyAxle) -> dict[str, Array]:
     """Return the wheel centres of an axle in its own axes [m]."""
     if isinstance(axle, RigidAxle):
@@ -328,15 +295,13 @@ def _axle(given: Any, key: str, folder: Path) -> AnyAxle:
     if isinstance(given, Mapping):
         kind = RigidAxle if RigidAxle.KEY in given else Axle
         return kind.from_dict(given)
-    if isinstance(given, str) and given in data_sets(AXLES):
-        return Axle.load(given)
-    if isinstance(given, str) and given in data_sets(WHOLE_AXLES):
-        return RigidAxle.load(given)
     if isinstance(given, str | Path):
-        file = folder / given
-        if whole_axle_of(file) == RigidAxle.KEY:
+        named = isinstance(given, str) and given in data_sets(AXLES) | data_sets(WHOLE_AXLES)
+        file = given if named else folder / given
+        sort = described_by(file)
+        if sort == RigidAxle.KEY:
             return RigidAxle.load(file)
-        if is_axle(file) or not file.is_file() or AXLE in read_toml(file):
+        if sort == AXLE or not Path(file).is_file() or AXLE in read_toml(Path(file)):
             return Axle.load(file)
         problem = (
             f"{given} is no axle: it has no line `{AXLE} = ...` or `{RigidAxle.KEY} = ...`. Name "
