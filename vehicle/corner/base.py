@@ -273,7 +273,7 @@ class Suspension(DescribedSection):
         return self.from_dict(data, "mirrored suspension")
 
     def bushes(self, given: Arguments, described: Mapping[str, Any]) -> list[Bush]:
-        """Return bushes as they are described by their hardpoints; see docs/suspension/compliance.md.
+        """Return bushes by their hardpoints; see `docs/suspension/compliance.md`.
 
         Parameters
         ----------
