@@ -44,6 +44,8 @@ _CALLED = {
     "cos": "trigonometric",
     "asin": "trigonometric",
     "atan2": "trigonometric",
+    "exp": "trigonometric",
+    "log": "trigonometric",
 }
 
 

@@ -42,7 +42,7 @@ def driver(folder: Path, width: int) -> ctypes.CDLL:
     source = Path(__file__).parent / "lanes_driver.c"
     flags = [f"-DWIDTH={width}", *OF_WIDTH[width]]
     library = compiled(folder, source, *flags, name=f"driver_{width}")
-    for function in ("sin", "cos", "asin", "atan2", "log2", "exp2"):
+    for function in ("sin", "cos", "asin", "atan2", "exp", "log", "log2", "exp2"):
         called = getattr(library, f"lane_{function}")
         called.restype = ctypes.c_double
         called.argtypes = [ctypes.c_double] * (2 if function == "atan2" else 1)

@@ -24,5 +24,7 @@ double lane_sin(double x) { return kt_sine(SPREAD(x))[0]; }
 double lane_cos(double x) { return kt_cosine(SPREAD(x))[0]; }
 double lane_asin(double x) { return kt_arc_sine(SPREAD(x))[0]; }
 double lane_atan2(double y, double x) { return kt_arc_tangent(SPREAD(y), SPREAD(x))[0]; }
+double lane_exp(double x) { return kt_exponential(SPREAD(x))[0]; }
+double lane_log(double x) { return kt_logarithm(SPREAD(x))[0]; }
 double lane_log2(double x) { return logarithm(SPREAD(x))[0]; }
 double lane_exp2(double x) { return exponential(SPREAD(x))[0]; }

@@ -106,6 +106,19 @@ def _cosine(x: Any) -> Any:
     return mpmath.cos(x)
 
 
+def _exponential(x: Any) -> Any:
+    if isinstance(x, Rounded):
+        found = mpmath.exp(x.value)
+        return _rounded(found, x.error * found, SINE_UNIT)
+    return mpmath.exp(x)
+
+
+def _logarithm(x: Any) -> Any:
+    if isinstance(x, Rounded):
+        return _rounded(mpmath.log(x.value), x.error / abs(x.value), SINE_UNIT)
+    return mpmath.log(x)
+
+
 def _angle(y: Any, x: Any) -> Any:
     if isinstance(y, Rounded) or isinstance(x, Rounded):
         y, x = Rounded.of(y), Rounded.of(x)
@@ -217,6 +230,8 @@ def python(function: Function) -> Any:
         "sin": _sine,
         "cos": _cosine,
         "atan2": _angle,
+        "exp": _exponential,
+        "log": _logarithm,
         "guarded": _guarded,
         "sign": _sign,
         "positive": _positive,

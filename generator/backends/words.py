@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 GENERATOR_VERSION = "0.1.0"
 
 ELEMENTARY = "elementary.h"
-"""The header of sine, cosine and their inverses, which all emitted C includes."""
+"""The header of elementary functions, which all emitted C includes."""
 
 _hashes: WeakKeyDictionary[Derivation, str] = WeakKeyDictionary()
 
@@ -32,6 +32,8 @@ FORMULA = Dialect(
         sp.cos: "cos({})",
         sp.asin: "asin({})",
         sp.atan2: "atan2({}, {})",
+        sp.exp: "exp({})",
+        sp.log: "log({})",
         Guarded: "at_least({}, {})",
         SignOf: "copysign(1.0, {})",
         Positive: "at_least({}, 0.0)",

@@ -2,6 +2,7 @@
 
 from .bodies import Body, Ground, Rotor
 from .composition import Copy, combined
+from .contact_laws import LinearContact, MagicFormulaContact
 from .declared import DeclarationError
 from .forces.applied_force import AppliedForce
 from .forces.applied_moment import AppliedMoment
@@ -9,6 +10,7 @@ from .forces.force import Action, Force
 from .forces.force_element import ForceElement
 from .forces.joint_force import JointForce
 from .forces.linear_tyre import LinearTyre
+from .forces.rolling_tyre import RollingTyre
 from .forces.weight import Weight
 from .forces.wheel_loads import WheelLoads
 from .formulation import Formulation
@@ -115,9 +117,11 @@ __all__ = [
     "Lead",
     "Length",
     "Line",
+    "LinearContact",
     "LinearDamper",
     "LinearSpring",
     "LinearTyre",
+    "MagicFormulaContact",
     "Mechanism",
     "MomentLevel",
     "Motion",
@@ -129,6 +133,7 @@ __all__ = [
     "Ratio",
     "RelativeCoordinate",
     "Revolute",
+    "RollingTyre",
     "Rotor",
     "Share",
     "Shown",

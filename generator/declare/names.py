@@ -33,14 +33,14 @@ math_errhandling DOMAIN SING OVERFLOW UNDERFLOW PLOSS TLOSS M_E M_LOG2E M_LOG10E
 M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2 linux unix
 """
 _OWN_WORDS = """
-sqrt sin cos asin atan2 copysign isfinite fabs abs at_least is_positive number
+sqrt sin cos asin atan2 exp log copysign isfinite fabs abs at_least is_positive number
 guard_bit finite_bit either first_not_finite failed status_word
 parameters constants state inputs given out status wanted compute i np design_state prepare found
 results follow follow_turns square fmax GUARD_FLOOR ROUNDING ITERATIONS CONVERGED STALLED LONGEST
 TURNED INLINED NOT_INLINED NO_EFFECT NULL CLOSE SHORTEST CLOSED FULL_TURN UNKNOWNS ELEMENTS DRIVEN
 ADDRESSES kept INLINE GREATEST_ANGLE ROUNDER SPREAD BITS REAL MODEL WIDTH
 kt_any_sine kt_any_cosine kt_sine kt_cosine kt_arc_sine kt_arc_tangent kt_root kt_magnitude
-kt_with_sign_of kt_real
+kt_with_sign_of kt_exponential kt_logarithm kt_real
 """
 _WORDS = frozenset(
     [

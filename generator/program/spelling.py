@@ -1,9 +1,9 @@
 """Formulas that somebody wrote, in the operations that are emitted.
 
-What is emitted has sums, products, quotients, square roots, sine, cosine, and the inverses of both,
-all with the same bits on every machine, and with exact derivatives. Other functions are written by
-these where they can be. What has a corner or a jump is written by `Positive` and `IsPositive`,
-which is how motions with derivatives find it.
+What is emitted has sums, products, quotients, square roots, sine, cosine, the inverses of both,
+exponential function and logarithm, all with the same bits on every machine, and with exact
+derivatives. Other functions are written by these where they can be. What has a corner or a jump is
+written by `Positive` and `IsPositive`, which is how motions with derivatives find it.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 WRITTEN = (
     "sums, products, quotients, powers with whole and half exponents, sqrt, sin, cos, tan, sec, "
-    "csc, cot, asin, acos, atan, atan2, Abs, sign, Max, Min, Heaviside, Piecewise"
+    "csc, cot, asin, acos, atan, atan2, exp, log, Abs, sign, Max, Min, Heaviside, Piecewise"
 )
 """What a formula may have."""
 
@@ -32,6 +32,8 @@ _EMITTED = (
     sp.cos,
     sp.asin,
     sp.atan2,
+    sp.exp,
+    sp.log,
     Guarded,
     SignOf,
     Positive,

@@ -19,7 +19,7 @@ from typing import Any
 from .arithmetic import Arithmetic, at_most, magnitude
 
 _TWO_OVER_PI = 0.6366197723675814
-_DEGRESSION = 10.0  # A_mu of (4.E8)
+_DEGRESSION = 10  # A_mu of (4.E8)
 _SMALL_LOAD = 1e-6  # added to a load that divides [N]
 _SMALL_SQUARE = 1e-16  # added to the square of a slip under a root
 _NEAR_ZERO = 1e-4  # slip at which a force over its slip passes into the slope at zero
@@ -134,7 +134,7 @@ def forces(a: Arithmetic, p: Coefficients, c: Contact, form: Form) -> Forces:
     aligned = a.define("fy_at_zero_slip", c.load * (y.force * gy))
     fy = a.define("fy", aligned + induced)
     if form.newer:
-        upright = _lateral(a, p, c, dfz, 0.0, form, "upright")
+        upright = _lateral(a, p, c, dfz, 0, form, "upright")
         aligned = c.load * (upright.force * gy)  # (4.E74)
     trail, residual = _aligning(a, p, c, dfz, x, y, form)
     arm = p["SSZ3"] + p["SSZ4"] * dfz
@@ -189,13 +189,13 @@ def _nominal(p: Coefficients) -> Any:
 
 def _of_pressure(p: Coefficients, c: Contact, first: str, second: str) -> Any:
     """Return one and what a polynomial of the pressure adds to it."""
-    return 1.0 + c.pressure * (p[first] + p[second] * c.pressure)
+    return 1 + c.pressure * (p[first] + p[second] * c.pressure)
 
 
 def _of_shift(p: Coefficients, name: str, form: Form) -> Any:
     """Return the scale of friction for a vertical shift: less of it on slippery roads (4.E8)."""
     scale = p[name]
-    return _DEGRESSION * scale / (1.0 + (_DEGRESSION - 1.0) * scale) if form.newer else scale
+    return _DEGRESSION * scale / (1 + (_DEGRESSION - 1) * scale) if form.newer else scale
 
 
 def _bent(a: Arithmetic, name: str, x: Any, curvature: Any, shape: Any) -> Any:
@@ -208,7 +208,7 @@ def _bent(a: Arithmetic, name: str, x: Any, curvature: Any, shape: Any) -> Any:
 def _longitudinal(a: Arithmetic, p: Coefficients, c: Contact, dfz: Any, form: Form) -> _Side:
     """Return the longitudinal force at pure slip (4.E9 to 4.E18)."""
     shape, inclination = p["PCX1"] * p["LCX"], c.inclination * p["LGAX"]
-    peak = (p["PDX1"] + p["PDX2"] * dfz) * (1.0 - p["PDX3"] * inclination * inclination)
+    peak = (p["PDX1"] + p["PDX2"] * dfz) * (1 - p["PDX3"] * inclination * inclination)
     peak = a.define("x_peak", peak * (_of_pressure(p, c, "PPX3", "PPX4") * p["LMUX"]))
     stiffness = (p["PKX1"] + p["PKX2"] * dfz) * a.exp(p["PKX3"] * dfz)
     stiffness = stiffness * (_of_pressure(p, c, "PPX1", "PPX2") * p["LKX"])
@@ -218,7 +218,7 @@ def _longitudinal(a: Arithmetic, p: Coefficients, c: Contact, dfz: Any, form: Fo
     vertical = (p["PVX1"] + p["PVX2"] * dfz) * (p["LVX"] * _of_shift(p, "LMUX", form)) * moving
     slip = a.define("x_slip", c.longitudinal + shift)
     curvature = (p["PEX1"] + dfz * (p["PEX2"] + p["PEX3"] * dfz)) * p["LEX"]
-    curvature = at_most(a, curvature * (1.0 - p["PEX4"] * a.sign(slip)), 1.0)
+    curvature = at_most(a, curvature * (1 - p["PEX4"] * a.sign(slip)), 1)
     bend = a.define("x_bend", stiffness / (shape * peak))
     angle = _bent(a, "x", bend * slip, a.define("x_curvature", curvature), shape)
     friction = a.define("x_friction", peak * a.sin(angle))
@@ -230,7 +230,7 @@ def _lateral(
 ) -> _Side:
     """Return the lateral force at pure slip (4.E19 to 4.E30)."""
     shape, square = p["PCY1"] * p["LCY"], inclination * inclination
-    peak = (p["PDY1"] + p["PDY2"] * dfz) * (1.0 - p["PDY3"] * square)
+    peak = (p["PDY1"] + p["PDY2"] * dfz) * (1 - p["PDY3"] * square)
     peak = a.define(f"{name}_peak", peak * (_of_pressure(p, c, "PPY3", "PPY4") * p["LMUY"]))
     stiffness = a.define(f"{name}_stiffness", _cornering(a, p, c, inclination, square))
     moving = c.rolling * c.rolling
@@ -240,15 +240,15 @@ def _lateral(
     vertical = a.define(f"{name}_vertical", vertical * moving)
     shift = (p["PHY1"] + p["PHY2"] * dfz) * p["LHY"]
     if form.newer:
-        own = (p["PKY6"] + p["PKY7"] * dfz) * (1.0 + p["PPY5"] * c.pressure) * p["LKYC"]  # (4.E30)
+        own = (p["PKY6"] + p["PKY7"] * dfz) * (1 + p["PPY5"] * c.pressure) * p["LKYC"]  # (4.E30)
         shift = shift + (own * inclination - of_inclination) / stiffness  # (4.E27)
     else:
         shift = shift + p["PHY3"] * inclination
     shift = a.define(f"{name}_shift", shift * moving)
     slip = a.define(f"{name}_slip", c.lateral + shift)
     uneven = (p["PEY3"] + p["PEY4"] * inclination) * a.sign(slip)
-    curvature = (p["PEY1"] + p["PEY2"] * dfz) * p["LEY"] * (1.0 + p["PEY5"] * square - uneven)
-    curvature = a.define(f"{name}_curvature", at_most(a, curvature, 1.0))
+    curvature = (p["PEY1"] + p["PEY2"] * dfz) * p["LEY"] * (1 + p["PEY5"] * square - uneven)
+    curvature = a.define(f"{name}_curvature", at_most(a, curvature, 1))
     bend = a.define(f"{name}_bend", stiffness / (shape * peak))
     angle = _bent(a, name, bend * slip, curvature, shape)
     friction = a.define(f"{name}_friction", peak * a.sin(angle))
@@ -257,10 +257,10 @@ def _lateral(
 
 def _cornering(a: Arithmetic, p: Coefficients, c: Contact, inclination: Any, square: Any) -> Any:
     """Return the cornering stiffness per load (4.E25)."""
-    where = (p["PKY2"] + p["PKY5"] * square) * ((1.0 + p["PPY2"] * c.pressure) * _nominal(p))
-    stiffness = p["PKY1"] * _nominal(p) * ((1.0 + p["PPY1"] * c.pressure) * p["LKY"])
+    where = (p["PKY2"] + p["PKY5"] * square) * ((1 + p["PPY2"] * c.pressure) * _nominal(p))
+    stiffness = p["PKY1"] * _nominal(p) * ((1 + p["PPY1"] * c.pressure) * p["LKY"])
     stiffness = stiffness * a.sin(p["PKY4"] * a.atan((c.load + _SMALL_LOAD) / where))
-    return stiffness * (1.0 - p["PKY3"] * magnitude(a, inclination)) / (c.load + _SMALL_LOAD)
+    return stiffness * (1 - p["PKY3"] * magnitude(a, inclination)) / (c.load + _SMALL_LOAD)
 
 
 def _weighted(
@@ -286,7 +286,7 @@ def _weight(
 ) -> Any:
     """Return a weighting function: a cosine, over the same without slip."""
     width = a.define(f"{name}_width", width)
-    curvature = a.define(f"{name}_curvature", at_most(a, curvature, 1.0))
+    curvature = a.define(f"{name}_curvature", at_most(a, curvature, 1))
     here = a.cos(_bent(a, name, width * (slip + shift), curvature, shape))
     return a.define(
         name, here / a.cos(_bent(a, f"{name}_at_zero", width * shift, curvature, shape))
@@ -295,7 +295,7 @@ def _weight(
 
 def _cosine(a: Arithmetic, tangent: Any) -> Any:
     """Return the cosine of an angle that is given by its tangent."""
-    return 1.0 / a.sqrt(1.0 + tangent * tangent)
+    return 1 / a.sqrt(1 + tangent * tangent)
 
 
 def _ellipse(
@@ -314,7 +314,7 @@ def _ellipse(
     across = a.define("ellipse_y", across)
     gx = _share(a, _per_slip(x, along) / y.peak * across)
     gy = _share(a, _per_slip(y, across) / x.peak * along)
-    return a.define("gx", gx), a.define("gy", gy), 0.0
+    return a.define("gx", gx), a.define("gy", gy), 0
 
 
 def _per_slip(side: _Side, slip: Any) -> Any:
@@ -324,7 +324,7 @@ def _per_slip(side: _Side, slip: Any) -> Any:
 
 
 def _share(a: Arithmetic, ratio: Any) -> Any:
-    return 1.0 / a.sqrt(1.0 + ratio * ratio)
+    return 1 / a.sqrt(1 + ratio * ratio)
 
 
 def _aligning(
@@ -338,15 +338,15 @@ def _aligning(
     shift = p["QHZ1"] + p["QHZ2"] * dfz + (p["QHZ3"] + p["QHZ4"] * dfz) * inclination  # (4.E35)
     slip = a.define("trail_slip", c.lateral + shift * moving)
     width = (p["QBZ1"] + dfz * (p["QBZ2"] + p["QBZ3"] * dfz)) * (p["LKY"] / p["LMUY"])
-    width = width * (1.0 + p["QBZ4"] * inclination + p["QBZ5"] * lean)  # (A58)
+    width = width * (1 + p["QBZ4"] * inclination + p["QBZ5"] * lean)  # (A58)
     width = a.define("trail_width", width)
-    peak = (p["QDZ1"] + p["QDZ2"] * dfz) * (1.0 - p["PPZ1"] * c.pressure)
-    peak = peak * (1.0 + inclination * (p["QDZ3"] + p["QDZ4"] * inclination))  # (A60)
+    peak = (p["QDZ1"] + p["QDZ2"] * dfz) * (1 - p["PPZ1"] * c.pressure)
+    peak = peak * (1 + inclination * (p["QDZ3"] + p["QDZ4"] * inclination))  # (A60)
     peak = a.define("trail_peak", peak * load * (radius * p["LTR"]))
     uneven = (p["QEZ4"] + p["QEZ5"] * inclination) * a.atan(width * slip * p["QCZ1"]) * _TWO_OVER_PI
-    curvature = (p["QEZ1"] + dfz * (p["QEZ2"] + p["QEZ3"] * dfz)) * (1.0 + uneven)  # (4.E44)
-    curvature = a.define("trail_curvature", at_most(a, curvature, 1.0))
-    driven = x.stiffness / y.stiffness * c.longitudinal if form.weighted else 0.0
+    curvature = (p["QEZ1"] + dfz * (p["QEZ2"] + p["QEZ3"] * dfz)) * (1 + uneven)  # (4.E44)
+    curvature = a.define("trail_curvature", at_most(a, curvature, 1))
+    driven = x.stiffness / y.stiffness * c.longitudinal if form.weighted else 0
     driven = a.define("equivalent_slip", driven * driven)
     turned = a.sqrt(_squared(a, slip, form) + driven + _SMALL_SQUARE)  # (4.E77)
     turned = a.atan(turned) if form.angle else turned
@@ -354,7 +354,7 @@ def _aligning(
     trail = a.define("trail", peak * trail * c.direction)
     slip = a.define("residual_slip", c.lateral + y.shift + y.vertical / y.stiffness)
     width = p["QBZ9"] * (p["LKY"] / p["LMUY"]) + p["QBZ10"] * (p["PCY1"] * p["LCY"]) * y.bend
-    peak = (p["QDZ8"] + p["QDZ9"] * dfz) * (1.0 + p["PPZ2"] * c.pressure)
+    peak = (p["QDZ8"] + p["QDZ9"] * dfz) * (1 + p["PPZ2"] * c.pressure)
     peak = (peak + (p["QDZ10"] + p["QDZ11"] * dfz) * lean) * inclination * p["LKZC"]
     peak = peak + (p["QDZ6"] + p["QDZ7"] * dfz) * p["LRES"]  # (4.E47)
     peak = peak * c.load * (radius * p["LMUY"]) * (c.rolling * c.direction)
@@ -362,7 +362,7 @@ def _aligning(
     if form.angle:
         turned = a.atan(a.sqrt(turned + _SMALL_SQUARE))
         turned = turned * turned
-    return trail, a.define("residual_moment", peak / a.sqrt(1.0 + width * width * turned))
+    return trail, a.define("residual_moment", peak / a.sqrt(1 + width * width * turned))
 
 
 def _squared(a: Arithmetic, slip: Any, form: Form) -> Any:
@@ -375,7 +375,7 @@ def _overturning(a: Arithmetic, p: Coefficients, c: Contact, fy: Any) -> Any:
     """Return the overturning moment (4.E69), with QSX12 to QSX14 of MF 6.2."""
     load, side = c.load / p["FNOMIN"], fy / p["FNOMIN"]
     lean = magnitude(a, c.inclination)
-    by_inclination = p["QSX2"] * (1.0 + p["PPMX1"] * c.pressure) + p["QSX12"] * lean
+    by_inclination = p["QSX2"] * (1 + p["PPMX1"] * c.pressure) + p["QSX12"] * lean
     by_inclination = by_inclination - p["QSX10"] * a.atan(p["QSX11"] * load)
     turned = a.sin(p["QSX7"] * c.inclination + p["QSX8"] * a.atan(p["QSX9"] * side))
     squared = p["QSX6"] * load * p["QSX6"] * load
@@ -396,6 +396,8 @@ def _rolling_resistance(a: Arithmetic, p: Coefficients, c: Contact, fx: Any) -> 
     share = share + p["QSY4"] * square * square
     share = share + (p["QSY5"] + p["QSY6"] * load) * c.inclination * c.inclination
     power = p["QSY7"] * a.log((c.load + _SMALL_LOAD) / p["FNOMIN"])
-    power = a.exp(power + p["QSY8"] * a.log(1.0 + c.pressure))
+    # a step of its own: SymPy makes a power with any exponent of an exponential of a logarithm
+    power = a.define("resistance_power", power + p["QSY8"] * a.log(1 + c.pressure))
+    power = a.exp(power)
     scale = p["UNLOADED_RADIUS"] * p["FNOMIN"] * p["LMY"]
     return -a.define("resistance", share * power) * scale * c.rolling

@@ -18,7 +18,7 @@ def rates(a: Arithmetic, p: Coefficients) -> tuple[Any, Any]:
     if p["Q_FZ1"]:
         return p["Q_FZ1"], p["Q_FZ2"]
     stiff = p["VERTICAL_STIFFNESS"] * p["UNLOADED_RADIUS"] / p["FNOMIN"]
-    return a.sqrt(stiff * stiff - 4.0 * p["Q_FZ2"]), p["Q_FZ2"]
+    return a.sqrt(stiff * stiff - 4 * p["Q_FZ2"]), p["Q_FZ2"]
 
 
 def factor(a: Arithmetic, p: Coefficients, fx: Any, fy: Any, speed: Any, pressure: Any) -> Any:
@@ -38,8 +38,8 @@ def factor(a: Arithmetic, p: Coefficients, fx: Any, fy: Any, speed: Any, pressur
         (p - p0) / p0.
     """
     along, across = p["Q_FCX"] * fx / p["FNOMIN"], p["Q_FCY"] * fy / p["FNOMIN"]
-    moved = 1.0 + p["Q_V2"] * magnitude(a, speed) - along * along - across * across
-    return moved * (1.0 + p["PFZ1"] * pressure) * p["LCZ"]
+    moved = 1 + p["Q_V2"] * magnitude(a, speed) - along * along - across * across
+    return moved * (1 + p["PFZ1"] * pressure) * p["LCZ"]
 
 
 def free_radius(p: Coefficients, speed: Any) -> Any:
@@ -69,8 +69,8 @@ def deflection(
     first = first + p["Q_FZ3"] * inclination * inclination
     share = load / (p["FNOMIN"] * moved)
     # the root is that of a small deflection, in a form that needs no division by q_Fz2
-    root = a.sqrt(first * first + 4.0 * second * share)
-    scaled = 2.0 * share / (first + root)
+    root = a.sqrt(first * first + 4 * second * share)
+    scaled = 2 * share / (first + root)
     return p["UNLOADED_RADIUS"] * scaled, p["FNOMIN"] * moved * root / p["UNLOADED_RADIUS"]
 
 
@@ -111,10 +111,10 @@ def relaxation_by_stiffness(
     slip, cornering
         Slip stiffness and cornering stiffness [N], the second negative.
     """
-    along = 1.0 + dfz * (p["PCFX1"] + p["PCFX2"] * dfz)
-    across = 1.0 + dfz * (p["PCFY1"] + p["PCFY2"] * dfz)
-    along = along * (1.0 + p["PCFX3"] * pressure) * p["LONGITUDINAL_STIFFNESS"]
-    across = across * (1.0 + p["PCFY3"] * pressure) * p["LATERAL_STIFFNESS"]
+    along = 1 + dfz * (p["PCFX1"] + p["PCFX2"] * dfz)
+    across = 1 + dfz * (p["PCFY1"] + p["PCFY2"] * dfz)
+    along = along * (1 + p["PCFX3"] * pressure) * p["LONGITUDINAL_STIFFNESS"]
+    across = across * (1 + p["PCFY3"] * pressure) * p["LATERAL_STIFFNESS"]
     return slip / along, -cornering / across
 
 
@@ -139,6 +139,6 @@ def relaxation_by_load(
     nominal, radius = p["FNOMIN"] * p["LFZO"], p["UNLOADED_RADIUS"]
     along = (p["PTX1"] + p["PTX2"] * dfz) * a.exp(p["PTX3"] * dfz)
     along = load * along * radius / nominal * p["LSGKP"]
-    across = p["PTY1"] * a.sin(2.0 * a.atan(load / (p["PTY2"] * nominal)))
-    lean = 1.0 - p["PKY3"] * magnitude(a, inclination)
+    across = p["PTY1"] * a.sin(2 * a.atan(load / (p["PTY2"] * nominal)))
+    lean = 1 - p["PKY3"] * magnitude(a, inclination)
     return along, across * lean * radius * p["LFZO"] * p["LSGAL"]

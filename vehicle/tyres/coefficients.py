@@ -2,19 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 
-
-def _keys(text: str) -> tuple[str, ...]:
-    """Return names, of which ``PDX1-3`` stands for three."""
-    names: list[str] = []
-    for word in text.split():
-        stem, _, last = word.partition("-")
-        if last:
-            head = stem.rstrip("0123456789")
-            names += [f"{head}{i}" for i in range(int(stem.removeprefix(head)), int(last) + 1)]
-        else:
-            names.append(word)
-    return tuple(names)
-
+from ...formulas.coefficients import NEUTRAL, ODD, keys
 
 NEEDED: Mapping[str, tuple[str, ...]] = {
     "DIMENSION": ("UNLOADED_RADIUS",),
@@ -24,21 +12,6 @@ NEEDED: Mapping[str, tuple[str, ...]] = {
     "ALIGNING_COEFFICIENTS": ("QBZ1", "QCZ1", "QDZ1"),
 }
 """Keys that every file has, by the section that they usually are in."""
-
-SCALES = _keys(
-    "LFZO LCZ LCX LMUX LEX LKX LHX LVX LGAX LCY LMUY LEY LKY LHY LVY LGAY LKYC LKZC LTR LRES LGAZ "
-    "LXAL LYKA LVYKA LS LSGKP LSGAL LMX LVMX LMY"
-)
-"""Scaling factors, one unless the file says otherwise."""
-
-_OF_FORCES = _keys(
-    "PCX1 PDX1-3 PEX1-4 PKX1-3 PHX1-2 PVX1-2 PPX1-4 RBX1-3 RCX1 REX1-2 RHX1 "
-    "PCY1 PDY1-3 PEY1-5 PKY1-7 PHY1-3 PVY1-4 PPY1-5 RBY1-4 RCY1 REY1-2 RHY1-2 RVY1-6 "
-    "QBZ1-5 QBZ9-10 QCZ1 QDZ1-4 QDZ6-11 QEZ1-5 QHZ1-4 PPZ1-2 SSZ1-4 "
-    "QSX1-14 PPMX1 QSY1-8"
-)
-_OF_RADII = _keys("BREFF DREFF FREFF Q_RE0 Q_V1-2 Q_FZ1-3 Q_FCX Q_FCY PFZ1")
-_OF_RELAXATION = _keys("PTX1-3 PTY1-2 PCFX1-3 PCFY1-3")
 
 DIMENSIONS: Mapping[str, str] = {
     "UNLOADED_RADIUS": "m",
@@ -64,15 +37,7 @@ DIMENSIONS: Mapping[str, str] = {
 }
 """Keys with a unit, and what it is here; coefficients have none, but angles in radians."""
 
-DEFAULTS: Mapping[str, float] = {
-    **dict.fromkeys((*_OF_FORCES, *_OF_RADII, *_OF_RELAXATION), 0.0),
-    **dict.fromkeys(SCALES, 1.0),
-    "PKY4": 2.0,
-    "RCX1": 1.0,
-    "RCY1": 1.0,
-    "Q_RE0": 1.0,
-    "QSY7": 1.0,
-}
+DEFAULTS = NEUTRAL
 """What a coefficient is that a file leaves out."""
 
 USED = frozenset((*DEFAULTS, *DIMENSIONS))
@@ -105,8 +70,8 @@ LIMITS: Mapping[str, tuple[str, str]] = {
 }
 """Ranges within which a file holds, by the argument that they limit."""
 
-OF_PRESSURE = _keys("PPX1-4 PPY1-5 PPZ1-2 PPMX1 QSY8 PFZ1 PCFX3 PCFY3")
-OF_SPEED = _keys("QSY3-4 Q_V1-2")
+OF_PRESSURE = keys("PPX1-4 PPY1-5 PPZ1-2 PPMX1 QSY8 PFZ1 PCFX3 PCFY3")
+OF_SPEED = keys("QSY3-4 Q_V1-2")
 OF_COMBINED_SLIP = ("RBX1", "RBY1")
 
 REASONS: Mapping[str, str] = {
@@ -124,12 +89,10 @@ REASONS: Mapping[str, str] = {
 }
 """Why keys of a section are not used."""
 
-_ODD = _keys("PHY1-2 PVY1-2 PEY3 RBY3 RHX1 RVY1-2 QHZ1-2 QBZ4 QDZ3 QDZ6-7 QEZ4 SSZ1 QSX1")
-
 
 def mirrored(coefficients: Mapping[str, float]) -> dict[str, float]:
     """Return the coefficients of the mirror image: a tyre on the other side of the vehicle."""
-    return {k: -v if k in _ODD else v for k, v in coefficients.items()}
+    return {k: -v if k in ODD else v for k, v in coefficients.items()}
 
 
 def missing(given: Iterable[str]) -> dict[str, list[str]]:

@@ -6,6 +6,7 @@ from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ..data import data_sets
 from .magic_formula import MagicFormula
+from .tmeasy import TMeasy
 from .tyre import Tyre
 
 _PACKAGED = f"{__package__.rpartition('.')[0]}.data.tyres"
@@ -17,8 +18,8 @@ def load(path_or_name: str | Path) -> Tyre:
     Parameters
     ----------
     path_or_name : str or pathlib.Path
-        A property file (.tir); or, as a string, the name of a tyre that comes with kintrafo, such
-        as ``"passenger_205_55"``.
+        A property file (.tir), or a TMeasy tyre of Project Chrono (.json); or, as a string, the
+        name of a tyre that comes with kintrafo, such as ``"passenger_205_55"``.
 
     Returns
     -------
@@ -34,5 +35,9 @@ def load(path_or_name: str | Path) -> Tyre:
     path = Path(str(data_sets(_PACKAGED, ".tir").get(str(path_or_name), path_or_name)))
     if path.suffix.lower() == ".tir":
         return MagicFormula.load(path)
-    problem = f"a file that ends in .tir is needed; this ends in {path.suffix or 'nothing'}."
+    if path.suffix.lower() == ".json":
+        return TMeasy.load(path)
+    problem = (
+        f"a file that ends in .tir or .json is needed; this ends in {path.suffix or 'nothing'}."
+    )
     raise InputError([problem], str(path_or_name))

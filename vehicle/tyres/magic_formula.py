@@ -10,6 +10,7 @@ import numpy as np
 from ...core.errors import InputError
 from ...formulas import magic_formula, vertical
 from ...formulas.arithmetic import ARRAYS
+from ...formulas.coefficients import IN_EQUATIONS
 from ...formulas.magic_formula import Contact, Form
 from . import coefficients as known
 from .tir_file import read
@@ -133,6 +134,33 @@ class MagicFormula(Tyre):
         return replace(
             self, coefficients=known.mirrored(self.coefficients), side=_OTHER_SIDE[self.side]
         )
+
+    def parameters(self, name: str = "tyre") -> dict[str, float]:
+        """Return the parameters of equations of motion that this tyre has.
+
+        Parameters
+        ----------
+        name : str, optional
+            Of the `kintrafo.generator.MagicFormulaContact` whose parameters they are.
+
+        Returns
+        -------
+        dict of str to float
+            By name, such as ``"tyre_pcx1"``, in SI units.
+        """
+        first, second = vertical.rates(ARRAYS, self.coefficients)
+        found = {key: self.coefficients[key] for key in IN_EQUATIONS}
+        found |= {
+            "UNLOADED_RADIUS": self.radius,
+            "FNOMIN": self.coefficients["FNOMIN"],
+            "LONGVL": self.usual_speed,
+            "VXLOW": self.lowest_speed,
+            "INFLPRES": self.usual_pressure or 1.0,
+            "NOMPRES": self._nominal_pressure or 1.0,
+            "Q_FZ1": float(first),
+            "Q_FZ2": float(second),
+        }
+        return {f"{name}_{key.lower()}": value for key, value in found.items()}
 
     # -- what it does --
 

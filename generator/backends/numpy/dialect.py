@@ -11,6 +11,8 @@ NUMPY = Dialect(
         sp.cos: "np.cos({})",
         sp.asin: "np.arcsin({})",
         sp.atan2: "np.arctan2({}, {})",
+        sp.exp: "np.exp({})",
+        sp.log: "np.log({})",
         Guarded: "np.maximum({}, {})",
         SignOf: "np.copysign(1.0, {})",
         Positive: "np.maximum({}, 0.0)",

@@ -61,6 +61,8 @@ INLINE real is_positive(real x) { return choose(x > 0.0, SPREAD(1.0), SPREAD(0.0
 #define cos(x) kt_cosine(SPREAD(x))
 #define asin(x) kt_arc_sine(SPREAD(x))
 #define atan2(y, x) kt_arc_tangent(SPREAD(y), SPREAD(x))
+#define exp(x) kt_exponential(SPREAD(x))
+#define log(x) kt_logarithm(SPREAD(x))
 #define double kt_real
 
 #include MODEL

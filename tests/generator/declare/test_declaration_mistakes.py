@@ -615,7 +615,7 @@ def test_masses_and_rates_may_be_zero():
 
 # Names of C, of its library, of Python and of what is emitted, which nothing that is emitted needs.
 WORDS = """
-exp log pow fabsf isnan signbit fmin fma gamma j0 y1 yn I errno main printf stdin values x least
+pow fabsf isnan signbit fmin fma gamma j0 y1 yn I errno main printf stdin values x least
 size_t len sum max min print range self math sp rhs margins results_ Array float_ sp_
 real bits digits turned reduced lost choose root magnitude with_sign_of of_quarters memcpy
 kt_front kt

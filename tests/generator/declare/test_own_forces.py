@@ -33,6 +33,8 @@ FORMULAS = {
     "acos": sp.acos(q / 9),
     "atan": sp.atan(q * v),
     "atan2": sp.atan2(q, v),
+    "exponential": sp.exp(-q / 3) * v + sp.exp(k * v),
+    "logarithm": sp.log(q**2 + 2) * v,
     "magnitude": sp.Abs(q) * v,
     "of_a_difference": sp.Abs(q - k) ** sp.Rational(3, 2),
     "sign": sp.sign(v) * k,
@@ -159,8 +161,8 @@ def refused(force: Force, *joints: Any) -> str:
 @pytest.mark.parametrize(
     ("formula", "words"),
     [
-        (sp.exp(q), r"exp(q_A) cannot be written in C"),
-        (sp.log(q), r"log(q_A) cannot be written in C"),
+        (sp.erf(q), r"erf(q_A) cannot be written in C"),
+        (sp.gamma(q), r"gamma(q_A) cannot be written in C"),
         (sp.tanh(q), r"tanh(q_A) cannot be written in C"),
         (sp.floor(q), r"floor(q_A) cannot be written in C"),
         (q**0.3, "an exponent must be a whole number or half"),

@@ -76,6 +76,21 @@ def test_what_has_no_sine_is_none(drivers: dict[int, ctypes.CDLL]) -> None:
     assert np.isnan(drivers[2].lane_asin(np.nextafter(1.0, 2.0)))
 
 
+def test_exponential_and_logarithm(drivers: dict[int, ctypes.CDLL]) -> None:
+    rng = np.random.default_rng(4)
+    exponents = [*rng.uniform(-708.0, 708.0, ANGLES), *rng.uniform(-1.0, 1.0, ANGLES), 0.0, 1e-300]
+    near_one = 1.0 + rng.uniform(-1e-3, 1e-3, ANGLES)
+    with mpmath.workdps(DIGITS):
+        for x in map(float, exponents):
+            assert off(mpmath.exp(mpmath.mpf(x)), drivers[2].lane_exp(x)) <= 1.0, x
+        for x in map(float, (*10.0 ** rng.uniform(-307, 308, ANGLES), *near_one, 2.0, 1e-10)):
+            assert off(mpmath.log(mpmath.mpf(x)), drivers[2].lane_log(x)) <= 1.0, x
+    exp, log = drivers[2].lane_exp, drivers[2].lane_log
+    assert (exp(-709.0), exp(710.0), exp(-np.inf), exp(np.inf)) == (0.0, np.inf, 0.0, np.inf)
+    assert (exp(0.0), log(1.0)) == (1.0, 0.0)
+    assert np.isnan([exp(np.nan), *map(log, (0.0, -1.0, np.nan, np.inf, 1e-310))]).all()
+
+
 def test_powers_of_two(drivers: dict[int, ctypes.CDLL]) -> None:
     """What a step size is chosen with; the bounds are those of the polynomials' degrees."""
     values = 10.0 ** np.random.default_rng(3).uniform(-60, 60, 200)

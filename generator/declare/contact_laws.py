@@ -1,0 +1,247 @@
+"""What a rolling tyre does on the road: load, forces and moments at its contact."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar
+
+import sympy as sp
+
+from ...formulas import linear_contact, magic_formula
+from ...formulas.coefficients import IN_EQUATIONS, NEUTRAL, ODD
+from ...formulas.magic_formula import Contact, Form
+from .declared import Name, declared
+from .parameters import Owner, Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ...formulas.arithmetic import Arithmetic
+    from ...formulas.magic_formula import Forces
+
+
+@dataclass(frozen=True)
+class Rolling:
+    """How a tyre rolls, at an instant.
+
+    Attributes
+    ----------
+    load
+        Force of the road along its normal [N].
+    longitudinal, lateral
+        -Vsx and Vcy over the smoothed speed, a tangent.
+    inclination
+        Sine of the inclination about the forward axis.
+    direction, rolling
+        Vcx over the speed of the contact, and over its own size; both smoothed near standstill.
+    speed
+        Vcx [m/s].
+    """
+
+    load: sp.Expr
+    longitudinal: sp.Expr
+    lateral: sp.Expr
+    inclination: sp.Expr
+    direction: sp.Expr
+    rolling: sp.Expr
+    speed: sp.Expr
+
+
+@dataclass(frozen=True, kw_only=True)
+class AnyContactLaw(Owner):
+    """What the laws of a contact have in common.
+
+    Parameters
+    ----------
+    name
+        Begins the names of its parameters.
+    """
+
+    name: Name
+
+    @cached_property
+    def numbers(self) -> tuple[Parameter, ...]:
+        """All of them."""
+        return tuple(
+            Parameter(f"{self.name}_{what}", default, unit, meaning)
+            for what, default, unit, meaning in self._entries()
+        )
+
+    @abstractmethod
+    def _entries(self) -> Iterator[tuple[str, float, str, str]]:
+        """Yield name, default, unit and meaning of each parameter."""
+
+    def symbol(self, what: str) -> sp.Symbol:
+        """Return the symbol of a parameter, by its name without that of the law."""
+        return sp.Symbol(f"{self.name}_{what}")
+
+    @property
+    def lowest_speed(self) -> sp.Expr:
+        """Speed below which slips are smoothed [m/s]."""
+        return self.symbol("vxlow")
+
+    @property
+    def radius(self) -> sp.Expr:
+        """Radius of the disc, without load [m]."""
+        return self.symbol("unloaded_radius")
+
+    @abstractmethod
+    def load(self, deflection: sp.Expr) -> sp.Expr:
+        """Return the load of a deflection [N]; zero of none."""
+
+    @abstractmethod
+    def rolling_radius(self, a: Arithmetic, load: sp.Expr) -> sp.Expr:
+        """Return the speed of a freely rolling wheel over its rate of spin [m]."""
+
+    @abstractmethod
+    def forces(self, a: Arithmetic, at: Rolling) -> Forces:
+        """Return forces and moments at the contact."""
+
+    @abstractmethod
+    def told(self) -> str:
+        """Return what a report says of it."""
+
+
+@declared
+@dataclass(frozen=True, kw_only=True)
+class LinearContact(AnyContactLaw):
+    """Forces that are linear in slip up to the friction, which they approach.
+
+    Parameters
+    ----------
+    name
+        Begins the names of its parameters: ``<name>_vertical_stiffness``, ``<name>_friction``.
+    """
+
+    def _entries(self) -> Iterator[tuple[str, float, str, str]]:
+        yield "unloaded_radius", 0.3, "m", "radius of the tyre without load"
+        yield "effective_radius", 0.29, "m", "speed over rate of spin of a freely rolling wheel"
+        yield "vertical_stiffness", 200e3, "N/m", "vertical stiffness of the tyre"
+        yield "vxlow", 1.0, "m/s", "speed below which slips are smoothed"
+        defaults = (9e4, 7e4, 3e3, 0.03, 1.0, 0.0)
+        for default, (what, described) in zip(
+            defaults, linear_contact.COEFFICIENTS.items(), strict=True
+        ):
+            yield what, default, *described
+
+    def load(self, deflection: sp.Expr) -> sp.Expr:
+        """Return the load of a deflection [N]."""
+        return self.symbol("vertical_stiffness") * deflection
+
+    def rolling_radius(self, a: Arithmetic, load: sp.Expr) -> sp.Expr:
+        """Return the speed of a freely rolling wheel over its rate of spin [m]."""
+        del a, load
+        return self.symbol("effective_radius")
+
+    def forces(self, a: Arithmetic, at: Rolling) -> Forces:
+        """Return forces and moments at the contact."""
+        p = {what: self.symbol(what) for what in linear_contact.COEFFICIENTS}
+        contact = Contact(**vars(at), pressure=sp.Integer(0))
+        return linear_contact.forces(a, p, contact, self.radius)
+
+    def told(self) -> str:
+        """Return what a report says of it."""
+        return "linear in slip, up to the friction"
+
+
+@declared
+@dataclass(frozen=True, kw_only=True)
+class MagicFormulaContact(AnyContactLaw):
+    """The Magic Formula, by the coefficients of property files.
+
+    Parameters
+    ----------
+    name
+        Begins the names of its parameters: ``<name>_pcx1``, as property files have them.
+    newer
+        MF 6.1 and 6.2; else PAC2002.
+    weighted
+        Combined slip by weighting functions; else by the friction ellipse.
+    angle
+        The lateral slip is an angle; else a tangent.
+    """
+
+    newer: bool = True
+    weighted: bool = True
+    angle: bool = False
+
+    _SIZES: ClassVar[Mapping[str, tuple[float, str, str]]] = {
+        "UNLOADED_RADIUS": (0.316, "m", "radius of the tyre without load"),
+        "FNOMIN": (4000.0, "N", "nominal load of the tyre"),
+        "LONGVL": (16.7, "m/s", "speed at which the tyre was measured"),
+        "VXLOW": (1.0, "m/s", "speed below which slips are smoothed"),
+        "INFLPRES": (220e3, "Pa", "inflation pressure of the tyre"),
+        "NOMPRES": (220e3, "Pa", "inflation pressure at which the tyre was measured"),
+    }
+    _USUAL: ClassVar[Mapping[str, float]] = {
+        "PCX1": 1.6, "PDX1": 1.1, "PKX1": 22.0, "PCY1": 1.35, "PDY1": 1.0, "PKY1": -20.0,
+        "PKY2": 1.8, "QBZ1": 10.0, "QBZ9": 10.0, "QCZ1": 1.1, "QDZ1": 0.1, "RBX1": 12.0,
+        "RBX2": 10.0, "RBY1": 11.0, "RBY2": 8.0, "Q_FZ1": 15.8,
+    }  # fmt: skip
+
+    def _entries(self) -> Iterator[tuple[str, float, str, str]]:
+        for key, described in self._SIZES.items():
+            yield key.lower(), *described
+        for key in IN_EQUATIONS:
+            default = self._USUAL.get(key, NEUTRAL[key])
+            yield key.lower(), default, "1", f"coefficient {key} of the Magic Formula"
+
+    @property
+    def turned(self) -> tuple[int, ...]:
+        """The sign of every number in the mirror."""
+        return tuple(-1 if key in ODD else 1 for key in (*self._SIZES, *IN_EQUATIONS))
+
+    @cached_property
+    def _coefficients(self) -> dict[str, sp.Expr]:
+        return {key: self.symbol(key.lower()) for key in (*self._SIZES, *IN_EQUATIONS)}
+
+    @property
+    def _pressure(self) -> sp.Expr:
+        return self.symbol("inflpres") / self.symbol("nompres") - 1
+
+    @property
+    def _stiffening(self) -> sp.Expr:
+        """What scale and pressure multiply the load with."""
+        return self.symbol("lcz") * (1 + self.symbol("pfz1") * self._pressure)
+
+    @property
+    def radius(self) -> sp.Expr:
+        """Radius of the disc, without load [m]."""
+        return self.symbol("unloaded_radius") * self.symbol("q_re0")
+
+    def load(self, deflection: sp.Expr) -> sp.Expr:
+        """Return the load of a deflection [N] (A3.3)."""
+        share = deflection / self.symbol("unloaded_radius")
+        shape = share * (self.symbol("q_fz1") + self.symbol("q_fz2") * share)
+        return shape * (self.symbol("fnomin") * self._stiffening)
+
+    def rolling_radius(self, a: Arithmetic, load: sp.Expr) -> sp.Expr:
+        """Return the speed of a freely rolling wheel over its rate of spin [m] (A3.6)."""
+        first, second = self.symbol("q_fz1"), self.symbol("q_fz2")
+        moved = self._stiffening
+        # load over slope of the deflection, at the nominal load
+        length = self.symbol("unloaded_radius") / (
+            moved * sp.sqrt(first * first + 4 * second / moved)
+        )
+        share = load / self.symbol("fnomin")
+        part = self.symbol("dreff") * a.atan(self.symbol("breff") * share)
+        return self.radius - length * (part + self.symbol("freff") * share)
+
+    def forces(self, a: Arithmetic, at: Rolling) -> Forces:
+        """Return forces and moments at the contact."""
+        given = vars(at) | {"speed": at.speed / self.symbol("longvl")}
+        if self.angle:
+            given["lateral"] = a.define("slip_as_angle", a.atan(at.lateral))
+        contact = Contact(**given, pressure=self._pressure)
+        form = Form(newer=self.newer, weighted=self.weighted, angle=self.angle)
+        return magic_formula.forces(a, self._coefficients, contact, form)
+
+    def told(self) -> str:
+        """Return what a report says of it."""
+        return "the Magic Formula" + ("" if self.newer else " of PAC2002")
+
+
+ContactLaw = LinearContact | MagicFormulaContact

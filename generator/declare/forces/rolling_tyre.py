@@ -1,0 +1,253 @@
+"""A tyre that rolls: a normal force by its deflection, and forces and moments by its slip."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ...program.formulas import Steps
+from ...program.functions import IsPositive, Positive
+from ...program.vectors import Vector
+from ..contact_laws import ContactLaw, Rolling
+from ..declared import DeclarationError, Name, declared
+from ..inputs import Input
+from ..joints import Revolute
+from ..parameters import DamperRate
+from ..shown import Event, Shown
+from ..wheel import Wheel
+from .force import Action, Force, Told
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ..surroundings import Surroundings
+    from ..wheel import Upright
+
+_TOUCH = 1e-3  # load at which a tyre touches [N]
+
+
+@declared
+@dataclass(frozen=True, kw_only=True)
+class RollingTyre(Force):
+    """A tyre that rolls on a level road, in the axes of ISO 8855 at its contact.
+
+    The wheel is a thin disc. Its normal force acts at the lowest point of the disc, by how far that
+    is below the road, and so is conservative, but for its damper; a tyre in the air has none. All
+    other forces act where the plane of the wheel meets the road, straight below the axis.
+
+    With V the velocity of the wheel's centre, and of the contact as part of the carrier, Omega the
+    rate of spin in the world, n up, x = a x n forward and y to the left::
+
+        V_cx = x . V_centre,  V_cy = y . V_contact,  |V| = sqrt(V_cx^2 + V_low^2)
+        kappa = (r_e Omega - V_cx) / |V|,  tan(alpha) = V_cy / |V|
+
+    V_low smooths them: at standstill the contact damps, and rolling backward is nothing special.
+
+    Parameters
+    ----------
+    name
+        Begins the names of its signals.
+    wheel
+        What it is on.
+    bearing
+        The driven hinge about which the wheel turns on its carrier, along its spin axis.
+    law
+        What it does by load and slip.
+    road
+        Height of the road under the tyre in the world [m].
+    damper, road_velocity
+        Along the normal [N s/m], and the input that is the derivative of the road [m/s]; both or
+        neither.
+    """
+
+    name: Name
+    wheel: Wheel
+    bearing: Revolute
+    law: ContactLaw
+    road: Input
+    damper: DamperRate | None = None
+    road_velocity: Input | None = None
+
+    def __post_init__(self) -> None:
+        problems = []
+        if self.road.unit != "m":
+            problems.append(f"road {self.road.name!r} is in {self.road.unit}; m is needed")
+        if (self.damper is None) != (self.road_velocity is None):
+            problems.append("give damper and road_velocity, or neither")
+        elif self.road_velocity is not None and self.road_velocity.derivative_of != self.road:
+            problems.append(
+                f"road_velocity {self.road_velocity.name!r} is not the rate of the road "
+                f"{self.road.name!r}; give it derivative_of=the road"
+            )
+        carrier, spin, hinge = self.wheel.carrier.name, self.wheel.spin, self.bearing
+        if hinge.first.name != carrier:
+            problems.append(
+                f"hinge {hinge.name!r} leads from {hinge.first.name!r}, and the wheel is carried "
+                f"by {carrier!r}; give the wheel's bearing"
+            )
+        if hinge.axis.towards != spin or hinge.angle_to is not None:
+            problems.append(
+                f"hinge {hinge.name!r} does not turn about the wheel's spin axis {spin.name!r}; "
+                "give its bearing the same Direction, and no angle_to"
+            )
+        if problems:
+            raise DeclarationError(f"RollingTyre {self.name!r}", problems)
+
+    @property
+    def identity(self) -> tuple[str, str]:
+        """Its name."""
+        return "force", self.name
+
+    @property
+    def along(self) -> Revolute:
+        """The bearing: its coordinate is turned."""
+        return self.bearing
+
+    def told(self) -> Told:
+        """Return what a report says of it."""
+        acts = f"{self.law.told()}: F and M at the contact, N at the lowest point of the disc"
+        share = (
+            r"$`\left(\partial\mathbf{v}_P/\partial\dot{\mathbf{q}}\right)^T(\mathbf{F}+\mathbf{N})"
+            r" + \mathbf{W}_b^T\mathbf{M}`$"
+        )
+        return Told(f"tyre {self.name}", acts, share)
+
+    def act(self, at: Surroundings) -> Action:
+        """Append the power of all of it on the motion of the carrier, and on the spin."""
+        program, carrier, steps = at.program, self.wheel.carrier.name, Steps(at.program, self._own)
+        upright = self.wheel.upright(at, self._own)
+        cosine = program.define(f"{self._own}cosine", sp.sqrt(upright.squared))
+        down = program.vector(f"{self._own}down", upright.pull * (-1 / cosine), "123")
+        forward = program.vector(
+            f"{self._own}forward", upright.axis.cross(upright.up) * (1 / cosine), "123"
+        )
+        axes = forward, upright.up.cross(forward), upright.up
+        velocity, turning = self._motion(at)
+        deflection, load = self._load(at, upright, cosine, (velocity, turning, down))
+        arm = down * (self.law.radius - deflection / cosine)
+        rolling = self._rolling(at, steps, axes, load, (velocity, turning, arm, upright))
+        found = self.law.forces(steps, rolling)
+        along = self._along(axes, (found.fx, found.fy, sp.Integer(0)))
+        upward = upright.up * load
+        moment = arm.cross(along) + (down * self.law.radius).cross(upward)
+        moment += self._along(axes, (found.mx, found.my, found.mz))
+        force = program.vector(f"{self._own}force", along + upward, "123")
+        moment = program.vector(f"{self._own}moment", moment, "123")
+        forces = {
+            k: force.dot(self.wheel.velocity(at, k)) + moment.dot(twist.angular)
+            for k, twist in at.twists(carrier).items()
+            if k in at.independent
+        }
+        forces[at.coordinate(self.bearing.name)] = moment.dot(upright.axis)
+        values = {
+            "fx": found.fx,
+            "fy": found.fy,
+            "fz": load,
+            "mz": found.mz,
+            "slip": rolling.longitudinal,
+            "slip_angle": sp.atan2(rolling.lateral, sp.Integer(1)),
+            "deflection": deflection,
+        }
+        return Action(forces, {f"{self._own}{k}": sp.sympify(v) for k, v in values.items()})
+
+    @property
+    def _own(self) -> str:
+        return f"{self.name}_"
+
+    @staticmethod
+    def _along(axes: tuple[Vector, Vector, Vector], given: tuple[sp.Expr, ...]) -> Vector:
+        x, y, z = (axis * part for axis, part in zip(axes, given, strict=True))
+        total: Vector = x + y + z
+        return total
+
+    def _motion(self, at: Surroundings) -> tuple[Vector, Vector]:
+        """Return the velocity of the centre and the turning of the carrier, in its axes."""
+        velocity, turning = Vector.of(0, 0, 0), Vector.of(0, 0, 0)
+        for k, twist in at.twists(self.wheel.carrier.name).items():
+            velocity += self.wheel.velocity(at, k) * at.rate(k)
+            turning += twist.angular * at.rate(k)
+        program = at.program
+        return (
+            program.vector(f"{self._own}center_velocity", velocity, "123"),
+            program.vector(f"{self._own}carrier_turning", turning, "123"),
+        )
+
+    def _load(
+        self,
+        at: Surroundings,
+        upright: Upright,
+        cosine: sp.Expr,
+        moving: tuple[Vector, Vector, Vector],
+    ) -> tuple[sp.Expr, sp.Expr]:
+        """Return how far the lowest point is below the road, and the force along the normal."""
+        program, body, radius = at.program, self.wheel.carrier.name, self.law.radius
+        height = at.height(body, at.local(body, self.wheel.center))
+        deflection = program.define(
+            f"{self._own}deflection", sp.Symbol(self.road.name) + radius * cosine - height
+        )
+        pressed = program.define(f"{self._own}pressed", Positive(deflection))
+        load = self.law.load(pressed)
+        if self.damper is not None and self.road_velocity is not None:
+            velocity, turning, down = moving
+            sinking = -upright.up.dot(velocity + turning.cross(down * radius))
+            rate = program.define(
+                f"{self._own}deflection_rate", sp.Symbol(self.road_velocity.name) + sinking
+            )
+            bonded = program.define(f"{self._own}bonded", load + self.damper.symbol * rate)
+            load = IsPositive(deflection) * Positive(bonded)
+        return deflection, program.define(f"{self._own}fz", load)
+
+    def _rolling(
+        self,
+        at: Surroundings,
+        steps: Steps,
+        axes: tuple[Vector, Vector, Vector],
+        load: sp.Expr,
+        moving: tuple[Vector, Vector, Vector, Upright],
+    ) -> Rolling:
+        """Return how the tyre rolls."""
+        (forward, left, _), (velocity, turning, arm, upright) = axes, moving
+        ahead = steps.define("ahead", forward.dot(velocity))
+        sideways = steps.define("sideways", left.dot(velocity + turning.cross(arm)))
+        spin = at.rate(at.coordinate(self.bearing.name)) + upright.axis.dot(turning)
+        radius = steps.define("rolling_radius", self.law.rolling_radius(steps, load))
+        least = self.law.lowest_speed * self.law.lowest_speed
+        size = steps.define("speed", sp.sqrt(ahead * ahead + least))
+        both = steps.define("ground_speed", sp.sqrt(ahead * ahead + sideways * sideways + least))
+        return Rolling(
+            load=load,
+            longitudinal=steps.define("slip", (radius * spin - ahead) / size),
+            lateral=steps.define("lateral_slip", sideways / size),
+            inclination=upright.axis.dot(upright.up),
+            direction=steps.define("direction", ahead / both),
+            rolling=steps.define("rolling", ahead / size),
+            speed=ahead,
+        )
+
+    def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
+        """Yield those of the wheel, then forces, slips and deflection."""
+        yield from self.wheel.signals(at, self._own)
+        described = {
+            "fx": ("N", "longitudinal force of the road on the tyre, positive forward"),
+            "fy": ("N", "lateral force of the road on the tyre, positive to the left"),
+            "fz": ("N", "normal force of the road on the tyre"),
+            "mz": ("N m", "aligning moment of the road on the tyre, positive to the left"),
+            "slip": ("1", "longitudinal slip, positive in driving"),
+            "slip_angle": ("rad", "slip angle, positive where the contact moves to the left"),
+            "deflection": ("m", "how far the lowest point of the disc is below the road"),
+        }
+        for what, (unit, meaning) in described.items():
+            name = f"{self._own}{what}"
+            events = self._events if what == "fz" else ()
+            yield Shown(name, action.values[name], unit, meaning, (), events)
+
+    @property
+    def _events(self) -> tuple[Event, ...]:
+        """When the wheel leaves the road, and meets it."""
+        leaves, touches = (f"{self._own}{what}_ground" for what in ("leaves", "touches"))
+        return (
+            Event(leaves, _TOUCH, rising=False, meaning="the tyre leaves the road"),
+            Event(touches, _TOUCH, rising=True, meaning="the tyre meets the road"),
+        )

@@ -1,0 +1,67 @@
+"""Formulas of `kintrafo.formulas` as steps of a program."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import sympy as sp
+
+from .functions import IsPositive, Positive
+
+if TYPE_CHECKING:
+    from .program import Program
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Functions of symbols; what a formula defines is a step.
+
+    Parameters
+    ----------
+    program
+        What receives the steps.
+    prefix
+        Begins their names.
+    """
+
+    program: Program
+    prefix: str
+
+    def define(self, name: str, value: Any) -> sp.Expr:
+        """Append a step, and return its symbol."""
+        return self.program.define(f"{self.prefix}{name}", value)
+
+    def sqrt(self, x: Any) -> sp.Expr:
+        """Return the square root."""
+        return sp.sqrt(x)
+
+    def sin(self, x: Any) -> sp.Expr:
+        """Return the sine."""
+        return sp.sin(x)
+
+    def cos(self, x: Any) -> sp.Expr:
+        """Return the cosine."""
+        return sp.cos(x)
+
+    def atan(self, x: Any) -> sp.Expr:
+        """Return the arc tangent."""
+        return sp.atan2(x, sp.Integer(1))
+
+    def exp(self, x: Any) -> sp.Expr:
+        """Return the exponential function."""
+        return sp.exp(x)
+
+    def log(self, x: Any) -> sp.Expr:
+        """Return the natural logarithm."""
+        return sp.log(x)
+
+    def positive(self, x: Any) -> sp.Expr:
+        """Return the number where it is positive, and zero elsewhere."""
+        x = sp.sympify(x)
+        return sp.Max(x, 0) if x.is_number else Positive(x)
+
+    def sign(self, x: Any) -> sp.Expr:
+        """Return minus one, zero or one."""
+        x = sp.sympify(x)
+        return sp.sign(x) if x.is_number else IsPositive(x) - IsPositive(-x)

@@ -1,0 +1,230 @@
+"""A rolling tyre in equations: a wheel on a rig, against NumPy's kinematics and tyres on arrays."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import kintrafo
+import numpy as np
+import pytest
+from kintrafo import generator as g
+from own_tyres import COORDINATES, rig
+from tyres import ELLIPSE, NEWER
+
+RATES = slice(6, 12)
+UP = np.array([0.0, 0.0, 1.0])
+LAWS = {
+    "linear": g.LinearContact(name="tyre"),
+    "newer": g.MagicFormulaContact(name="tyre"),
+    "ellipse": g.MagicFormulaContact(name="tyre", newer=False, angle=True, weighted=False),
+}
+FILES = {"newer": NEWER, "ellipse": ELLIPSE}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("rigs")
+
+
+@pytest.fixture(scope="module")
+def system_of(folder):
+    @cache
+    def built(name: str):
+        plain = name == "linear"
+        backend = "numpy" if name == "ellipse" else "c"
+        model = rig(LAWS[name], f"rig_{name}", damped=plain)
+        equations = kintrafo.compile(model, folder=folder, backend=backend)
+        return kintrafo.System(equations, {} if plain else tyre_of(name).parameters())
+
+    @cache
+    def tyre_of(name: str):
+        path = folder / f"{name}.tir"
+        path.write_text(FILES[name], encoding="utf-8")
+        return kintrafo.tyres.load(path)
+
+    built.tyre = tyre_of
+    return built
+
+
+def states(count: int, *, speed: float = 15.0) -> np.ndarray:
+    """Return states of all six coordinates, pressed onto the road, rolling forward and backward."""
+    random = np.random.default_rng(7)
+    found = np.zeros((count, 12))
+    found[:, 2] = random.uniform(-0.035, -0.015, count)
+    found[:, 3] = random.uniform(-0.5, 0.5, count)
+    found[:, 4] = random.uniform(-0.12, 0.12, count)
+    found[:, 6] = speed * random.choice([-1.0, 1.0], count) * random.uniform(0.5, 1.5, count)
+    found[:, 7] = random.uniform(-3.0, 3.0, count)
+    found[:, 8] = random.uniform(-0.2, 0.2, count)
+    found[:, 9:11] = random.uniform(-0.8, 0.8, (count, 2))
+    found[:, 11] = found[:, 6] / 0.3 * random.uniform(0.85, 1.15, count)
+    return found
+
+
+class Wheel:
+    """A disc in a state of the rig, by vectors in the world."""
+
+    def __init__(self, state: np.ndarray, radius: float) -> None:
+        (s, c), (sl, cl) = ((np.sin(x), np.cos(x)) for x in state[3:5])
+        turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        lean = np.array([[1.0, 0.0, 0.0], [0.0, cl, -sl], [0.0, sl, cl]])
+        self.axis = turn @ lean @ [0.0, 1.0, 0.0]
+        self.velocity = state[RATES][:3]
+        self.turning = state[9] * UP + state[10] * turn[:, 0]
+        self.spin = state[11] + self.turning @ self.axis
+        down = -UP + self.axis * self.axis[2]
+        self.down = down / np.linalg.norm(down)
+        self.forward = np.cross(self.axis, UP) / np.linalg.norm(np.cross(self.axis, UP))
+        self.left = np.cross(UP, self.forward)
+        self.height = 0.31 + state[2]
+        self.radius = radius
+        self.loaded = self.height / -self.down[2]
+        self.deflection = -(self.height + radius * self.down[2])
+
+    def slips(self, rolling_radius: float, lowest: float) -> tuple[float, float, float]:
+        """Return speed, longitudinal slip and slip angle."""
+        ahead = self.forward @ self.velocity
+        contact = self.velocity + np.cross(self.turning, self.loaded * self.down)
+        size = np.hypot(ahead, lowest)
+        slip = (rolling_radius * self.spin - ahead) / size
+        return ahead, slip, np.arctan(self.left @ contact / size)
+
+    def power(self, rates: np.ndarray, forces: tuple, state: np.ndarray) -> float:
+        """Return the power of forces and moments as the coordinates move at some rates."""
+        fx, fy, fz, mx, my, mz = forces
+        moved = state.copy()
+        moved[RATES] = rates
+        other = Wheel(moved, self.radius)
+        wheel = other.turning + rates[5] * other.axis
+        at_contact = other.velocity + np.cross(wheel, self.loaded * self.down)
+        at_lowest = other.velocity + np.cross(wheel, self.radius * self.down)
+        force = fx * self.forward + fy * self.left
+        moment = mx * self.forward + my * self.left + mz * UP
+        return force @ at_contact + fz * UP @ at_lowest + moment @ wheel
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_forces_are_those_of_the_tyre_on_arrays(system_of, name):
+    """With slips smoothed at 1e-5 m/s, which is 1e-12 of them here."""
+    tyre, lowest = system_of.tyre(name), 1e-5
+    system = kintrafo.System(system_of(name).equations, tyre.parameters() | {"tyre_vxlow": lowest})
+    # the radius does not grow with speed in equations
+    slow, inputs = tyre.with_changes({"Q_V1": 0.0}), system.inputs({})
+    for state in states(12):
+        signals = system.signals(state, inputs)
+        wheel = Wheel(state, tyre.radius * tyre.coefficients["Q_RE0"])
+        assert signals["tyre_deflection"] == pytest.approx(wheel.deflection, abs=1e-13)
+        share = wheel.deflection / tyre.radius
+        first, second = (tyre.parameters()[f"tyre_q_fz{i}"] for i in (1, 2))
+        load = tyre.coefficients["FNOMIN"] * share * (first + second * share)
+        assert signals["tyre_fz"] == pytest.approx(load, rel=1e-12)
+        radius = slow.evaluate(load, extrapolate=True).effective_radius
+        ahead, slip, angle = wheel.slips(float(radius), lowest)
+        assert signals["tyre_slip"] == pytest.approx(slip, abs=1e-11)
+        assert signals["tyre_slip_angle"] == pytest.approx(angle, abs=1e-11)
+        camber = np.arcsin(wheel.axis[2])
+        found = tyre.evaluate(load, angle, slip, camber, speed=ahead, extrapolate=True)
+        for what in ("fx", "fy", "mz"):
+            wanted = float(vars(found)[what])
+            assert signals[f"tyre_{what}"] == pytest.approx(wanted, rel=1e-8, abs=1e-6), what
+
+
+@pytest.mark.parametrize("damping", [0.0, 500.0])
+def test_their_power_is_that_of_forces_at_the_contact(system_of, damping):
+    """Of each coordinate, for the linear law; its forces written down once more."""
+    system = kintrafo.System(system_of("linear").equations, {"tyre_damper_rate": damping})
+    p = {k.removeprefix("tyre_"): v for k, v in system.parameters.items()}
+    above = system.inputs({"road_height": -1.0})
+    for state in states(8):
+        wheel = Wheel(state, p["unloaded_radius"])
+        load = p["vertical_stiffness"] * wheel.deflection
+        lowest = wheel.velocity + np.cross(wheel.turning, wheel.radius * wheel.down)
+        load = max(load - damping * lowest[2], 0.0)
+        ahead, slip, angle = wheel.slips(p["effective_radius"], p["vxlow"])
+        rolling = ahead / np.hypot(ahead, p["vxlow"])
+        fx = p["slip_stiffness"] * slip
+        fy = -p["cornering_stiffness"] * np.tan(angle)
+        fy -= p["camber_stiffness"] * wheel.axis[2] * rolling
+        share = 1.0 / np.sqrt(1.0 + (fx**2 + fy**2) / (p["friction"] * load) ** 2)
+        fx, fy = fx * share, fy * share
+        mz = -p["trail"] * share**3 * rolling * fy
+        found = system.evaluate("forces", state, system.inputs({}))
+        weight = system.evaluate("forces", state, above)
+        for k, rates in enumerate(np.eye(6)):
+            wanted = wheel.power(rates, (fx, fy, load, 0.0, 0.0, mz), state)
+            got = found[k] - weight[k]
+            assert got == pytest.approx(wanted, rel=1e-10, abs=1e-8), COORDINATES[k]
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_the_jacobian_is_exact(system_of, name):
+    """Against differences of the right-hand side, also at standstill."""
+    system = system_of(name)
+    inputs = system.inputs({})
+    rest = np.zeros(12)
+    rest[2] = -0.02
+    for state in (*states(3), rest):
+        jacobian = system.evaluate("rhs_jacobian", state, inputs)
+        assert np.isfinite(jacobian).all()
+        steps = 1e-6 * np.eye(12)
+        differences = (
+            np.transpose(
+                [
+                    system.evaluate("rhs", state + h, inputs)
+                    - system.evaluate("rhs", state - h, inputs)
+                    for h in steps
+                ]
+            )
+            / 2e-6
+        )
+        scale = np.abs(jacobian).max()
+        np.testing.assert_allclose(jacobian, differences, rtol=2e-5, atol=2e-6 * scale)
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_standstill_reversing_and_the_air(system_of, name):
+    """Nothing is singular, forces oppose the slip, and a tyre in the air has none."""
+    system = system_of(name)
+    inputs = system.inputs({})
+    ahead, across, spin = 6, 7, 11
+    for speed in (0.0, 1e-9, 0.1, -0.1, 3.0, -3.0):
+        state = np.zeros(12)
+        state[[2, 4, ahead, across]] = -0.02, 0.0, speed, 0.05
+        state[spin] = speed / 0.29 + 1.0
+        signals = system.signals(state, inputs)
+        assert signals["tyre_fx"] > 0.0, speed
+        assert signals["tyre_fy"] < 0.0, speed
+    state[2] = 0.02
+    in_air = system.signals(state, inputs)
+    assert [in_air[f"tyre_{k}"] for k in ("fx", "fy", "fz", "mz")] == [0.0] * 4
+
+
+def test_a_wheel_that_is_let_go_rolls_without_slip(system_of):
+    """Thrown ahead without spin, it is spun up, and loses what friction takes from it."""
+    system = system_of("linear")
+    state = np.zeros(12)
+    state[[2, 6]] = -0.01, 5.0
+    found = kintrafo.simulate(system, (0.0, 1.0), state, method="BDF")
+    assert found.success
+    assert found.signals["tyre_slip"][0] < -0.9
+    assert abs(found.signals["tyre_slip"][-1]) < 1e-6
+    # the momentum that the sled loses is what turns the wheel
+    lost, spun = 28.0 * (5.0 - found.y[6, -1]), 1.1 * found.y[11, -1] / 0.29
+    assert lost == pytest.approx(spun, rel=0.04)  # some of it is in steering and leaning
+
+
+def test_it_is_refused_by_name():
+    law = LAWS["linear"]
+    tyre = next(f for f in rig(law, "rig").mechanism.forces if isinstance(f, g.RollingTyre))
+    parts = {k: v for k, v in vars(tyre).items() if not k.startswith("_")}
+    height = g.Input("height", "N", "not a height")
+    damper = g.DamperRate("rate", 1.0, "damping")
+    lean = next(j for j in rig(law, "rig").mechanism.joints if j.name == "lean")
+    for changes, said in (
+        ({"road": height}, "'height' is in N; m is needed"),
+        ({"damper": damper}, "give damper and road_velocity, or neither"),
+        ({"bearing": lean}, "hinge 'lean' leads from 'fork'"),
+        ({"bearing": lean}, "does not turn about the wheel's spin axis 'spin_axis'"),
+    ):
+        with pytest.raises(g.DeclarationError, match=said):
+            g.RollingTyre(**(parts | changes))

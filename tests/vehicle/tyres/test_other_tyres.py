@@ -1,0 +1,121 @@
+"""TMeasy and a linear tyre on arrays."""
+
+import itertools
+import json
+import re
+from pathlib import Path
+
+import kintrafo
+import numpy as np
+import pytest
+from oracle import tmeasy as oracle
+
+FILE = Path(__file__).parents[2] / "data/chrono/TMeasyTire.json"
+DATA = json.loads(re.sub(r"//.*", "", FILE.read_text(encoding="utf-8")))
+LINEAR = {
+    "radius": 0.3, "effective_radius": 0.29, "vertical_stiffness": 2e5, "slip_stiffness": 9e4,
+    "cornering_stiffness": 7e4, "camber_stiffness": 3e3, "trail": 0.03, "friction": 0.9,
+}  # fmt: skip
+
+
+@pytest.fixture
+def load(tmp_path):
+    def read(data):
+        path = tmp_path / "own.json"
+        path.write_text(json.dumps(data), encoding="utf-8")
+        return kintrafo.tyres.load(path)
+
+    return read
+
+
+def changed(place, value):
+    """Return the file with another value, or without a key."""
+    data = json.loads(json.dumps(DATA))
+    holder = data
+    for key in place[:-1]:
+        holder = holder[key]
+    if value is None:
+        del holder[place[-1]]
+    else:
+        holder[place[-1]] = value
+    return data
+
+
+@pytest.mark.parametrize("sliding", [[3000.0, 5800.0], [500.0, 900.0]], ids=["parabolas", "cubic"])
+def test_tmeasy_is_what_its_pieces_say(load, sliding):
+    """To 1e-6 of the load, that divide it by 1e-6 N more than it is."""
+    data = changed(("Parameters", "Longitudinal", "Sliding Fx Load [N]"), sliding)
+    data["Parameters"]["Longitudinal"]["Slip sx where sliding begins"] = [0.2, 0.25]
+    tyre = load(data).with_friction(0.7)
+    states = itertools.product(
+        (500.0, 3500.0, 8000.0),
+        (-0.9, -0.25, -0.02, 0.0, 0.05, 0.4),
+        (-0.99, -0.3, -0.12, -0.01, 0.02, 0.5),
+        (0.0, 0.1),
+    )
+    for state in states:
+        found = tyre.evaluate(*state)
+        wanted = oracle.evaluate(data, *state, friction=0.7)
+        got = [float(found.fx), float(found.fy), float(found.mz)]
+        np.testing.assert_allclose(got, wanted, rtol=1e-7, atol=1e-6 * state[0], err_msg=str(state))
+
+
+def test_tmeasy_figures():
+    tyre = kintrafo.tyres.load(FILE)
+    found = tyre.evaluate([3500.0, 7000.0])
+    np.testing.assert_allclose(found.slip_stiffness, [85e3, 155e3], rtol=1e-8)
+    np.testing.assert_allclose(found.cornering_stiffness, [62e3, 100e3], rtol=1e-8)
+    np.testing.assert_allclose(found.vertical_stiffness, [190e3, 206e3], rtol=1e-12)
+    np.testing.assert_allclose(found.relaxation_y, [62e3 / 150e3, 100e3 / 150e3], rtol=1e-8)
+    deflection = 0.316 - found.loaded_radius
+    np.testing.assert_allclose(found.effective_radius, 0.316 - [0.625, 0.25] * deflection)
+    assert (tyre.radius, tyre.nominal_load, tyre.ranges) == (0.316, 3500.0, {"load": (0.0, 9000.0)})
+    assert "Design > Mass [kg]" in tyre.left_out
+    assert "Parameters > Tire Damping" in tyre.left_out
+    assert "load" in tyre.evaluate(9500.0).outside
+
+
+@pytest.mark.parametrize("tyre", [kintrafo.tyres.load(FILE), kintrafo.tyres.LinearSlip(**LINEAR)])
+def test_they_oppose_the_slip_and_are_symmetric(tyre):
+    angles, slips = np.meshgrid(np.linspace(-0.6, 0.6, 13), np.linspace(-1.0, 1.0, 13))
+    found = tyre.evaluate(3000.0, angles, slips)
+    assert np.all(found.fx * -slips + found.fy * np.tan(angles) <= 0.0)
+    mirrored = tyre.mirrored().evaluate(3000.0, -angles, slips)
+    np.testing.assert_allclose(mirrored.fx, found.fx, atol=1e-9)
+    np.testing.assert_allclose(mirrored.fy, -found.fy, atol=1e-9)
+    none = tyre.evaluate(0.0, 0.1, 0.1, 0.05)
+    assert abs(none.fx) < 1e-5
+    assert abs(none.fy) < 1e-5
+
+
+def test_the_linear_tyre_is_linear_and_ends_at_the_friction():
+    tyre = kintrafo.tyres.LinearSlip(**LINEAR)
+    found = tyre.evaluate(4000.0, 1e-4, 1e-4, 1e-3)
+    assert found.fx == pytest.approx(9.0, rel=1e-5)
+    assert found.fy == pytest.approx(-10.0, rel=1e-5)
+    assert found.mz == pytest.approx(0.3, rel=1e-4)
+    sliding = tyre.evaluate(4000.0, 0.7, -0.9)
+    assert np.hypot(sliding.fx, sliding.fy) == pytest.approx(3600.0, rel=1e-3)
+    assert found.loaded_radius == 0.3 - 4000.0 / 2e5
+    with pytest.raises(kintrafo.InputError, match="friction = -1: a finite number above 0"):
+        kintrafo.tyres.LinearSlip(**(LINEAR | {"friction": -1.0}))
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "said"),
+    [
+        (("Template",), "FialaTire", 'of JSON files "TMeasyTire" can be read'),
+        (("Design", "Width [m]"), None, '"Design > Width .m." is missing'),
+        (("Parameters",), None, 'Nominal Vertical Force .N." is missing'),
+        (("Coefficient of Friction",), "much", "a finite number is needed"),
+        (("Coefficient of Friction",), 0.0, "more than zero is needed"),
+        (("Parameters", "Aligning", "Normalized Trail at Zero Slip sy"), [0.1], "two numbers"),
+        (("Parameters", "Lateral", "Slip sy at Maximum Fy"), [0.8, 0.9], "must be greater than"),
+        (("Parameters", "Lateral", "Sliding Fy Load [N]"), [4e3, 5e3], "force of sliding is"),
+        (("Parameters", "Lateral", "Initial Slopes dFy/dsy [N]"), [6e4, 2e4], "makes it vanish"),
+        (("Parameters", "Tire Stiffness", "Vertical [N/m]"), [1e5, 2e5], "more than 1.41 times"),
+    ],
+)  # fmt: skip
+def test_mistakes_are_refused_by_name(load, place, value, said):
+    with pytest.raises(kintrafo.InputError, match=said):
+        load(changed(place, value))

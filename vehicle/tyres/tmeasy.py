@@ -1,0 +1,257 @@
+"""TMeasy tyres, from the files of Project Chrono."""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+
+from ...core.errors import InputError
+from ...core.legible import legible, short
+from ...formulas import tmeasy
+from ...formulas.arithmetic import ARRAYS
+from ...formulas.magic_formula import Contact
+from ..input.commented_json import content
+from .tyre import States, Tyre
+
+_DESIGN = {
+    "radius": ("Design", "Unloaded Radius [m]"),
+    "width": ("Design", "Width [m]"),
+    "friction": ("Coefficient of Friction",),
+    "nominal_load": ("Parameters", "Tire Load", "Nominal Vertical Force [N]"),
+    "greatest_load": ("Parameters", "Tire Load", "Maximum Vertical Force [N]"),
+    "stiffness_x": ("Parameters", "Tire Stiffness", "Longitudinal [N/m]"),
+    "stiffness_y": ("Parameters", "Tire Stiffness", "Lateral [N/m]"),
+}
+_AXES = {
+    "x": ("Longitudinal", {
+        "slope": "Initial Slopes dFx/dsx [N]",
+        "maximum": "Maximum Fx Load [N]",
+        "sliding": "Sliding Fx Load [N]",
+        "slip_of_maximum": "Slip sx at Maximum Fx",
+        "slip_of_sliding": "Slip sx where sliding begins",
+    }),
+    "y": ("Lateral", {
+        "slope": "Initial Slopes dFy/dsy [N]",
+        "maximum": "Maximum Fy Load [N]",
+        "sliding": "Sliding Fy Load [N]",
+        "slip_of_maximum": "Slip sy at Maximum Fy",
+        "slip_of_sliding": "Slip sy where sliding begins",
+    }),
+}  # fmt: skip
+_PAIRS = {
+    **{f"{axis}_{what}": ("Parameters", section, key)
+       for axis, (section, keys) in _AXES.items() for what, key in keys.items()},
+    "trail": ("Parameters", "Aligning", "Normalized Trail at Zero Slip sy"),
+    "slip_of_zero_trail": ("Parameters", "Aligning", "Slip sy where Trail Changes Sign"),
+    "slip_of_no_trail": ("Parameters", "Aligning", "Slip sy where Trail Tends to Zero"),
+    "stiffness": ("Parameters", "Tire Stiffness", "Vertical [N/m]"),
+    "rolling": ("Parameters", "Dynamic Radius Weighting Coefficients"),
+    "resistance": ("Rolling Resistance Coefficients",),
+}  # fmt: skip
+_FORMAL = {("Name",), ("Type",), ("Template",)}
+_SMALLEST = 1e-6  # beside the square of the speed of the tread over that of the wheel
+
+
+@dataclass(frozen=True)
+class TMeasy(Tyre):
+    """A tyre of TMeasy: curves by slope, maximum and sliding at two loads.
+
+    Attributes
+    ----------
+    values : dict of str to float
+        In SI units; of two loads with ``_1`` and ``_2`` behind the name.
+    """
+
+    values: Mapping[str, float]
+    name: str = "TMeasy"
+    left_out: tuple[str, ...] = ()
+
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Return the tyre of a file of Project Chrono (JSON, template TMeasyTire).
+
+        Parameters
+        ----------
+        path : str or pathlib.Path
+
+        Raises
+        ------
+        InputError
+            If the file cannot be read, something is missing, or no tyre can be like this.
+        """
+        data = content(path)
+        if data.get("Template") != "TMeasyTire":
+            told = short(legible(repr(data.get("Template"))))
+            problem = f'"Template" is {told}; of JSON files "TMeasyTire" can be read.'
+            raise InputError([problem], str(path))
+        reader = _Reader(data)
+        values = dict(reader.values())
+        problems = reader.problems or [*_impossible(values)]
+        if problems:
+            raise InputError(problems, str(path))
+        values["friction_measured"] = values["friction"]
+        return cls(values, left_out=tuple(reader.unread(data)))
+
+    @property
+    def nominal_load(self) -> float:  # type: ignore[override]
+        """Load of the first of each two values [N]."""
+        return self.values["nominal_load"]
+
+    @property
+    def radius(self) -> float:  # type: ignore[override]
+        """Radius without load [m]."""
+        return self.values["radius"]
+
+    @property
+    def ranges(self) -> dict[str, tuple[float, float]]:  # type: ignore[override]
+        """Up to which load curves are known."""
+        return {"load": (0.0, self.values["greatest_load"])}
+
+    def mirrored(self) -> Self:
+        """Return the mirror image, which is the tyre itself."""
+        return replace(self)
+
+    def with_friction(self, friction: float) -> Self:
+        """Return the tyre on a road of another friction.
+
+        Parameters
+        ----------
+        friction : float
+            More than zero; that of the file is the one of its measurement.
+        """
+        if not friction > 0.0:
+            raise InputError([f"friction = {friction:g}: more than zero is needed."], self.name)
+        return replace(self, values={**self.values, "friction": friction})
+
+    def _state(self, at: States) -> dict[str, Any]:
+        p, rolling = self.values, np.sign(at.speed)
+        first, second = _polynomial(p)
+        root = np.sqrt(first * first + 4.0 * second * at.load)
+        deflection = 2.0 * at.load / (first + root)
+        length = 2.0 * np.sqrt(self.radius * deflection)
+        # slips of TMeasy are over the speed of the tread, and not over that of the wheel
+        tread = np.sqrt((1.0 + at.slip) ** 2 + _SMALLEST)
+        contact = Contact(
+            load=at.load,
+            longitudinal=at.slip / tread,
+            lateral=np.tan(at.slip_angle) / tread,
+            inclination=np.sin(at.camber),
+            direction=np.cos(at.slip_angle) * rolling,
+            rolling=rolling,
+            speed=at.speed,
+            pressure=0.0,
+        )
+        given = {**p, "vertical_stiffness": first}
+        found = tmeasy.forces(ARRAYS, given, contact, length)
+        weight = tmeasy.by_load(
+            at.load, self.nominal_load, p["rolling_1"], p["rolling_2"], quadratic=False
+        )
+        static = self.radius - deflection
+        return {
+            "fx": found.fx,
+            "fy": found.fy,
+            "mx": found.mx,
+            "my": found.my,
+            "mz": found.mz,
+            "slip_stiffness": found.slip_stiffness,
+            "cornering_stiffness": -found.cornering_stiffness,
+            "trail": found.trail,
+            "relaxation_x": found.slip_stiffness / p["stiffness_x"],
+            "relaxation_y": -found.cornering_stiffness / p["stiffness_y"],
+            "loaded_radius": static,
+            "effective_radius": static + np.minimum(weight, 1.0) * deflection,
+            "vertical_stiffness": root,
+        }
+
+
+def _polynomial(p: Mapping[str, float]) -> tuple[float, float]:
+    """Return both coefficients of the load over deflection, from the stiffness at two loads."""
+    once, twice = p["stiffness_1"] ** 2, p["stiffness_2"] ** 2
+    return math.sqrt(2.0 * once - twice), (twice - once) / (4.0 * p["nominal_load"])
+
+
+class _Reader:
+    """Numbers of a file, by their places."""
+
+    def __init__(self, data: Mapping[str, Any]) -> None:
+        self._data, self.problems = data, list[str]()
+
+    def values(self) -> Iterator[tuple[str, float]]:
+        """Yield names and numbers; zero where there is none."""
+        for name, place in _DESIGN.items():
+            yield name, self._number(place, self._at(place))
+        for name, place in _PAIRS.items():
+            found = self._at(place)
+            if not isinstance(found, list) or len(found) != 2:
+                self._refuse(place, found, "two numbers are needed, in brackets")
+                found = [0.0, 0.0]
+            yield f"{name}_1", self._number(place, found[0])
+            yield f"{name}_2", self._number(place, found[1])
+
+    def _at(self, place: tuple[str, ...]) -> Any:
+        found: Any = self._data
+        for key in place:
+            found = found.get(key) if isinstance(found, dict) else None
+        return found
+
+    def _number(self, place: tuple[str, ...], value: Any) -> float:
+        if (
+            isinstance(value, bool)
+            or not isinstance(value, int | float)
+            or not math.isfinite(value)
+        ):
+            self._refuse(place, value, "a finite number is needed")
+            return 0.0
+        return float(value)
+
+    def _refuse(self, place: tuple[str, ...], value: Any, needed: str) -> None:
+        told = "is missing" if value is None else f"= {short(legible(repr(value)))}"
+        problem = f'"{" > ".join(place)}" {told}: {needed}.'
+        if problem not in self.problems:
+            self.problems.append(problem)
+
+    def unread(self, data: Mapping[str, Any], above: tuple[str, ...] = ()) -> Iterator[str]:
+        """Yield the places of keys that are not used."""
+        used = {*_FORMAL, *_DESIGN.values(), *_PAIRS.values()}
+        for key, value in data.items():
+            place = (*above, key)
+            if place in used:
+                continue
+            if isinstance(value, dict) and any(one[: len(place)] == place for one in used):
+                yield from self.unread(value, place)
+            else:
+                yield legible(short(" > ".join(place)))
+
+
+def _impossible(p: Mapping[str, float]) -> Iterator[str]:
+    """Say which numbers no tyre has."""
+    places = _DESIGN | _PAIRS
+    may_be_zero = ("trail_", "resistance_", "rolling_")
+    for name, value in p.items():
+        place = " > ".join(places.get(name, places.get(name[:-2], (name,))))
+        if value < 0.0 or (value == 0.0 and not name.startswith(may_be_zero)):
+            yield f'"{place}" = {value:g}: more than zero is needed.'
+    for end in "12":
+        for axis, (section, keys) in _AXES.items():
+            first, last = p[f"{axis}_slip_of_maximum_{end}"], p[f"{axis}_slip_of_sliding_{end}"]
+            if not first < last:
+                yield (
+                    f'"{section}": {keys["slip_of_sliding"]!r} = {last:g} must be greater than '
+                    f"{keys['slip_of_maximum']!r} = {first:g}."
+                )
+            if p[f"{axis}_sliding_{end}"] > p[f"{axis}_maximum_{end}"]:
+                yield f'"{section}": the force of sliding is greater than the maximum.'
+    for name in (f"{axis}_{what}" for axis in "xy" for what in ("slope", "maximum", "sliding")):
+        once, twice = p[f"{name}_1"], p[f"{name}_2"]
+        greatest = p["greatest_load"] / max(p["nominal_load"], 1e-9)
+        least = 2.0 * once - 0.5 * twice - (once - 0.5 * twice) * greatest
+        if not least > 0.0:
+            yield (
+                f'"{" > ".join(_PAIRS[name])}" = [{once:g}, {twice:g}] makes it vanish within the '
+                'greatest load. Correct it, or "Maximum Vertical Force [N]".'
+            )
+    if p["stiffness_2"] ** 2 >= 2.0 * p["stiffness_1"] ** 2:
+        yield '"Vertical [N/m]": the second number is more than 1.41 times the first.'
