@@ -178,6 +178,8 @@ _INTERFACES = {
     "point_table": ".vehicle.files.point_table",
     "report": ".vehicle.report",
     "rig": ".vehicle.analysis.rig",
+    "ride": ".vehicle.analysis.ride",
+    "road_profiles": ".vehicle.roads",
     "roads": ".vehicle.analysis.roads",
     "scenario": ".vehicle.analysis.scenario",
     "schema": ".vehicle.files.schema",

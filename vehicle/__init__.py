@@ -2,6 +2,7 @@
 
 `data`      data sets that come with the project, and the file that a new project begins with
 `tyres`     tyres from files, evaluated on arrays
+`roads`     roads under both tracks, by the distance along them
 `input`     the sections of an input file, each with its checks
 `corner`    what every kind of suspension has
 `kinds`     a file for each kind of suspension

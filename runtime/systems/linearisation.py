@@ -170,6 +170,29 @@ class Linearisation:
         InputError
             If there is no such input, or an eigenvalue lies on one of the frequencies.
         """
+        states, column = self._responding(frequency, source)
+        response = states @ self.C.T + column @ self.D.T
+        return {name: response[..., i] for i, name in enumerate(self.output_names)}
+
+    def state_response(self, frequency: ArrayLike, source: str) -> Complex:
+        """Return how the states follow a small harmonic input, (..., states).
+
+        Parameters
+        ----------
+        frequency : array_like
+            [Hz].
+        source : str
+            An input, as of `frequency_response`.
+
+        Raises
+        ------
+        InputError
+            If there is no such input, or an eigenvalue lies on one of the frequencies.
+        """
+        return self._responding(frequency, source)[0]
+
+    def _responding(self, frequency: ArrayLike, source: str) -> tuple[Complex, Complex]:
+        """Return the amplitudes of states and inputs while one input moves harmonically."""
         with Arguments("frequency response") as given:
             frequencies = given.array("frequency", frequency, "Hz", empty=True)
             given.among("source", source, self.input_names)
@@ -181,15 +204,15 @@ class Linearisation:
         column = self._harmonic(source, s)
         moved = s[..., None] * np.eye(len(self.A)) - self.A
         try:
-            states = np.linalg.solve(moved, (column @ self.B.T)[..., None])[..., 0]
+            found = np.linalg.solve(moved, (column @ self.B.T)[..., None])
         except np.linalg.LinAlgError as error:
             problem = (
                 "frequency: an undamped mode lies on one of the frequencies (at 0 Hz what turns "
                 "freely), where the response is infinite. Leave that frequency out."
             )
             raise InputError([problem], "frequency response") from error
-        response = states @ self.C.T + column @ self.D.T
-        return {name: response[..., i] for i, name in enumerate(self.output_names)}
+        states: Complex = found[..., 0].astype(np.complex128)
+        return states, column
 
     def _harmonic(self, source: str, s: Complex) -> Complex:
         """Return the amplitudes of all inputs while one of them moves with amplitude one."""

@@ -9,5 +9,6 @@
 `rig`, `sheet`     curves that a rig measured; the K&C sheet
 `roads`, `measurement`, `excitation`    roads, racks and forces by formula and from a file
 `scenario`         a motion that is described by data
+`ride`             how a car rests, swings and rides over a road
 `paper`            what the paper shows of its suspension
 """

@@ -1,6 +1,7 @@
 """A car as an assembly: its body on the wheels of two axles, or of one corner."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal, NoReturn
 
@@ -35,8 +36,8 @@ from .usual import grid
 from .wheel_names import WheelNames
 
 NOT_A_CAR = (
-    "this is a whole car, and a suspension or an axle is needed. The commands characteristics and "
-    "simulate take a car; for others name the file of its axle or corner. In Python: "
+    "this is a whole car, and a suspension or an axle is needed. The commands characteristics, "
+    "simulate and ride take a car; for others name the file of its axle or corner. In Python: "
     'car.axles["front"], car.axles["rear"], car.corner.'
 )
 """Said where something else is needed than a car."""
@@ -334,6 +335,83 @@ class CarAssembly(Assembly):
             )
             raise PositionError(problem)
 
+    # -- how it rides -----------------------------------------------------------------------------
+
+    @cached_property
+    def _by_themselves(self) -> dict[str, "_HeldWheel"]:
+        """The equations of each wheel on a body that is held."""
+        found: dict[str, _HeldWheel] = {}
+        for end, part in self.held.items():
+            for side in part.wheels:
+                wheel = f"{end}_{side}" if end else side
+                if isinstance(part, RigidAxleAssembly):
+                    names = {n: f"{end}_{n}" for n in part.coordinates}
+                    found[wheel] = _HeldWheel(part.model, part.names_of(side).signals, names)
+                else:
+                    model = (
+                        part.model
+                        if isinstance(part, CornerAssembly)
+                        else part.subject.models[side]
+                    )
+                    arm = model.names.arm
+                    found[wheel] = _HeldWheel(model, "", {arm: f"{wheel}_{arm}" if end else arm})
+        return found
+
+    def travels(self, states: Array) -> dict[str, Array]:
+        """Return the heights of the wheel centres on the body above design, (n,) each [m].
+
+        Parameters
+        ----------
+        states : ndarray, shape (n, states)
+            Of its equations; the rack is taken to be in its middle.
+        """
+        return {
+            wheel: one.travel(states, self.model.state_names)
+            for wheel, one in self._by_themselves.items()
+        }
+
+    def travel_slopes(self, state: Array) -> dict[str, dict[str, float]]:
+        """Return the derivatives of these heights by the coordinates that move each wheel."""
+        return {
+            wheel: one.slopes(state, self.model.state_names)
+            for wheel, one in self._by_themselves.items()
+        }
+
+    def felt_at(self) -> dict[str, Array]:
+        """Return where the acceleration of the body is felt, from its centre of mass [m]."""
+        seats = self.car.described.seat_places()
+        places = {f"{name}_acceleration": place - self.car.com for name, place in seats.items()}
+        return {"body_acceleration": np.zeros(3)} | places
+
+    def behind(self) -> dict[str, float]:
+        """Return how far each wheel is behind the foremost one at design [m]."""
+        x = {wheel: float(center[0]) for wheel, center in self.car.wheel_centers.items()}
+        return {wheel: max(x.values()) - at for wheel, at in x.items()}
+
+    @property
+    def track(self) -> float:
+        """The mean distance of left and right wheel centres at design [m]; 0 of a quarter car."""
+        centers = self.car.wheel_centers
+        return float(
+            np.mean([abs(centers[f"{e}_left"][1] - centers[f"{e}_right"][1]) for e in self.axles])
+            if self.axles
+            else 0.0
+        )
+
+    def mode_shapes(self) -> dict[str, dict[str, float]]:
+        """Return the motions by which modes are named: shares of coordinates, by name."""
+        found = {name: {name: 1.0} for name in self.car.coordinates}
+        if not self.axles:
+            (own,) = self.held[""].coordinates
+            return found | {"hop": {own: 1.0}}
+        for end, part in self.held.items():
+            names = [f"{end}_{name}" for name in part.coordinates]
+            apart = not isinstance(part, RigidAxleAssembly)
+            hop = dict.fromkeys(names, 0.5) if apart else {names[0]: 1.0}
+            tramp = {names[0]: 0.5, names[1]: -0.5} if apart else {names[1]: 1.0}
+            found |= {f"{end}_hop": hop, f"{end}_tramp": tramp}
+        return found
+
     # -- what is of an axle alone -----------------------------------------------------------------
 
     def _refuse(self) -> NoReturn:
@@ -398,6 +476,46 @@ class CarAssembly(Assembly):
         """Refuse: bushes are those of an axle."""
         del given, bushings
         self._refuse()
+
+
+@dataclass(frozen=True)
+class _HeldWheel:
+    """The equations of a wheel on a body that is held, beside those of the car.
+
+    Attributes
+    ----------
+    model : Model or RigidAxleModel
+    prefix : str
+        Begins the names of its signals there.
+    names : dict of str to str
+        The coordinates of the car by those that move the wheel there.
+    """
+
+    model: Any
+    prefix: str
+    names: Mapping[str, str]
+
+    def _states(self, states: Array, of_car: Sequence[str]) -> Array:
+        own = np.broadcast_to(
+            self.model.design_state, (*states.shape[:-1], self.model.design_state.size)
+        ).copy()
+        for name, in_car in self.names.items():
+            own[..., self.model.state_names.index(name)] = states[..., of_car.index(in_car)]
+        return own
+
+    def travel(self, states: Array, of_car: Sequence[str]) -> Array:
+        name, model = f"{self.prefix}wheel_center_z", self.model
+        found: Array = model.signal(name, self._states(states, of_car))
+        return found - float(model.signal(name, model.design_state))
+
+    def slopes(self, state: Array, of_car: Sequence[str]) -> dict[str, float]:
+        model = self.model
+        row = model.signal_names.index(f"{self.prefix}wheel_center_z")
+        jacobian = model.evaluate("signals_jacobian", self._states(state, of_car))[row]
+        return {
+            in_car: float(jacobian[model.state_names.index(name)])
+            for name, in_car in self.names.items()
+        }
 
 
 def _held_parts(car: Car) -> dict[str, Assembly]:

@@ -23,6 +23,7 @@ from . import (
     paper,
     pareto,
     report,
+    ride,
     schema,
     sensitivity,
     sheet,
@@ -81,7 +82,7 @@ class _Command(TyperCommand):
 # In the order in which an engineer needs them.
 _PANELS = {
     "Begin": (new, import_, check),
-    "Compute": (characteristics, simulate, loads, compliance, sheet, compare),
+    "Compute": (characteristics, simulate, ride, loads, compliance, sheet, compare),
     "Design": (sensitivity, tolerance, optimise, pareto, fit, sweep),
     "Hand over": (report, export),
 }

@@ -8,6 +8,7 @@ from ...terminal.console import note, problems
 if TYPE_CHECKING:
     from ...systems.system import System
     from ..assembly.assembly import Assembly
+    from ..assembly.car import CarAssembly
     from ..assembly.of import AnyModel
     from ..kinds import Suspension
     from ..models.axle import Axle
@@ -59,6 +60,34 @@ def variable_subject(file: str) -> "Suspension | Axle | WholeAxle":
     if isinstance(found, Car):
         raise InputError([NOT_A_CAR], file)
     return found
+
+
+def car_of(file: str) -> "CarAssembly":
+    """Return the car that a file describes, its equations derived; others are refused.
+
+    Raises
+    ------
+    InputError
+        That names what the file describes.
+    """
+    from ...core.errors import InputError
+    from ..assembly.car import CarAssembly
+    from ..assembly.of import model_of as of_subject
+    from ..files.loading import load
+    from ..models.car import Car
+    from ..models.car.equations import CarModel
+
+    subject = load(file)
+    if not isinstance(subject, Car):
+        problem = (
+            f"this is the file of a {subject.heading()}, whose body is held. A car's file is "
+            "needed: quarter_car, or what kintrafo new FILE --car writes."
+        )
+        raise InputError([problem], file)
+    with problems.status("preparing the equations") as status:
+        model = of_subject(subject, progress=lambda text: status.update(f"the equations: {text}"))
+    assert isinstance(model, CarModel)
+    return CarAssembly(subject, model)
 
 
 def suspension_of(file: str) -> "Model":

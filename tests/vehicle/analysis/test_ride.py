@@ -1,0 +1,210 @@
+"""How cars ride: roads, weighting, rest, modes, linear responses, simulations."""
+
+from __future__ import annotations
+
+import kintrafo
+import numpy as np
+import pytest
+from kintrafo.vehicle.analysis.ride.linear import linear_at_rest
+from kintrafo.vehicle.analysis.ride.simulated import upward
+from kintrafo.vehicle.assembly.of import assembly_of
+from kintrafo.vehicle.roads import CLASSES, Road, bump, iso8608, isotropic_coherence
+from scipy.signal import csd, welch
+
+
+@pytest.fixture(scope="module")
+def car() -> kintrafo.Car:
+    return kintrafo.load("quarter_car")
+
+
+# -- roads -----------------------------------------------------------------------------------------
+
+
+def test_a_rough_road_has_the_spectrum_and_the_coherence_of_its_class() -> None:
+    road = iso8608("C", length=40_000.0, seed=5, track=1.5, fade=0.0)
+    how = {"fs": 1.0 / road.spacing, "nperseg": 8192, "window": "hann"}
+    n, left = welch(road.left, **how)
+    _, right = welch(road.right, **how)
+    _, cross = csd(road.left, road.right, **how)
+    band = (n > 0.03) & (n < 5.0)
+    wanted = CLASSES["C"] * (n[band] / 0.1) ** -2.0
+    # some 190 averages: 7 % each; the mean over the thousands of frequencies is far better
+    for density in (left[band], right[band]):
+        assert np.mean(density / wanted) == pytest.approx(1.0, abs=0.01)
+    shared = np.real(cross[band]) / np.sqrt(left[band] * right[band])
+    off = shared - isotropic_coherence(n[band], 1.5)
+    assert np.abs(off).mean() < 0.08
+    assert abs(off.mean()) < 0.01
+
+
+def test_a_seed_gives_one_road() -> None:
+    one, same, other = (iso8608("B", length=200.0, seed=s) for s in (1, 1, 2))
+    np.testing.assert_array_equal(one.left, same.left)
+    assert np.abs(one.left - other.left).max() > 1e-3
+    assert np.array_equal(*(iso8608("B", length=200.0, seed=1, track=0.0).__dict__[s] for s in
+                            ("left", "right")))  # fmt: skip
+
+
+def test_rear_wheels_meet_a_road_later() -> None:
+    road = bump(0.05, 1.0, at=4.0, end=20.0, sides="left")
+    front = road.over_time("left", 10.0, 0.0, 2.0)
+    rear = road.over_time("left", 10.0, 2.6, 2.0)
+    times = np.linspace(0.3, 1.9, 50)
+    np.testing.assert_allclose(rear(times), front(times - 0.26), atol=1e-12)
+    assert float(front(0.45)) == pytest.approx(0.05, abs=1e-9)
+    assert not road.right.any()
+
+
+@pytest.mark.parametrize(
+    ("made", "words"),
+    [
+        (lambda: Road(0.1, [0.0, np.nan, 0.0, 0.0], [0.0] * 4), "left"),
+        (lambda: Road(0.1, [0.0] * 5, [0.0] * 4), "as many are needed"),
+        (lambda: iso8608("Z", length=200.0, seed=1), "roughness"),
+        (lambda: iso8608("A", length=10.0, seed=1), "one of the longest waves"),
+        (lambda: iso8608("A", length=200.0, seed=1, spacing=0.2), "at most 0.05 m"),
+        (lambda: bump(0.05, 0.0), "length"),
+        (lambda: bump(0.05, 60.0), "beyond the end"),
+        (lambda: bump(0.05, 1.0).over_time("left", 0.0, 0.0, 1.0), "speed"),
+    ],
+)
+def test_roads_that_cannot_be_are_refused(made, words) -> None:
+    with pytest.raises(kintrafo.InputError, match=words):
+        made()
+
+
+# -- weighting -------------------------------------------------------------------------------------
+
+
+def test_the_weighting_is_that_of_the_standard() -> None:
+    """ISO 2631-1:1997, Table 3."""
+    table = {0.5: 418, 1.0: 482, 1.25: 484, 2.0: 531, 2.5: 631, 4.0: 967, 5.0: 1039, 6.3: 1054}
+    table |= {8.0: 1036, 10.0: 988, 12.5: 902, 16.0: 768, 20.0: 636, 25.0: 513, 31.5: 405}
+    table |= {40.0: 314, 63.0: 186, 80.0: 132}
+    frequencies = np.array(list(table))
+    found = 1e3 * np.abs(kintrafo.ride.weighting(frequencies))
+    np.testing.assert_allclose(found, list(table.values()), atol=1.0)  # its last digit
+
+
+def test_a_weighted_sine_has_the_size_of_the_weighting() -> None:
+    step = 1e-3
+    times = step * np.arange(20_000)
+    found = kintrafo.ride.weighted(np.sin(2.0 * np.pi * 5.0 * times), step)[10_000:]
+    # straight lines between the points are short of the sine by (2 pi f step)^2 / 12
+    assert found.max() == pytest.approx(abs(kintrafo.ride.weighting(5.0)), rel=2e-4)
+
+
+# -- a quarter car against two masses --------------------------------------------------------------
+
+
+def test_a_quarter_car_is_that_of_two_masses_in_the_limit(car: kintrafo.Car) -> None:
+    """Links without mass: the formulas of two masses on two springs, of any textbook."""
+    none = {
+        f"corner.bodies.{body}.{key}": 0.0
+        for body in ("control_arm", "knuckle")
+        for key in _INERTIA
+    }
+    wheel_alone = {
+        "mass_kg": 37.0,
+        "inertia_spin_kg_m2": 1e-6,
+        "inertia_diametral_kg_m2": 1e-6,
+    }
+    changes = {f"corner.bodies.wheel.{key}": value for key, value in wheel_alone.items()}
+    one = car.with_changes(none | changes)
+    assembly = assembly_of(one)
+    linear = linear_at_rest(assembly)
+    # the rates at the wheel, by the characteristics, which know no equations of motion
+    curves = kintrafo.characteristics.over(one.corner, "travel", [0.0])
+    rate, ratio = float(curves["wheel_rate"][0]), float(curves["motion_ratio"][0])
+    damping = 1500.0 * ratio**2
+    sprung, wheel, tyre = 345.36, 37.0, 200e3
+    frequencies = np.array([0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 25.0])
+    s = 2j * np.pi * frequencies
+    coupling = rate + damping * s
+    whole = (sprung * s**2 + coupling) * (wheel * s**2 + coupling + tyre) - coupling**2
+    heave = tyre * coupling / whole
+    found = linear.state_response(frequencies, "road_height")[:, 0]
+    # the wheel moves across, too: the square of its path's slope, 0.14, adds 2 % to its mass
+    np.testing.assert_allclose(np.abs(found), np.abs(heave), rtol=3e-2)
+    modes = kintrafo.ride.modes(one)["frequency"].values
+    middle = sprung * (rate + tyre) + wheel * rate
+    roots = np.roots(
+        [sprung * wheel, (sprung + wheel) * damping, middle, damping * tyre, rate * tyre]
+    )
+    expected = np.sort(np.abs(roots))[::2] / (2.0 * np.pi)
+    np.testing.assert_allclose(np.sort(modes), expected, rtol=1e-2)
+
+
+_INERTIA = ("mass_kg", "inertia_xx_kg_m2", "inertia_yy_kg_m2", "inertia_zz_kg_m2")
+
+
+def test_rest_is_that_of_a_simulation(car: kintrafo.Car) -> None:
+    model = kintrafo.CarModel(car)
+    start = model.design_state.copy()
+    start[0] += 0.02
+    end = kintrafo.simulate(model, (0.0, 12.0), start).y[:, -1]
+    # 12 s are 18 time constants of the heave: 2e-2 exp(-18)
+    np.testing.assert_allclose(end[:2], kintrafo.equilibrium(model)[:2], atol=1e-8)
+    found = kintrafo.ride.at_rest(car)
+    assert float(found["load"]) == pytest.approx(9.81 * 387.36, rel=1e-9)
+    assert float(found["travel"]) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_the_linear_spectrum_is_that_of_a_long_simulation(car: kintrafo.Car) -> None:
+    speed, step = 20.0, 0.005
+    road = iso8608("A", length=8000.0, seed=3, track=0.0)
+    motion = kintrafo.ride.over(car, road, speed, settle=5.0, output_step=step)
+    f, density = welch(
+        motion["body_acceleration"].values[motion["time"].values > 5.0], fs=1.0 / step, nperseg=2048
+    )
+    band = (f > 0.6) & (f < 20.0)
+    linear = kintrafo.ride.response(car, speed, "A", frequency=f[band])
+    wanted = linear["body_acceleration_psd"].values
+    # some 75 averages in each of 200 frequencies; where they are narrow the peaks are blunt
+    assert np.mean(density[band] / wanted) == pytest.approx(1.0, abs=0.05)
+    assert np.std(density[band] / wanted) < 0.25
+    whole = kintrafo.ride.response(car, speed, "A")
+    for name in ("body_acceleration", "travel"):
+        simulated = motion[name].attrs["rms"]
+        assert simulated == pytest.approx(whole[f"{name}_psd"].attrs["rms"], rel=0.05)
+    weighted = whole["body_acceleration_psd"].attrs["weighted_rms"]
+    assert motion["body_acceleration"].attrs["weighted_rms"] == pytest.approx(weighted, rel=0.05)
+
+
+def test_a_tyre_that_pulls_at_the_road_is_named(car: kintrafo.Car) -> None:
+    motion = kintrafo.ride.over(car, bump(0.05, 0.5, at=1.0, end=20.0), 8.0, duration=1.0, settle=0)
+    assert any("pulls at the road" in text for text in motion.attrs["not_valid"])
+
+
+def test_upward_is_the_second_derivative_of_the_height() -> None:
+    rng = np.random.default_rng(2)
+    place = rng.normal(0.0, 1.0, 3)
+    terms = rng.normal(0.0, 0.2, (3, 3))
+    names = ("heave", "pitch", "roll")
+
+    def at(t):
+        powers = np.array([t, t**2, t**3])
+        return dict(zip(names, terms @ powers, strict=True))
+
+    def height(t):
+        q = at(t)
+        h = np.sin(q["roll"]) * place[1] + np.cos(q["roll"]) * place[2]
+        return q["heave"] - np.sin(q["pitch"]) * place[0] + np.cos(q["pitch"]) * h
+
+    t, step = 0.7, 1e-3
+    motion = {
+        name: (
+            np.array([row @ [t, t**2, t**3]]),
+            np.array([row @ [1.0, 2 * t, 3 * t**2]]),
+            np.array([row @ [0.0, 2.0, 6 * t]]),
+        )
+        for name, row in zip(names, terms, strict=True)
+    }
+    difference = (height(t + step) - 2.0 * height(t) + height(t - step)) / step**2
+    # the fourth derivative over 12 by the square of the step, and rounding over it
+    assert upward(motion, place)[0] == pytest.approx(difference, abs=1e-5)
+
+
+def test_a_held_body_does_not_ride() -> None:
+    with pytest.raises(kintrafo.InputError, match="by itself is held"):
+        kintrafo.ride.modes(kintrafo.load("reference_axle"))

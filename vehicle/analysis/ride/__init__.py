@@ -1,0 +1,14 @@
+"""How a car rides: its rest, its modes, and what a road does to it.
+
+`at_rest`    ride heights, corner weights and alignment where a car rests
+`modes`      heave, pitch, roll, and hop and tramp of its axles, by the exact linearisation
+`response`   frequency responses to the road under each wheel, and spectra on a rough road
+`over`       a simulation over a road, and what it is judged by
+"""
+
+from .linear import modes, response
+from .rest import at_rest
+from .simulated import over
+from .weighting import weighted, weighting
+
+__all__ = ["at_rest", "modes", "over", "response", "weighted", "weighting"]

@@ -1,0 +1,227 @@
+"""The modes of a car, and its responses to the road, by the exact linearisation at rest.
+
+With H_w the response of an output to the road under the wheel w, which meets it later by the time
+tau_w, an output on a rough road that does not change along the way has the one-sided density ::
+
+    G_y(f) = (|Y_L|^2 + |Y_R|^2 + 2 g Re(Y_L* Y_R)) G(n) / v,    n = f / v
+    Y_side(f) = sum over its wheels of H_w(f) exp(-2 pi i f tau_w)
+
+with g the normalised cross-spectrum of the two tracks (`kintrafo.road_profiles`). Nothing is
+simulated.
+"""
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from ....core.arguments import Arguments
+from ....core.quantities import variable
+from ....systems.linearisation import Linearisation, linearise
+from ....systems.modes import mode_of_states
+from ...assembly.by_wheel import WHEEL, wheel_coordinate
+from ...assembly.car import CarAssembly
+from ...assembly.equilibrium import equilibrium
+from ...roads.rough import isotropic_coherence, roughness_of, spectrum
+from .outputs import OUTPUTS_OF_WHEELS, body_outputs, wheel_outputs
+from .subject import car_assembly
+from .weighting import weighting
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+def linear_at_rest(assembly: CarAssembly) -> Linearisation:
+    """Return the linear equations at rest, without friction, which has no rate there."""
+    smooth = assembly.without_friction()
+    return linearise(smooth.model, equilibrium(smooth.model))
+
+
+def modes(subject: Any) -> xr.Dataset:
+    """Return the modes of a car at rest by their names.
+
+    Parameters
+    ----------
+    subject : Car or CarModel
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``mode``: ``frequency``, undamped [Hz], and ``damping_ratio``, without friction. The
+        modes are those in which the motion of the name takes part most: ``heave``, ``pitch`` and
+        ``roll`` of the body; ``front_hop`` and ``rear_hop``, both wheels of an axle together, and
+        ``front_tramp`` and ``rear_tramp``, oppositely; of a quarter car ``heave`` and ``hop``.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> found = kintrafo.ride.modes(kintrafo.load("quarter_car"))
+    >>> dict(zip(found["mode"].values.tolist(), found["frequency"].values.round(2).tolist()))
+    {'heave': 1.24, 'hop': 12.48}
+    """
+    assembly = car_assembly("modes", subject)
+    linear = linear_at_rest(assembly)
+    matrix, names, motions = _in_motions(assembly, linear)
+    places = [[names.index(name), names.index(f"{name}_rate")] for name in motions]
+    found = [mode_of_states(matrix, names, place) for place in places]
+    return xr.Dataset(
+        {
+            "frequency": variable(
+                "mode",
+                np.array([mode.natural_frequency for mode in found]),
+                "undamped natural frequency",
+                "Hz",
+            ),
+            "damping_ratio": variable(
+                "mode", np.array([mode.damping_ratio for mode in found]), "damping ratio", "1"
+            ),
+        },
+        {"mode": ("mode", list(motions), {"long_name": "mode"})},
+        {"title": "modes at rest"},
+    )
+
+
+def _in_motions(
+    assembly: CarAssembly, linear: Linearisation
+) -> tuple[Array, tuple[str, ...], tuple[str, ...]]:
+    """Return A over the motions that modes are named by, in place of coordinates."""
+    shapes = assembly.mode_shapes()
+    half = len(linear.state_names) // 2
+    coordinates = linear.state_names[:half]
+    known = {name for shape in shapes.values() for name in shape}
+    rows = list(shapes.values())
+    rows += [{name: 1.0} for name in coordinates if name not in known]
+    names = (*shapes, *(name for name in coordinates if name not in known))
+    turned = np.array([[row.get(name, 0.0) for name in coordinates] for row in rows])
+    whole = np.kron(np.eye(2), turned)
+    matrix = whole @ linear.A @ np.linalg.inv(whole)
+    return matrix, (*names, *(f"{name}_rate" for name in names)), tuple(shapes)
+
+
+def response(
+    subject: Any,
+    speed: float,
+    roughness: str | float = "B",
+    *,
+    frequency: ArrayLike | None = None,
+) -> xr.Dataset:
+    """Return how a car answers a rough road, from its linear equations.
+
+    Parameters
+    ----------
+    subject : Car or CarModel
+    speed : float
+        [m/s]
+    roughness : str or float, optional
+        A class of ISO 8608, or G(n0) [m^3]: of an isotropic road under both tracks.
+    frequency : array_like, optional
+        [Hz]; by default 0.2 to 50 Hz in steps of 0.02 Hz.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``frequency``: of each output its one-sided power spectral density, the name with
+        ``_psd`` behind, and over ``road_wheel`` the size of its response to the road under each
+        wheel alone, with ``_by_road``. Outputs are those of `over`: ``body_acceleration``, that of
+        each seat, ``load`` and ``travel`` of each wheel. Their RMS over these frequencies are
+        attributes of the spectra, ``rms`` and, of accelerations, ``weighted_rms`` by W_k of ISO
+        2631-1. What lifts off, touches a stop or rubs is not linear: see `over`.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> found = kintrafo.ride.response(kintrafo.load("quarter_car"), 20.0)
+    >>> round(found["body_acceleration_psd"].attrs["rms"], 2)
+    0.81
+    """
+    assembly = car_assembly("response", subject)
+    with Arguments("response") as given:
+        speed = given.number("speed", speed, "m/s", above=0.0)
+        at_reference = roughness_of(given, roughness)
+        default = np.arange(0.2, 50.0 + 1e-9, 0.02)
+        chosen = default if frequency is None else frequency
+        frequencies = given.array("frequency", chosen, "Hz", dimensions=[1])
+        if not given.refused and (frequencies <= 0.0).any():
+            given.refuse("frequency: more than 0 Hz is needed.")
+    linear = linear_at_rest(assembly)
+    by_wheel = {w: _outputs(assembly, linear, frequencies, w) for w in assembly.wheels}
+    variables: dict[str, Any] = {}
+    for name, (words, unit) in _described(assembly).items():
+        rows = {wheel: found[name] for wheel, found in by_wheel.items()}
+        density = _density(assembly, rows, frequencies, speed, at_reference)
+        of_wheels = name in OUTPUTS_OF_WHEELS and len(assembly.wheels) > 1
+        dims = (WHEEL, "frequency") if of_wheels else ("frequency",)
+        spectrum_of = variable(dims, density, f"spectrum of {words}", f"({unit})^2/Hz")
+        spectrum_of.attrs |= _rms(density, frequencies, accelerates=unit == "m/s^2")
+        variables[f"{name}_psd"] = spectrum_of
+        sizes = np.stack([np.abs(row) for row in rows.values()])
+        by_road = f"size of {words} by the height of the road under a wheel"
+        unit_by_road = f"({unit})/m"
+        variables[f"{name}_by_road"] = variable(("road_wheel", *dims), sizes, by_road, unit_by_road)
+    coordinates = {
+        "frequency": ("frequency", frequencies, {"units": "Hz", "long_name": "frequency"}),
+        "road_wheel": ("road_wheel", list(assembly.wheels), {"long_name": "wheel on the road"}),
+        WHEEL: wheel_coordinate(assembly.wheels),
+    }
+    return xr.Dataset(variables, coordinates, {"title": "response to a rough road, linear"})
+
+
+def _described(assembly: CarAssembly) -> dict[str, tuple[str, str]]:
+    return body_outputs(assembly) | OUTPUTS_OF_WHEELS
+
+
+def _outputs(
+    assembly: CarAssembly, linear: Linearisation, frequencies: Array, wheel: str
+) -> dict[str, Complex]:
+    """Return the response of every output to the road under a wheel: (f,), or (wheels, f)."""
+    road = assembly.names_of(wheel).road
+    states = linear.state_response(frequencies, road)
+    signals = linear.frequency_response(frequencies, road)
+    half = len(linear.state_names) // 2
+    position = dict(
+        zip(linear.state_names[:half], np.moveaxis(states[..., :half], -1, 0), strict=True)
+    )
+    s2 = (2j * np.pi * frequencies) ** 2
+    found: dict[str, Complex] = {}
+    for name, place in assembly.felt_at().items():
+        arm = dict(zip(("heave", "pitch", "roll"), (1.0, -place[0], place[1]), strict=True))
+        found[name] = sum(
+            (arm[k] * s2 * position[k] for k in assembly.car.coordinates), np.zeros_like(s2)
+        )
+    travels = assembly.travel_slopes(linear.state)
+    rows = wheel_outputs(assembly, signals, position, travels)
+    single = len(assembly.wheels) == 1
+    return found | {name: (row[0] if single else np.stack(row)) for name, row in rows.items()}
+
+
+def _density(
+    assembly: CarAssembly,
+    rows: dict[str, Complex],
+    frequencies: Array,
+    speed: float,
+    at_reference: float,
+) -> Array:
+    """Return the density of an output from its responses to each wheel."""
+    track, behind = assembly.track, assembly.behind()
+    sides: dict[str, Complex] = {}
+    for wheel, row in rows.items():
+        side = wheel.rpartition("_")[2]
+        late = np.exp(-2j * np.pi * frequencies * behind[wheel] / speed)
+        sides[side] = sides.get(side, 0.0) + row * late
+    total = sum(np.abs(each) ** 2 for each in sides.values())
+    if len(sides) > 1:
+        left, right = sides.values()
+        total = total + 2.0 * isotropic_coherence(frequencies / speed, track) * np.real(
+            np.conj(left) * right
+        )
+    return np.asarray(total * spectrum(at_reference, frequencies / speed) / speed)
+
+
+def _rms(density: Array, frequencies: Array, *, accelerates: bool) -> dict[str, Any]:
+    rms = np.sqrt(np.trapezoid(density, frequencies, axis=-1))
+    found = {"rms": rms.tolist()}
+    if accelerates:
+        felt = density * np.abs(weighting(frequencies)) ** 2
+        found["weighted_rms"] = np.sqrt(np.trapezoid(felt, frequencies, axis=-1)).tolist()
+    return found

@@ -1,0 +1,81 @@
+"""Where a car rests: ride heights, corner weights, alignment."""
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ....core.quantities import variable
+from ...assembly.by_wheel import WHEEL, wheel_coordinate
+from ...assembly.car import CarAssembly
+from ...assembly.equilibrium import equilibrium
+from .subject import car_assembly
+
+_OF_BODY = {
+    "heave": ("height of the body's centre of mass above that at design", "m"),
+    "pitch": ("pitch of the body, positive nose down", "rad"),
+    "roll": ("roll of the body, positive with the left side up", "rad"),
+}
+
+
+def at_rest(subject: Any) -> xr.Dataset:
+    """Return where a car rests on a level road.
+
+    Parameters
+    ----------
+    subject : Car or CarModel
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``wheel``: ``load``, the vertical force of the road [N]; ``travel``, height of the
+        wheel centre on the body above that at design [m]; ``camber`` and ``toe`` of the wheel to
+        the road [rad]. Of the body, as far as it moves so: ``heave``, ``pitch`` and ``roll``.
+
+    Raises
+    ------
+    PositionError
+        If the car does not rest on its wheels, or rests on a stop.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> rest = kintrafo.ride.at_rest(kintrafo.load("quarter_car"))
+    >>> round(float(rest["load"]), 1)
+    3800.0
+    """
+    assembly = car_assembly("at_rest", subject)
+    return of_state(assembly, np.asarray(equilibrium(assembly.model)))
+
+
+def of_state(assembly: CarAssembly, state: Any) -> xr.Dataset:
+    """Return what `at_rest` does of a state of rest."""
+    model = assembly.model
+    signals = model.signals(state)
+    values: dict[str, list[float]] = {"load": [], "travel": [], "camber": [], "toe": []}
+    travels = assembly.travels(state[None])
+    for wheel in assembly.wheels:
+        own = {name: float(signals[f"{assembly.names_of(wheel).signals}{name}"]) for name in _READ}
+        # the force of the tyre is in the plane of the wheel
+        values["load"].append(own["tyre_force"] * np.cos(own["camber"]))
+        values["travel"].append(float(travels[wheel][0]))
+        values["camber"].append(own["camber"])
+        values["toe"].append(own["toe"])
+    dims = () if len(assembly.wheels) == 1 else (WHEEL,)
+    found = {
+        name: variable(dims, np.array(values[name] if dims else values[name][0]), words, unit)
+        for name, (words, unit) in _OF_WHEELS.items()
+    }
+    for name in assembly.car.coordinates:
+        value = state[model.state_names.index(name)]
+        found[name] = variable((), np.array(value), *_OF_BODY[name])
+    return xr.Dataset(found, {WHEEL: wheel_coordinate(assembly.wheels)}, {"title": "car at rest"})
+
+
+_READ = ("tyre_force", "camber", "toe")
+_OF_WHEELS = {
+    "load": ("vertical force of the road on the wheel", "N"),
+    "travel": ("height of the wheel centre on the body above that at design", "m"),
+    "camber": ("camber to the road, positive with the top outboard", "rad"),
+    "toe": ("toe angle, positive toe-in", "rad"),
+}

@@ -1,0 +1,204 @@
+"""A car over a road, simulated, and what the ride is judged by."""
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ....core.arguments import Arguments
+from ....core.quantities import variable
+from ....simulation.result import Simulation
+from ....simulation.simulate import simulate
+from ...assembly.by_wheel import WHEEL, wheel_coordinate
+from ...assembly.car import CarAssembly
+from ...assembly.equilibrium import equilibrium
+from ...roads import Road
+from .outputs import OUTPUTS_OF_WHEELS, body_outputs
+from .subject import car_assembly
+from .weighting import weighted
+
+Array = NDArray[np.float64]
+
+# More outputs than this are a mistake in the step, and would fill the memory.
+_MOST_OUTPUTS = 2_000_000
+# A tyre that carries less than this is off the road [N].
+_OFF = 1e-6
+
+
+def over(
+    subject: Any,
+    road: Road,
+    speed: float,
+    *,
+    duration: float | None = None,
+    settle: float = 2.0,
+    output_step: float = 0.005,
+    **options: Any,
+) -> xr.Dataset:
+    """Return the motion of a car over a road, from rest at the beginning of it.
+
+    Parameters
+    ----------
+    subject : Car or CarModel
+    road : Road
+        Under the left and the right wheels; rear wheels meet it later by the wheelbase.
+    speed : float
+        [m/s]
+    duration : float, optional
+        [s]; by default as long as the road is under the rear wheels.
+    settle : float, optional
+        What is judged begins after this time [s].
+    output_step : float, optional
+        [s]
+    **options
+        Of `kintrafo.simulate`: ``method``, by default 'DormandPrince', and tolerances.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``time``: ``body_acceleration`` of the centre of mass, upward, and that of each seat
+        [m/s^2]; the coordinates of the body; over ``wheel``, too, ``load``, the force of the tyre
+        [N], ``travel`` of the wheel centre on the body from design, and ``road`` [m]. Each variable
+        has ``rms`` about its mean, ``smallest`` and ``largest`` after `settle` as attributes;
+        accelerations also ``weighted_rms`` by W_k of ISO 2631-1, loads ``off_the_road``, the part
+        of that time in which the tyre carries nothing. The attribute ``not_valid`` lists in words
+        where the motion leaves what the equations describe, as a tyre that pulls at the road
+        because its file does not say that it lifts off.
+
+    Raises
+    ------
+    PositionError
+        If the car does not rest at the beginning of the road.
+    SimulationError
+        If the motion cannot be finished.
+    """
+    assembly = car_assembly("ride", subject)
+    with Arguments("ride") as given:
+        given.kind("road", road, Road, "a kintrafo.road_profiles.Road is needed")
+        speed = given.number("speed", speed, "m/s", above=0.0)
+        settle = given.number("settle", settle, "s", least=0.0)
+        step = given.number("output_step", output_step, "s", above=0.0)
+        if not given.refused:
+            longest = (road.length + max(assembly.behind().values())) / speed
+            end = (
+                longest if duration is None else given.number("duration", duration, "s", above=0.0)
+            )
+            if settle >= end:
+                given.refuse(
+                    f"settle = {settle:g} s: less than the duration, {end:g} s, is needed."
+                )
+            if end / step > _MOST_OUTPUTS:
+                given.refuse(
+                    f"output_step = {step:g} s: {end / _MOST_OUTPUTS:.3g} s or more is needed."
+                )
+    result = _simulated(assembly, road, speed, end, step, options)
+    return _judged(_dataset(assembly, result), settle, step)
+
+
+def _simulated(
+    assembly: CarAssembly,
+    road: Road,
+    speed: float,
+    end: float,
+    step: float,
+    options: dict[str, Any],
+) -> Simulation:
+    model, behind = assembly.model, assembly.behind()
+    heights = {
+        wheel: road.over_time(wheel.rpartition("_")[2], speed, behind[wheel], end)
+        for wheel in assembly.wheels
+    }
+    start = equilibrium(model, road_height={w: float(h(0.0)) for w, h in heights.items()})
+    return simulate(
+        model,
+        (0.0, end),
+        start,
+        inputs={assembly.names_of(wheel).road: heights[wheel] for wheel in assembly.wheels},
+        t_eval=np.linspace(0.0, end, max(round(end / step), 1) + 1),
+        **({"method": "DormandPrince"} | options),
+    )
+
+
+def _dataset(assembly: CarAssembly, result: Simulation) -> xr.Dataset:
+    model, states = assembly.model, result.y.T
+    rates = model.evaluate("rhs", states, result.inputs)
+    motion = {
+        name: (states[:, i], states[:, i + half], rates[:, i + half])
+        for half in [len(model.state_names) // 2]
+        for name in assembly.car.coordinates
+        for i in [model.state_names.index(name)]
+    }
+    found = {
+        name: variable("time", upward(motion, assembly.felt_at()[name]), words, unit)
+        for name, (words, unit) in body_outputs(assembly).items()
+    }
+    for name, (position, *_) in motion.items():
+        unit = "m" if name == "heave" else "rad"
+        found[name] = variable("time", position, f"{name} of the body", unit)
+    single = len(assembly.wheels) == 1
+    travels = assembly.travels(states)
+    names = {wheel: assembly.names_of(wheel) for wheel in assembly.wheels}
+    roads = {w: result.inputs[:, model.input_names.index(own.road)] for w, own in names.items()}
+    rows = {
+        "load": [result.signals[f"{own.signals}tyre_force"] for own in names.values()],
+        "travel": list(travels.values()),
+        "road": list(roads.values()),
+    }
+    described = OUTPUTS_OF_WHEELS | {"road": ("height of the road under the wheel", "m")}
+    for name, (words, unit) in described.items():
+        values = rows[name][0] if single else np.stack(rows[name])
+        found[name] = variable(("time",) if single else (WHEEL, "time"), values, words, unit)
+    coordinates = {
+        "time": ("time", result.t, {"units": "s", "long_name": "time"}),
+        WHEEL: wheel_coordinate(assembly.wheels),
+    }
+    left = [str(found) for found in result.validity if not found.bound.possible]
+    attributes = {"title": "ride over a road", "solver": result.solver, "not_valid": left}
+    return xr.Dataset(found, coordinates, attributes)
+
+
+def upward(motion: dict[str, tuple[Array, Array, Array]], place: Array) -> Array:
+    """Return the upward acceleration of a point of a body that heaves, pitches and rolls.
+
+    Parameters
+    ----------
+    motion : dict of str to tuple of ndarray
+        Position, rate and acceleration of ``heave``, ``pitch`` and ``roll``, as far as there are.
+    place : ndarray, shape (3,)
+        From the centre of mass, axes of the body [m].
+    """
+    none = np.zeros_like(motion["heave"][0])
+    pitch, d_pitch, dd_pitch = motion.get("pitch", (none, none, none))
+    roll, d_roll, dd_roll = motion.get("roll", (none, none, none))
+    x, y, z = place
+    # the height of the point is heave - sin(pitch) x + cos(pitch) h
+    h, slope = np.sin(roll) * y + np.cos(roll) * z, np.cos(roll) * y - np.sin(roll) * z
+    d_h, dd_h = d_roll * slope, dd_roll * slope - d_roll**2 * h
+    sine, cosine = np.sin(pitch), np.cos(pitch)
+    found: Array = (
+        motion["heave"][2]
+        - dd_pitch * (cosine * x + sine * h)
+        + d_pitch**2 * (sine * x - cosine * h)
+        - 2.0 * sine * d_pitch * d_h
+        + cosine * dd_h
+    )
+    return found
+
+
+def _judged(found: xr.Dataset, settle: float, step: float) -> xr.Dataset:
+    """Give each variable what it is judged by."""
+    after = found["time"].values >= settle
+    for name, data in found.data_vars.items():
+        values = data.values[..., after]
+        data.attrs |= {
+            "rms": values.std(axis=-1).tolist(),
+            "smallest": values.min(axis=-1).tolist(),
+            "largest": values.max(axis=-1).tolist(),
+        }
+        if str(name).endswith("acceleration"):
+            felt = weighted(data.values, step)[after]
+            data.attrs["weighted_rms"] = float(np.sqrt(np.mean(felt**2)))
+        if name == "load":
+            data.attrs["off_the_road"] = (values <= _OFF).mean(axis=-1).tolist()
+    return found

@@ -1,0 +1,29 @@
+"""The car that a function of this folder is given."""
+
+from typing import Any
+
+from ....core.arguments import Arguments
+from ...assembly.car import CarAssembly
+from ...assembly.of import assembly_of
+from ...models.car import Car
+from ...models.car.equations import CarModel
+
+
+def car_assembly(source: str, subject: Any) -> CarAssembly:
+    """Return a car, or its equations, as an assembly; refuse what has a body that is held.
+
+    Raises
+    ------
+    InputError
+    """
+    with Arguments(source) as given:
+        given.kind("subject", subject, (Car, CarModel, CarAssembly), _NEEDED)
+    found = assembly_of(subject)
+    assert isinstance(found, CarAssembly)
+    return found
+
+
+_NEEDED = (
+    'a kintrafo.Car, such as kintrafo.load("quarter_car"), is needed; the body of a suspension or '
+    "an axle by itself is held"
+)

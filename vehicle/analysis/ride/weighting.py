@@ -1,0 +1,80 @@
+"""The frequency weighting of vertical acceleration, W_k of ISO 2631-1:1997, Annex A."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ....core.arguments import Arguments
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+# Corner frequencies [Hz] and quality factors of W_k.
+_HIGH_PASS, _LOW_PASS = 0.4, 100.0
+_TRANSITION, _TRANSITION_QUALITY = 12.5, 0.63
+_STEP_FROM, _STEP_TO, _STEP_QUALITY = 2.37, 3.35, 0.91
+
+
+def _polynomials() -> tuple[Array, Array]:
+    """Return numerator and denominator of W_k over s, highest power first."""
+    corners = (_HIGH_PASS, _LOW_PASS, _TRANSITION, _STEP_FROM, _STEP_TO)
+    w1, w2, w3, w5, w6 = (2.0 * np.pi * corner for corner in corners)
+    root, q4, q = np.sqrt(2.0), _TRANSITION_QUALITY, _STEP_QUALITY
+    parts: list[tuple[list[float], list[float]]] = [
+        ([1.0, 0.0, 0.0], [1.0, root * w1, w1 * w1]),
+        ([1.0], [1.0 / w2**2, root / w2, 1.0]),
+        ([1.0 / w3, 1.0], [1.0 / w3**2, 1.0 / (q4 * w3), 1.0]),
+        ([1.0, w5 / q, w5 * w5], [1.0, w6 / q, w6 * w6]),
+    ]
+    return _product([above for above, _ in parts]), _product([below for _, below in parts])
+
+
+def _product(polynomials: list[list[float]]) -> Array:
+    found = np.ones(1)
+    for each in polynomials:
+        found = np.convolve(found, each)
+    return found
+
+
+def weighting(frequency: ArrayLike) -> Complex:
+    """Return the weighting W_k of vertical acceleration.
+
+    Parameters
+    ----------
+    frequency : array_like
+        [Hz]
+
+    Returns
+    -------
+    ndarray of complex
+        The transfer function with its band limits, by the poles of ISO 2631-1, Annex A.
+
+    Examples
+    --------
+    >>> abs(weighting([1.0, 8.0])).round(3).tolist()
+    [0.482, 1.036]
+    """
+    with Arguments("weighting") as given:
+        frequencies = given.array("frequency", frequency, "Hz", empty=True)
+    numerator, denominator = _polynomials()
+    s = 2j * np.pi * frequencies
+    found: Complex = np.polyval(numerator, s) / np.polyval(denominator, s)
+    return found
+
+
+def weighted(acceleration: ArrayLike, step: float) -> Array:
+    """Return a vertical acceleration over time, weighted by W_k.
+
+    Parameters
+    ----------
+    acceleration : array_like, shape (n,)
+        At equal times, straight between them [m/s^2]. The filter begins at rest.
+    step : float
+        Between two times [s].
+    """
+    with Arguments("weighted") as given:
+        values = given.array("acceleration", acceleration, "m/s^2", dimensions=[1])
+        step = given.number("step", step, "s", above=0.0)
+    from scipy.signal import lsim  # noqa: PLC0415 (slow to import)
+
+    _, filtered, _ = lsim(_polynomials(), values, step * np.arange(values.size, dtype=float))
+    return np.asarray(filtered, dtype=float)

@@ -1,0 +1,117 @@
+"""A road: heights of two tracks at equal distances."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import CubicSpline
+
+from ...core.arguments import Arguments
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Road:
+    """Heights of a road under the left and the right wheels.
+
+    Before its first and behind its last point a road goes on at the height that it has there.
+
+    Parameters
+    ----------
+    spacing : float
+        Distance of its points [m].
+    left, right : array_like, shape (n,)
+        Heights, positive up [m]; four points or more.
+    words : str, optional
+        What it is.
+
+    Examples
+    --------
+    >>> road = Road(0.5, [0.0, 0.0, 0.01, 0.01], [0.0, 0.0, 0.0, 0.0])
+    >>> road.length
+    1.5
+    """
+
+    spacing: float
+    left: Array
+    right: Array
+    words: str = "a road of given heights"
+
+    def __post_init__(self) -> None:
+        with Arguments("Road") as given:
+            spacing = given.number("spacing", self.spacing, "m", above=0.0)
+            left = given.array("left", self.left, "m", dimensions=[1])
+            right = given.array("right", self.right, "m", dimensions=[1])
+            given.text("words", self.words)
+            if not given.refused and (left.shape != right.shape or left.size < 4):
+                given.refuse(
+                    f"left has {left.size} points and right {right.size}: as many are needed of "
+                    "both, and four or more."
+                )
+        for name, value in (("spacing", spacing), ("left", left), ("right", right)):
+            object.__setattr__(self, name, value)
+
+    @property
+    def length(self) -> float:
+        """How long it is [m]."""
+        return self.spacing * (self.left.size - 1)
+
+    def over_time(self, side: str, speed: float, behind: float, end: float) -> CubicSpline:
+        """Return the height under a wheel over time.
+
+        Parameters
+        ----------
+        side : {'left', 'right'}
+        speed : float
+            [m/s]
+        behind : float
+            How far the wheel is behind the front one, which is at the first point at time 0 [m].
+        end : float
+            Last time [s].
+
+        Returns
+        -------
+        scipy.interpolate.CubicSpline
+            From time 0 to the last one [m].
+        """
+        with Arguments("Road.over_time") as given:
+            given.among("side", side, ("left", "right"))
+            speed = given.number("speed", speed, "m/s", above=0.0)
+            behind = given.number("behind", behind, "m")
+            end = given.number("end", end, "s", above=0.0)
+        heights = self.left if side == "left" else self.right
+        step = self.spacing / speed
+        before = int(np.ceil(max(behind, 0.0) / self.spacing)) + 1
+        after = max(int(np.ceil(end / step)) - heights.size, 0) + 2
+        padded = np.pad(heights, (before, after), mode="edge")
+        times = (np.arange(padded.size) - before) * step + behind / speed
+        inside = (times >= -2.0 * step) & (times <= end + 2.0 * step)
+        return CubicSpline(times[inside], padded[inside], extrapolate=False)
+
+    def __add__(self, other: "Road") -> "Road":
+        """Return the sum of two roads of equal points."""
+        with Arguments("Road") as given:
+            given.kind("other", other, Road, "a kintrafo.roads.Road is needed")
+            if not given.refused and (other.spacing, other.left.size) != (
+                self.spacing,
+                self.left.size,
+            ):
+                given.refuse("the roads have other points: equal spacing and number are needed.")
+        words = f"{self.words}, and {other.words}"
+        return Road(self.spacing, self.left + other.left, self.right + other.right, words)
+
+
+def points(length: float, spacing: float) -> Array:
+    """Return the distances of the points of a road [m]."""
+    return np.asarray(spacing * np.arange(int(np.ceil(length / spacing)) + 1), dtype=float)
+
+
+def both(spacing: float, heights: ArrayLike, sides: str, words: str) -> Road:
+    """Return a road of one profile under the wheels of both sides, or of one."""
+    with Arguments("road") as given:
+        given.among("sides", sides, ("both", "left", "right"))
+    profile = np.asarray(heights, dtype=float)
+    left, right = (profile if sides in ("both", s) else 0.0 * profile for s in ("left", "right"))
+    where = "" if sides == "both" else f" under the {sides} wheels"
+    return Road(spacing, left, right, words + where)

@@ -1,0 +1,153 @@
+"""Rough roads of ISO 8608, with two tracks.
+
+The one-sided power spectral density of the heights over the spatial frequency n is ::
+
+    G(n) = G(n0) (n / n0)^-2,    n0 = 0.1 1/m
+
+and a class has G(n0) of 4^k 1e-6 m^3: A 16, B 64, C 256 and so on (the geometric means of ISO
+8608:2016). An isotropic road has the same statistics in all directions; its two tracks at the
+distance t have the normalised cross-spectrum (Dodds and Robson, Journal of Sound and Vibration 31,
+1973) ::
+
+    g(n) = x K_1(x),    x = 2 pi n t
+
+with the modified Bessel function K_1: long waves are under both wheels, short ones are independent.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...core.arguments import Arguments
+from .road import Road
+
+Array = NDArray[np.float64]
+
+REFERENCE = 0.1
+"""The spatial frequency n0 at which a class is told apart [1/m]."""
+
+CLASSES = {name: 4.0**k * 1e-6 for k, name in enumerate("ABCDEFGH", start=2)}
+"""G(n0) of the classes [m^3]: geometric means."""
+
+WAVES = (0.01, 10.0)
+"""Spatial frequencies that a road has [1/m]: waves of 100 m to 0.1 m."""
+
+_MOST_POINTS = 4_000_000
+
+
+def iso8608(
+    roughness: str | float,
+    *,
+    length: float,
+    seed: int,
+    track: float = 1.5,
+    spacing: float = 0.05,
+    fade: float = 20.0,
+) -> Road:
+    """Return a rough road of a class of ISO 8608.
+
+    Parameters
+    ----------
+    roughness : str or float
+        A class, 'A' to 'H', or G(n0) [m^3].
+    length : float
+        [m]
+    seed : int
+        The same seed gives the same road.
+    track : float, optional
+        Distance of the two tracks [m]; 0 for one profile under both.
+    spacing : float, optional
+        Distance of its points, 0.05 m at most, which is half the shortest wave [m].
+    fade : float, optional
+        Over this distance the heights grow from zero at the beginning [m].
+
+    Returns
+    -------
+    Road
+        Its heights have all waves of 0.01 to 10 1/m that fit into its length, each with the
+        amplitude of the class and a random phase.
+
+    Examples
+    --------
+    >>> road = iso8608("B", length=100.0, seed=1)
+    >>> road.left[0], road.words
+    (0.0, 'a road of class B of ISO 8608, seed 1')
+    """
+    with Arguments("iso8608") as given:
+        at_reference = roughness_of(given, roughness)
+        length = given.number("length", length, "m", above=0.0)
+        seed = given.whole("seed", seed, least=0)
+        track = given.number("track", track, "m", least=0.0)
+        spacing = given.number("spacing", spacing, "m", above=0.0)
+        fade = given.number("fade", fade, "m", least=0.0)
+        if not given.refused and spacing > 0.5 / WAVES[1]:
+            given.refuse(f"spacing = {spacing:g} m: at most {0.5 / WAVES[1]:g} m is allowed.")
+        if not given.refused and not 1.0 / WAVES[0] <= length <= spacing * _MOST_POINTS:
+            given.refuse(
+                f"length = {length:g} m: {1.0 / WAVES[0]:g} m, one of the longest waves, to "
+                f"{spacing * _MOST_POINTS:g} m are allowed."
+            )
+    count = math.ceil(length / spacing)
+    n = np.arange(count // 2 + 1) / (count * spacing)
+    density = np.where((n >= WAVES[0]) & (n <= WAVES[1]), spectrum(at_reference, n), 0.0)
+    shared = isotropic_coherence(n, track)
+    rng = np.random.default_rng(seed)
+    # two independent profiles; a wave of the amplitude a is two of a / 2 in a discrete transform
+    size = count * np.sqrt(0.5 * density / (count * spacing))
+    one, other = (size * np.exp(2j * np.pi * rng.random(n.size)) for _ in range(2))
+    common, apart = np.sqrt(0.5 * (1.0 + shared)), np.sqrt(0.5 * (1.0 - shared))
+    grown = _grown(spacing * np.arange(count), fade)
+    left, right = (
+        np.fft.irfft(common * one + sign * apart * other, n=count) * grown for sign in (1.0, -1.0)
+    )
+    named = f"of class {roughness}" if isinstance(roughness, str) else f"of {at_reference:g} m^3"
+    return Road(spacing, left, right, f"a road {named} of ISO 8608, seed {seed}")
+
+
+def _grown(x: NDArray[Any], fade: float) -> Array:
+    """Return how much of the heights there is at a distance."""
+    part = np.ones_like(x) if fade == 0.0 else np.clip(x / fade, 0.0, 1.0)
+    grown: Array = part * part * (3.0 - 2.0 * part)
+    return grown
+
+
+def roughness_of(given: Arguments, roughness: str | float) -> float:
+    """Return G(n0) of a class, or as it is given [m^3]."""
+    if isinstance(roughness, str):
+        given.among("roughness", roughness, CLASSES)
+        return CLASSES.get(roughness, math.nan)
+    return given.number("roughness", roughness, "m^3", above=0.0)
+
+
+def spectrum(at_reference: float, n: ArrayLike) -> Array:
+    """Return the one-sided power spectral density of the heights [m^3].
+
+    Parameters
+    ----------
+    at_reference : float
+        G(n0) [m^3].
+    n : array_like
+        Spatial frequencies [1/m].
+    """
+    with np.errstate(divide="ignore"):
+        found: Array = at_reference * (np.asarray(n, float) / REFERENCE) ** -2.0
+    return found
+
+
+def isotropic_coherence(n: ArrayLike, track: float) -> Array:
+    """Return the normalised cross-spectrum of two tracks of an isotropic road.
+
+    Parameters
+    ----------
+    n : array_like
+        Spatial frequencies [1/m].
+    track : float
+        Distance of the tracks [m].
+    """
+    from scipy.special import k1  # noqa: PLC0415 (slow to import)
+
+    x = 2.0 * np.pi * np.asarray(n, float) * track
+    with np.errstate(invalid="ignore"):
+        return np.where(x > 0.0, x * k1(np.where(x > 0.0, x, 1.0)), 1.0)

@@ -1,0 +1,73 @@
+"""Roads by formula: a single bump or pothole, and waves."""
+
+import numpy as np
+
+from ...core.arguments import Arguments
+from .road import Road, both, points
+
+# A bump has so many points or more.
+_POINTS = 40
+_SPACING = 0.02  # [m]
+
+
+def bump(
+    height: float, length: float, *, at: float = 5.0, end: float = 50.0, sides: str = "both"
+) -> Road:
+    """Return a road with a bump, ``height (1 - cos) / 2`` over its length.
+
+    Parameters
+    ----------
+    height : float
+        Of its middle, negative for a pothole [m].
+    length : float
+        [m]
+    at : float, optional
+        Where it begins [m].
+    end : float, optional
+        Length of the road [m].
+    sides : {'both', 'left', 'right'}, optional
+        Under which wheels it is.
+
+    Examples
+    --------
+    >>> round(float(bump(0.05, 1.0).left.max()), 12)
+    0.05
+    """
+    with Arguments("bump") as given:
+        height = given.number("height", height, "m")
+        length = given.number("length", length, "m", above=0.0)
+        at = given.number("at", at, "m", least=0.0)
+        end = given.number("end", end, "m", above=0.0)
+        if not given.refused and at + length > end:
+            given.refuse(f"at + length = {at + length:g} m is beyond the end of {end:g} m.")
+    spacing = min(_SPACING, length / _POINTS)
+    x = points(end, spacing)
+    phase = np.clip((x - at) / length, 0.0, 1.0)
+    heights = 0.5 * height * (1.0 - np.cos(2.0 * np.pi * phase))
+    words = f"a bump of {1e3 * height:g} mm over {length:g} m"
+    return both(spacing, heights, sides, words)
+
+
+def sine(amplitude: float, wavelength: float, *, end: float = 200.0, sides: str = "both") -> Road:
+    """Return a road of waves, which begins in the middle of a rise.
+
+    Parameters
+    ----------
+    amplitude : float
+        To either side of the mean [m].
+    wavelength : float
+        [m]
+    end : float, optional
+        Length of the road [m].
+    sides : {'both', 'left', 'right'}, optional
+        Under which wheels it is.
+    """
+    with Arguments("sine") as given:
+        amplitude = given.number("amplitude", amplitude, "m")
+        wavelength = given.number("wavelength", wavelength, "m", above=0.0)
+        end = given.number("end", end, "m", above=0.0)
+    spacing = min(_SPACING, wavelength / _POINTS)
+    x = points(end, spacing)
+    heights = amplitude * np.sin(2.0 * np.pi * x / wavelength)
+    words = f"waves of {1e3 * amplitude:g} mm, {wavelength:g} m long"
+    return both(spacing, heights, sides, words)
