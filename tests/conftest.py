@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import gc
 import os
+import resource
 import signal
 import sys
 from dataclasses import replace
@@ -15,6 +16,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import kept
+import messages as messages_of_tests
 import pytest
 from hypothesis import HealthCheck, settings
 
@@ -47,27 +49,32 @@ settings.load_profile("calm")
 os.environ["KINTRAFO_CACHE"] = str(kept.KEPT / "cache")
 os.environ.setdefault("CFLAGS", "-O0")
 
-# Each of them takes more than a fiftieth of the whole time.
+# Each of them takes more than a hundredth of the whole time.
 _LONGEST = (
+    "test_examples.py",
     "test_mechanisms.py",
     "test_iteration_loops.py",
-    "test_fuzz.py",
-    "test_axles.py",
-    "test_iteration.py",
-    "test_copies.py",
-    "test_parameter_derivatives.py",
-    "test_cli_commands.py",
     "test_own_mechanism.py",
-    "test_emitted_c.py",
-    "test_report_browser.py",
-    "test_wheel_loads.py",
-    "test_benchmarks.py",
-    "test_variation.py",
-    "test_motion_gradient_kinks.py",
+    "test_export_fmu.py",
+    "test_golden.py",
     "test_sanitizers.py",
-    "test_growth.py",
+    "test_wheel_loads.py",
+    "test_parameter_derivatives.py",
+    "test_copies.py",
+    "test_emitted_c.py",
+    "test_iteration.py",
+    "test_parallel_links.py",
+    "test_iteration_branches.py",
+    "test_mechanism_pages.py",
+    "test_ensemble_cluster.py",
     "test_assumptions.py",
+    "test_report_browser.py",
 )
+
+
+MUCH = 2**20 // 2 * (1 if sys.platform == "linux" else 1024)
+"""Half a gibibyte, in what the system counts in."""
+_most = 0
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -75,6 +82,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--update-baseline",
         action="store_true",
         help="store the present operation counts in tests/generator/backends/operation_counts",
+    )
+    parser.addoption(
+        "--update-messages",
+        action="store_true",
+        help="store the present messages in tests/golden/messages.json",
     )
 
 
@@ -107,13 +119,17 @@ def pytest_collection_finish() -> None:
 
 
 @pytest.fixture(scope="module", autouse=True)
-def _circles_of_a_file_are_freed() -> Iterator[None]:
-    """Look for circles once behind each file, and pass over what stays from then on."""
+def _circles_of_files_are_freed() -> Iterator[None]:
+    """Look for circles where files have taken much memory; pass over what stays from then on."""
+    global _most  # noqa: PLW0603 (of this process)
     yield
-    if "sympy" in sys.modules:
-        sys.modules["sympy.core.cache"].clear_cache()
-    gc.collect()
-    gc.freeze()
+    most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    if most > _most + MUCH:
+        if "sympy" in sys.modules:
+            sys.modules["sympy.core.cache"].clear_cache()
+        gc.collect()
+        gc.freeze()
+        _most = most
 
 
 @cache
@@ -155,6 +171,34 @@ def kintrafo(
         return code, captured.out, captured.err
 
     return run
+
+
+@pytest.fixture
+def told(request: pytest.FixtureRequest, tmp_path: Path) -> Callable[..., None]:
+    """Compare errors or texts with the messages that are stored for this test."""
+    update = request.config.getoption("--update-messages")
+
+    def compare(*messages: object) -> None:
+        texts = (str(message).replace(str(tmp_path), "FOLDER") for message in messages)
+        messages_of_tests.check(request.node, *texts, update=update)
+
+    return compare
+
+
+@pytest.fixture
+def refused(told: Callable[..., None]) -> Callable[..., Any]:
+    """Let calls fail with one kind of error, and compare what they say with what is stored."""
+
+    def compare(error: type[Exception], *calls: Callable[[], object]) -> Any:
+        caught = []
+        for call in calls:
+            with pytest.raises(error) as found:
+                call()
+            caught.append(found.value)
+        told(*caught)
+        return caught[0]
+
+    return compare
 
 
 @pytest.fixture(scope="session")
@@ -210,6 +254,7 @@ def one_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let chapters show their first picture again and again; drawing all of them takes seconds."""
     from kintrafo.vehicle.report.chapters.chapter import Picture
 
+    _draw_roughly(monkeypatch)
     whole = Picture.of
     drawn: list[Picture] = []
 
@@ -219,6 +264,25 @@ def one_picture(monkeypatch: pytest.MonkeyPatch) -> None:
         return replace(drawn[0], words=words)
 
     monkeypatch.setattr(Picture, "of", first)
+
+
+@pytest.fixture
+def rough_drawings(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let figures be coarse, and their parts where they come to lie: to find room takes longest."""
+    _draw_roughly(monkeypatch)
+
+
+def _draw_roughly(monkeypatch: pytest.MonkeyPatch) -> None:
+    from matplotlib.figure import Figure
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    whole = Figure.savefig
+
+    def coarse(figure: Figure, file: Any, **given: Any) -> None:
+        whole(figure, file, **(given | {"dpi": 40}))
+
+    monkeypatch.setattr(Figure, "savefig", coarse)
+    monkeypatch.setattr(ConstrainedLayoutEngine, "execute", lambda *_: {})
 
 
 @pytest.fixture
@@ -244,6 +308,8 @@ def _draw_pages(monkeypatch: pytest.MonkeyPatch, wanted: Callable[[Pages], Pages
     """Draw those of the pages that are wanted, and the first where none is."""
 
     from kintrafo.vehicle.plots.curves import grouped
+
+    _draw_roughly(monkeypatch)
 
     def some(dataset: xr.Dataset, *goals: Any) -> Pages:
         pages = grouped(dataset, *goals)

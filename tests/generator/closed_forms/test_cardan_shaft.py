@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import atan2, cos, degrees, pi, radians, sin
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -224,17 +224,18 @@ BETWEEN = r"Only the crosses '\w+' and '\w+' hold '{}'\. {}"
 
 @pytest.mark.parametrize("allowed", [False, True], ids=["closed form", "iteration"])
 @pytest.mark.parametrize(
-    ("links", "said"),
+    "links",
     [
-        ("rigid", BETWEEN.format("shaft", "As a rod .* ball joint. As a shaft it must telescope")),
-        ("turned", "declare 'pinion' first and 'lower' second in 'lower_cross'"),
+        "rigid",
+        "turned",
     ],
 )
-def test_what_is_no_such_shaft_is_told_what_to_do(links: str, said: str, *, allowed: bool) -> None:
+def test_what_is_no_such_shaft_is_told_what_to_do(
+    links: str, refused: Any, *, allowed: bool
+) -> None:
     """A shaft that cannot telescope, and a cross whose second body is not the shaft."""
     model = replace(column("other", 0.3, 0.3, 0.0, links=links), allow_iteration=allowed)
-    with pytest.raises(NoClosedFormError, match=said):
-        Plan.of(model)
+    refused(NoClosedFormError, lambda: Plan.of(model))
 
 
 def test_a_rod_with_two_crosses_holds_no_carrier_by_iteration() -> None:

@@ -22,7 +22,7 @@ from placements import Placements
 
 MODEL = own_loops.STEPHENSON
 PINS = {name: complex(*at) for name, _, _, at in own_loops.STEPHENSON_PINS}
-RATIOS = [1.0, 3.0, 10.0, 27.0, 100.0, 300.0, 1000.0]
+RATIOS = [1.0, 3.0, 27.0, 300.0, 1000.0]
 PASSED = {3.0: 280, 27.0: 374, 300.0: 121}
 """Of each ratio a lever that has been seen to get over its gap."""
 COUNT = 40
@@ -151,7 +151,7 @@ class Levers:
 def some(ratio: float) -> tuple[Levers, NDArray[np.int_]]:
     """Return levers, and how many positions of each a path leads to."""
     every = Levers.passing(ratio, 1000)
-    levers = every.chosen(np.array([*range(20), PASSED.get(ratio, 20)]))
+    levers = every.chosen(np.array([*range(12), PASSED.get(ratio, 12)]))
     return levers, levers.reached()
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from changes import changed
@@ -79,16 +79,15 @@ def test_only_the_direction_of_fixed_components_counts(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("wrong", "words"),
+    "wrong",
     [
-        (lambda: AppliedForce(CRANK, MARK, UP, Input("push", "N m", "push")), "N is needed"),
-        (lambda: AppliedMoment(CRANK, UP, Input("turn", "N", "turn")), "N m is needed"),
-        (lambda: AppliedForce(Ground("base"), MARK, UP, Input("push", "N", "push")), "rests"),
-        (lambda: ForceElement("coil", LINE, (touched("a"), touched("b"))), "is there twice"),
-        (lambda: ForceElement("coil", LINE, (FREE,)), "no length is negative"),
-        (lambda: ForceElement("coil", LINE, (Actuator(TURN),)), "'turn' is in N m; N is needed"),
+        lambda: AppliedForce(CRANK, MARK, UP, Input("push", "N m", "push")),
+        lambda: AppliedMoment(CRANK, UP, Input("turn", "N", "turn")),
+        lambda: AppliedForce(Ground("base"), MARK, UP, Input("push", "N", "push")),
+        lambda: ForceElement("coil", LINE, (touched("a"), touched("b"))),
+        lambda: ForceElement("coil", LINE, (FREE,)),
+        lambda: ForceElement("coil", LINE, (Actuator(TURN),)),
     ],
 )
-def test_what_cannot_act_is_refused(wrong: Callable[[], object], words: str) -> None:
-    with pytest.raises(DeclarationError, match=words):
-        wrong()
+def test_what_cannot_act_is_refused(wrong: Callable[[], object], refused: Any) -> None:
+    refused(DeclarationError, wrong)

@@ -7,7 +7,7 @@ mechanism has the same accelerations, and its bodies are where a mirror shows th
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -187,18 +187,14 @@ def test_what_parts_have_in_common_is_there_once() -> None:
 
 
 @pytest.mark.parametrize(
-    ("asked", "message"),
+    "asked",
     [
-        (
-            {"shared": (Input("track", "m", "track"),)},
-            "shared 'track' is neither a body nor an input",
-        ),
-        ({"own": (macpherson.STRUT_LOWER,)}, "own 'strut_lower' is no parameter"),
+        {"shared": (Input("track", "m", "track"),)},
+        {"own": (macpherson.STRUT_LOWER,)},
     ],
 )
-def test_what_a_copy_does_not_know(asked: dict[str, tuple[object]], message: str) -> None:
-    with pytest.raises(DeclarationError, match=message):
-        Copy(macpherson.mechanism(), "left_", **asked)
+def test_what_a_copy_does_not_know(asked: dict[str, tuple[object]], refused: Any) -> None:
+    refused(DeclarationError, lambda: Copy(macpherson.mechanism(), "left_", **asked))
 
 
 def test_a_direction_that_the_mirror_would_turn_both_ways() -> None:

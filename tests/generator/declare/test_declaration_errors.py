@@ -88,47 +88,35 @@ RUSR = spatial(CRANK, CROSS, BALL, ROCKER)
 
 class TestDrivenJoints:
     @pytest.mark.parametrize(
-        ("joint", "remedy"),
+        "joint",
         [
-            (BALL, "'C' is spherical, with 3 .* three hinges through its centre"),
-            (CROSS, "'B' is universal, with 2 .* two hinges along the axes"),
-            (
-                Cylindrical(
-                    "S",
-                    ROD,
-                    ROCKER_BODY,
-                    axis=Line(ROD_END, ROD_START),
-                    length_at_zero_slide=Distance("length", 1.0, "length"),
-                    angle_to=ROCKER_PIN,
-                ),
-                "'S' is cylindrical, with 2 .* a guide and a hinge",
+            BALL,
+            CROSS,
+            Cylindrical(
+                "S",
+                ROD,
+                ROCKER_BODY,
+                axis=Line(ROD_END, ROD_START),
+                length_at_zero_slide=Distance("length", 1.0, "length"),
+                angle_to=ROCKER_PIN,
             ),
         ],
-        ids=lambda value: getattr(value, "kind", ""),
+        ids=lambda joint: joint.kind,
     )
-    def test_of_several_coordinates(self, joint, remedy):
+    def test_of_several_coordinates(self, joint, refused):
         others = [j for j in (CRANK, CROSS, BALL, ROCKER) if j != joint]
-        with pytest.raises(DeclarationError, match=f"independent joint {remedy}"):
-            model(spatial(*others, joint), joint.name)
+        refused(DeclarationError, lambda: model(spatial(*others, joint), joint.name))
 
-    def test_declared_but_not_reported(self):
-        with pytest.raises(DeclarationError, match="'D' has no reported coordinate; add its angle"):
-            model(spatial(CRANK, CROSS, BALL, ROCKER, reported=("A",)), "D")
-
-    def test_twice(self):
-        with pytest.raises(DeclarationError, match="independent joint 'A' is declared 2 times"):
-            model(RUSR, "A", "A")
-
-    def test_moves_no_mass(self):
+    def test_that_cannot_be(self, refused):
         chain = spatial(CRANK, replace(ROCKER, first=CRANK_BODY))
-        with pytest.raises(kintrafo.MechanismError, match="'D' moves no body of massive"):
-            kintrafo.compile(model(chain, "A", "D", massive=(CRANK_BODY,)))
-        with pytest.raises(kintrafo.MechanismError, match=r"'A' moves no .*\n.*'D' moves no"):
-            kintrafo.compile(model(chain, "A", "D", massive=()))
-
-    def test_ground_has_no_equation_of_motion(self):
-        with pytest.raises(DeclarationError, match="'ground' is the ground, which does not move"):
-            model(RUSR, "A", massive=(GROUND, CRANK_BODY))
+        refused(
+            kintrafo.KintrafoError,
+            lambda: model(spatial(CRANK, CROSS, BALL, ROCKER, reported=("A",)), "D"),
+            lambda: model(RUSR, "A", "A"),
+            lambda: model(RUSR, "A", massive=(GROUND, CRANK_BODY)),
+            lambda: kintrafo.compile(model(chain, "A", "D", massive=(CRANK_BODY,))),
+            lambda: kintrafo.compile(model(chain, "A", "D", massive=())),
+        )
 
 
 class TestForces:
@@ -203,28 +191,18 @@ class TestNumbers:
             replace(RUSR.parameters[0], default=value)
 
     @pytest.mark.parametrize(
-        ("body", "words"),
+        "body",
         [
-            (replace(CRANK_BODY, mass=-1.0), "'crank_mass' = -1 kg is out of its"),
-            (
-                replace(CRANK_BODY, inertia=(1.0, -1.0, 1.0)),
-                "'crank_inertia_yy' = -1 kg m^2 is out of its range; give 0 kg m^2 or",
-            ),
-            (
-                replace(CRANK_BODY, inertia=(1.0, 1.0, 9.0)),
-                "the principal moments 1, 1 and 9 kg m^2 are those of no body",
-            ),
-            (
-                Rotor("crank", 1.0, CRANK_PIN, axis=CRANK_LINE, spin=0.5, diametral=0.2),
-                "'crank_inertia_spin' = 0.5 kg m^2 is more than twice",
-            ),
+            replace(CRANK_BODY, mass=-1.0),
+            replace(CRANK_BODY, inertia=(1.0, -1.0, 1.0)),
+            replace(CRANK_BODY, inertia=(1.0, 1.0, 9.0)),
+            Rotor("crank", 1.0, CRANK_PIN, axis=CRANK_LINE, spin=0.5, diametral=0.2),
         ],
+        ids=["mass", "moment", "moments", "rotor"],
     )
-    def test_that_no_body_has(self, body, words):
-        with pytest.raises(DeclarationError) as caught:
-            changed(RUSR, (CRANK_BODY, body))
-        (problem,) = caught.value.problems
-        assert words in problem
+    def test_that_no_body_has(self, body, refused):
+        error = refused(DeclarationError, lambda: changed(RUSR, (CRANK_BODY, body)))
+        assert len(error.problems) == 1
 
     @pytest.mark.parametrize("seed", range(20))
     def test_bodies_of_point_masses_are_accepted(self, seed):

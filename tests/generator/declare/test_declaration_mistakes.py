@@ -1,6 +1,6 @@
 """The most natural mistakes in a declaration: each is told by its name, its value and a remedy.
 
-Every row is what somebody may write, with words that the message must have. Nothing is derived.
+Every row is what somebody may write. Nothing is derived.
 """
 
 from __future__ import annotations
@@ -108,422 +108,171 @@ def stop(**changes):
 
 MISTAKES = {
     # -- types: one thing in the place of another
-    "direction for an axis": (
-        lambda: Revolute("A", ONE, TWO, axis=UP),
-        ["Revolute 'A'", "axis", "a Line is needed", "Line(point, direction)"],
+    "direction for an axis": lambda: Revolute("A", ONE, TWO, axis=UP),
+    "point for an axis": lambda: Revolute("A", ONE, TWO, axis=A),
+    "text for a point": lambda: Spherical("B", ONE, TWO, at="ball"),
+    "line for a direction": lambda: Prismatic("P", ONE, TWO, direction=AXIS),
+    "text for a direction": lambda: Rotor("wheel", 1.0, A, axis="spin", spin=1.0, diametral=1.0),
+    "text for a centre": lambda: Body("wheel", 1.0, com="wheel_com"),
+    "text for a mass": lambda: Body("wheel", "1.0", A),
+    "name of a body for the body": lambda: Revolute("A", "crank", TWO, axis=AXIS),
+    "end the wrong way round": lambda: AlongLine((A, ONE), (TWO, B)),
+    "number for a parameter": lambda: LinearSpring(400.0, free_length=FREE),
+    "name for a parameter": lambda: Weight("gravity"),
+    "rate of a damper for that of a spring": lambda: LinearSpring(
+        bar.DAMPER.rate, free_length=FREE
     ),
-    "point for an axis": (
-        lambda: Revolute("A", ONE, TWO, axis=A),
-        ["Revolute 'A'", "axis", "a Line is needed"],
+    "torsion along a line": lambda: replace(
+        COIL, laws=(LinearSpring(TorsionRate("k", 1.0, "k"), free_length=FREE),)
     ),
-    "text for a point": (
-        lambda: Spherical("B", ONE, TWO, at="ball"),
-        ["Spherical 'B'", "at", "write Point(name, place, meaning)"],
-    ),
-    "line for a direction": (
-        lambda: Prismatic("P", ONE, TWO, direction=AXIS),
-        ["Prismatic 'P'", "direction", "a Direction is needed"],
-    ),
-    "text for a direction": (
-        lambda: Rotor("wheel", 1.0, A, axis="spin", spin=1.0, diametral=1.0),
-        ["Rotor 'wheel'", "axis", "write Direction(name, components, meaning)"],
-    ),
-    "text for a centre": (
-        lambda: Body("wheel", 1.0, com="wheel_com"),
-        ["Body 'wheel'", "com is 'wheel_com'", "a Point"],
-    ),
-    "text for a mass": (lambda: Body("wheel", "1.0", A), ["Body 'wheel'", "mass", "a Mass"]),
-    "name of a body for the body": (
-        lambda: Revolute("A", "crank", TWO, axis=AXIS),
-        ["Revolute 'A'", "first is 'crank'", "a Body is needed"],
-    ),
-    "end the wrong way round": (
-        lambda: AlongLine((A, ONE), (TWO, B)),
-        ["AlongLine", "first[0]", "a Body", "first[1]", "a Point"],
-    ),
-    "number for a parameter": (
-        lambda: LinearSpring(400.0, free_length=FREE),
-        ["LinearSpring", "rate is 400.0", "SpringRate(name, default, meaning)"],
-    ),
-    "name for a parameter": (
-        lambda: Weight("gravity"),
-        ["Weight", "gravity is 'gravity'", "Gravity(name, default, meaning)"],
-    ),
-    "rate of a damper for that of a spring": (
-        lambda: LinearSpring(bar.DAMPER.rate, free_length=FREE),
-        ["LinearSpring", "rate", "a SpringRate or a TorsionRate is needed"],
-    ),
-    "torsion along a line": (
-        lambda: replace(COIL, laws=(LinearSpring(TorsionRate("k", 1.0, "k"), free_length=FREE),)),
-        ["ForceElement 'spring'", "'k' is in N m/rad", "AlongLine", "a length or a force"],
-    ),
-    "class for an object": (
-        lambda: Line(A, Direction),
-        ["Line", "towards", "write Direction(...)"],
-    ),
-    "name of a joint for the telescope": (
-        lambda: AlongTelescope("BC"),
-        ["AlongTelescope", "joint is 'BC'", "a Cylindrical is needed"],
-    ),
-    "law for a force": (
-        lambda: with_force(bar.SPRING),
-        ["four_bar", "forces[2]", "LinearSpring", "a law acts in an element", "ForceElement("],
-    ),
-    "none for a force": (lambda: with_force(None), ["forces[2] is None", "Weight", "JointForce"]),
-    "text for a force": (lambda: with_force("spring"), ["forces[2] is 'spring'", "ForceElement"]),
-    "law without brackets": (
-        lambda: replace(COIL, laws=bar.SPRING),
-        ["ForceElement 'spring'", "laws", "in brackets with a comma"],
-    ),
-    "force for a law": (lambda: replace(COIL, laws=(COIL,)), ["laws[0]", "a LinearSpring"]),
-    "text for a law": (lambda: replace(COIL, laws=("spring",)), ["laws[0] is 'spring'"]),
-    "path without its class": (
-        lambda: replace(COIL, path=((ONE, A), (TWO, B))),
-        ["path", "an AlongTelescope, an AlongLine, an AlongHinge, an AlongGuide or a"],
-    ),
-    "one joint without brackets": (
-        lambda: four_bar(joints=bar.A),
-        ["joints", "a tuple is needed", "with a comma"],
-    ),
-    "name of a joint for a joint": (
-        lambda: four_bar(joints=("A", "B")),
-        ["joints[0] is 'A'", "a Joint is needed"],
-    ),
-    "name of an input for an input": (
-        lambda: JointForce(bar.A, "crank_torque"),
-        ["JointForce", "input is 'crank_torque'", "an Input is needed"],
-    ),
-    "input with a unit only": (
-        lambda: Input("crank_torque", "N m"),
-        ["Input 'crank_torque'", "meaning is missing"],
-    ),
-    "derivative of a name": (
-        lambda: Input("v", "m/s", "velocity", "x"),
-        ["Input 'v'", "derivative_of is 'x'; an Input is needed"],
-    ),
-    "model for a mechanism": (
-        lambda: model(mechanism=FOUR),
-        ["Formulation 'four_bar'", "mechanism", "a Mechanism is needed"],
-    ),
-    "one independent joint without brackets": (
-        lambda: model(independent=bar.A),
-        ["independent", "a tuple is needed", "with a comma"],
-    ),
-    "name for an independent joint": (
-        lambda: model(independent=("A",)),
-        ["independent[0] is 'A'", "a Joint is needed"],
-    ),
-    "name for a body with mass": (
-        lambda: model(massive=("crank",)),
-        ["massive[0] is 'crank'", "a Body is needed"],
-    ),
-    "words for permission": (
-        lambda: model(allow_iteration="no"),
-        ["allow_iteration is 'no'", "True or False"],
-    ),
-    "list of prescribed joints": (
-        lambda: model(prescribed=(bar.A,)),
-        ["prescribed", "a dictionary is needed"],
-    ),
-    "joint for what is held": (
-        lambda: replace(WISHBONE, held={"still": wishbone.RACK_GUIDE}),
-        ["held['still']", "in brackets with a comma"],
-    ),
+    "class for an object": lambda: Line(A, Direction),
+    "name of a joint for the telescope": lambda: AlongTelescope("BC"),
+    "law for a force": lambda: with_force(bar.SPRING),
+    "none for a force": lambda: with_force(None),
+    "text for a force": lambda: with_force("spring"),
+    "law without brackets": lambda: replace(COIL, laws=bar.SPRING),
+    "force for a law": lambda: replace(COIL, laws=(COIL,)),
+    "text for a law": lambda: replace(COIL, laws=("spring",)),
+    "path without its class": lambda: replace(COIL, path=((ONE, A), (TWO, B))),
+    "one joint without brackets": lambda: four_bar(joints=bar.A),
+    "name of a joint for a joint": lambda: four_bar(joints=("A", "B")),
+    "name of an input for an input": lambda: JointForce(bar.A, "crank_torque"),
+    "input with a unit only": lambda: Input("crank_torque", "N m"),
+    "derivative of a name": lambda: Input("v", "m/s", "velocity", "x"),
+    "model for a mechanism": lambda: model(mechanism=FOUR),
+    "one independent joint without brackets": lambda: model(independent=bar.A),
+    "name for an independent joint": lambda: model(independent=("A",)),
+    "name for a body with mass": lambda: model(massive=("crank",)),
+    "words for permission": lambda: model(allow_iteration="no"),
+    "list of prescribed joints": lambda: model(prescribed=(bar.A,)),
+    "joint for what is held": lambda: replace(WISHBONE, held={"still": wishbone.RACK_GUIDE}),
     # -- fields
-    "misspelt field": (
-        lambda: Revolute(name="A", frist=ONE, second=TWO, axis=AXIS),
-        ["Revolute 'A'", "frist is none of its fields", "Did you mean first?"],
-    ),
-    "field left out": (lambda: Revolute("A", ONE, TWO), ["Revolute 'A'", "axis is missing"]),
-    "argument too many": (
-        lambda: Point("a", (0, 0, 0), "a", "x", "y"),
-        ["Point 'a'", "'y' is one argument too many", "name, place, meaning, flat"],
-    ),
-    "fields that are named, in a row": (
-        lambda: Stop("bump", 0.1),
-        ["side is 'bump' without its name", "length is 0.1 without its name", "rate is missing"],
-    ),
-    "unit and meaning left out": (
-        lambda: Parameter("mass", 1.0),
-        ["Parameter 'mass'", "unit is missing", "meaning is missing"],
-    ),
-    "path left out": (lambda: ForceElement("s", laws=()), ["'s'", "path is missing"]),
-    "point without a name": (Point, ["Point", "name is missing", "place is missing"]),
-    "end without a point": (
-        lambda: AlongLine((ONE,), (TWO, B)),
-        ["AlongLine", "first is (Body", "too few"],
-    ),
+    "misspelt field": lambda: Revolute(name="A", frist=ONE, second=TWO, axis=AXIS),
+    "field left out": lambda: Revolute("A", ONE, TWO),
+    "argument too many": lambda: Point("a", (0, 0, 0), "a", "x", "y"),
+    "fields that are named, in a row": lambda: Stop("bump", 0.1),
+    "unit and meaning left out": lambda: Parameter("mass", 1.0),
+    "path left out": lambda: ForceElement("s", laws=()),
+    "point without a name": Point,
+    "end without a point": lambda: AlongLine((ONE,), (TWO, B)),
     # -- words of a choice
-    "stop with a capital": (
-        lambda: stop(side="Bump"),
-        ["Stop", "side is 'Bump'", "'bump' or 'rebound' is needed"],
-    ),
-    "stop at the top": (lambda: stop(side="top"), ["side is 'top'", "'bump' or 'rebound'"]),
-    "stop at no side": (lambda: stop(side=None), ["side is None", "'bump' or 'rebound'"]),
-    "flat along a number": (lambda: Point("a", (0, 0), flat=2), ["flat is 2", "'z'"]),
+    "stop with a capital": lambda: stop(side="Bump"),
+    "stop at the top": lambda: stop(side="top"),
+    "stop at no side": lambda: stop(side=None),
+    "flat along a number": lambda: Point("a", (0, 0), flat=2),
     # -- numbers
-    "not a number": (
-        lambda: Parameter("a", float("nan"), "m", "a"),
-        ["Parameter 'a'", "default nan", "no finite real number"],
-    ),
-    "infinite": (lambda: Parameter("a", np.inf, "m", "a"), ["default inf", "finite"]),
-    "number in quotes": (lambda: Parameter("a", "1.0", "m", "a"), ["default '1.0'", "give one"]),
-    "imaginary": (lambda: Parameter("a", 1j, "m", "a"), ["default 1j", "real"]),
-    "an array": (lambda: Parameter("a", np.ones(3), "m", "a"), ["default array", "real"]),
-    "a symbol": (lambda: Parameter("a", sp.Symbol("x"), "m", "a"), ["default x", "real"]),
-    "beyond double precision": (lambda: Parameter("a", 10**400, "m", "a"), ["finite"]),
-    "two coordinates of three": (
-        lambda: Point("a", (0.0, 1.0)),
-        ["Point 'a'", "2 coordinates", "x and y and z are needed"],
-    ),
-    "three coordinates in a plane": (
-        lambda: Point("a", (0.0, 1.0, 2.0), flat="z"),
-        ["Point 'a'", "3 coordinates", "x and y are needed"],
-    ),
-    "a coordinate in quotes": (
-        lambda: Direction("a", (0.0, "1", 0.0), "a"),
-        ["Direction 'a'", "along[1] '1'", "real number"],
-    ),
-    "inertia as a matrix": (lambda: Body("a", 1.0, (0, 0, 0), np.eye(3)), ["Body 'a'", "inertia"]),
-    "two moments of inertia": (
-        lambda: Body("a", 1.0, (0, 0, 0), (1.0, 2.0)),
-        ["Body 'a'", "inertia has 2 number(s); 3 or 6 are needed"],
-    ),
-    "a tensor in a plane": (
-        lambda: Body("a", 1.0, bar.CRANK_COM, (1.0, 2.0, 3.0)),
-        ["Body 'a'", "inertia has 3 number(s); 1 are needed"],
-    ),
-    "fixed direction of zeros": (
-        lambda: Direction("a", fixed=(0, 0, 0)),
-        ["Direction 'a'", "fixed (0, 0, 0)", "not all of them zero"],
-    ),
-    "fixed direction of two": (lambda: Direction("a", fixed=(0, 1)), ["fixed", "three numbers"]),
-    "no segments": (lambda: DamperTable(name="d", segments=0), ["segments is 0", "1 or more"]),
-    "half a segment": (lambda: DamperTable(name="d", segments=1.5), ["segments is 1.5", "whole"]),
-    "negative mass": (
-        lambda: with_default(FOUR_BAR, crank_mass=-1.0),
-        ["'crank_mass' = -1 kg", "0 kg or more"],
-    ),
-    "negative inertia": (
-        lambda: with_default(FOUR_BAR, crank_inertia_zz=-1e-3),
-        ["'crank_inertia_zz' = -0.001 kg m^2", "0 kg m^2 or more"],
-    ),
-    "negative rate": (
-        lambda: with_default(FOUR_BAR, spring_rate=-400.0),
-        ["'spring_rate' = -400 N/m", "0 N/m or more"],
-    ),
-    "negative length": (
-        lambda: with_default(FOUR_BAR, spring_free_length=-0.3),
-        ["'spring_free_length' = -0.3 m", "0 m or more"],
-    ),
-    "negative damping": (
-        lambda: with_default(FOUR_BAR, damper_rate=-1.0),
-        ["'damper_rate' = -1 N s/m", "0 N s/m or more"],
-    ),
-    "beyond a bound of its own": (
-        lambda: instead(RATE, most=300.0),
-        ["'spring_rate' = 400 N/m", "300 N/m or less"],
-    ),
-    "gravity upwards": (
-        lambda: with_default(DOUBLE_WISHBONE, gravity=-9.81),
-        ["'gravity' = -9.81 m/s^2", "0 m/s^2 or more"],
-    ),
-    "friction without a speed": (
-        lambda: with_force(
-            ForceElement(
-                "f",
-                TwistOfHinges(bar.A, bar.D),
-                (Friction(MomentLevel("m", 1.0, "m"), AngularSpeed("w", 0.0, "speed")),),
-            )
-        ),
-        ["'w' = 0 rad/s", "more than 0 rad/s"],
+    "not a number": lambda: Parameter("a", float("nan"), "m", "a"),
+    "infinite": lambda: Parameter("a", np.inf, "m", "a"),
+    "number in quotes": lambda: Parameter("a", "1.0", "m", "a"),
+    "imaginary": lambda: Parameter("a", 1j, "m", "a"),
+    "an array": lambda: Parameter("a", np.ones(3), "m", "a"),
+    "a symbol": lambda: Parameter("a", sp.Symbol("x"), "m", "a"),
+    "beyond double precision": lambda: Parameter("a", 10**400, "m", "a"),
+    "two coordinates of three": lambda: Point("a", (0.0, 1.0)),
+    "three coordinates in a plane": lambda: Point("a", (0.0, 1.0, 2.0), flat="z"),
+    "a coordinate in quotes": lambda: Direction("a", (0.0, "1", 0.0), "a"),
+    "inertia as a matrix": lambda: Body("a", 1.0, (0, 0, 0), np.eye(3)),
+    "two moments of inertia": lambda: Body("a", 1.0, (0, 0, 0), (1.0, 2.0)),
+    "a tensor in a plane": lambda: Body("a", 1.0, bar.CRANK_COM, (1.0, 2.0, 3.0)),
+    "fixed direction of zeros": lambda: Direction("a", fixed=(0, 0, 0)),
+    "fixed direction of two": lambda: Direction("a", fixed=(0, 1)),
+    "no segments": lambda: DamperTable(name="d", segments=0),
+    "half a segment": lambda: DamperTable(name="d", segments=1.5),
+    "negative mass": lambda: with_default(FOUR_BAR, crank_mass=-1.0),
+    "negative inertia": lambda: with_default(FOUR_BAR, crank_inertia_zz=-1e-3),
+    "negative rate": lambda: with_default(FOUR_BAR, spring_rate=-400.0),
+    "negative length": lambda: with_default(FOUR_BAR, spring_free_length=-0.3),
+    "negative damping": lambda: with_default(FOUR_BAR, damper_rate=-1.0),
+    "beyond a bound of its own": lambda: instead(RATE, most=300.0),
+    "gravity upwards": lambda: with_default(DOUBLE_WISHBONE, gravity=-9.81),
+    "friction without a speed": lambda: with_force(
+        ForceElement(
+            "f",
+            TwistOfHinges(bar.A, bar.D),
+            (Friction(MomentLevel("m", 1.0, "m"), AngularSpeed("w", 0.0, "speed")),),
+        )
     ),
     # -- names
-    "space in a name": (
-        lambda: Point("ball joint", (0, 0, 0)),
-        ["'ball joint' cannot be written in C"],
-    ),
-    "dash in a name": (lambda: Body("tie-rod", 1.0, A), ["'tie-rod' cannot be written in C"]),
-    "digit first": (
-        lambda: Direction("2nd", (1, 0, 0)),
-        ["'2nd' cannot be written in C", "a letter first"],
-    ),
-    "empty name": (lambda: Parameter("", 1.0, "m", "a"), ["'' cannot be written in C"]),
-    "accent": (lambda: instead(bar.A, name="müde"), ["'müde' cannot be written in C"]),
-    "tyre named after its wheel": (
-        lambda: replace(TYRE, name="front-left"),
-        ["LinearTyre 'front-left'", "cannot be written in C"],
-    ),
-    "dash in a model's name": (
-        lambda: model(name="four-bar"),
-        ["Formulation", "'four-bar' cannot"],
-    ),
+    "space in a name": lambda: Point("ball joint", (0, 0, 0)),
+    "dash in a name": lambda: Body("tie-rod", 1.0, A),
+    "digit first": lambda: Direction("2nd", (1, 0, 0)),
+    "empty name": lambda: Parameter("", 1.0, "m", "a"),
+    "accent": lambda: instead(bar.A, name="müde"),
+    "tyre named after its wheel": lambda: replace(TYRE, name="front-left"),
+    "dash in a model's name": lambda: model(name="four-bar"),
     **{
-        f"parameter {name}": (
-            lambda name=name: instead(RATE, name=name),
-            [f"parameter '{name}'", "choose another"],
-        )
+        f"parameter {name}": lambda name=name: instead(RATE, name=name)
         for name in ("NAN", "INFINITY", "GUARD_FLOOR", "double", "lambda")
     },
-    "coordinate named after a function": (
-        lambda: four_bar(coordinates=(bar.A.angle("sin", "angle"),)),
-        ["coordinate 'sin'", "choose another"],
+    "coordinate named after a function": lambda: four_bar(
+        coordinates=(bar.A.angle("sin", "angle"),)
     ),
-    "two bodies of a name": (
-        lambda: instead(bar.COUPLER, name="crank"),
-        ["2 different bodies are named 'crank'", "rename them, or declare one"],
+    "two bodies of a name": lambda: instead(bar.COUPLER, name="crank"),
+    "a body declared twice, differently": lambda: four_bar(
+        joints=(replace(bar.A, second=replace(bar.CRANK, mass=1.0)), bar.B)
     ),
-    "a body declared twice, differently": (
-        lambda: four_bar(joints=(replace(bar.A, second=replace(bar.CRANK, mass=1.0)), bar.B)),
-        ["2 different bodies are named 'crank'", "refer to it"],
+    "two joints of a name": lambda: instead(bar.B, name="A"),
+    "joint twice": lambda: four_bar(joints=(*FOUR_BAR.joints, bar.A)),
+    "element twice": lambda: with_force(COIL),
+    "other element of the name": lambda: with_force(ForceElement("spring", BETWEEN, (bar.DAMPER,))),
+    "torque twice": lambda: with_force(TORQUE),
+    "law twice": lambda: four_bar(forces=(replace(COIL, laws=(bar.SPRING, bar.SPRING)),)),
+    "weight twice": lambda: with_force(Weight(), Weight()),
+    "two parameters of a name": lambda: instead(bar.DAMPER.rate, name="crank_mass"),
+    "point and direction of one name": lambda: instead(
+        bar.A, axis=Line(bar.CRANK_BEARING, Direction("rocker_pin", (0, 0, 1)))
     ),
-    "two joints of a name": (
-        lambda: instead(bar.B, name="A"),
-        ["2 different joints are named 'A'"],
+    "point in a plane and in space": lambda: instead(
+        bar.A, axis=Line(Point("crank_pin", (0.0, 0.1, 0.1)), UP)
     ),
-    "joint twice": (
-        lambda: four_bar(joints=(*FOUR_BAR.joints, bar.A)),
-        ["joint 'A' is declared 2 times"],
-    ),
-    "element twice": (lambda: with_force(COIL), ["force 'spring' is declared 2 times"]),
-    "other element of the name": (
-        lambda: with_force(ForceElement("spring", BETWEEN, (bar.DAMPER,))),
-        ["force 'spring' is declared 2 times"],
-    ),
-    "torque twice": (
-        lambda: with_force(TORQUE),
-        ["JointForce along 'A by crank_torque' is declared 2"],
-    ),
-    "law twice": (
-        lambda: four_bar(forces=(replace(COIL, laws=(bar.SPRING, bar.SPRING)),)),
-        ["'spring'", "law", "is declared twice"],
-    ),
-    "weight twice": (
-        lambda: with_force(Weight(), Weight()),
-        ["weight 'Weight' is declared 2 times"],
-    ),
-    "two parameters of a name": (
-        lambda: instead(bar.DAMPER.rate, name="crank_mass"),
-        ["2 different parameters are named 'crank_mass'"],
-    ),
-    "point and direction of one name": (
-        lambda: instead(bar.A, axis=Line(bar.CRANK_BEARING, Direction("rocker_pin", (0, 0, 1)))),
-        ["2 different parameters are named 'rocker_pin_x'"],
-    ),
-    "point in a plane and in space": (
-        lambda: instead(bar.A, axis=Line(Point("crank_pin", (0.0, 0.1, 0.1)), UP)),
-        ["2 different parameters are named 'crank_pin_x'"],
-    ),
-    "variant named after a function": (
-        lambda: replace(WISHBONE, held={"jacobian": (wishbone.RACK_GUIDE,)}),
-        ["variant 'jacobian'", "rhs_jacobian", "rename it"],
+    "variant named after a function": lambda: replace(
+        WISHBONE, held={"jacobian": (wishbone.RACK_GUIDE,)}
     ),
     # -- what belongs to what
-    "joint of a body with itself": (
-        lambda: replace(bar.A, second=bar.GROUND),
-        ["Revolute 'A'", "connects 'ground' with itself", "two bodies"],
+    "joint of a body with itself": lambda: replace(bar.A, second=bar.GROUND),
+    "torque along a joint of another mechanism": lambda: with_force(
+        JointForce(wishbone.BEARING, TORQUE.input)
     ),
-    "torque along a joint of another mechanism": (
-        lambda: with_force(JointForce(wishbone.BEARING, TORQUE.input)),
-        ["joint 'bearing', which a force", "is none of its joints"],
+    "spring at a body of another mechanism": lambda: with_force(
+        ForceElement("s", AlongLine((wishbone.KNUCKLE, A), (TWO, B)), (bar.DAMPER,))
     ),
-    "spring at a body of another mechanism": (
-        lambda: with_force(
-            ForceElement("s", AlongLine((wishbone.KNUCKLE, A), (TWO, B)), (bar.DAMPER,))
-        ),
-        ["body 'knuckle' is held by no joint"],
+    "coordinate of another mechanism": lambda: four_bar(
+        coordinates=(wishbone.BEARING.angle("q", "angle"),)
     ),
-    "coordinate of another mechanism": (
-        lambda: four_bar(coordinates=(wishbone.BEARING.angle("q", "angle"),)),
-        ["joint 'bearing', which a force or a coordinate refers to"],
+    "both ends on one body": lambda: AlongLine((ONE, A), (ONE, B)),
+    "twist of one hinge": lambda: TwistOfHinges(bar.A, bar.A),
+    "telescope of a hinge": lambda: AlongTelescope(wishbone.LOWER_HINGE),
+    "twist of a guide": lambda: TwistOfHinges(wishbone.RACK_GUIDE, wishbone.BEARING),
+    "spring without a free length": lambda: LinearSpring(RATE),
+    "line to itself": lambda: Line(A, A),
+    "direction between one point": lambda: Direction("d", between=(A, A)),
+    "direction given twice": lambda: Direction("d", fixed=(0, 0, 1), between=(A, B)),
+    "direction without components": lambda: Direction("d"),
+    "spring between coincident points": lambda: with_default(
+        FOUR_BAR, spring_ground_x=0.12, spring_ground_y=0.18
     ),
-    "both ends on one body": (
-        lambda: AlongLine((ONE, A), (ONE, B)),
-        ["AlongLine", "both ends are on 'crank'", "two bodies"],
+    "no joints": lambda: four_bar(joints=(), forces=(), coordinates=()),
+    "no ground": lambda: changed(FOUR_BAR, (bar.GROUND, Body("ground", 1.0, (0.0, 0.0, 0.0)))),
+    "two grounds": lambda: instead(bar.D, first=Ground("floor")),
+    "independent joint of another mechanism": lambda: model(independent=(wishbone.BEARING,)),
+    "ball joint as independent": lambda: replace(WISHBONE, independent=(wishbone.LOWER_BALL,)),
+    "ground with mass": lambda: model(massive=(bar.GROUND, bar.CRANK)),
+    "torque on what follows": lambda: model(mechanism=with_force(JointForce(bar.D, TORQUE.input))),
+    "one motion for two joints": lambda: Formulation(
+        "m", "m", four_bar(forces=()), (), prescribed=dict.fromkeys((bar.A, bar.D), DRIVE)
     ),
-    "twist of one hinge": (
-        lambda: TwistOfHinges(bar.A, bar.A),
-        ["TwistOfHinges", "'A' less itself", "two hinges"],
+    "motion named as a parameter": lambda: Formulation(
+        "m", "m", instead(RATE, name="drive_velocity"), (), prescribed={bar.A: DRIVE}
     ),
-    "telescope of a hinge": (
-        lambda: AlongTelescope(wishbone.LOWER_HINGE),
-        ["AlongTelescope", "joint", "a Cylindrical is needed"],
-    ),
-    "twist of a guide": (
-        lambda: TwistOfHinges(wishbone.RACK_GUIDE, wishbone.BEARING),
-        ["TwistOfHinges", "first", "a Revolute is needed"],
-    ),
-    "spring without a free length": (
-        lambda: LinearSpring(RATE),
-        ["LinearSpring", "free_slide or a free_length"],
-    ),
-    "line to itself": (lambda: Line(A, A), ["Line", "from 'a' to itself"]),
-    "direction between one point": (
-        lambda: Direction("d", between=(A, A)),
-        ["Direction 'd'", "between 'a' and itself"],
-    ),
-    "direction given twice": (
-        lambda: Direction("d", fixed=(0, 0, 1), between=(A, B)),
-        ["Direction 'd'", "give its components along, or fixed ones, or the points"],
-    ),
-    "direction without components": (
-        lambda: Direction("d"),
-        ["Direction 'd'", "give its components along"],
-    ),
-    "spring between coincident points": (
-        lambda: with_default(FOUR_BAR, spring_ground_x=0.12, spring_ground_y=0.18),
-        ["points 'spring_ground' and 'coupler_com'", "coincide", "check the defaults"],
-    ),
-    "no joints": (lambda: four_bar(joints=(), forces=(), coordinates=()), ["there is no ground"]),
-    "no ground": (
-        lambda: changed(FOUR_BAR, (bar.GROUND, Body("ground", 1.0, (0.0, 0.0, 0.0)))),
-        ["there is no ground", "declare a Ground"],
-    ),
-    "two grounds": (
-        lambda: instead(bar.D, first=Ground("floor")),
-        ["there are several grounds", "'ground', 'floor'"],
-    ),
-    "independent joint of another mechanism": (
-        lambda: model(independent=(wishbone.BEARING,)),
-        ["independent joint 'bearing' is none of its mechanism", "A, B, C, D"],
-    ),
-    "ball joint as independent": (
-        lambda: replace(WISHBONE, independent=(wishbone.LOWER_BALL,)),
-        ["'lower_ball' is spherical", "three hinges"],
-    ),
-    "ground with mass": (
-        lambda: model(massive=(bar.GROUND, bar.CRANK)),
-        ["'ground' is the ground", "leave it out"],
-    ),
-    "torque on what follows": (
-        lambda: model(mechanism=with_force(JointForce(bar.D, TORQUE.input))),
-        ["'D' is neither independent nor prescribed", "Actuator"],
-    ),
-    "one motion for two joints": (
-        lambda: Formulation(
-            "m", "m", four_bar(forces=()), (), prescribed=dict.fromkeys((bar.A, bar.D), DRIVE)
-        ),
-        ["motion of prescribed joints 'drive' is declared 2 times"],
-    ),
-    "motion named as a parameter": (
-        lambda: Formulation(
-            "m", "m", instead(RATE, name="drive_velocity"), (), prescribed={bar.A: DRIVE}
-        ),
-        ["'drive_velocity' is the name of a parameter and of an input"],
-    ),
-    "end of a comment": (lambda: four_bar(title="a */ b"), ["'a */ b'", "without */"]),
+    "end of a comment": lambda: four_bar(title="a */ b"),
 }
 DRIVE = Motion("drive", "rad", "angle of the crank")
 
 
 @pytest.mark.parametrize("mistake", MISTAKES)
-def test_a_mistake_is_told(mistake):
-    make, words = MISTAKES[mistake]
-    with pytest.raises(DeclarationError) as caught:
-        make()
-    assert isinstance(caught.value, kintrafo.KintrafoError)
-    for word in words:
-        assert word in str(caught.value)
+def test_a_mistake_is_told(mistake, refused):
+    error = refused(DeclarationError, MISTAKES[mistake])
+    assert isinstance(error, kintrafo.KintrafoError)
 
 
 @pytest.mark.parametrize(
@@ -573,33 +322,29 @@ def test_a_stop_between_hinges_has_an_angle_of_any_sign():
 
 
 @pytest.mark.parametrize(
-    ("equations", "changes", "words"),
+    ("equations", "changes"),
     [
-        (four_bar_equations, {"crank_mass": -1.0}, "'crank_mass' = -1 kg .* give 0 kg or more"),
-        (four_bar_equations, {"coupler_inertia_zz": -1e-9}, "'coupler_inertia_zz' = -1e-09 kg m"),
-        (four_bar_equations, {"spring_rate": -1.0}, "'spring_rate' = -1 N/m is out"),
-        (four_bar_equations, {"spring_free_length": -0.1}, "'spring_free_length' = -0.1 m is out"),
-        (macpherson_general, {"tyre_lifts_off": 2.0}, "'tyre_lifts_off' = 2 is out .* 1 or less"),
-        (
-            macpherson_general,
-            {"strut_friction_speed": 0.0},
-            "'strut_friction_speed' = 0 m/s .* more than 0 m/s",
-        ),
-        (double_wishbone, {"gravity": -9.81}, r"'gravity' = -9.81 m/s\^2 is out"),
-        (double_wishbone, {"knuckle_inertia_xx": 9.0}, "inertia of 'knuckle': .* those of no body"),
-        (front_axle, {"knuckle_mass": -1.0}, "'knuckle_mass' = -1 kg is out"),
+        (four_bar_equations, {"crank_mass": -1.0}),
+        (four_bar_equations, {"coupler_inertia_zz": -1e-9}),
+        (four_bar_equations, {"spring_rate": -1.0}),
+        (four_bar_equations, {"spring_free_length": -0.1}),
+        (macpherson_general, {"tyre_lifts_off": 2.0}),
+        (macpherson_general, {"strut_friction_speed": 0.0}),
+        (double_wishbone, {"gravity": -9.81}),
+        (double_wishbone, {"knuckle_inertia_xx": 9.0}),
+        (front_axle, {"knuckle_mass": -1.0}),
     ],
+    ids=lambda of: next(iter(of)) if isinstance(of, dict) else of.NAME,
 )
-def test_parameters_out_of_range_reach_no_model(equations, changes, words):
+def test_parameters_out_of_range_reach_no_model(equations, changes, refused):
     """The way of every set of parameters is `prepare`, by name or in order."""
     values = {n: e["default"] for n, e in equations.PARAMETERS.items()} | changes
-    for make in (
+    refused(
+        kintrafo.ParameterError,
         lambda: kintrafo.System(equations, changes),
         lambda: equations.prepare(values),
         lambda: equations.prepare(list(values.values())),
-    ):
-        with pytest.raises(kintrafo.ParameterError, match=words):
-            make()
+    )
 
 
 def test_a_shaft_may_turn_with_a_rotor():

@@ -31,38 +31,30 @@ TORQUE = Input("torque", "N m", "torque")
 
 
 @pytest.mark.parametrize(
-    ("changes", "words"),
+    "changes",
     [
-        ({"independent": (STRANGE, HG)}, "independent joint 'A' is none of its mechanism"),
-        (
-            {"independent": (OA, macpherson.B)},
-            "joint 'B' is spherical, with 3 coordinates; only hinges",
-        ),
-        ({"massive": (four_bar.CRANK,)}, "massive body 'crank' is none of its mechanism"),
-        ({"prescribed": {STRANGE: RACK_MOTION}}, "prescribed joint 'A' is none"),
-        ({"prescribed": {OA: RACK_MOTION}}, "'OA' is both independent and prescribed"),
-        ({"held": {"still": (OA,)}}, "held joint 'OA' of 'still' is not prescribed"),
+        {"independent": (STRANGE, HG)},
+        {"independent": (OA, macpherson.B)},
+        {"massive": (four_bar.CRANK,)},
+        {"prescribed": {STRANGE: RACK_MOTION}},
+        {"prescribed": {OA: RACK_MOTION}},
+        {"held": {"still": (OA,)}},
     ],
 )
-def test_models(changes, words):
-    with pytest.raises(DeclarationError, match=words):
-        replace(MODEL, **changes)
+def test_models(changes, refused):
+    refused(DeclarationError, lambda: replace(MODEL, **changes))
 
 
 @pytest.mark.parametrize(
-    ("changes", "words"),
+    "changes",
     [
-        ({"forces": (*MECHANISM.forces, Weight())}, "weight .* declared 2 times"),
-        (
-            {"forces": (JointForce(STRANGE, TORQUE),)},
-            "joint 'A', which a force .* is none of its joints",
-        ),
-        ({"coordinates": (STRANGE.angle("q", "q"),)}, "joint 'A', which a force or a coordinate"),
+        {"forces": (*MECHANISM.forces, Weight())},
+        {"forces": (JointForce(STRANGE, TORQUE),)},
+        {"coordinates": (STRANGE.angle("q", "q"),)},
     ],
 )
-def test_mechanisms(changes, words):
-    with pytest.raises(DeclarationError, match=words):
-        replace(MECHANISM, **changes)
+def test_mechanisms(changes, refused):
+    refused(DeclarationError, lambda: replace(MECHANISM, **changes))
 
 
 (TYRE,) = (force for force in MECHANISM.forces if isinstance(force, LinearTyre))
@@ -149,32 +141,19 @@ def test_several_force_elements_of_a_kind_have_names_of_their_own():
 
 
 @pytest.mark.parametrize(
-    ("old", "name", "words"),
+    ("old", "name"),
     [
-        (WEIGHT.gravity, "double", "parameter 'double' has a name that"),
-        (WEIGHT.gravity, "given_g", "parameter 'given_g' has a name that"),
-        (WEIGHT.gravity, "Count", "parameter 'Count' has a name that"),
-        (
-            WEIGHT.gravity,
-            "Damper_Rate",
-            "'damper_rate' differs from 'Damper_Rate' in capital|'Damper_Rate' differs",
-        ),
-        (
-            WEIGHT.gravity,
-            "beta1_rate",
-            "'beta1_rate' is the name of a parameter and of the rate of a coordinate; rename",
-        ),
-        (
-            WEIGHT.gravity,
-            "rack_force",
-            "'rack_force' is the name of a parameter and of an input; rename the parameter",
-        ),
-        (RACK_FORCE, "for", "input 'for' has a name that"),
+        (WEIGHT.gravity, "double"),
+        (WEIGHT.gravity, "given_g"),
+        (WEIGHT.gravity, "Count"),
+        (WEIGHT.gravity, "Damper_Rate"),
+        (WEIGHT.gravity, "beta1_rate"),
+        (WEIGHT.gravity, "rack_force"),
+        (RACK_FORCE, "for"),
     ],
 )
-def test_names_that_code_cannot_have(old, name, words):
-    with pytest.raises(DeclarationError, match=words):
-        changed(MECHANISM, (old, replace(old, name=name)))
+def test_names_that_code_cannot_have(old, name, refused):
+    refused(DeclarationError, lambda: changed(MECHANISM, (old, replace(old, name=name))))
 
 
 @pytest.mark.parametrize("name", ["rocker_length", "shared_1", "constant_1", "coupler_reach_x"])
@@ -216,18 +195,14 @@ def pulled_by(*inputs):
 
 
 @pytest.mark.parametrize(
-    ("inputs", "words"),
+    "inputs",
     [
-        ((PULL, replace(PULL, meaning="another force")), "2 different inputs are named 'pull'"),
-        (
-            tuple(Input(f"rate_{i}", "N", "", derivative_of=IMPULSE) for i in (1, 2)),
-            "'rate_1' and 'rate_2' are both the derivative of 'impulse'",
-        ),
+        (PULL, replace(PULL, meaning="another force")),
+        tuple(Input(f"rate_{i}", "N", "", derivative_of=IMPULSE) for i in (1, 2)),
     ],
 )
-def test_an_input_is_the_derivative_of_another_one_once(inputs, words):
-    with pytest.raises(DeclarationError, match=words):
-        pulled_by(*inputs)
+def test_an_input_is_the_derivative_of_another_one_once(inputs, refused):
+    refused(DeclarationError, lambda: pulled_by(*inputs))
 
 
 def test_what_an_input_is_the_derivative_of_is_an_input():

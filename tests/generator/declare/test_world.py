@@ -157,17 +157,16 @@ def test_a_pair_of_copies_shares_the_free_body():
 
 
 @pytest.mark.parametrize(
-    ("pairs", "more", "words"),
+    ("pairs", "more"),
     [
-        ([(CHASSIS, MOVING)], (), "where it is in the world: declare a Ground .* a joint Free"),
-        ([], (Free("body", CHASSIS),), "joint 'body' is free, .* while 'chassis' is fixed there"),
-        ([(CHASSIS, replace(MOVING, name="world"))], (), "body 'world' has the name of the world"),
-        ([(CHASSIS, Ground("world", 1))], (), "body 'world' has the name of the world"),
+        ([(CHASSIS, MOVING)], ()),
+        ([], (Free("body", CHASSIS),)),
+        ([(CHASSIS, replace(MOVING, name="world"))], ()),
+        ([(CHASSIS, Ground("world", 1))], ()),
     ],
 )
-def test_a_mechanism_is_somewhere_in_the_world_once(pairs, more, words):
-    with pytest.raises(DeclarationError, match=words):
-        instead(*pairs, more=more)
+def test_a_mechanism_is_somewhere_in_the_world_once(pairs, more, refused):
+    refused(DeclarationError, lambda: instead(*pairs, more=more))
 
 
 def test_a_free_joint_begins_at_the_world():

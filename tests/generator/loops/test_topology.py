@@ -3,6 +3,7 @@
 import random
 from dataclasses import replace
 from itertools import combinations
+from typing import Any
 
 import networkx as nx
 import numpy as np
@@ -345,20 +346,21 @@ def test_too_few_coordinates_for_a_loop() -> None:
 
 
 @pytest.mark.parametrize(
-    ("independent", "words"),
+    "independent",
     [
-        (("A", "D"), "2 independent or prescribed .* 1 degree.* declare 1 fewer"),
-        ((), "0 independent or prescribed .* 1 degree.* declare 1 more"),
+        ("A", "D"),
+        (),
     ],
 )
 def test_number_of_coordinates_is_compared_with_the_mobility(
-    independent: tuple[str, ...], words: str
+    independent: tuple[str, ...], refused: Any
 ) -> None:
     four_bar = BY_NAME["four_bar"]
     free = replace(four_bar.mechanism, forces=())  # none along the crank
     joints = tuple(map(free.joint, independent))
-    with pytest.raises(NoClosedFormError, match=words):
-        Plan.of(replace(four_bar, mechanism=free, independent=joints))
+    refused(
+        NoClosedFormError, lambda: Plan.of(replace(four_bar, mechanism=free, independent=joints))
+    )
 
 
 def test_driven_joint_declared_the_wrong_way_round() -> None:

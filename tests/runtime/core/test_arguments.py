@@ -22,64 +22,46 @@ SPAN = (0.0, 0.01)
 
 
 @pytest.mark.parametrize(
-    ("call", "words"),
+    "call",
     [
-        (lambda: kintrafo.equilibrium(SYSTEM), "a kintrafo.Model of a suspension"),
-        (lambda: kintrafo.simulate("reference_car", SPAN, REST), r"model = 'reference_car'"),
-        (lambda: kintrafo.simulate(kintrafo.Model, SPAN, REST), "a class, not one of its"),
-        (lambda: kintrafo.simulate(CAR, SPAN, REST, rtol=[1e-6]), r"rtol = \[1e-06\]"),
-        (lambda: kintrafo.simulate(CAR, SPAN, REST, max_steps=2.5), "max_steps = 2.5: a whole"),
-        (lambda: kintrafo.simulate(CAR, SPAN, REST, atol=np.inf), "atol = inf"),
-        (lambda: kintrafo.simulate(CAR, SPAN, "x"), "y0 = 'x': numbers"),
-        (lambda: kintrafo.simulate(CAR, 1.0, REST), "t_span = 1.0: two different"),
-        (lambda: kintrafo.simulate(CAR, SPAN, REST, inputs=[1]), r"inputs = \[1\]: a dict"),
-        (
-            lambda: kintrafo.simulate(CAR, SPAN, REST, inputs=np.arange(3.0)),
-            r"inputs = array\(\[0., 1., 2.\]\): a dict",
+        lambda: kintrafo.equilibrium(SYSTEM),
+        lambda: kintrafo.simulate("reference_car", SPAN, REST),
+        lambda: kintrafo.simulate(kintrafo.Model, SPAN, REST),
+        lambda: kintrafo.simulate(CAR, SPAN, REST, rtol=[1e-6]),
+        lambda: kintrafo.simulate(CAR, SPAN, REST, max_steps=2.5),
+        lambda: kintrafo.simulate(CAR, SPAN, REST, atol=np.inf),
+        lambda: kintrafo.simulate(CAR, SPAN, "x"),
+        lambda: kintrafo.simulate(CAR, 1.0, REST),
+        lambda: kintrafo.simulate(CAR, SPAN, REST, inputs=[1]),
+        lambda: kintrafo.simulate(CAR, SPAN, REST, inputs=np.arange(3.0)),
+        lambda: run(CAR, Scenario(inputs=None)),
+        lambda: run(CAR, Scenario(duration={})),
+        lambda: run(CAR, Scenario(output_step=1e-9)),
+        lambda: kintrafo.simulate(
+            CAR, SPAN, REST, inputs={"road_height": ([0.0, 10**400], [0.0, 0.0])}
         ),
-        (lambda: run(CAR, Scenario(inputs=None)), "inputs = None: a dict of input names"),
-        (lambda: run(CAR, Scenario(duration={})), "duration = {}"),
-        (lambda: run(CAR, Scenario(output_step=1e-9)), "more than 5000000 rows"),
-        (
-            lambda: kintrafo.simulate(
-                CAR, SPAN, REST, inputs={"road_height": ([0.0, 10**400], [0.0, 0.0])}
-            ),
-            "two rows of numbers",
-        ),
-        (
-            lambda: kintrafo.simulate(CAR, SPAN, REST, inputs={"road_height": lambda _: 10**400}),
-            r"at t = 0 s is 10{59}\.\.\.: a finite number",
-        ),
-        (
-            lambda: kintrafo.simulate(CAR, SPAN, REST, inputs={"road_height": "0.01"}),
-            "'road_height' = '0.01'",
-        ),
-        (
-            lambda: kintrafo.simulate(
-                CAR, SPAN, REST, events=kintrafo.SignalEvent("camber", np.nan)
-            ),
-            "level of 'camber' = nan",
-        ),
-        (lambda: kintrafo.equilibrium(CAR, spin_rate=np.nan), "spin_rate = nan rad/s"),
-        (lambda: kintrafo.state_at_height(CAR, [0.3]), r"height = \[0.3\] m"),
-        (lambda: kintrafo.state_at_height(CAR, 0.3, spin_rate=np.nan), "spin_rate = nan rad/s"),
-        (lambda: kintrafo.compile("/missing.py"), "No such file.*Check its name"),
-        (lambda: CAR.signal("cambre", REST), "Did you mean camber"),
-        (lambda: CAR.signals(REST[:2]), r"state has the shape \(2,\).*must be 4"),
-        (lambda: CAR.evaluate("rsh", REST), "Did you mean rhs"),
-        (lambda: CAR.signals(np.tile(REST, (2, 1)), np.zeros((3, 5))), "must go together"),
-        (lambda: CAR.state(beta1=True), "'beta1' = True"),
-        (lambda: kintrafo.System(four_bar, {"crank_mass": np.nan}), "'crank_mass' = nan kg"),
-        (lambda: kintrafo.System("four_bar"), "equations = 'four_bar': a module"),
-        (lambda: kintrafo.linearise(CAR, REST, outputs="camber"), "a list of names"),
-        (lambda: kintrafo.Suspension.load(3), "path_or_name = 3"),
-        (lambda: kintrafo.Suspension.from_dict([1]), r"data = \[1\]: a dict"),
-        (lambda: kintrafo.Model("reference_car", free_rack="yes"), "free_rack = 'yes': True"),
+        lambda: kintrafo.simulate(CAR, SPAN, REST, inputs={"road_height": lambda _: 10**400}),
+        lambda: kintrafo.simulate(CAR, SPAN, REST, inputs={"road_height": "0.01"}),
+        lambda: kintrafo.simulate(CAR, SPAN, REST, events=kintrafo.SignalEvent("camber", np.nan)),
+        lambda: kintrafo.equilibrium(CAR, spin_rate=np.nan),
+        lambda: kintrafo.state_at_height(CAR, [0.3]),
+        lambda: kintrafo.state_at_height(CAR, 0.3, spin_rate=np.nan),
+        lambda: kintrafo.compile("/missing.py"),
+        lambda: CAR.signal("cambre", REST),
+        lambda: CAR.signals(REST[:2]),
+        lambda: CAR.evaluate("rsh", REST),
+        lambda: CAR.signals(np.tile(REST, (2, 1)), np.zeros((3, 5))),
+        lambda: CAR.state(beta1=True),
+        lambda: kintrafo.System(four_bar, {"crank_mass": np.nan}),
+        lambda: kintrafo.System("four_bar"),
+        lambda: kintrafo.linearise(CAR, REST, outputs="camber"),
+        lambda: kintrafo.Suspension.load(3),
+        lambda: kintrafo.Suspension.from_dict([1]),
+        lambda: kintrafo.Model("reference_car", free_rack="yes"),
     ],
 )
-def test_a_mistake_is_told(call, words):
-    with pytest.raises(kintrafo.InputError, match=words):
-        call()
+def test_a_mistake_is_told(call, refused):
+    refused(kintrafo.InputError, call)
 
 
 def test_an_error_of_an_event_says_where_it_was():

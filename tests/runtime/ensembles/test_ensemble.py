@@ -579,7 +579,7 @@ def by_label(*cars: int) -> xr.DataArray:
 
 
 class _Name:
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
         return "damper_rate"
 
 
@@ -595,88 +595,73 @@ def along(*values: float, **coordinates: Any) -> xr.DataArray:
 
 
 WRONG: list[tuple[dict[str, Any], str]] = [
-    (roads("1", 1), "has the labels '1' and 1"),
-    (roads("1", 1, given=xr.DataArray(["1", 1], dims="car")), "has the labels '1' and 1"),
-    (roads("1", given=["1", 1]), "has the label 1"),
-    (roads("1", given=(1, "1")), "has the label 1"),
-    (roads(1.5, "1.5"), "has the labels 1.5 and '1.5'"),
-    (roads(True, "True"), "has the labels True and 'True'"),
-    (roads("a", "a\0"), r"has the labels 'a' and 'a\\x00'"),
-    (roads("a", given=["a", "a\0"]), r"has the label 'a\\x00'"),
-    (roads(2**53, 2**53 + 1, 0.5), "has the labels 9007199254740992 and 9007199254740993"),
-    (roads(2**53, 0.5, given=[2**53, 2**53 + 1, 0.5]), "has the label 9007199254740993"),
-    (roads(), "'road_height' is empty"),
-    ({"variants": {"damper_rate": []}}, "'damper_rate' is empty"),
-    ({"variants": {_Name(): [1e3], "damper_rate": [2e3]}}, "name in variants .* a text is needed"),
-    ({"variants": {"damper_rate": along(1e3, damper_rate=("car", [2e3]))}}, "which is not what"),
-    ({"variants": {"spring_rate": along(2e4, damper_rate=("car", [2e3]))}}, "which is not what"),
-    ({"variants": {"spring_rate": along(2e4, beta1=("car", [0.1]))}}, "which is not what 'beta1'"),
-    (
-        {
-            "variants": {
-                "spring_rate": along(2e4, 3e4, name=("car", ["a", "b"])),
-                "damper_rate": along(1e3, 2e3, name=("car", ["b", "a"])),
-            }
-        },
-        "coordinates 'name' of several differ",
-    ),
-    ({"variants": {"spring_rat": [1.0]}}, "Did you mean spring_rate"),
-    ({"variants": {"spring_rate": ["a"]}}, "numbers are needed"),
-    ({"variants": {"spring_rate": [np.nan]}}, "finite number"),
-    ({"variants": {"spring_rate": [1.0, 2.0], "damper_rate": [1.0, 2.0, 3.0]}}, "go together"),
-    ({"variants": {"spring_rate": np.ones((2, 2))}}, "xarray.DataArray"),
-    ({"variants": 3}, "a dict of names"),
-    ({"variants": {"rack_velocity": [1.0]}}, "follows from 'rack_position'"),
-    ({"variants": {"tie_rod_mass": [1.0]}}, "without mass"),
-    ({"variants": {"road_height": ["a"]}, "inputs": {"road_height": {"b": 0.0}}}, "label 'a'"),
-    ({"inputs": {"road_height": {"b": 0.0}}}, "several courses"),
-    ({"inputs": {"road": 0.0}}, "not an input"),
-    ({"variants": {"road_height": [0.0]}, "inputs": {"road_height": 0.1}}, "both"),
-    ({"variants": xr.Dataset({"spring_rate": ("time", [2e4])})}, "coordinate 'time'"),
-    ({"t_span": (1.0, 0.0)}, "goes forward"),
-    ({"t_eval": [0.0, 2.0]}, "each of them once"),
-    ({"signals": ["cambre"]}, "Did you mean camber"),
-    ({"reductions": {"camber": "maximum"}}, "is not known"),
-    ({"reductions": {"camber": "above"}}, "needs a level"),
-    ({"reductions": {"camber": ("above", np.nan)}}, "'above' of 'camber' = nan rad"),
-    (
-        {"reductions": {"camber": ("above", xr.DataArray(1.0, attrs={"units": "deg"}))}},
-        "is in 'deg': it is needed in 'rad'",
-    ),
-    ({"reductions": {"camber": "percentile"}}, r"\('percentile', 95.0\)"),
-    ({"reductions": {"camber": ("percentile", 101.0)}}, "from 0 % to 100 %"),
-    ({"reductions": {"camber": ("percentile", -1.0)}}, "of 0 % or more"),
-    ({"reductions": {"camber": ("max", 1.0)}}, "takes no number"),
-    ({"reductions": {"camber": "psd"}}, "a segment of 'psd' has 256 outputs, and t_eval has 201"),
-    ({"reductions": {"camber": ("psd", 2.5)}}, "a whole number"),
-    ({"reductions": {"camber": [("psd", 16), ("psd", 32)]}}, "need one length"),
-    (
-        {"reductions": {"camber": ("psd", 16)}, "t_eval": np.linspace(0.0, 1.0, 20) ** 2},
-        "times at equal distances",
-    ),
-    ({"stiff": "Radau"}, "Known are: BDF"),
-    ({"variants": xr.Dataset({"spring_rate": ("frequency", [2e4])})}, "coordinate 'frequency'"),
-    ({"reductions": {"camber": "max"}, "t_eval": [0.5]}, "two times"),
-    ({"rtol": 0.0}, "rtol"),
-    ({"atol": [1.0, 2.0]}, "atol"),
-    ({"max_step": 0.0}, "max_step"),
-    ({"max_steps": 0}, "max_steps"),
-    ({"threads": 0}, "threads"),
-    ({"lanes": 3}, "on this machine there are"),
-    ({"y0": np.ones((2, 4)), "variants": {"spring_rate": [1.0, 2.0, 3.0]}}, "go together"),
-    ({"y0": [1.0]}, "last dimension must be 4"),
-    ({"variants": {"damper_rate": by_label(2, 0, 1), "spring_rate": by_label(0, 1, 2)}}, "order"),
-    ({"variants": xr.Dataset(coords={"damper_rat": [1.0, 2.0]})}, "Did you mean damper_rate"),
-    ({"variants": {"damper_rate": np.ma.masked_equal([1.0, 2.0], 1.0)}}, "one number, or a row"),
-    (
-        {"variants": {"strut_length_max": [0.8]}, "reductions": {"strut_length": "max"}},
-        "'strut_length_max' is both",
-    ),
-    (
-        {"variants": {"spring_rate": xr.DataArray([20.0], dims="car", attrs={"units": "N/mm"})}},
-        "are in 'N/mm': they are needed in 'N/m'",
-    ),
-    ({"model": "reference_car"}, "kintrafo.Model"),
+    roads("1", 1),
+    roads("1", 1, given=xr.DataArray(["1", 1], dims="car")),
+    roads("1", given=["1", 1]),
+    roads("1", given=(1, "1")),
+    roads(1.5, "1.5"),
+    roads(True, "True"),
+    roads("a", "a\0"),
+    roads("a", given=["a", "a\0"]),
+    roads(2**53, 2**53 + 1, 0.5),
+    roads(2**53, 0.5, given=[2**53, 2**53 + 1, 0.5]),
+    roads(),
+    {"variants": {"damper_rate": []}},
+    {"variants": {_Name(): [1e3], "damper_rate": [2e3]}},
+    {"variants": {"damper_rate": along(1e3, damper_rate=("car", [2e3]))}},
+    {"variants": {"spring_rate": along(2e4, damper_rate=("car", [2e3]))}},
+    {"variants": {"spring_rate": along(2e4, beta1=("car", [0.1]))}},
+    {
+        "variants": {
+            "spring_rate": along(2e4, 3e4, name=("car", ["a", "b"])),
+            "damper_rate": along(1e3, 2e3, name=("car", ["b", "a"])),
+        }
+    },
+    {"variants": {"spring_rat": [1.0]}},
+    {"variants": {"spring_rate": ["a"]}},
+    {"variants": {"spring_rate": [np.nan]}},
+    {"variants": {"spring_rate": [1.0, 2.0], "damper_rate": [1.0, 2.0, 3.0]}},
+    {"variants": {"spring_rate": np.ones((2, 2))}},
+    {"variants": 3},
+    {"variants": {"rack_velocity": [1.0]}},
+    {"variants": {"tie_rod_mass": [1.0]}},
+    {"variants": {"road_height": ["a"]}, "inputs": {"road_height": {"b": 0.0}}},
+    {"inputs": {"road_height": {"b": 0.0}}},
+    {"inputs": {"road": 0.0}},
+    {"variants": {"road_height": [0.0]}, "inputs": {"road_height": 0.1}},
+    {"variants": xr.Dataset({"spring_rate": ("time", [2e4])})},
+    {"t_span": (1.0, 0.0)},
+    {"t_eval": [0.0, 2.0]},
+    {"signals": ["cambre"]},
+    {"reductions": {"camber": "maximum"}},
+    {"reductions": {"camber": "above"}},
+    {"reductions": {"camber": ("above", np.nan)}},
+    {"reductions": {"camber": ("above", xr.DataArray(1.0, attrs={"units": "deg"}))}},
+    {"reductions": {"camber": "percentile"}},
+    {"reductions": {"camber": ("percentile", 101.0)}},
+    {"reductions": {"camber": ("percentile", -1.0)}},
+    {"reductions": {"camber": ("max", 1.0)}},
+    {"reductions": {"camber": "psd"}},
+    {"reductions": {"camber": ("psd", 2.5)}},
+    {"reductions": {"camber": [("psd", 16), ("psd", 32)]}},
+    {"reductions": {"camber": ("psd", 16)}, "t_eval": np.linspace(0.0, 1.0, 20) ** 2},
+    {"stiff": "Radau"},
+    {"variants": xr.Dataset({"spring_rate": ("frequency", [2e4])})},
+    {"reductions": {"camber": "max"}, "t_eval": [0.5]},
+    {"rtol": 0.0},
+    {"atol": [1.0, 2.0]},
+    {"max_step": 0.0},
+    {"max_steps": 0},
+    {"threads": 0},
+    {"lanes": 3},
+    {"y0": np.ones((2, 4)), "variants": {"spring_rate": [1.0, 2.0, 3.0]}},
+    {"y0": [1.0]},
+    {"variants": {"damper_rate": by_label(2, 0, 1), "spring_rate": by_label(0, 1, 2)}},
+    {"variants": xr.Dataset(coords={"damper_rat": [1.0, 2.0]})},
+    {"variants": {"damper_rate": np.ma.masked_equal([1.0, 2.0], 1.0)}},
+    {"variants": {"strut_length_max": [0.8]}, "reductions": {"strut_length": "max"}},
+    {"variants": {"spring_rate": xr.DataArray([20.0], dims="car", attrs={"units": "N/mm"})}},
+    {"model": "reference_car"},
 ]
 
 
@@ -773,11 +758,10 @@ def test_levels_that_look_alike_have_names_of_their_own(car: Model) -> None:
     assert {"wheel_center_z_above_0.30000001", "wheel_center_z_above_0.3"} <= set(found)
 
 
-@pytest.mark.parametrize(("wrong", "words"), WRONG, ids=[words for _, words in WRONG])
-def test_what_cannot_be_used(car: Model, wrong: dict[str, Any], words: str) -> None:
+@pytest.mark.parametrize("wrong", WRONG)
+def test_what_cannot_be_used(car: Model, wrong: dict[str, Any], refused: Any) -> None:
     given = {"model": car, "variants": None, "t_span": (0.0, 1.0)} | wrong
-    with pytest.raises(InputError, match=words):
-        ensemble(**given)
+    refused(InputError, lambda: ensemble(**given))
 
 
 def test_own_mechanisms_are_compiled_in_lanes() -> None:

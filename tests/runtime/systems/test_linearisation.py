@@ -353,15 +353,14 @@ def test_inputs_change_the_point():
 
 
 @pytest.mark.parametrize(
-    ("arguments", "message"),
+    "arguments",
     [
-        ({"outputs": ["tire_force"]}, "'tire_force' is not known. Did you mean tyre_force"),
-        ({"state": np.zeros((3, 4))}, r"state has the shape \(3, 4\): a row"),
+        {"outputs": ["tire_force"]},
+        {"state": np.zeros((3, 4))},
     ],
 )
-def test_what_cannot_be_linearised_is_refused(arguments, message):
-    with pytest.raises(InputError, match=message):
-        linearise(HELD, **({"state": REST} | arguments))
+def test_what_cannot_be_linearised_is_refused(arguments, refused):
+    refused(InputError, lambda: linearise(HELD, **({"state": REST} | arguments)))
 
 
 def test_unknown_source_and_resonance_of_the_spin_are_refused():

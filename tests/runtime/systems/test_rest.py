@@ -66,17 +66,16 @@ def test_a_start_that_closes_no_loop_is_refused():
 
 
 @pytest.mark.parametrize(
-    ("changes", "words"),
+    "changes",
     [
-        ({"system": "four_bar"}, "system = 'four_bar'"),
-        ({"near": [1.0]}, "its last dimension must be 2"),
-        ({"near": [np.nan, 0.0]}, "a finite number"),
-        ({"inputs": [1.0]}, "a dict of names and numbers"),
-        ({"inputs": {"torque": 1.0}}, "torque"),
-        ({"inputs": {"crank_torque": np.inf}}, "crank_torque"),
-        ({"near": kintrafo.equilibrium(CAR)}, "its last dimension must be 2"),
+        {"system": "four_bar"},
+        {"near": [1.0]},
+        {"near": [np.nan, 0.0]},
+        {"inputs": [1.0]},
+        {"inputs": {"torque": 1.0}},
+        {"inputs": {"crank_torque": np.inf}},
+        {"near": kintrafo.equilibrium(CAR)},
     ],
 )
-def test_bad_arguments_are_refused(changes, words):
-    with pytest.raises(InputError, match=words):
-        kintrafo.rest(**{"system": LINKAGE} | changes)
+def test_bad_arguments_are_refused(changes, refused):
+    refused(InputError, lambda: kintrafo.rest(**{"system": LINKAGE} | changes))

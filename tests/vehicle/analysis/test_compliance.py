@@ -141,41 +141,32 @@ def test_a_bearing_tilts_across_the_spin_axis_whatever_its_axis_is() -> None:
 
 
 WRONG: list[tuple[Any, dict[str, Any], str]] = [
-    ({}, {}, "bushings: one or more"),
-    ({"arm": {}}, {}, "Did you mean arm_"),
-    ({"arm_rear": 1.0}, {}, "must be a section"),
-    ({"arm_rear": {"radial": 1.0}}, {}, "Did you mean radial_"),
-    ({"arm_rear": {"radial_N_per_mm": 0.0}}, {}, "of 0.001 N/mm or more"),
-    ({"arm_rear": {"radial_N_per_mm": [1.0, 2.0, 3.0]}}, {}, "a number is needed, or two"),
-    ({"arm_rear": {"radial_N_per_mm": [[1.0, 2.0], [3.0]]}}, {}, "a finite number"),
-    ({"wheel_center": {"tilt_Nm_per_deg": [1.0, 2.0, 3.0]}}, {}, "a number is needed, or two"),
-    (
-        {"arm_rear": {"torsion_Nm_per_deg": [1.0, 2.0]}},
-        {},
-        "torsion_Nm_per_deg: a number is needed",
-    ),
-    ({"wheel_center": {"tilt_Nm_per_deg": 9.0, "radial_axis": [0.0, 1.0, 0.0]}}, {}, "lies along"),
-    (
-        {"arm_rear": {"radial_curve": {"mm": [0, 1], "N": [0, 1], "interpolation": "none"}}},
-        {},
-        "interpolation",
-    ),
-    ({"arm_rear": {"axis": [1.0, 0.0, 0.0]}}, {}, "is needed, or it is rigid"),
-    ({"arm_rear": {"axial_N_per_mm": 1.0, "axis": [0.0, 0.0, 0.0]}}, {}, "three numbers"),
-    ({"arm_rear": {"axial_N_per_mm": 1.0, "axis": [1e300, 0.0, 0.0]}}, {}, "three numbers"),
-    ({"ball_joint": {"axial_N_per_mm": 1.0}}, {}, "axis is needed"),
-    ({"strut_lower": {"axial_N_per_mm": 1.0}}, {}, "nothing along its axis"),
-    ({"arm_rear": {"radial_axis": [1.0, 0.0, 0.0]}}, {}, "lies along the axis"),
-    ({"arm_rear": {"tilt_Nm_per_deg": 1.0}}, {}, "one or more are needed that deflect"),
-    ({"arm_rear": {"radial_N_per_mm": 1e3}}, {"held": "body"}, "height, tyre, spring, locked"),
-    ({"arm_rear": {"radial_N_per_mm": 1e3}}, {"travel": [np.nan]}, "finite"),
+    ({}, {}),
+    ({"arm": {}}, {}),
+    ({"arm_rear": 1.0}, {}),
+    ({"arm_rear": {"radial": 1.0}}, {}),
+    ({"arm_rear": {"radial_N_per_mm": 0.0}}, {}),
+    ({"arm_rear": {"radial_N_per_mm": [1.0, 2.0, 3.0]}}, {}),
+    ({"arm_rear": {"radial_N_per_mm": [[1.0, 2.0], [3.0]]}}, {}),
+    ({"wheel_center": {"tilt_Nm_per_deg": [1.0, 2.0, 3.0]}}, {}),
+    ({"arm_rear": {"torsion_Nm_per_deg": [1.0, 2.0]}}, {}),
+    ({"wheel_center": {"tilt_Nm_per_deg": 9.0, "radial_axis": [0.0, 1.0, 0.0]}}, {}),
+    ({"arm_rear": {"radial_curve": {"mm": [0, 1], "N": [0, 1], "interpolation": "none"}}}, {}),
+    ({"arm_rear": {"axis": [1.0, 0.0, 0.0]}}, {}),
+    ({"arm_rear": {"axial_N_per_mm": 1.0, "axis": [0.0, 0.0, 0.0]}}, {}),
+    ({"arm_rear": {"axial_N_per_mm": 1.0, "axis": [1e300, 0.0, 0.0]}}, {}),
+    ({"ball_joint": {"axial_N_per_mm": 1.0}}, {}),
+    ({"strut_lower": {"axial_N_per_mm": 1.0}}, {}),
+    ({"arm_rear": {"radial_axis": [1.0, 0.0, 0.0]}}, {}),
+    ({"arm_rear": {"tilt_Nm_per_deg": 1.0}}, {}),
+    ({"arm_rear": {"radial_N_per_mm": 1e3}}, {"held": "body"}),
+    ({"arm_rear": {"radial_N_per_mm": 1e3}}, {"travel": [np.nan]}),
 ]
 
 
-@pytest.mark.parametrize(("bushings", "options", "words"), WRONG)
-def test_what_cannot_be_used(bushings: Any, options: dict[str, Any], words: str) -> None:
-    with pytest.raises(InputError, match=words):
-        compliance.linear(Model("reference_car"), bushings, **options)
+@pytest.mark.parametrize(("bushings", "options"), WRONG)
+def test_what_cannot_be_used(bushings: Any, options: dict[str, Any], refused: Any) -> None:
+    refused(InputError, lambda: compliance.linear(Model("reference_car"), bushings, **options))
 
 
 def test_without_a_spring_nothing_holds_the_wheel() -> None:
@@ -316,19 +307,20 @@ def test_each_side_of_an_axle_has_its_own_bushes() -> None:
 
 
 @pytest.mark.parametrize(
-    ("bushings", "words"),
+    "bushings",
     [
-        ({"nowhere": {"axial_N_per_mm": 1.0}}, "'nowhere' is not known"),
-        ({"arm_rear": {"axial_N_per_mm": 1.0, "axial_damping_N_s_per_mm": 1.0}}, "damping of a"),
-        ({"arm_rear": {"axial_N_per_mm": 1.0, "loss_factor": 0.1}}, "dynamic stiffnesses"),
-        ({"arm_rear": 3}, "must be a section"),
-        (3, "must be sections"),
-        ({"rack": {}}, "must be a section with axial_N_per_mm"),
+        {"nowhere": {"axial_N_per_mm": 1.0}},
+        {"arm_rear": {"axial_N_per_mm": 1.0, "axial_damping_N_s_per_mm": 1.0}},
+        {"arm_rear": {"axial_N_per_mm": 1.0, "loss_factor": 0.1}},
+        {"arm_rear": 3},
+        3,
+        {"rack": {}},
     ],
 )
-def test_bushes_of_the_file_that_are_none(bushings: Any, words: str) -> None:
-    with pytest.raises(InputError, match=words):
-        Suspension.load("reference_car").with_changes({"bushings": bushings})
+def test_bushes_of_the_file_that_are_none(bushings: Any, refused: Any) -> None:
+    refused(
+        InputError, lambda: Suspension.load("reference_car").with_changes({"bushings": bushings})
+    )
 
 
 def test_commands_take_bushes_from_the_file(kintrafo: Any, tmp_path: Path) -> None:

@@ -100,31 +100,30 @@ def test_characteristics_are_those_at_the_positions(loop: Path) -> None:
 
 
 WRONG = [
-    ("toe [deg]\n1\n2\n", "one column wheel_travel"),
-    ("wheel_travel [mm],rack_position [mm],toe [deg]\n1,2,0\n2,3,0\n", "2 vary"),
-    ("wheel_travel [mm],toe [deg]\n1,2\n1,3\n", "0 vary"),
-    ("wheel_travel [mm],speed\n1,2\n2,3\n", "no characteristic"),
-    ("wheel_travel [mm],cambr [deg]\n1,2\n2,3\n", "Did you mean camber"),
-    ("wheel_travel [mm],toe\n1,2\n2,3\n", "unit \\(none\\) does not fit toe"),
-    ("wheel_travel [deg],toe [deg]\n1,2\n2,3\n", "unit deg does not fit wheel_travel"),
-    ("wheel_travel [mm],toe [mm]\n1,2\n2,3\n", "unit mm does not fit toe"),
-    ("wheel_travel [mm],toe [deg],toe [rad]\n1,2,3\n2,3,4\n", "is in 2 columns"),
-    ("wheel_travel [mm],toe [deg]\n1,2\n,3\n", "line 3 has wheel_travel"),
-    ("wheel_travel [mm],toe [deg]\n1,2\n2,x\n", "line 3 has toe"),
-    ("wheel_travel [mm],toe [deg]\n1,2\n", "at least two"),
-    ("", "empty"),
-    ("wheel_travel [mm],toe [deg],toe [deg]\n1,2,3\n2,3,4\n", "toe is in 2 columns"),
-    ("wheel_travel [mm];wheel_rate [N/m]\n1;25,000\n2.5;26,000\n", "points and commas"),
-    ("rack_position [mm],wheel_rate [N/mm]\n1,2\n2,3\n", "known over wheel_travel only"),
+    "toe [deg]\n1\n2\n",
+    "wheel_travel [mm],rack_position [mm],toe [deg]\n1,2,0\n2,3,0\n",
+    "wheel_travel [mm],toe [deg]\n1,2\n1,3\n",
+    "wheel_travel [mm],speed\n1,2\n2,3\n",
+    "wheel_travel [mm],cambr [deg]\n1,2\n2,3\n",
+    "wheel_travel [mm],toe\n1,2\n2,3\n",
+    "wheel_travel [deg],toe [deg]\n1,2\n2,3\n",
+    "wheel_travel [mm],toe [mm]\n1,2\n2,3\n",
+    "wheel_travel [mm],toe [deg],toe [rad]\n1,2,3\n2,3,4\n",
+    "wheel_travel [mm],toe [deg]\n1,2\n,3\n",
+    "wheel_travel [mm],toe [deg]\n1,2\n2,x\n",
+    "wheel_travel [mm],toe [deg]\n1,2\n",
+    "",
+    "wheel_travel [mm],toe [deg],toe [deg]\n1,2,3\n2,3,4\n",
+    "wheel_travel [mm];wheel_rate [N/m]\n1;25,000\n2.5;26,000\n",
+    "rack_position [mm],wheel_rate [N/mm]\n1,2\n2,3\n",
 ]
 
 
-@pytest.mark.parametrize(("text", "words"), WRONG)
-def test_what_cannot_be_used(tmp_path: Path, text: str, words: str) -> None:
+@pytest.mark.parametrize("text", WRONG)
+def test_what_cannot_be_used(tmp_path: Path, text: str, refused: Any) -> None:
     path = tmp_path / "a.csv"
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(InputError, match=words):
-        rig.measured_curves(path)
+    refused(InputError, lambda: rig.measured_curves(path))
 
 
 def test_cells_of_spreadsheets(tmp_path: Path) -> None:
@@ -212,21 +211,20 @@ def test_names_and_units_of_rigs(tmp_path: Path, text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    "text",
     [
-        ("Wheel Travel (mm),toe [deg],TOE (rad)\n1,2,3\n2,3,4\n", "toe is in 2 columns"),
-        ("# units: mm, in\nwheel travel,toe [deg]\n1,2\n2,3\n", "is in mm, and .* says in"),
-        ("# units: in\nwheel travel [mm],toe [deg]\n1,2\n2,3\n", "is in mm, and .* says in"),
-        ("# units: mm, ells\nwheel travel,toe [deg]\n1,2\n2,3\n", "states units that are not"),
-        ("# units: mm\nwheel travel,toe\n1,2\n2,3\n", r"unit \(none\) does not fit toe"),
-        ("wheel travel,toe\nmm,deg\nmm,deg\n1,2\n2,3\n", "line 3 has wheel travel = 'mm'"),
+        "Wheel Travel (mm),toe [deg],TOE (rad)\n1,2,3\n2,3,4\n",
+        "# units: mm, in\nwheel travel,toe [deg]\n1,2\n2,3\n",
+        "# units: in\nwheel travel [mm],toe [deg]\n1,2\n2,3\n",
+        "# units: mm, ells\nwheel travel,toe [deg]\n1,2\n2,3\n",
+        "# units: mm\nwheel travel,toe\n1,2\n2,3\n",
+        "wheel travel,toe\nmm,deg\nmm,deg\n1,2\n2,3\n",
     ],
 )
-def test_units_that_contradict_each_other(tmp_path: Path, text: str, words: str) -> None:
+def test_units_that_contradict_each_other(tmp_path: Path, text: str, refused: Any) -> None:
     path = tmp_path / "rig.csv"
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(InputError, match=words):
-        rig.measured_curves(path)
+    refused(InputError, lambda: rig.measured_curves(path))
 
 
 SOFT, SOFTER = (
@@ -275,20 +273,15 @@ def test_what_gives_way_alone_gives_way_by_its_softness() -> None:
 
 
 @pytest.mark.parametrize(
-    ("models", "changes", "words"),
+    ("models", "changes"),
     [
-        ({"a": Model(SOFT), "b": MODEL}, {"held": "height"}, r"held: b has no \[bushings\]"),
-        ({"a": Model(SOFT)} | {"b": Model(SOFT)}, {"held": "body"}, "height, tyre, spring, locked"),
-        (
-            {"a": Model(SOFT), "b": Model(SOFT)},
-            {"held": "height", "over": "rack"},
-            "compliance is over wheel travel",
-        ),
+        ({"a": Model(SOFT), "b": MODEL}, {"held": "height"}),
+        ({"a": Model(SOFT)} | {"b": Model(SOFT)}, {"held": "body"}),
+        ({"a": Model(SOFT), "b": Model(SOFT)}, {"held": "height", "over": "rack"}),
     ],
 )
-def test_compliance_that_there_is_not(models: Any, changes: Any, words: str) -> None:
-    with pytest.raises(InputError, match=words):
-        compare.compare(models, **changes)
+def test_compliance_that_there_is_not(models: Any, changes: Any, refused: Any) -> None:
+    refused(InputError, lambda: compare.compare(models, **changes))
 
 
 def test_an_axle_of_two_corners_is_compared_with_a_rigid_one() -> None:

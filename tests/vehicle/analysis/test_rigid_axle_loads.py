@@ -508,7 +508,7 @@ def test_commands_tell_the_loads(kintrafo: Any, tmp_path: Path) -> None:
         assert "beam at mass by inertia" in along["load"].values
 
 
-@pytest.mark.usefixtures("first_page_of_curves")
+@pytest.mark.usefixtures("first_page_of_curves", "one_picture")
 def test_the_report_has_the_load_cases(kintrafo: Any, tmp_path: Path) -> None:
     text = "[cases.stop]\ncontact_g = [-1.0, 0.0, 1.2]\n"
     (tmp_path / "cases.toml").write_text(text, encoding="utf-8")

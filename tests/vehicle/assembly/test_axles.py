@@ -438,99 +438,55 @@ def test_without_a_ratio_the_rack_moves() -> None:
 # -- files, and what is wrong with them ---------------------------------------------------------
 
 WRONG = {
-    "two ways": ({"side": "reference_car", "left": "reference_car"}, "side and left given"),
-    "no side": ({}, "no side is given"),
-    "not there": ({"side": "nowhere.toml"}, "There is no such file"),
-    "a number": ({"side": 3.0}, "name of a hardpoint file is needed"),
-    "exchanged": ({"right": CAR.mirrored(), "left": CAR}, "Exchange the two"),
-    "of the other end": ({"side": CAR.with_changes({"vehicle.end": "rear"})}, "the front one"),
-    "kinds": ({"right": CAR, "left": WISHBONES.mirrored()}, "of one kind"),
-    "racks": (
-        {"right": CAR, "left": CAR.mirrored().with_changes({"rack.axis": [0.0, 1.0, 0.1]})},
-        "they have one rack",
-    ),
-    "vehicles": (
-        {"right": CAR, "left": CAR.mirrored().with_changes({"vehicle.wheelbase_mm": 2700.0})},
-        "[vehicle] wheelbase_mm is 2600 in the file of the right side and 2700",
-    ),
-    "rack": (
-        {"right": CAR, "left": CAR.mirrored().with_changes({"rack.travel_per_turn_mm": None})},
-        "travel_per_turn_mm is 50 in the file of the right side and not given",
-    ),
-    "part": ({"side": CAR, "anti_roll_bar": BAR | {"link_on": "knukle"}}, "Did you mean knuckle"),
-    "rod": ({"side": CAR, "anti_roll_bar": BAR | {"link_on": "tie_rod"}}, "no part"),
-    "bar's side": (
-        {"side": CAR, "anti_roll_bar": BAR | {"bush": [240.0, 400.0, 320.0]}},
-        "correct the sign of y",
-    ),
-    "no rate": (
-        {"side": CAR, "anti_roll_bar": BAR | {"rate_Nm_per_deg": None}},
-        "needs rate_Nm_per_deg",
-    ),
-    "two rates": ({"side": CAR, "anti_roll_bar": BAR | {"diameter_mm": 20.0}}, "both give"),
-    "nothing left": (
-        {
-            "side": CAR,
-            "anti_roll_bar": BAR
-            | {"rate_Nm_per_deg": None, "diameter_mm": 20.0, "length_mm": 800.0}
-            | {"inner_diameter_mm": 20.0},
-        },
-        "leaves nothing",
-    ),
-    "axis": ({"side": CAR, "anti_roll_bar": BAR | {"axis": [0.0, -1.0, 0.0]}}, "to the left"),
-    "lever": (
-        {"side": CAR, "anti_roll_bar": BAR | {"link_top": [240.0, -580.0, 320.0]}},
-        "from the bar's axis",
-    ),
-    "link": (
-        {"side": CAR, "anti_roll_bar": BAR | {"link_foot": BAR["link_top"]}},
-        "0.000 mm apart",
-    ),
-    "dead centre": (
-        {
-            "side": CAR,
-            "anti_roll_bar": BAR
-            | {"bush": [30.0, -400.0, 430.0], "link_top": [30.0, -580.0, 330.0]},
-        },
-        "dead centre",
-    ),
-    "along x": (
-        {"side": CAR, "anti_roll_bar": BAR | {"link_foot": [130.0, -580.0, 330.0]}},
-        "from the x axis",
-    ),
-    "skewed rack": (
-        {"side": CAR.with_changes({"rack.axis": [0.1, 1.0, 0.05]})},
-        "they have one rack",
-    ),
-    "mass of a rod": (
-        {"side": CAR.with_changes({"bodies.tie_rod.mass_kg": 1.0})},
-        "right: [bodies.tie_rod] mass_kg = 1 kg: the rack of an axle is prescribed",
-    ),
-    "bar's unit": ({"side": CAR, "anti_roll_bar": BAR | {"unit": "m"}}, "-20 m to 20 m"),
-    "twist": ({"side": CAR, "anti_roll_bar": BAR | {"free_twist_deg": 90.0}}, "-60 deg to 60"),
-    "tube by rate": (
-        {"side": CAR, "anti_roll_bar": BAR | {"inner_diameter_mm": 5.0}},
-        "inner_diameter_mm both give",
-    ),
-    "curve": (
-        {"side": CAR, "steering": {"angle_deg": [0.0, 10.0], "rack_mm": [1.0]}},
-        "as many are needed",
-    ),
-    "back": (
-        {"side": CAR, "steering": {"angle_deg": [-9, 0, 9.0], "rack_mm": [1.0, 2.0, 1.0]}},
-        "does not turn back",
-    ),
-    "share": ({"side": CAR, "drive": {"share": 1.5}}, "0 to 1"),
-    "brakes": ({"side": CAR, "brakes": {"torque_on": "hub"}}, "'body' or 'carrier'"),
-    "key": ({"side": CAR, "antiroll_bar": {}}, "Did you mean anti_roll_bar"),
-    "a suspension": ({"axle": None, "hardpoints": {}}, "must be 'front' or 'rear'"),
+    "two ways": {"side": "reference_car", "left": "reference_car"},
+    "no side": {},
+    "not there": {"side": "nowhere.toml"},
+    "a number": {"side": 3.0},
+    "exchanged": {"right": CAR.mirrored(), "left": CAR},
+    "of the other end": {"side": CAR.with_changes({"vehicle.end": "rear"})},
+    "kinds": {"right": CAR, "left": WISHBONES.mirrored()},
+    "racks": {"right": CAR, "left": CAR.mirrored().with_changes({"rack.axis": [0.0, 1.0, 0.1]})},
+    "vehicles": {
+        "right": CAR,
+        "left": CAR.mirrored().with_changes({"vehicle.wheelbase_mm": 2700.0}),
+    },
+    "rack": {"right": CAR, "left": CAR.mirrored().with_changes({"rack.travel_per_turn_mm": None})},
+    "part": {"side": CAR, "anti_roll_bar": BAR | {"link_on": "knukle"}},
+    "rod": {"side": CAR, "anti_roll_bar": BAR | {"link_on": "tie_rod"}},
+    "bar's side": {"side": CAR, "anti_roll_bar": BAR | {"bush": [240.0, 400.0, 320.0]}},
+    "no rate": {"side": CAR, "anti_roll_bar": BAR | {"rate_Nm_per_deg": None}},
+    "two rates": {"side": CAR, "anti_roll_bar": BAR | {"diameter_mm": 20.0}},
+    "nothing left": {
+        "side": CAR,
+        "anti_roll_bar": BAR
+        | {"rate_Nm_per_deg": None, "diameter_mm": 20.0, "length_mm": 800.0}
+        | {"inner_diameter_mm": 20.0},
+    },
+    "axis": {"side": CAR, "anti_roll_bar": BAR | {"axis": [0.0, -1.0, 0.0]}},
+    "lever": {"side": CAR, "anti_roll_bar": BAR | {"link_top": [240.0, -580.0, 320.0]}},
+    "link": {"side": CAR, "anti_roll_bar": BAR | {"link_foot": BAR["link_top"]}},
+    "dead centre": {
+        "side": CAR,
+        "anti_roll_bar": BAR | {"bush": [30.0, -400.0, 430.0], "link_top": [30.0, -580.0, 330.0]},
+    },
+    "along x": {"side": CAR, "anti_roll_bar": BAR | {"link_foot": [130.0, -580.0, 330.0]}},
+    "skewed rack": {"side": CAR.with_changes({"rack.axis": [0.1, 1.0, 0.05]})},
+    "mass of a rod": {"side": CAR.with_changes({"bodies.tie_rod.mass_kg": 1.0})},
+    "bar's unit": {"side": CAR, "anti_roll_bar": BAR | {"unit": "m"}},
+    "twist": {"side": CAR, "anti_roll_bar": BAR | {"free_twist_deg": 90.0}},
+    "tube by rate": {"side": CAR, "anti_roll_bar": BAR | {"inner_diameter_mm": 5.0}},
+    "curve": {"side": CAR, "steering": {"angle_deg": [0.0, 10.0], "rack_mm": [1.0]}},
+    "back": {"side": CAR, "steering": {"angle_deg": [-9, 0, 9.0], "rack_mm": [1.0, 2.0, 1.0]}},
+    "share": {"side": CAR, "drive": {"share": 1.5}},
+    "brakes": {"side": CAR, "brakes": {"torque_on": "hub"}},
+    "key": {"side": CAR, "antiroll_bar": {}},
+    "a suspension": {"axle": None, "hardpoints": {}},
 }
 
 
-@pytest.mark.parametrize(("data", "message"), WRONG.values(), ids=WRONG)
-def test_what_is_wrong_is_named(data: dict[str, Any], message: str) -> None:
-    with pytest.raises(InputError, match=re.escape(message)):
-        Axle.from_dict({"axle": "front", **data})
+@pytest.mark.parametrize("data", WRONG.values(), ids=WRONG)
+def test_what_is_wrong_is_named(data: dict[str, Any], refused: Any) -> None:
+    refused(InputError, lambda: Axle.from_dict({"axle": "front", **data}))
 
 
 def test_files_of_the_other_sort_are_told() -> None:
@@ -784,16 +740,15 @@ def test_the_matrix_of_an_axle_is_symmetric() -> None:
 
 
 @pytest.mark.parametrize(
-    ("bushes", "words"),
+    "bushes",
     [
-        ({}, "one or more are needed"),
-        ({"rack": {"radial_N_per_mm": 1.0}}, "axial_N_per_mm, and nothing else"),
-        ({"rack": {"axial_N_per_mm": 0.0}}, r"\[bushings.rack\] axial_N_per_mm"),
-        ({"lower_ball": {"axial_N_per_mm": 10.0}}, "lower_ball"),
-        ({"arm_rear": 3.0}, "must be a section"),
-        ({"arm_rear": {"axial_N_per_mm": 1.0, "axis": "up"}}, "axis"),
+        {},
+        {"rack": {"radial_N_per_mm": 1.0}},
+        {"rack": {"axial_N_per_mm": 0.0}},
+        {"lower_ball": {"axial_N_per_mm": 10.0}},
+        {"arm_rear": 3.0},
+        {"arm_rear": {"axial_N_per_mm": 1.0, "axis": "up"}},
     ],
 )
-def test_bushes_that_are_none_are_refused(bushes: Any, words: str) -> None:
-    with pytest.raises(InputError, match=words):
-        compliance.linear(PLAIN, bushes, [0.0])
+def test_bushes_that_are_none_are_refused(bushes: Any, refused: Any) -> None:
+    refused(InputError, lambda: compliance.linear(PLAIN, bushes, [0.0]))

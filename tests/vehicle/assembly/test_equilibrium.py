@@ -1,5 +1,8 @@
 """The state of rest of a corner, an axle and a rigid axle: the same arguments do the same."""
 
+from functools import cache
+from typing import Any
+
 import kintrafo
 import numpy as np
 import pytest
@@ -8,9 +11,9 @@ from kintrafo.vehicle.analysis.scenario import Scenario, run, started
 from kintrafo.vehicle.models.positions import PositionError
 
 MODELS = {
-    "corner": Model("reference_car"),
-    "axle": AxleModel(Axle.load("reference_axle")),
-    "rigid axle": RigidAxleModel("rigid_axle"),
+    "corner": lambda: Model("reference_car"),
+    "axle": lambda: AxleModel(Axle.load("reference_axle")),
+    "rigid axle": lambda: RigidAxleModel("rigid_axle"),
 }
 CENTERS = {
     "corner": {"right": ("", "")},
@@ -23,9 +26,14 @@ EXACT = 1e-10
 each = pytest.mark.parametrize("name", MODELS)
 
 
+@cache
+def model_of(name: str) -> Any:
+    return MODELS[name]()
+
+
 def of_wheels(name: str, rest: kintrafo.State) -> tuple[np.ndarray, np.ndarray]:
     """Return heights of wheel centres and of the roads below them."""
-    model, names = MODELS[name], CENTERS[name].values()
+    model, names = model_of(name), CENTERS[name].values()
     heights = [float(model.signal(f"{signals}wheel_center_z", rest)) for _, signals in names]
     places = [model.input_names.index(f"{prefix}road_height") for prefix, _ in names]
     return np.array(heights), rest.inputs[places]
@@ -33,31 +41,31 @@ def of_wheels(name: str, rest: kintrafo.State) -> tuple[np.ndarray, np.ndarray]:
 
 @each
 def test_a_wheel_load_is_the_deflection_of_the_tyre_times_its_rate(name: str) -> None:
-    rest = equilibrium(MODELS[name], wheel_load=3000.0)
+    rest = equilibrium(model_of(name), wheel_load=3000.0)
     heights, roads = of_wheels(name, rest)
-    tyre = MODELS[name].parameters
+    tyre = model_of(name).parameters
     left = tyre.get("tyre_free_height") - (heights - roads)
     np.testing.assert_allclose(tyre["tyre_rate"] * left, 3000.0, rtol=1e-9)
 
 
 @each
 def test_the_road_of_a_loaded_wheel_makes_the_same_rest(name: str) -> None:
-    loaded = equilibrium(MODELS[name], wheel_load=3000.0)
+    loaded = equilibrium(model_of(name), wheel_load=3000.0)
     _, roads = of_wheels(name, loaded)
     road = dict(zip(CENTERS[name], map(float, roads), strict=True))
-    np.testing.assert_allclose(equilibrium(MODELS[name], road_height=road), loaded, atol=EXACT)
+    np.testing.assert_allclose(equilibrium(model_of(name), road_height=road), loaded, atol=EXACT)
 
 
 @each
 def test_a_road_that_is_the_same_under_all_wheels_is_a_number(name: str) -> None:
     by_wheel = dict.fromkeys(CENTERS[name], 0.01)
-    found = [equilibrium(MODELS[name], road_height=road) for road in (0.01, by_wheel)]
+    found = [equilibrium(model_of(name), road_height=road) for road in (0.01, by_wheel)]
     np.testing.assert_array_equal(*found)
 
 
 @each
 def test_a_run_with_actuators_begins_at_rest(name: str) -> None:
-    model = MODELS[name]
+    model = model_of(name)
     pushing = [name for name in model.input_names if name.endswith(("actuator", "strut_force"))]
     _, motion = run(model, Scenario(duration=0.05, inputs=dict.fromkeys(pushing, 300.0)))
     for _, signals in CENTERS[name].values():
@@ -69,7 +77,7 @@ def test_a_run_with_actuators_begins_at_rest(name: str) -> None:
 
 @each
 def test_what_cannot_be_is_refused(name: str) -> None:
-    model = MODELS[name]
+    model = model_of(name)
     with pytest.raises(InputError, match="both given"):
         equilibrium(model, wheel_load=3000.0, road_height=0.01)
     with pytest.raises(InputError, match="wheel 'front' is not known"):
@@ -85,7 +93,7 @@ def test_what_cannot_be_is_refused(name: str) -> None:
 
 
 def test_a_rack_that_is_not_there_is_refused() -> None:
-    model = MODELS["rigid axle"]
+    model = model_of("rigid axle")
     with pytest.raises(InputError, match=r"rack_position = 10 mm: it has no rack"):
         equilibrium(model, rack_position=0.01)
     with pytest.raises(InputError, match=r"rack_position: it has no rack"):
@@ -94,7 +102,7 @@ def test_a_rack_that_is_not_there_is_refused() -> None:
 
 @each
 def test_a_motion_names_the_wheel_of_each_signal_in_words(name: str) -> None:
-    _, motion = run(MODELS[name], Scenario(duration=0.01))
+    _, motion = run(model_of(name), Scenario(duration=0.01))
     for wheel, (prefix, signals) in CENTERS[name].items():
         words = motion[f"{signals}wheel_center_z"].attrs["long_name"]
         assert words == f"wheel centre, z, {wheel}" if prefix else "wheel centre, z"
@@ -104,7 +112,7 @@ def test_a_motion_names_the_wheel_of_each_signal_in_words(name: str) -> None:
 
 @each
 def test_motions_start_with_the_wheels_at_given_heights(name: str) -> None:
-    model = MODELS[name]
+    model = model_of(name)
     at_rest, _ = of_wheels(name, equilibrium(model))
     both = {wheel: at_rest[i] + (0.01, -0.005)[i] for i, wheel in enumerate(CENTERS[name])}
     for height in (both, float(at_rest[0]) + 0.01):

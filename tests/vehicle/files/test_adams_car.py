@@ -392,66 +392,43 @@ def changed(old: str, new: str, count: int = -1) -> str:
 
 ROW = " 'lca_front               '  'left/right'  -160.0  -360.0  195.0\n"
 REFUSED = {
-    "nothing": ("", r"there is no \[BLOCK\] in it"),
-    "xml": ("<?xml version='1.0'?>\n<Subsystem/>", r"as text \(TeimOrbit\), not as XML"),
-    "binary": ("[UNITS]\n\0", "is no text"),
-    "another file": (changed("'sub'", "'asy'"), "FILE_TYPE is 'asy'; only the file of a"),
-    "a steering": (changed("'suspension'", "'steering'"), "MAJOR_ROLE is 'steering'"),
-    "no units": (changed("[UNITS]", "[UNIT]"), r"LENGTH is missing. Write LENGTH = 'mm'"),
-    "furlongs": (changed("'mm'", "'furlong'"), "LENGTH is 'furlong', which is not known"),
-    "two units": (changed("[HARD", "[UNITS]\nLENGTH = 'm'\n[HARD"), "is 'mm' and 'm'. Keep one"),
-    "gon": (changed("'degrees'", "'gon'"), "ANGLE is 'gon', which is not known"),
-    "no points": (changed("[HARDPOINT]", "[POINTS]"), r"no rows in a block \[HARDPOINT\]"),
-    "columns": (changed("x_value ", "p_value "), "the columns of .HARDPOINT. are hardpoint_name"),
-    "twice": (changed(ROW, ROW + ROW), "lca_front is there twice, as left/right and left/right"),
-    "twice a side": (
-        changed(ROW, ROW + ROW.replace("left/right", "left")),
-        "lca_front is there twice, as left/right and left",
-    ),
-    "too few": (changed("-160.0  -360.0  195.0", "-160.0  -360.0"), "4 values instead of 5: 'lca"),
-    "too many": (changed("-160.0  -360.0", "-160,0  -360.0"), "6 values instead of 5"),
-    "no number": (changed("-160.0  -360", "-16o.0  -360"), "line 24: '-16o.0' is no number"),
-    "nan": (changed("-160.0  -360.0", "nan  -360.0"), "'nan' is no number"),
-    "infinite": (changed("-160.0  -360.0", "1e999  -360.0"), "'1e999' is no number"),
-    "no angle": (changed("  -1.2\n", "  steep\n"), "'steep' is no number"),
-    "angle of no side": (
-        changed("'left/right'  'real'     -1.2", "'single'  'real'  -1.2"),
-        "camber_angle is there as single; a row for the left side is needed",
-    ),
-    "open quote": (changed("'lca_front     ", "lca_front     "),
-                   "a quote is not closed"),
-    "a spring's key twice": (
-        subsystem(WISHBONES, more=MORE + " PROPERTY_FILE = 'x.spr'\n"),
-        r"PROPERTY_FILE is there 2 times in \[NSPRING_ASSEMBLY\]. Keep one of them",
-    ),
-    "symmetry": (changed("'left/right'  -160", "'both'  -160"), "symmetry is 'both'; it can be"),
-    "single": (
-        changed("'left/right'  -160", "'single'  -160"),
-        "lca_front is there as single; a row for the left side is needed",
-    ),
-    "the right one only": (
-        changed("'left/right'  -160", "'right'  -160"),
-        "lca_front is there as right; a row for the left side",
-    ),
-    "the other side": (
-        re.sub("  -(?=[367]..0  )", "  ", changed("-760.0", "760.0")),
-        "wheel_center of the left side is 760 mm on the other side",
-    ),
-    "missing": (changed(" 'uca_front", " 'uxa_front"), "Nearest is double_wishbone, of which "),
-    "metres for millimetres": (changed("'mm'", "'meter'"), "out of range"),
-    "too steep": (changed("  -1.2\n", "  -80.0\n"), "camber_deg = -80.0"),
-    "swapped": (
-        changed(ROW, ROW.replace("-160", "160")).replace("rear                '  'left/right'  200",
-                                                         "rear  '  'left/right'  -200"),
-        "lower_arm_front",
-    ),
+    "nothing": "",
+    "xml": "<?xml version='1.0'?>\n<Subsystem/>",
+    "binary": "[UNITS]\n\0",
+    "another file": changed("'sub'", "'asy'"),
+    "a steering": changed("'suspension'", "'steering'"),
+    "no units": changed("[UNITS]", "[UNIT]"),
+    "furlongs": changed("'mm'", "'furlong'"),
+    "two units": changed("[HARD", "[UNITS]\nLENGTH = 'm'\n[HARD"),
+    "gon": changed("'degrees'", "'gon'"),
+    "no points": changed("[HARDPOINT]", "[POINTS]"),
+    "columns": changed("x_value ", "p_value "),
+    "twice": changed(ROW, ROW + ROW),
+    "twice a side": changed(ROW, ROW + ROW.replace("left/right", "left")),
+    "too few": changed("-160.0  -360.0  195.0", "-160.0  -360.0"),
+    "too many": changed("-160.0  -360.0", "-160,0  -360.0"),
+    "no number": changed("-160.0  -360", "-16o.0  -360"),
+    "nan": changed("-160.0  -360.0", "nan  -360.0"),
+    "infinite": changed("-160.0  -360.0", "1e999  -360.0"),
+    "no angle": changed("  -1.2\n", "  steep\n"),
+    "angle of no side": changed("'left/right'  'real'     -1.2", "'single'  'real'  -1.2"),
+    "open quote": changed("'lca_front     ", "lca_front     "),
+    "a spring's key twice": subsystem(WISHBONES, more=MORE + " PROPERTY_FILE = 'x.spr'\n"),
+    "symmetry": changed("'left/right'  -160", "'both'  -160"),
+    "single": changed("'left/right'  -160", "'single'  -160"),
+    "the right one only": changed("'left/right'  -160", "'right'  -160"),
+    "the other side": re.sub("  -(?=[367]..0  )", "  ", changed("-760.0", "760.0")),
+    "missing": changed(" 'uca_front", " 'uxa_front"),
+    "metres for millimetres": changed("'mm'", "'meter'"),
+    "too steep": changed("  -1.2\n", "  -80.0\n"),
+    "swapped": changed(ROW, ROW.replace("-160", "160")).replace(
+        "rear                '  'left/right'  200", "rear  '  'left/right'  -200"),
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("text", "message"), REFUSED.values(), ids=REFUSED)
-def test_what_would_make_a_wrong_car_is_refused(text: str, message: str, tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=message):
-        taken(tmp_path, text)
+@pytest.mark.parametrize("text", REFUSED.values(), ids=REFUSED)
+def test_what_would_make_a_wrong_car_is_refused(text: str, refused: Any, tmp_path: Path) -> None:
+    refused(InputError, lambda: taken(tmp_path, text))
 
 
 def test_push_or_pull_is_asked(tmp_path: Path) -> None:
@@ -462,17 +439,21 @@ def test_push_or_pull_is_asked(tmp_path: Path) -> None:
 
 
 SAID = {
-    "no pair": (["lca"], "has no two names"),
-    "twice": (["spring_top=a", "spring_top=b"], "spring_top is named twice: a and b"),
-    "not ours": (["spring_tip=top_mount"], "spring_tip is no hardpoint .* Did you mean spring_top"),
-    "not theirs": (["spring_top=top_mound"], "no hardpoint top_mound. Did you mean top_mount"),
+    "no pair": ["lca"],
+    "twice": ["spring_top=a", "spring_top=b"],
+    "not ours": ["spring_tip=top_mount"],
+    "not theirs": ["spring_top=top_mound"],
 }
 
 
-@pytest.mark.parametrize(("said", "message"), SAID.values(), ids=SAID)
-def test_names_that_are_none(said: list[str], message: str, tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=message):
-        taken(tmp_path, subsystem(WISHBONES), names=read_names(said), kind="double_wishbone")
+@pytest.mark.parametrize("said", SAID.values(), ids=SAID)
+def test_names_that_are_none(said: list[str], refused: Any, tmp_path: Path) -> None:
+    refused(
+        InputError,
+        lambda: taken(
+            tmp_path, subsystem(WISHBONES), names=read_names(said), kind="double_wishbone"
+        ),
+    )
 
 
 def test_two_that_may_be_one(tmp_path: Path) -> None:

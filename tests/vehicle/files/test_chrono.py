@@ -321,58 +321,40 @@ class TestKeys:
         )
 
     @pytest.mark.parametrize(
-        ("part", "changes", "words"),
+        ("part", "changes"),
         [
-            ("Shock", {"Damping Curve Data": [[-1, -1], [1, 1]]}, "both give its force"),
-            (
-                "Shock",
-                {"Map Data": [[0, 1]]},
-                '"Shock > Map Data" is a force over length and speed',
-            ),
-            ("Shock", {"Degressivity Compression": 0.1}, "is a degressive damper"),
-            (
-                "Shock",
-                {"Spring Coefficient": 5.0},
-                '"Shock > Spring Coefficient" is a second spring',
-            ),
-            (
-                "Shock",
-                {"Spring Coefficient": 0.0, "Preload": 5.0},
-                '"Shock > Preload" is a second spring',
-            ),
-            (
-                "Shock",
-                {"Spring Coefficient": 0.0, "Minimum Length": 0.2, "Maximum Length": 0.6},
-                '"Shock > Minimum Length" is a second spring',
-            ),
-            ("Spring", {"Damping Coefficient": 5.0}, "is a second damper, beside that of"),
-            ("Spring", {"Spring Curve Data": [[0, 0], [1, 1]]}, "both give its force"),
-            ("Spring", {"Preload": 5.0, "Spring Coefficient": 0.0}, "is a constant force"),
-            ("Shock", {"Location Upright": [0.0, 0.8, 0.2]}, "off the axis of the strut"),
-            ("Upright", {"Moments of Inertia": [1, 1, 1]}, "both give the inertia"),
-            ("Spring", {"Preload": None}, '"Spring > Preload" = null: null is no value.'),
+            ("Shock", {"Damping Curve Data": [[-1, -1], [1, 1]]}),
+            ("Shock", {"Map Data": [[0, 1]]}),
+            ("Shock", {"Degressivity Compression": 0.1}),
+            ("Shock", {"Spring Coefficient": 5.0}),
+            ("Shock", {"Spring Coefficient": 0.0, "Preload": 5.0}),
+            ("Shock", {"Spring Coefficient": 0.0, "Minimum Length": 0.2, "Maximum Length": 0.6}),
+            ("Spring", {"Damping Coefficient": 5.0}),
+            ("Spring", {"Spring Curve Data": [[0, 0], [1, 1]]}),
+            ("Spring", {"Preload": 5.0, "Spring Coefficient": 0.0}),
+            ("Shock", {"Location Upright": [0.0, 0.8, 0.2]}),
+            ("Upright", {"Moments of Inertia": [1, 1, 1]}),
+            ("Spring", {"Preload": None}),
         ],
     )
-    def test_what_there_is_no_place_for(self, tmp_path, part, changes, words):
+    def test_what_there_is_no_place_for(self, tmp_path, part, changes, refused):
         data = content()
         data[part] |= changes
-        with pytest.raises(InputError, match=re.escape(words)):
-            chrono.read(written(tmp_path, data))
+        refused(InputError, lambda: chrono.read(written(tmp_path, data)))
 
     @pytest.mark.parametrize(
-        ("part", "key", "words"),
+        ("part", "key"),
         [
-            ("Shock", "Damping Coefficient", '"Damping Curve Data" is missing'),
-            ("Spring", "Spring Coefficient", '"Spring Curve Data" is missing'),
-            ("Spring", "Free Length", '"Spring > Free Length" is missing'),
-            ("Upright", "Inertia", '"Upright > Inertia" or "Moments of Inertia" is missing'),
+            ("Shock", "Damping Coefficient"),
+            ("Spring", "Spring Coefficient"),
+            ("Spring", "Free Length"),
+            ("Upright", "Inertia"),
         ],
     )
-    def test_what_is_missing(self, tmp_path, part, key, words):
+    def test_what_is_missing(self, tmp_path, part, key, refused):
         data = content()
         del data[part][key]
-        with pytest.raises(InputError, match=re.escape(words)):
-            chrono.read(written(tmp_path, data))
+        refused(InputError, lambda: chrono.read(written(tmp_path, data)))
 
     def test_a_key_that_is_there_twice(self, tmp_path):
         path = tmp_path / "strut.json"
@@ -505,25 +487,24 @@ class TestStops:
 
     @pytest.mark.parametrize("path", [STRUT, WISHBONES])
     @pytest.mark.parametrize(
-        ("changes", "words"),
+        "changes",
         [
-            ({"Minimum Length": 0.5, "Maximum Length": 0.4}, "are no stops"),
-            ({"Minimum Length": 0.05, "Maximum Length": 0.4}, "are no stops"),
-            ({"Minimum Length": 0.2, "Maximum Length": 0.4, "Spring Coefficient": None,
-              "Spring Curve Data": SPRING_CURVE}, 'no place beside "Spring Curve Data"'),
-            ({"Minimum Length": 0.2, "Maximum Length": 0.4, "Spring Coefficient": None,
-              "Curve Data": SPRING_CURVE}, 'no place beside "Curve Data"'),
-            ({"Minimal Length": 0.2}, 'Is it "Minimum Length"?'),
+            {"Minimum Length": 0.5, "Maximum Length": 0.4},
+            {"Minimum Length": 0.05, "Maximum Length": 0.4},
+            {"Minimum Length": 0.2, "Maximum Length": 0.4, "Spring Coefficient": None,
+              "Spring Curve Data": SPRING_CURVE},
+            {"Minimum Length": 0.2, "Maximum Length": 0.4, "Spring Coefficient": None,
+              "Curve Data": SPRING_CURVE},
+            {"Minimal Length": 0.2},
         ],
     )  # fmt: skip
     def test_what_cannot_be_read_is_refused_but_for_the_points(
-        self, tmp_path, path, changes, words
+        self, tmp_path, path, changes, refused
     ):
         data = content(path)
         spring = data["Spring"] | changes
         data["Spring"] = {key: value for key, value in spring.items() if value is not None}
-        with pytest.raises(InputError, match=re.escape(words)):
-            chrono.read(written(tmp_path, data))
+        refused(InputError, lambda: chrono.read(written(tmp_path, data)))
         assert chrono.read(written(tmp_path, data), points_only=True).suspension
 
 
@@ -687,24 +668,22 @@ class TestTires:
         assert "only UNLOADED_RADIUS is read" in found.assumptions[-1]
 
     @pytest.mark.parametrize(
-        ("data", "words"),
+        "data",
         [
-            (tire_of("TMeasyTire", Design=DESIGN | {"Mass [kg]": -1}), '"Design > Mass [kg]" = -1'),
-            (tire_of("TMeasyTire", Design={}), "is missing in a file of the template TMeasyTire"),
-            (tire_of("TMeasyTire", Design={"Unloaded Radius": 1}), 'Is it "Design > Unloaded Rad'),
-            (tire_of("RigidTire", **OWN, radius=0.3), '"radius" is no key'),
-            (tire_of("RigidTire", **OWN | {"Inertia": [0.1, 0.7, 0.1]}, Radius=0.3),
-             '"Inertia" = [0.1, 0.7, 0.1] kg m^2: the principal moments are 0.1, 0.1, 0.7'),
-            (tire_of("OwnTire"), '"Template" is "OwnTire"; of tires, these can be read: Rigid'),
-            ({"Type": "Wheel", "Template": "Wheel"}, '"Type" is "Wheel"; the file of a tire is'),
-            (tire_of("MFTire", **OWN, UNITS={"LENGTH": "mm"}), 'only "meter" can be read'),
-            (tire_of("RigidTire", **OWN, Radius=0), '"Radius" = 0: input should be greater than'),
-            (tire_of("RigidTire", Mass=1, Inertia=[1, 2], Radius=1), '"Inertia > 2" is missing'),
+            tire_of("TMeasyTire", Design=DESIGN | {"Mass [kg]": -1}),
+            tire_of("TMeasyTire", Design={}),
+            tire_of("TMeasyTire", Design={"Unloaded Radius": 1}),
+            tire_of("RigidTire", **OWN, radius=0.3),
+            tire_of("RigidTire", **OWN | {"Inertia": [0.1, 0.7, 0.1]}, Radius=0.3),
+            tire_of("OwnTire"),
+            {"Type": "Wheel", "Template": "Wheel"},
+            tire_of("MFTire", **OWN, UNITS={"LENGTH": "mm"}),
+            tire_of("RigidTire", **OWN, Radius=0),
+            tire_of("RigidTire", Mass=1, Inertia=[1, 2], Radius=1),
         ],
     )  # fmt: skip
-    def test_mistakes_are_named(self, tmp_path, data, words):
-        with pytest.raises(InputError, match=re.escape(words)):
-            self.read(tmp_path, data)
+    def test_mistakes_are_named(self, tmp_path, data, refused):
+        refused(InputError, lambda: self.read(tmp_path, data))
 
 
 class TestMultiLink:
@@ -759,56 +738,39 @@ class TestMultiLink:
 
 class TestMistakes:
     @pytest.mark.parametrize(
-        ("changes", "words"),
+        "changes",
         [
-            ({"Template": "RigidSuspension"}, "only 'MacPhersonStrut' and 'DoubleWishbone' can"),
-            ({"Template": None}, '"Template" is null'),
-            ({"Template": "MultiLink"}, "write a multi_link file"),
-            ({"Template": "DoubleWishbone"}, '"Upper Control Arm" is missing'),
-            ({"Spindle": None}, '"Spindle" = null'),
-            ({"Tierod": {"Location Chassis": [0, 0, 0]}}, '"Tierod > Location Upright" is missing'),
-            ({"Axle": {"Inertia": -1}}, '"Axle > Inertia" = -1'),
-            ({"Axle": {"Inertia": "1"}}, '"Axle > Inertia" = "1"'),
-            ({"Axle": {"Inertia": True}}, '"Axle > Inertia" = true'),
-            ({"Vehicle-Frame Inertia": 1}, '"Vehicle-Frame Inertia" = 1'),
-            ({"Toe Angle (deg)": "no"}, '"Toe Angle (deg)" = "no": a number is needed'),
-            ({"Spindle": [1]}, '"Spindle" = [1]: keys with values are needed, in braces.'),
+            {"Template": "RigidSuspension"},
+            {"Template": None},
+            {"Template": "MultiLink"},
+            {"Template": "DoubleWishbone"},
+            {"Spindle": None},
+            {"Tierod": {"Location Chassis": [0, 0, 0]}},
+            {"Axle": {"Inertia": -1}},
+            {"Axle": {"Inertia": "1"}},
+            {"Axle": {"Inertia": True}},
+            {"Vehicle-Frame Inertia": 1},
+            {"Toe Angle (deg)": "no"},
+            {"Spindle": [1]},
         ],
     )
-    def test_are_named(self, tmp_path, changes, words):
-        with pytest.raises(InputError, match=re.escape(words)):
-            chrono.read(written(tmp_path, content() | changes))
+    def test_are_named(self, tmp_path, changes, refused):
+        refused(InputError, lambda: chrono.read(written(tmp_path, content() | changes)))
 
     @pytest.mark.parametrize(
-        ("points", "words"),
-        [
-            ([[0, 0], [0, 0, 1]], ['"Spring > Spring Curve Data > 1" = [0, 0, 1] has 3 values; 2']),
-            (
-                [[0, "a"], [1, 1]],
-                ['"Spring > Spring Curve Data > 0 > 1" = "a": a number is needed'],
-            ),
-            ([[0, 0]], ['"Spring > Spring Curve Data" = [[0, 0]] has 1 values; at least 2 are']),
-            (5, ['"Spring > Spring Curve Data" = 5: a list is needed']),
-        ],
+        "points",
+        [[[0, 0], [0, 0, 1]], [[0, "a"], [1, 1]], [[0, 0]], 5],
     )
-    def test_points_of_a_curve_are_named_once(self, tmp_path, points, words):
+    def test_points_of_a_curve_are_named_once(self, tmp_path, points, refused):
         data = content()
         data["Spring"]["Spring Curve Data"] = points
-        with pytest.raises(InputError) as raised:
-            chrono.read(written(tmp_path, data))
-        found = raised.value.problems
-        assert len(found) == len(words)
-        assert all(one.startswith(word) for one, word in zip(found, words, strict=True))
+        refused(InputError, lambda: chrono.read(written(tmp_path, data)))
 
-    @pytest.mark.parametrize(
-        ("text", "words"),
-        [(b"{\n,}", "Line 2 is not valid JSON"), (b"[1]", "no keys"), (b"\xff", "not UTF-8")],
-    )
-    def test_no_json(self, tmp_path, text, words):
+    @pytest.mark.parametrize("text", [b"{\n,}", b"[1]", b"\xff"])
+    def test_no_json(self, tmp_path, text, refused):
         path = tmp_path / "strut.json"
         path.write_bytes(text)
-        with pytest.raises(InputError, match=words):
-            chrono.read(path)
+        refused(InputError, lambda: chrono.read(path))
 
     def test_impossible_geometry_names_the_file(self, tmp_path):
         data = content()
@@ -824,23 +786,22 @@ class TestMistakes:
         assert chrono.read(path).suspension.vehicle.side == "left"
 
     @pytest.mark.parametrize(
-        ("text", "words"),
+        "text",
         [
             # of the length of the text, and not of its square or worse: minutes before
-            ('{"a":"' + '\\"' * 200_000, "Line 1 is not valid JSON"),
-            ("/*/" * 200_000, "is not valid JSON"),
-            ('{"a": 1} /* never closed', "Line 1 is not valid JSON"),
-            ('{\n/* two\nlines */ "a": ?}', "Line 3 is not valid JSON"),
-            ('{"a":' * 100_000, "too deeply"),
-            ('{"a": ' + "9" * 5000 + "}", "thousands of digits"),
+            '{"a":"' + '\\"' * 200_000,
+            "/*/" * 200_000,
+            '{"a": 1} /* never closed',
+            '{\n/* two\nlines */ "a": ?}',
+            '{"a":' * 100_000,
+            '{"a": ' + "9" * 5000 + "}",
         ],
         ids=["text", "comments", "open comment", "lines", "deep", "digits"],
     )
-    def test_what_no_person_writes(self, tmp_path, text, words):
+    def test_what_no_person_writes(self, tmp_path, text, refused):
         path = tmp_path / "strut.json"
         path.write_text(text, encoding="utf-8")
-        with pytest.raises(InputError, match=words):
-            chrono.read(path)
+        refused(InputError, lambda: chrono.read(path))
 
     def test_no_such_file(self, tmp_path):
         with pytest.raises(InputError, match="cannot be read: No such file"):

@@ -75,42 +75,38 @@ def test_excel_is_read(tmp_path: Path) -> None:
 
 HEAD = "point,x [mm],y [mm],z [mm]\n"
 WRONG = {
-    "empty": ("", "the first row names the columns"),
-    "no points": (HEAD, "no points below"),
-    "no names": ("x [mm],y [mm],z [mm]\n1,2,3\n", "one column with the names"),
-    "no z": ("point,x [mm],y [mm]\na,1,2\n", "one column z is needed"),
-    "units": ("point,x [mm],y [m],z [mm]\na,1,2,3\n", "of all the same; it is m, mm"),
-    "no unit": ("point,x,y,z\na,1,2,3\n", "x, y and z have no unit"),
-    "no length": ("point,x [kg],y [kg],z [kg]\na,1,2,3\n", "it is kg"),
-    "furlongs": ("point,x [furlong],y [furlong],z [furlong]\na,1,2,3\n", "it is furlong"),
-    "another spelling": (HEAD + "ball_joint,1,2,3\nBall Joint,1,2,4\n", "are one point"),
-    "one word": (HEAD + "ball_joint,1,2,3\nBALLJOINT,1,2,4\n", "there twice. Keep one"),
-    "two names": (HEAD + "ball_joint,1,2,3\nlca_outer,1,2,4\n", "may both be ball_joint"),
-    "no name": (HEAD + "ball_joint,1,2,3\n,1,2,4\n", "row 3 has no name"),
-    "unit of one": ("point,x [mm],y,z\nball_joint,1,2,3\n", "it is mm, none"),
-    "unit twice": (
-        "# units: in\n" + HEAD + "ball_joint,1,2,3\n",
-        "is in mm, and a row of units or a comment",
-    ),
-    "another one below": (HEAD + "# in inches\nball_joint,1,2,3\n", "is in mm, and a row of units"),
-    "row of units": (HEAD + ",in,in,in\nball_joint,1,2,3\n", "is in mm, and a row of units"),
-    "unknown comment": ("# units: ells\npoint,x,y,z\nball_joint,1,2,3\n", "states units that"),
-    "marks": ("point;x [mm];y [mm];z [mm]\nball_joint;1,5;2.5;3\n", "points and commas"),
-    "text": (HEAD + "ball_joint,1,two,3\n", "row 2, ball_joint: three numbers"),
-    "missing": (HEAD + "ball_joint,1,2\n", "three numbers are needed"),
-    "not a number": (HEAD + "ball_joint,nan,2,3\n", "three numbers are needed"),
-    "digits": (HEAD + "ball_joint,1_0,2,3\n", "three numbers are needed"),
-    "twice": (HEAD + "a,1,2,3\na,1,2,3\n", "a is there twice"),
-    "unknown": (HEAD + "bal_joint,1,2,3\n", r"bal_joint \(is it ball_joint\?\)"),
-    "none that is needed": (HEAD + "spring_seat,1,2,3\na,1,2,3\n", "none of its rows is a hardp"),
-    "impossible": (HEAD + "ball_joint,170,-350,205\n", "two points of the control arm"),
+    "empty": "",
+    "no points": HEAD,
+    "no names": "x [mm],y [mm],z [mm]\n1,2,3\n",
+    "no z": "point,x [mm],y [mm]\na,1,2\n",
+    "units": "point,x [mm],y [m],z [mm]\na,1,2,3\n",
+    "no unit": "point,x,y,z\na,1,2,3\n",
+    "no length": "point,x [kg],y [kg],z [kg]\na,1,2,3\n",
+    "furlongs": "point,x [furlong],y [furlong],z [furlong]\na,1,2,3\n",
+    "another spelling": HEAD + "ball_joint,1,2,3\nBall Joint,1,2,4\n",
+    "one word": HEAD + "ball_joint,1,2,3\nBALLJOINT,1,2,4\n",
+    "two names": HEAD + "ball_joint,1,2,3\nlca_outer,1,2,4\n",
+    "no name": HEAD + "ball_joint,1,2,3\n,1,2,4\n",
+    "unit of one": "point,x [mm],y,z\nball_joint,1,2,3\n",
+    "unit twice": "# units: in\n" + HEAD + "ball_joint,1,2,3\n",
+    "another one below": HEAD + "# in inches\nball_joint,1,2,3\n",
+    "row of units": HEAD + ",in,in,in\nball_joint,1,2,3\n",
+    "unknown comment": "# units: ells\npoint,x,y,z\nball_joint,1,2,3\n",
+    "marks": "point;x [mm];y [mm];z [mm]\nball_joint;1,5;2.5;3\n",
+    "text": HEAD + "ball_joint,1,two,3\n",
+    "missing": HEAD + "ball_joint,1,2\n",
+    "not a number": HEAD + "ball_joint,nan,2,3\n",
+    "digits": HEAD + "ball_joint,1_0,2,3\n",
+    "twice": HEAD + "a,1,2,3\na,1,2,3\n",
+    "unknown": HEAD + "bal_joint,1,2,3\n",
+    "none that is needed": HEAD + "spring_seat,1,2,3\na,1,2,3\n",
+    "impossible": HEAD + "ball_joint,170,-350,205\n",
 }
 
 
-@pytest.mark.parametrize(("text", "message"), WRONG.values(), ids=WRONG)
-def test_what_is_wrong_is_named(text: str, message: str, tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=message):
-        merged(read_points(table(tmp_path, text)), "reference_car")
+@pytest.mark.parametrize("text", WRONG.values(), ids=WRONG)
+def test_what_is_wrong_is_named(text: str, refused: Any, tmp_path: Path) -> None:
+    refused(InputError, lambda: merged(read_points(table(tmp_path, text)), "reference_car"))
 
 
 # -- names, units and axes of other programs -------------------------------------------------------

@@ -67,15 +67,14 @@ def test_a_bar_has_values_of_its_own() -> None:
 
 
 @pytest.mark.parametrize(
-    ("changes", "words"),
+    "changes",
     [
-        ({"anti_roll_bar.rate": 1.0}, "rate"),
-        ({"anti_rol_bar.rate_Nm_per_deg": 1.0}, "there is no anti_rol_bar"),
-        ({"left.hardpoints.wheel_centre.x": 1.0}, "wheel_centre"),
-        ({f"side.{CENTER}.y": 700.0}, "side"),
-        ({3: 1.0}, "a text is needed"),
+        {"anti_roll_bar.rate": 1.0},
+        {"anti_rol_bar.rate_Nm_per_deg": 1.0},
+        {"left.hardpoints.wheel_centre.x": 1.0},
+        {f"side.{CENTER}.y": 700.0},
+        {3: 1.0},
     ],
 )
-def test_what_cannot_be_is_refused(changes: Any, words: str) -> None:
-    with pytest.raises(InputError, match=words):
-        AXLES["symmetric"].with_changes(changes)
+def test_what_cannot_be_is_refused(changes: Any, refused: Any) -> None:
+    refused(InputError, lambda: AXLES["symmetric"].with_changes(changes))

@@ -358,61 +358,42 @@ GOOD = {"compression_mm": [0.0, 50.0, 100.0], "force_N": [0.0, 2000.0, 6000.0]}
 
 
 @pytest.mark.parametrize(
-    ("spring", "words"),
+    "spring",
     [
-        ({**GOOD}, "neither is given"),
-        ({**GOOD, "free_length_mm": 500.0, "force_at_design_N": 10.0}, "both are given"),
-        ({**GOOD, "free_length_mm": 500.0, "rate_N_per_m": 1e4}, "both describe the spring"),
-        ({**GOOD, "free_length_mm": 500.0, "length_mm": [1.0, 2.0, 3.0]}, "either length_mm or"),
-        ({"force_N": [0.0, 1.0], "free_length_mm": 500.0}, "either length_mm or compression_mm"),
-        ({"length_mm": [300.0, 400.0]}, "a curve needs force_N"),
-        ({"interpolation": "linear"}, "a curve needs force_N"),
-        ({"free_length_mm": 500.0}, "rate_N_per_m is missing"),
-        (
-            {"length_mm": [300.0, 400.0], "force_N": [900.0, 0.0], "force_at_design_N": 100.0},
-            "Leave force_at_design_N out",
-        ),
-        (
-            {"length_mm": [300.0, 400.0], "force_N": [900.0, 0.0], "free_length_mm": 100.0},
-            "Leave free_length_mm out",
-        ),
-        ({"length_mm": [400.0, 300.0], "force_N": [0.0, 900.0]}, "the values must rise"),
-        (
-            {"compression_mm": [0.0, 5e-324], "force_N": [0.0, 1.0], "free_length_mm": 500.0},
-            "must rise, by 1e-06 mm at least",
-        ),
-        (
-            {"compression_mm": [0.0, 100.0], "force_N": [0.0, 1e308], "free_length_mm": 500.0},
-            "allowed is -1e.12 N to 1e.12 N",
-        ),
-        ({"compression_mm": 5.0, "force_N": [0.0, 1.0]}, r"compression_mm = 5.0 mm must be a list"),
-        ({"length_mm": [300.0, 400.0], "force_N": [0.0, 900.0]}, "does not push more"),
-        ({"length_mm": [0.0, 400.0], "force_N": [900.0, 0.0]}, "more than 0 mm"),
-        ({"length_mm": [300.0, 400.0], "force_N": [900.0]}, "2 values and force_N 1"),
-        ({"length_mm": [300.0], "force_N": [900.0]}, "allowed are 2 to 11"),
-        ({"length_mm": [300.0, 400.0], "force_N": [900.0, 900.0]}, "this is no spring"),
-        (
-            {"compression_mm": [0.0, 50.0], "force_N": [10.0, 0.0], "free_length_mm": 500.0},
-            "does not push less",
-        ),
-        ({**GOOD, "force_at_design_N": 7000.0}, "is not on the curve"),
-        ({**GOOD, "free_length_mm": 90.0}, "nothing is left of the spring"),
-        (
-            {
-                "compression_mm": [0.0, 50.0, 60.0, 100.0],
-                "force_N": [0.0, 2000.0, 2000.0, 4000.0],
-                "force_at_design_N": 2000.0,
-            },
-            "at many compressions",
-        ),
-        ({**GOOD, "free_length_mm": 500.0, "interpolation": "spline"}, "'cubic' or 'linear'"),
+        {**GOOD},
+        {**GOOD, "free_length_mm": 500.0, "force_at_design_N": 10.0},
+        {**GOOD, "free_length_mm": 500.0, "rate_N_per_m": 1e4},
+        {**GOOD, "free_length_mm": 500.0, "length_mm": [1.0, 2.0, 3.0]},
+        {"force_N": [0.0, 1.0], "free_length_mm": 500.0},
+        {"length_mm": [300.0, 400.0]},
+        {"interpolation": "linear"},
+        {"free_length_mm": 500.0},
+        {"length_mm": [300.0, 400.0], "force_N": [900.0, 0.0], "force_at_design_N": 100.0},
+        {"length_mm": [300.0, 400.0], "force_N": [900.0, 0.0], "free_length_mm": 100.0},
+        {"length_mm": [400.0, 300.0], "force_N": [0.0, 900.0]},
+        {"compression_mm": [0.0, 5e-324], "force_N": [0.0, 1.0], "free_length_mm": 500.0},
+        {"compression_mm": [0.0, 100.0], "force_N": [0.0, 1e308], "free_length_mm": 500.0},
+        {"compression_mm": 5.0, "force_N": [0.0, 1.0]},
+        {"length_mm": [300.0, 400.0], "force_N": [0.0, 900.0]},
+        {"length_mm": [0.0, 400.0], "force_N": [900.0, 0.0]},
+        {"length_mm": [300.0, 400.0], "force_N": [900.0]},
+        {"length_mm": [300.0], "force_N": [900.0]},
+        {"length_mm": [300.0, 400.0], "force_N": [900.0, 900.0]},
+        {"compression_mm": [0.0, 50.0], "force_N": [10.0, 0.0], "free_length_mm": 500.0},
+        {**GOOD, "force_at_design_N": 7000.0},
+        {**GOOD, "free_length_mm": 90.0},
+        {
+            "compression_mm": [0.0, 50.0, 60.0, 100.0],
+            "force_N": [0.0, 2000.0, 2000.0, 4000.0],
+            "force_at_design_N": 2000.0,
+        },
+        {**GOOD, "free_length_mm": 500.0, "interpolation": "spline"},
     ],
 )
 @pytest.mark.parametrize("kind", ["double_wishbone_car", "reference_car", "rigid_axle"])
-def test_refused_springs(kind, spring, words):
+def test_refused_springs(kind, spring, refused):
     make = axle if kind == "rigid_axle" else partial(with_spring, kind)
-    with pytest.raises(InputError, match=words):
-        make(**spring)
+    refused(InputError, lambda: make(**spring))
 
 
 def test_a_spring_in_a_wrong_unit_or_beyond_its_table_is_told():

@@ -373,24 +373,6 @@ class TestWithChanges:
         error = refusal(CAR.with_changes, {"strut.damper_rate_N_s_per_m": -1.0})
         assert str(error).startswith("suspension with changed strut.damper_rate_N_s_per_m: 1 prob")
 
-    @pytest.mark.parametrize(
-        ("place", "hint"),
-        [
-            ("sturt.length_max_mm", "there is no sturt in the data. Did you mean strut?"),
-            (
-                "hardpoints.ball_jiont.z",
-                "there is no ball_jiont in the data. Did you mean ball_joi",
-            ),
-            ("hardpoints.ball_joint.up", "up is no part of ball_joint. Points have x, y and z"),
-            ("strut.length_max_mm.x", "x is no part of length_max_mm"),
-            ("strut.length_max_mm.x.y", "there is no x in the data"),
-            ("strut.damper_rate", "Did you mean damper_rate_N_s_per_m?"),
-            ("brakes", "brakes is not a known key"),
-        ],
-    )
-    def test_unknown_place(self, place, hint):
-        assert hint in only_problem({place: 1.0})
-
     def test_all_unknown_places_are_named(self):
         error = refusal(CAR.with_changes, {"a.b": 1.0, "c.d": 2.0})
         assert [problem[:4] for problem in error.problems] == ["a.b:", "c.d:"]
@@ -400,24 +382,17 @@ class TestWithChanges:
             CAR.strut.length_max_mm = 900.0
 
 
-NOT_NEGATIVE = ("0 {} or more", "Remove the minus sign, or enter 0 to leave it out of the model.")
-POSITIVE = ("more than 0 {}", "Enter a positive value: no wheel is without it.")
-ANGLE = (
-    "-45 {} to 45 {}",
-    "Enter the angle at design in degrees, with the sign that the file states.",
-)
-
 RANGES = [
-    ("strut.spring_rate_N_per_m", -25000.0, "N/m", NOT_NEGATIVE),
-    ("strut.damper_rate_N_s_per_m", -1500.0, "N s/m", NOT_NEGATIVE),
-    ("tyre.rate_N_per_m", -1.0, "N/m", NOT_NEGATIVE),
-    ("gravity.acceleration_m_per_s2", -9.81, "m/s^2", NOT_NEGATIVE),
-    *[(f"bodies.{body}.mass_kg", -0.5, "kg", NOT_NEGATIVE) for body in RIGID_BODIES],
-    ("bodies.wheel.mass_kg", 0.0, "kg", POSITIVE),
-    ("bodies.wheel.inertia_spin_kg_m2", -1.1, "kg m^2", POSITIVE),
-    ("bodies.wheel.inertia_diametral_kg_m2", 0.0, "kg m^2", POSITIVE),
-    ("wheel.camber_deg", 45.5, "deg", ANGLE),
-    ("wheel.toe_deg", -46.0, "deg", ANGLE),
+    ("strut.spring_rate_N_per_m", -25000.0),
+    ("strut.damper_rate_N_s_per_m", -1500.0),
+    ("tyre.rate_N_per_m", -1.0),
+    ("gravity.acceleration_m_per_s2", -9.81),
+    *[(f"bodies.{body}.mass_kg", -0.5) for body in RIGID_BODIES],
+    ("bodies.wheel.mass_kg", 0.0),
+    ("bodies.wheel.inertia_spin_kg_m2", -1.1),
+    ("bodies.wheel.inertia_diametral_kg_m2", 0.0),
+    ("wheel.camber_deg", 45.5),
+    ("wheel.toe_deg", -46.0),
 ]
 
 NUMBERS = [
@@ -437,15 +412,6 @@ NUMBERS = [
 
 
 class TestSingleValues:
-    @pytest.mark.parametrize(("place", "value", "unit", "expectation"), RANGES)
-    def test_range(self, place, value, unit, expectation):
-        section, key = place.rsplit(".", 1)
-        allowed, remedy = expectation
-        assert only_problem({place: value}) == (
-            f"[{section}] {key} = {value} {unit} is out of range: allowed is "
-            f"{allowed.replace('{}', unit)}. {remedy}"
-        )
-
     @pytest.mark.parametrize("place", NUMBERS)
     @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
     def test_infinite(self, place, value):
@@ -454,51 +420,16 @@ class TestSingleValues:
         assert problem.startswith(f"[{section}] {key} = {value} ")
         assert "must be a finite number. Enter" in problem
 
-    @pytest.mark.parametrize("value", [True, "850", [850.0], {"mm": 850.0}, None])
-    def test_something_else_than_a_number(self, value):
-        problem = only_problem({"strut.length_max_mm": value})
-        assert problem.startswith("[strut] length_max_mm = ")
-        assert " mm must be a number. Write digits without quotes" in problem
-
     def test_number_too_large_for_a_double(self):
         problem = only_problem({"strut.length_max_mm": 10**400})
         assert problem.startswith("[strut] length_max_mm = 1000")
         assert len(problem) < 200
-
-    @pytest.mark.parametrize("point", POINTS)
-    @pytest.mark.parametrize(("component", "value"), [("x", math.nan), ("y", math.inf)])
-    def test_infinite_coordinate(self, point, component, value):
-        assert only_problem({f"hardpoints.{point}.{component}": value}) == (
-            f"[hardpoints] {point}, {component} = {value} mm must be a finite number. "
-            "Enter the measured or estimated value."
-        )
-
-    @pytest.mark.parametrize("value", [[1.0, 2.0], [1.0, 2.0, 3.0, 4.0], 5.0, "1 2 3", {}])
-    @pytest.mark.parametrize(
-        ("place", "unit"),
-        [("hardpoints.strut_top", " mm"), ("bodies.rack.com_mm", " mm"), ("rack.axis", "")],
-    )
-    def test_point_without_three_numbers(self, place, unit, value):
-        section, key = place.rsplit(".", 1)
-        problem = only_problem({place: value})
-        assert problem.startswith(f"[{section}] {key} = {value!r}{unit} must be three numbers")
-        assert "Write them as [x, y, z]" in problem
 
     def test_unit_of_a_coordinate_is_that_of_the_section(self):
         data = CAR.to_dict()
         data["hardpoints"] |= {"unit": "m", "strut_top": ["a", 0.0, 0.0]}
         (problem,) = refusal(Suspension.from_dict, data).problems
         assert problem.startswith("[hardpoints] strut_top, x = 'a' m must be a number")
-
-    @pytest.mark.parametrize("value", ["Right", "", 1, None, "front right"])
-    def test_side(self, value):
-        assert only_problem({"vehicle.side": value}) == (
-            f"[vehicle] side = {value!r} must be 'left' or 'right'. Choose one of them."
-        )
-
-    def test_unit(self):
-        problem = only_problem({"hardpoints.unit": "inch"})
-        assert problem == "[hardpoints] unit = 'inch' must be 'mm' or 'm'. Choose one of them."
 
     def test_zero_rates_are_allowed(self):
         changes = {
@@ -516,66 +447,27 @@ class TestSingleValues:
 
 class TestKeys:
     @pytest.mark.parametrize(
-        ("place", "meant"),
+        "place",
         [
-            ("strut.spring_rate", "spring_rate_N_per_m"),
-            ("strut.damper_rate_Ns_per_m", "damper_rate_N_s_per_m"),
-            ("hardpoints.Arm_Front", "arm_front"),
-            ("hardpoints.wheel_centre", "wheel_center"),
-            ("wheel.camber", "camber_deg"),
-            ("bodies.knuckle.inertia_xx", "inertia_xx_kg_m2"),
-            ("gravity.acceleration", "acceleration_m_per_s2"),
+            "vehicle.side",
+            "hardpoints.unit",
+            "hardpoints.tie_rod_inner",
+            "wheel.toe_deg",
+            "strut.length_max_mm",
+            "strut.damper_rate_N_s_per_m",
+            "gravity.acceleration_m_per_s2",
+            "rack.axis",
+            "bodies.rack.mass_kg",
+            "bodies.wheel.inertia_spin_kg_m2",
+            "tyre",
+            "hardpoints",
+            "bodies",
+            "bodies.wheel",
         ],
     )
-    def test_unknown_key_is_refused_with_the_nearest_known_one(self, place, meant):
-        section, key = place.rsplit(".", 1)
-        problem = only_problem({place: 1.0})
-        assert problem == f"[{section}] {key} is not a known key. Did you mean {meant}?"
-
-    def test_unknown_key_that_resembles_none_is_refused_with_all(self):
-        problem = only_problem({"tyre.k2": 1.0})
-        assert problem == (
-            "[tyre] k2 is not a known key. Known are: rate_N_per_m, free_height_mm, radius_mm, "
-            "lateral_rate_N_per_m, longitudinal_rate_N_per_m, damper_rate_N_s_per_m, lifts_off."
-        )
-
-    @pytest.mark.parametrize(
-        ("place", "section", "meant"),
-        [
-            ("strt", "[strt]", "strut"),
-            ("bodies.control_arms", "[bodies.control_arms]", "control_arm"),
-        ],
-    )
-    def test_unknown_section(self, place, section, meant):
-        problem = only_problem({place: {"mass_kg": 1.0}})
-        assert problem == f"{section} is not a known section. Did you mean {meant}?"
-
-    @pytest.mark.parametrize(
-        ("place", "unit"),
-        [
-            ("vehicle.side", ""),
-            ("hardpoints.unit", ""),
-            ("hardpoints.tie_rod_inner", ", in mm"),
-            ("wheel.toe_deg", ", in deg"),
-            ("strut.length_max_mm", ", in mm"),
-            ("strut.spring_rate_N_per_m", ", in N/m"),
-            ("strut.damper_rate_N_s_per_m", ", in N s/m"),
-            ("gravity.acceleration_m_per_s2", ", in m/s^2"),
-            ("rack.axis", ""),
-            ("bodies.rack.mass_kg", ", in kg"),
-            ("bodies.wheel.inertia_spin_kg_m2", ", in kg m^2"),
-        ],
-    )
-    def test_missing_key_is_named_with_its_meaning_and_unit(self, place, unit):
-        section, key = place.rsplit(".", 1)
+    def test_what_is_missing_is_named_with_its_meaning_and_unit(self, place, told):
         (problem,) = refusal(Suspension.from_dict, without(place)).problems
-        assert problem.startswith(f"[{section}] {key} is missing: ")
-        assert problem.endswith(f". Add a line `{key} = ...`{unit}.")
-
-    @pytest.mark.parametrize("section", ["tyre", "hardpoints", "bodies", "bodies.wheel"])
-    def test_missing_section_is_named_with_its_keys(self, section):
-        (problem,) = refusal(Suspension.from_dict, without(section)).problems
-        assert problem.startswith(f"[{section}] is missing. Add this section, with at least ")
+        told(problem)
 
     def test_misspelt_key_is_one_problem_not_two(self):
         data = without("strut.spring_rate_N_per_m")
@@ -585,124 +477,98 @@ class TestKeys:
             "sprnig_rate_N_per_m is not a known key. Did you mean spring_rate_N_per_m?"
         )
 
-    def test_section_that_is_a_number(self):
-        problem = only_problem({"gravity": 9.81})
-        assert problem == (
-            "[gravity] = 9.81 must be a section. Write [gravity], below it at least "
-            "acceleration_m_per_s2."
-        )
 
-
+# a largest principal moment above the sum of the others
+IMPOSSIBLE = {"xx": 0.01, "yy": 0.02, "zz": 0.09, "xy": 0.0, "xz": 0.0, "yz": 0.0}
 BALL_JOINT = [5.0, -710.0, 180.0]
 GEOMETRY = {
-    "arm without base": (
-        {"hardpoints.arm_rear": [170.0, -350.0, 205.5]},
-        (
-            "arm_front = [170.0, -350.0, 205.0] mm and arm_rear = [170.0, -350.0, 205.5] mm "
-            "are 0.500 mm apart; two points of the control arm must be at least 1 mm apart. "
-            "Move one of them."
-        ),
-    ),
-    "arm without length": (
-        {"hardpoints.arm_front": BALL_JOINT},
-        (
-            "ball_joint = [5.0, -710.0, 180.0] mm are 0.000 mm apart; two points of the "
-            "control arm must be at least 1 mm apart. Move one of them."
-        ),
-    ),
-    "strut without length": (
-        {"hardpoints.strut_top": BALL_JOINT},
-        "two points of the strut must be at least 1 mm apart. Move one of them.",
-    ),
-    "tie rod without length": (
-        {"hardpoints.tie_rod_outer": [-140.0, -310.0, 280.0]},
-        "two points of the tie rod must be at least 1 mm apart. Move one of them.",
-    ),
-    "knuckle: wheel at ball joint": (
-        {"hardpoints.wheel_center": [5.0, -710.9, 180.0]},
-        (
-            "ball_joint = [5.0, -710.0, 180.0] mm and wheel_center = [5.0, -710.9, 180.0] mm "
-            "are 0.900 mm apart; two points of the knuckle must be at least 1 mm apart. Move "
-            "one of them."
-        ),
-    ),
-    "knuckle: tie rod at ball joint": (
-        {"hardpoints.tie_rod_outer": BALL_JOINT},
-        "two points of the knuckle must be at least 1 mm apart. Move one of them.",
-    ),
-    "hinge through ball joint": (
-        {"hardpoints.ball_joint": [5.0, -350.0, 205.25]},
-        (
-            "ball_joint = [5.0, -350.0, 205.25] mm lies 0.250 mm from the hinge axis through "
-            "arm_front and arm_rear; the arm needs at least 1 mm to move the wheel. Move "
-            "ball_joint outboard"
-        ),
-    ),
-    "hinge vertical": (
-        {"hardpoints.arm_rear": [169.0, -350.0, 105.0]},
-        (
-            "the hinge axis is 0.573 deg from the vertical; at least 1 deg are needed for the"
-            " arm to swing up and down. Move arm_front forward or arm_rear rearward."
-        ),
-    ),
-    "bearings swapped": (
-        {
-            "hardpoints.arm_front": [-150.0, -350.0, 205.0],
-            "hardpoints.arm_rear": [170.0, -350.0, 205.0],
-        },
-        (
-            "arm_front = [-150.0, -350.0, 205.0] mm and arm_rear = [170.0, -350.0, 205.0] mm:"
-            " the front bearing must have the greater x (x points forward), which fixes the "
-            "sign of the arm's angle. Swap the two, or correct the sign of x."
-        ),
-    ),
-    "no steering arm": (
-        # halfway between ball joint and strut top, half a millimetre ahead
-        {"hardpoints.tie_rod_outer": [-11.0, -647.5, 500.0]},
-        (
-            "tie_rod_outer = [-11.0, -647.5, 500.0] mm lies 0.499 mm from the strut axis "
-            "through ball_joint and strut_top; the steering arm must be at least 1 mm long. "
-            "Move tie_rod_outer off the axis."
-        ),
-    ),
-    "tie rod at its dead centre": (
-        # half a millimetre above the line from ball_joint through tie_rod_outer
-        {"hardpoints.tie_rod_inner": [-265.0, -670.0, 340.5]},
-        (
-            "the tie rod pulls with a lever of 0.078 mm about the strut axis; at least 1 mm "
-            "are needed, or the linkage is at its dead centre. Move tie_rod_inner, so that "
-            "the rod is not in line"
-        ),
-    ),
-    "coordinate in another unit": (
-        {"hardpoints.strut_top.z": 820_000.0},
-        (
-            "strut_top = [-28.0, -585.0, 820000.0] mm: out of range, allowed is -20 m to 20 "
-            'm. Correct the coordinates or `unit = "mm"`.'
-        ),
-    ),
-    "millimetres declared as metres": (
-        {"hardpoints.unit": "m"},
-        "arm_front = [170.0, -350.0, 205.0] m and arm_rear = ",
-    ),
-    "metres declared as millimetres": (
-        {f"hardpoints.{p}": [x / 1000 for x in getattr(CAR.hardpoints, p)] for p in POINTS},
-        (
-            "unit = 'mm': all points lie within 0.687 mm; a suspension measures at least 10 "
-            'mm. Correct the coordinates or `unit = "mm"`.'
-        ),
-    ),
+    "arm without base": {"hardpoints.arm_rear": [170.0, -350.0, 205.5]},
+    "arm without length": {"hardpoints.arm_front": BALL_JOINT},
+    "strut without length": {"hardpoints.strut_top": BALL_JOINT},
+    "tie rod without length": {"hardpoints.tie_rod_outer": [-140.0, -310.0, 280.0]},
+    "knuckle: wheel at ball joint": {"hardpoints.wheel_center": [5.0, -710.9, 180.0]},
+    "knuckle: tie rod at ball joint": {"hardpoints.tie_rod_outer": BALL_JOINT},
+    "hinge through ball joint": {"hardpoints.ball_joint": [5.0, -350.0, 205.25]},
+    "hinge vertical": {"hardpoints.arm_rear": [169.0, -350.0, 105.0]},
+    "bearings swapped": {
+        "hardpoints.arm_front": [-150.0, -350.0, 205.0],
+        "hardpoints.arm_rear": [170.0, -350.0, 205.0],
+    },
+    "no steering arm": {"hardpoints.tie_rod_outer": [-11.0, -647.5, 500.0]},
+    "tie rod at its dead centre": {"hardpoints.tie_rod_inner": [-265.0, -670.0, 340.5]},
+    "coordinate in another unit": {"hardpoints.strut_top.z": 820_000.0},
+    "millimetres declared as metres": {"hardpoints.unit": "m"},
+    "metres declared as millimetres": {
+        f"hardpoints.{p}": [x / 1000 for x in getattr(CAR.hardpoints, p)] for p in POINTS
+    },
 }
 
 
-class TestGeometry:
-    @pytest.mark.parametrize(("changes", "text"), GEOMETRY.values(), ids=GEOMETRY)
-    def test_impossible(self, changes, text):
-        # With the strut of any length, no other check speaks.
-        problem = only_problem(changes | {"strut.length_max_mm": 1e6})
-        assert problem.startswith("[hardpoints] ")
-        assert text in problem
+PROBLEMS = {
+    **{f"{place} = {value}": {place: value} for place, value in RANGES},
+    **{
+        f"length = {v!r}": {"strut.length_max_mm": v} for v in (True, "850", [850.0], {"mm": 850.0})
+    },
+    **{
+        f"top = {v!r}": {"hardpoints.strut_top": v} for v in ([1.0, 2.0], [1.0] * 4, 5.0, "1 2", {})
+    },
+    **{f"side = {v!r}": {"vehicle.side": v} for v in ("Right", "", 1, None)},
+    **{
+        f"{place} is not known": {place: 1.0}
+        for place in (
+            "strut.spring_rate",
+            "strut.damper_rate_Ns_per_m",
+            "hardpoints.Arm_Front",
+            "hardpoints.wheel_centre",
+            "wheel.camber",
+            "bodies.knuckle.inertia_xx",
+            "gravity.acceleration",
+            "tyre.k2",
+            "sturt.length_max_mm",
+            "hardpoints.ball_jiont.z",
+            "hardpoints.ball_joint.up",
+            "strut.length_max_mm.x",
+            "strut.length_max_mm.x.y",
+            "brakes",
+        )
+    },
+    "no such section": {"strt": {"mass_kg": 1.0}},
+    "no such body": {"bodies.control_arms": {"mass_kg": 1.0}},
+    "section that is a number": {"gravity": 9.81},
+    "unit": {"hardpoints.unit": "inch"},
+    "no finite x": {"hardpoints.ball_joint.x": math.nan},
+    "com of two numbers": {"bodies.rack.com_mm": [1.0, 2.0]},
+    "axis of two numbers": {"rack.axis": [1.0, 2.0]},
+    "axis of zeros": {"rack.axis": [0.0, 0.0, 0.0]},
+    "axis nearly of zeros": {"rack.axis": [0.0, 1e-7, 0.0]},
+    "wheel in the centre plane": {"hardpoints.wheel_center.y": 0.0},
+    "strut shorter than at design": {"strut.length_max_mm": 652.9},
+    "spin axis along the strut": {
+        "hardpoints.strut_top": [5.0, -69.0, 821.0],
+        "wheel.camber_deg": 45.0,
+        "strut.length_max_mm": 1000.0,
+    },
+    "strut along x": {"hardpoints.strut_top": [405.0, -710.0, 180.0]},
+    "tie rod upright": {"hardpoints.tie_rod_inner": [-130.0, -690.0, -40.0]},
+    "wheel flatter than a disc": {"bodies.wheel.inertia_spin_kg_m2": 1.3},
+    "negative principal moment": {"bodies.knuckle.inertia_xy_kg_m2": 0.3},
+    "inertia without mass": {f"bodies.rack.inertia_{e}_kg_m2": 0.1 for e in ("xx", "yy", "zz")},
+    **{
+        f"{body} of no body": {f"bodies.{body}.mass_kg": 3.0}
+        | {f"bodies.{body}.inertia_{e}_kg_m2": m for e, m in IMPOSSIBLE.items()}
+        for body in RIGID_BODIES
+    },
+    # with the strut of any length, no other check speaks
+    **{name: changes | {"strut.length_max_mm": 1e6} for name, changes in GEOMETRY.items()},
+}
 
+
+@pytest.mark.parametrize("changes", PROBLEMS.values(), ids=PROBLEMS)
+def test_one_mistake_is_one_problem(changes, told):
+    told(only_problem(changes))
+
+
+class TestGeometry:
     @pytest.mark.parametrize(
         "changes",
         [
@@ -718,50 +584,15 @@ class TestGeometry:
         CAR.with_changes(changes | {"strut.length_max_mm": 1e6})
 
     @pytest.mark.parametrize(
-        ("car", "other", "half"),
-        [(CAR, "left", "above 1 mm"), (CAR.mirrored(), "right", "below -1 mm")],
-        ids=["right", "left"],
+        ("car", "other"), [(CAR, "left"), (CAR.mirrored(), "right")], ids=["right", "left"]
     )
-    def test_wheel_on_the_wrong_side(self, car, other, half):
+    def test_wheel_on_the_wrong_side(self, car, other, told):
         (problem,) = refusal(car.with_changes, {"vehicle.side": other}).problems
-        y = car.hardpoints.wheel_center[1]
-        assert problem == (
-            f'[vehicle] side = "{other}", but [hardpoints] wheel_center = [0.0, {y}, 300.0] mm: y '
-            f"points left, so a {other} wheel must have y {half}. Change side, or the sign of y of "
-            "all hardpoints."
-        )
+        told(problem)
 
-    def test_wheel_in_the_centre_plane(self):
-        assert "[vehicle] side" in only_problem({"hardpoints.wheel_center.y": 0.0})
-
-    def test_strut_shorter_than_at_design(self):
-        problem = only_problem({"strut.length_max_mm": 652.9})
-        assert problem == (
-            "[strut] length_max_mm = 652.9 mm is less than the length at design; allowed is "
-            "653.0 mm or more, the distance of ball_joint and strut_top. Raise it, or correct "
-            "these hardpoints."
-        )
-        CAR.with_changes({"strut.length_max_mm": 653.0})  # what the message promises
-
-    def test_spin_axis_along_the_strut(self):
-        changes = {"hardpoints.strut_top": [5.0, -69.0, 821.0], "wheel.camber_deg": 45.0}
-        problem = only_problem(changes | {"strut.length_max_mm": 1000.0})
-        assert problem == (
-            "[wheel] camber_deg = 45.0 deg and toe_deg = 0.0 deg put the spin axis within "
-            "0.000 deg of the strut axis; at least 1 deg are needed to steer the wheel. Correct "
-            "the angles, or [hardpoints] ball_joint = [5.0, -710.0, 180.0] mm and strut_top = "
-            "[5.0, -69.0, 821.0] mm."
-        )
-
-    @pytest.mark.parametrize(
-        ("axis", "length"), [([0.0, 0.0, 0.0], "0"), ([0.0, 1e-7, 0.0], "1e-07")]
-    )
-    def test_rack_axis_without_direction(self, axis, length):
-        assert only_problem({"rack.axis": axis}) == (
-            f"[rack] axis = {axis} (without unit) has the length {length} and no direction; "
-            "allowed are lengths of more than 1e-6. Enter [0.0, 1.0, 0.0] for a rack that moves "
-            "to the left."
-        )
+    def test_a_strut_as_long_as_at_design_is_allowed(self):
+        """What the message of a shorter one promises."""
+        CAR.with_changes({"strut.length_max_mm": 653.0})
 
 
 def inertia(body, **elements):
@@ -777,41 +608,9 @@ def tensor_of_points(positions, masses):
 
 
 class TestInertia:
-    @pytest.mark.parametrize("body", RIGID_BODIES)
-    def test_largest_principal_moment_above_the_sum_of_the_others(self, body):
-        values = {"xx": 0.01, "yy": 0.02, "zz": 0.09, "xy": 0.0, "xz": 0.0, "yz": 0.0}
-        problem = only_problem({f"bodies.{body}.mass_kg": 3.0} | inertia(body, **values))
-        assert problem.startswith(
-            f"[bodies.{body}] inertia_xx_kg_m2 = 0.01, inertia_yy_kg_m2 = 0.02"
-        )
-        assert "principal moments are 0.01, 0.02, 0.09 kg m^2; allowed is at most" in problem
-        assert "0.03 kg m^2" in problem
-        assert "Check the diagonal, and the signs of xy, xz and yz" in problem
-
-    def test_negative_principal_moment(self):
-        problem = only_problem(inertia("knuckle", xy=0.3))
-        assert problem.startswith("[bodies.knuckle] inertia_xx_kg_m2 = 0.2")
-        assert "inertia_xy_kg_m2 = 0.3" in problem
-        assert "include a negative one; allowed is 0 or more" in problem
-        assert "positive definite" in problem
-        assert "Check the diagonal" in problem
-
-    def test_inertia_without_mass(self):
-        problem = only_problem(inertia("rack", xx=0.1, yy=0.1, zz=0.1))
-        assert problem.startswith("[bodies.rack] mass_kg = 0.0 kg, but inertia_xx_kg_m2 = 0.1")
-        assert problem.endswith("Enter its mass, or set the inertia to 0.")
-
     def test_point_mass(self):
         car = CAR.with_changes(inertia("knuckle", xx=0.0, yy=0.0, zz=0.0))
         assert car.parameters()["knuckle_mass"] == 15.0
-
-    def test_wheel_flatter_than_a_disc(self):
-        assert only_problem({"bodies.wheel.inertia_spin_kg_m2": 1.3}) == (
-            "[bodies.wheel] inertia_spin_kg_m2 = 1.3 kg m^2 is more than any wheel with "
-            "inertia_diametral_kg_m2 = 0.6 kg m^2 can have; allowed is at most twice that, "
-            "1.2 kg m^2 (a flat disc). Lower the first or raise the second; inertia_shaft_kg_m2 is "
-            "what a drive shaft adds to the first."
-        )
 
     def test_a_drive_shaft_adds_to_the_moment_about_the_axis_alone(self):
         """A wheel of a flat disc's moments, 1.2 and 0.6 kg m^2, and a shaft of 0.4 kg m^2."""
@@ -1024,20 +823,6 @@ class TestErrors:
             "car.toml",
             "car.toml: 1 problem\n  - [tyre] is missing.",
         )
-
-
-@pytest.mark.parametrize(
-    ("point", "position", "words"),
-    [
-        ("strut_top", [405.0, -710.0, 180.0], "strut is 0.000 deg from the x axis; at least 1 deg"),
-        ("tie_rod_inner", [-130.0, -690.0, -40.0], "tie rod is 0.000 deg from the vertical"),
-    ],
-)
-def test_link_along_the_axis_of_its_universal_joint_is_refused(point, position, words):
-    car = Suspension.load("reference_car")
-    changes = {f"hardpoints.{point}.{axis}": v for axis, v in zip("xyz", position, strict=True)}
-    with pytest.raises(InputError, match=words):
-        car.with_changes(changes)
 
 
 def test_what_is_saved_is_loaded_again(tmp_path):

@@ -226,50 +226,45 @@ def test_mirror_image_moves_alike():
 
 
 @pytest.mark.parametrize(
-    ("sections", "words"),
+    "sections",
     [
-        ({"strut": {"spring_preload_N": 10.0}}, "spring_free_slide_mm and spring_preload_N are gi"),
-        ({"strut": {"spring_free_slide_mm": None}}, "none of them is given"),
-        (
-            {
-                "strut": {
-                    "spring_free_slide_mm": None,
-                    "spring_rate_N_per_m": 0.0,
-                    "spring_force_at_design_N": 100.0,
-                }
-            },
-            "needs a spring",
-        ),
-        ({"strut": {"damper_rate_N_s_per_m": None}}, "damper_rate_N_s_per_m is missing"),
-        ({"damper": {"velocity_m_per_s": [0.0, 1.0], "force_N": [0.0, 9.0]}}, "Remove the other"),
-        ({"tyre": {"lifts_off": 1}}, "lifts_off"),
-        ({"strut": {"friction_velocity_m_per_s": 0.0}}, "more than 0 m/s"),
-        ({"bump_stop": {"clearance_mm": 10.0}}, r"\[bump_stop\] rate_N_per_m"),
-        ({"hardpoints": {"strut_lower": [-28.0, -585.0, 820.0]}}, "two points of the strut"),
-        ({"hardpoints": {"strut_lower": [-28.0, -585.0, 900.0]}}, "along the strut, strut_top"),
+        {"strut": {"spring_preload_N": 10.0}},
+        {"strut": {"spring_free_slide_mm": None}},
+        {
+            "strut": {
+                "spring_free_slide_mm": None,
+                "spring_rate_N_per_m": 0.0,
+                "spring_force_at_design_N": 100.0,
+            }
+        },
+        {"strut": {"damper_rate_N_s_per_m": None}},
+        {"damper": {"velocity_m_per_s": [0.0, 1.0], "force_N": [0.0, 9.0]}},
+        {"tyre": {"lifts_off": 1}},
+        {"strut": {"friction_velocity_m_per_s": 0.0}},
+        {"bump_stop": {"clearance_mm": 10.0}},
+        {"hardpoints": {"strut_lower": [-28.0, -585.0, 820.0]}},
+        {"hardpoints": {"strut_lower": [-28.0, -585.0, 900.0]}},
     ],
 )
-def test_refusals(sections, words):
-    with pytest.raises(InputError, match=words):
-        changed(**sections)
+def test_refusals(sections, refused):
+    refused(InputError, lambda: changed(**sections))
 
 
 @pytest.mark.parametrize(
-    ("velocities", "forces", "words"),
+    ("velocities", "forces"),
     [
-        ([0.0, 1.0], [0.0], "2 values and force_N 1"),
-        ([0.0], [0.0], "allowed are 2 to 11"),
-        (list(range(12)), [0.0] * 12, "allowed are 2 to 11"),
-        ([0.0, 0.0], [0.0, 1.0], "the values must rise"),
-        ([-1.0, 0.0, 5e-324], [-1.0, 0.0, 1.0], "must rise, by 1e-06 m/s at least"),
-        ([-1.0, 1.0], [-1e308, 1e308], "allowed is -1e.12 N to 1e.12 N"),
-        ([-1.0, 1.0], [300.0, 500.0], "pushes along with the motion"),
-        ([-1.0, float("nan")], [0.0, 1.0], "finite"),
+        ([0.0, 1.0], [0.0]),
+        ([0.0], [0.0]),
+        (list(range(12)), [0.0] * 12),
+        ([0.0, 0.0], [0.0, 1.0]),
+        ([-1.0, 0.0, 5e-324], [-1.0, 0.0, 1.0]),
+        ([-1.0, 1.0], [-1e308, 1e308]),
+        ([-1.0, 1.0], [300.0, 500.0]),
+        ([-1.0, float("nan")], [0.0, 1.0]),
     ],
 )
-def test_refused_damper_curves(velocities, forces, words):
-    with pytest.raises(InputError, match=words):
-        with_damper(velocities, forces)
+def test_refused_damper_curves(velocities, forces, refused):
+    refused(InputError, lambda: with_damper(velocities, forces))
 
 
 STARTER = (resources.files(data) / "reference_car.toml").read_text(encoding="utf-8")

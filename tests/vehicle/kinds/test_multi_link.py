@@ -180,31 +180,21 @@ def test_the_knuckle_turns_about_the_axis_that_is_told() -> None:
 
 
 @pytest.mark.parametrize(
-    ("changes", "words"),
+    "changes",
     [
         # the toe link in the line of the front lower one
-        (
-            {
-                "hardpoints.tie_rod_inner": [230.0, -440.0, 225.0],
-                "hardpoints.tie_rod_outer": [30.0, -705.0, 190.0],
-            },
-            "hardly hold the knuckle",
-        ),
-        (
-            {"hardpoints.rear_upper_link_inner": [-50.0, -680.0, 470.0]},
-            "0.000 mm apart; two points of the rear upper link",
-        ),
-        (
-            {"hardpoints.rear_upper_link_inner": [-50.0, -680.0, 300.0]},
-            "the rear upper link is 0.000 deg from the vertical",
-        ),
-        ({"bodies.front_upper_link": {"mass_kg": 1.0}}, "leave this body without mass"),
-        ({"damper.length_min_mm": 600.0}, "the distance of damper_seat and damper_top"),
+        {
+            "hardpoints.tie_rod_inner": [230.0, -440.0, 225.0],
+            "hardpoints.tie_rod_outer": [30.0, -705.0, 190.0],
+        },
+        {"hardpoints.rear_upper_link_inner": [-50.0, -680.0, 470.0]},
+        {"hardpoints.rear_upper_link_inner": [-50.0, -680.0, 300.0]},
+        {"bodies.front_upper_link": {"mass_kg": 1.0}},
+        {"damper.length_min_mm": 600.0},
     ],
 )
-def test_what_cannot_be_is_refused(changes: dict[str, Any], words: str) -> None:
-    with pytest.raises(InputError, match=words):
-        CAR.with_changes(changes)
+def test_what_cannot_be_is_refused(changes: dict[str, Any], refused: Any) -> None:
+    refused(InputError, lambda: CAR.with_changes(changes))
 
 
 def test_words_are_those_of_the_kind() -> None:

@@ -77,17 +77,16 @@ def test_a_damper_beside_the_spring_has_two_ends():
 
 
 @pytest.mark.parametrize(
-    ("name", "changes", "words"),
+    ("name", "changes"),
     [
-        ("reference_car", {"strut.length_min_mm": 700.0}, "more than the length at design"),
-        ("reference_car", {"strut.length_min_mm": 0.0}, "out of range"),
-        ("double_wishbone_car", {"damper.length_min_mm": 500.0}, "at design the damper is"),
-        ("double_wishbone_car", {"damper.length_max_mm": 400.0}, "at design the damper is"),
+        ("reference_car", {"strut.length_min_mm": 700.0}),
+        ("reference_car", {"strut.length_min_mm": 0.0}),
+        ("double_wishbone_car", {"damper.length_min_mm": 500.0}),
+        ("double_wishbone_car", {"damper.length_max_mm": 400.0}),
     ],
 )
-def test_a_design_position_beyond_an_end_is_refused(name, changes, words):
-    with pytest.raises(InputError, match=words):
-        Suspension.load(name).with_changes(changes)
+def test_a_design_position_beyond_an_end_is_refused(name, changes, refused):
+    refused(InputError, lambda: Suspension.load(name).with_changes(changes))
 
 
 @pytest.mark.parametrize("template", ["reference_car", "double_wishbone_car"])

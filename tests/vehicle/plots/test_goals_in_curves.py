@@ -24,6 +24,7 @@ from kintrafo.vehicle.report import axle_chapter, goals_chapter
 from kintrafo.vehicle.studies.goals import Limit
 from typer.testing import CliRunner
 
+pytestmark = pytest.mark.usefixtures("rough_drawings")
 GOALS = """
 [free]
 "hardpoints.tie_rod_inner" = 1.0

@@ -14,6 +14,7 @@ from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.report import elastokinematics_chapter
 from kintrafo.vehicle.studies.sweep_axes import SWEEP_AXES
 
+pytestmark = pytest.mark.usefixtures("rough_drawings")
 CAR, AXLE, RIGID = Model("reference_car"), Axle.load("reference_axle"), RigidAxle.load("rigid_axle")
 SOFT = {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}
 BUSHES = {"arm_rear": SOFT}

@@ -107,17 +107,16 @@ def test_a_grid_of_axles_goes_over_a_road() -> None:
 
 
 WRONG: list[tuple[dict[str, Any], str]] = [
-    ({"places": ["left.hardpoint"]}, "left.hardpoint is no number"),
-    ({"places": ["anti_roll_bar.rate"]}, "anti_roll_bar.rate is no number"),
-    ({"over": "travel"}, "'travel' is not known"),
-    ({"names": ["toe"]}, "toe"),
+    {"places": ["left.hardpoint"]},
+    {"places": ["anti_roll_bar.rate"]},
+    {"over": "travel"},
+    {"names": ["toe"]},
 ]
 
 
-@pytest.mark.parametrize(("given", "words"), WRONG)
-def test_what_an_axle_does_not_have_is_refused(given: Any, words: str) -> None:
-    with pytest.raises(InputError, match=words):
-        variation.sensitivity(AXLE, **({"positions": [0.0]} | given))
+@pytest.mark.parametrize("given", WRONG)
+def test_what_an_axle_does_not_have_is_refused(given: Any, refused: Any) -> None:
+    refused(InputError, lambda: variation.sensitivity(AXLE, **({"positions": [0.0]} | given)))
 
 
 def test_the_file_of_a_rigid_axle_has_no_sides() -> None:

@@ -18,6 +18,7 @@ from rigid_axles import FIVE
 from scipy.optimize import brentq
 from typer.testing import CliRunner
 
+pytestmark = pytest.mark.usefixtures("rough_drawings")
 REAR = "bushings.arm_rear.radial_N_per_mm"
 BUSHES: dict[str, Any] = {
     "arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 900.0, "axis": [0.2, 0.1, 1.0]},
@@ -152,25 +153,18 @@ def test_many_cars_have_curves_of_compliance(subject: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("call", "words"),
+    "call",
     [
-        (
-            lambda: variation.tolerance(CAR, {REAR: "20 %"}, count=4),
-            "on bushes, since joints are rigid",
-        ),
-        (lambda: variation.sensitivity(CAR, [REAR]), "ask for compliance: name what holds"),
-        (lambda: variation.cars(CAR, {REAR: [1.0, 2.0]}, over="rack"), "joints are rigid"),
-        (lambda: variation.sensitivity(CAR, [REAR], held="road"), "held"),
-        (lambda: variation.sensitivity(CAR, [REAR], held="tyre", over="rack"), "Leave over ="),
-        (
-            lambda: variation.sensitivity(Suspension.load("reference_car"), held="tyre"),
-            r"a file with \[bushings\]",
-        ),
+        lambda: variation.tolerance(CAR, {REAR: "20 %"}, count=4),
+        lambda: variation.sensitivity(CAR, [REAR]),
+        lambda: variation.cars(CAR, {REAR: [1.0, 2.0]}, over="rack"),
+        lambda: variation.sensitivity(CAR, [REAR], held="road"),
+        lambda: variation.sensitivity(CAR, [REAR], held="tyre", over="rack"),
+        lambda: variation.sensitivity(Suspension.load("reference_car"), held="tyre"),
     ],
 )
-def test_stiffnesses_of_what_is_rigid_are_refused(call: Any, words: str) -> None:
-    with pytest.raises(InputError, match=words):
-        call()
+def test_stiffnesses_of_what_is_rigid_are_refused(call: Any, refused: Any) -> None:
+    refused(InputError, call)
 
 
 def test_commands_vary_stiffnesses(soft_car: str, tmp_path: Path) -> None:
@@ -202,16 +196,15 @@ def test_a_front_of_stiffnesses() -> None:
 
 
 WRONG: list[tuple[dict[str, Any], str]] = [
-    ({"toe_by_lateral": {"held": "air", "most": 1.0}}, r"toe_by_lateral\] held 'air' is not known"),
-    ({"toe": {"held": "height", "most": 1.0}}, r"toe\] held is not known: there are at_mm, over"),
-    ({"toe_by_lateral": {"over": "rack", "most": 1.0}}, "'toe_by_lateral' is not known"),
+    {"toe_by_lateral": {"held": "air", "most": 1.0}},
+    {"toe": {"held": "height", "most": 1.0}},
+    {"toe_by_lateral": {"over": "rack", "most": 1.0}},
 ]
 
 
-@pytest.mark.parametrize(("limits", "words"), WRONG)
-def test_what_has_no_meaning_is_refused(limits: Any, words: str) -> None:
-    with pytest.raises(InputError, match=words):
-        variation.goals({"limits": limits})
+@pytest.mark.parametrize("limits", WRONG)
+def test_what_has_no_meaning_is_refused(limits: Any, refused: Any) -> None:
+    refused(InputError, lambda: variation.goals({"limits": limits}))
 
 
 def test_without_bushes_nothing_is_judged(goals: Path) -> None:

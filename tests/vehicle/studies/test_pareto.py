@@ -333,44 +333,40 @@ def call(**given: Any) -> None:
 
 
 WRONG = [
-    ({"suspension": "reference_car"}, "a kintrafo.Axle or a kintrafo.RigidAxle is needed"),
-    ({"progress": 1}, "a function, or None, is needed"),
-    ({"population": 3}, "population = 3: a whole number, 4 to 10000, is needed"),
-    ({"population": 7.5}, "population = 7.5: a whole number"),
-    ({"generations": 0}, "generations = 0: a whole number, 1 or more"),
-    ({"population": 10_000, "generations": 11}, "110000 suspensions, and at most 100000"),
-    ({"seed": -1}, "seed = -1: a whole number, 0 to"),
-    ({"seed": "one"}, "seed = 'one': a whole number"),
-    ({"free": {}}, "free: one value or more is needed"),
-    ({"free": {ROD: 0.0}}, "range of hardpoints.tie_rod_inner.z = 0 mm: .* above 0 mm"),
-    ({"free": {"hardpoint": 1.0}}, "Did you mean hardpoints"),
-    ({"free": [ROD]}, "a dict of places and numbers"),
-    ({"free": {"bushings.arm_rear.axial_N_per_mm": 1.0}}, "these results do not depend on bushes"),
-    ({"targets": {}}, "they make 1 objectives, and 2 to 6 are needed"),
-    ({"maximise": {"toe": [{"at_mm": at} for at in range(6)]}}, "they make 7 objectives"),
-    ({"targets": [1.0]}, "targets = .* a dict of names of characteristics"),
-    ({"targets": {"toe": {"within": 0.1}}}, "value is missing, in deg"),
-    ({"targets": {"toe": {"value": 0.0, "within": 0.0}}}, "within = 0 deg"),
-    ({"minimise": {"camberr": {}}}, "Did you mean camber"),
-    ({"minimise": {"camber": 1.0}}, r"\[minimise.camber\] must be a section, with at_mm\."),
-    ({"minimise": {"camber": {"value": 1.0}}}, "value is not known: there are at_mm, over"),
-    ({"minimise": {"camber": {"over": "roll"}}}, "over 'roll' is not known"),
-    ({"maximise": {"camber": {"at_mm": [np.nan]}}}, "at_mm = nan mm: a finite number"),
-    (
-        {"minimise": {"turning_circle": {"over": "rack", "at_mm": 0.0}}},
-        "turning_circle over rack: it has no finite value at 0 mm",
-    ),
-    ({"limits": {"toe": {}}}, "least or most is needed, in deg"),
+    {"suspension": "reference_car"},
+    {"progress": 1},
+    {"population": 3},
+    {"population": 7.5},
+    {"generations": 0},
+    {"population": 10_000, "generations": 11},
+    {"seed": -1},
+    {"seed": "one"},
+    {"free": {}},
+    {"free": {ROD: 0.0}},
+    {"free": {"hardpoint": 1.0}},
+    {"free": [ROD]},
+    {"free": {"bushings.arm_rear.axial_N_per_mm": 1.0}},
+    {"targets": {}},
+    {"maximise": {"toe": [{"at_mm": at} for at in range(6)]}},
+    {"targets": [1.0]},
+    {"targets": {"toe": {"within": 0.1}}},
+    {"targets": {"toe": {"value": 0.0, "within": 0.0}}},
+    {"minimise": {"camberr": {}}},
+    {"minimise": {"camber": 1.0}},
+    {"minimise": {"camber": {"value": 1.0}}},
+    {"minimise": {"camber": {"over": "roll"}}},
+    {"maximise": {"camber": {"at_mm": [np.nan]}}},
+    {"minimise": {"turning_circle": {"over": "rack", "at_mm": 0.0}}},
+    {"limits": {"toe": {}}},
 ]
 
 
-@pytest.mark.parametrize(("given", "words"), WRONG, ids=[words for _, words in WRONG])
-def test_what_cannot_be_used(given: dict[str, Any], words: str) -> None:
+@pytest.mark.parametrize("given", WRONG)
+def test_what_cannot_be_used(given: dict[str, Any], refused: Any) -> None:
     if "bushings" in str(given):
         bushes = {"bushings": {"arm_rear": {"axial_N_per_mm": 400.0}}}
         given = given | {"suspension": CAR.with_changes(bushes)}
-    with pytest.raises(InputError, match=words):
-        call(**given)
+    refused(InputError, lambda: call(**given))
 
 
 def test_a_position_out_of_reach_is_no_study() -> None:

@@ -1,0 +1,16 @@
+"""The stored messages are those of tests that there are."""
+
+from __future__ import annotations
+
+import messages
+import pytest
+
+
+def test_every_message_is_of_a_test(request: pytest.FixtureRequest) -> None:
+    """Of the files that are run; of a part of a file, nothing is known."""
+    if request.config.option.keyword:
+        pytest.skip("a part of the tests")
+    whole = {item.path.stem for item in request.session.items}
+    names = {messages.key_of(item) for item in request.session.items}
+    stored = {key for key in messages.stored() if key.partition("::")[0] in whole}
+    assert stored <= names
