@@ -2,7 +2,6 @@
 
 import json
 import re
-import subprocess
 import sys
 
 import numpy as np
@@ -18,27 +17,6 @@ from matplotlib.image import imread
 CAR = "reference_car"
 POSITIONS = ("characteristics", CAR, "--positions")
 CAR_FILE = ROOT / "vehicle/data/reference_car.toml"
-
-
-@pytest.mark.parametrize(
-    ("line", "without"),
-    [
-        (["--help"], {"matplotlib", "xarray", "scipy", "pandas", "pydantic", "sympy", "numpy"}),
-        (["check", "reference_axle"], {"matplotlib", "xarray", "pandas", "sympy"}),
-        (["characteristics", CAR, "--step", "40"], {"matplotlib", "sympy", "dask"}),
-    ],
-)
-def test_commands_begin_quickly(line, without):
-    """What takes long to import is imported where it is needed."""
-    program = (
-        "import sys; from kintrafo.__main__ import run; sys.argv[1:] = " + repr(line) + "\n"
-        "try: run()\nexcept SystemExit as end: assert not end.code\n"
-        "print(*sorted({n.partition('.')[0] for n, m in sys.modules.items() if m}))"
-    )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True)
-    loaded = set(done.stdout.decode().splitlines()[-1].split())
-    assert "typer" in loaded
-    assert not loaded & without
 
 
 @pytest.mark.parametrize("command", sorted(cli.COMMANDS))

@@ -183,6 +183,7 @@ def test_what_documents_name_is_there_after_one_import():
         n for d in documents for n in re.findall(r"`(kintrafo(?:\.\w+)+)", d.read_text("utf-8"))
     }
     assert "kintrafo.report.write" in named
+    named -= {"kintrafo.generator"}  # of an extra, imported by its own name
     script = "import sys, kintrafo\nfor name in sys.argv[1:]: eval(name)"
     subprocess.run([sys.executable, "-c", script, *sorted(named)], check=True)
 
@@ -190,22 +191,24 @@ def test_what_documents_name_is_there_after_one_import():
 @pytest.mark.parametrize(
     ("line", "unused"),
     [
+        (["--help"], {"xarray", "scipy", "pandas", "pydantic", "numpy"}),
         (
             ["check", "reference_car"],
-            {"xarray", "pandas", "matplotlib", "scipy.interpolate", "kintrafo.simulation"},
+            {"xarray", "pandas", "scipy.interpolate", "kintrafo.simulation"},
         ),
-        (["check", "rigid_axle"], {"matplotlib", "kintrafo.vehicle.plots", "kintrafo.simulation"}),
+        (["check", "reference_axle"], {"xarray", "pandas", "scipy.interpolate"}),
+        (["check", "rigid_axle"], {"kintrafo.vehicle.plots", "kintrafo.simulation"}),
         (
             ["characteristics", "reference_car"],
-            {"matplotlib", "scipy.interpolate", "kintrafo.simulation", "kintrafo.vehicle.studies"},
+            {"scipy.interpolate", "kintrafo.simulation", "kintrafo.vehicle.studies"},
         ),
     ],
 )
 def test_a_command_imports_only_what_it_uses(line, unused):
-    program = "import sys; from kintrafo.vehicle import cli\n"
-    program += "try: cli.run()\nexcept SystemExit as end: assert not end.code, end.code\n"
-    program += "print(*sys.modules)"
+    program = "import sys; from kintrafo.__main__ import run\n"
+    program += "try: run()\nexcept SystemExit as end: assert not end.code, end.code\n"
+    program += "print(*(name for name, module in sys.modules.items() if module))"
     done = subprocess.run(
         [sys.executable, "-c", program, *line], capture_output=True, check=True, text=True
     )
-    assert not unused & set(done.stdout.split())
+    assert not (unused | {"matplotlib", "sympy", "dask"}) & set(done.stdout.split())
