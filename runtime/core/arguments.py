@@ -99,9 +99,9 @@ class Arguments:
         allowed = [f"of {least:g}{unit} or more"] if least > -math.inf else []
         allowed += [f"above {above:g}{unit}"] if above > -math.inf else []
         allowed += [f"below {below:g}{unit}"] if below < math.inf else []
-        told = shown(value) if isinstance(value, str | bytes) else f"{_plain(value)}{unit}"
+        text = shown(value) if isinstance(value, str | bytes) else f"{_plain(value)}{unit}"
         words = " ".join(["a finite number", " and ".join(allowed)]).strip()
-        self.refuse(f"{name} = {told}: {words} is needed. {advice}".strip())
+        self.refuse(f"{name} = {text}: {words} is needed. {advice}".strip())
         return max(least, 1.0) if math.isinf(below) else below / 2.0
 
     def step(self, name: str, value: Any, unit: str = "") -> float:

@@ -67,7 +67,7 @@ def replacing(path: str | Path, *, force: bool = False, inputs: Paths = ()) -> I
     """
     _, read = _paths([path], inputs, force)  # looked at twice, and may be handed over only once
     refuse([path], force=force, inputs=read)
-    with told(path):
+    with as_input_errors(path):
         target = _resolved(Path(path))
         target.parent.mkdir(parents=True, exist_ok=True)
         # a name that nobody can foresee, made by us and open to us alone
@@ -118,7 +118,7 @@ def refuse(
     found = {}
     named: set[Path] = set()
     for path in wanted:
-        with told(path):
+        with as_input_errors(path):
             whole = _resolved(path)
             problem = _wrong_ending(path, endings) or _in_the_way(whole, force, read)
             problem = problem or ("it is named twice." if whole in named else "")
@@ -198,7 +198,7 @@ def _in_the_way(target: Path, force: bool, inputs: Paths) -> str:
 
 
 @contextmanager
-def told(path: str | Path, what: str = "cannot be written") -> Iterator[None]:
+def as_input_errors(path: str | Path, what: str = "cannot be written") -> Iterator[None]:
     """Say in words what the system does not let be done with a file.
 
     Parameters

@@ -28,18 +28,18 @@ class _Heard:
     def __init__(self) -> None:
         self.any = False
         # the one queue that may be written to where a signal is handled
-        self.told: SimpleQueue[str] = SimpleQueue()
+        self.events: SimpleQueue[str] = SimpleQueue()
 
     def handle(self, _number: int, _frame: FrameType | None) -> None:
         """Raise an interrupt."""
         self.any = True
-        self.told.put("raised")
+        self.events.put("raised")
         raise KeyboardInterrupt
 
     def lost(self, unraisable: Any) -> None:
         """Note an interrupt that could not be raised; Python prints what else could not."""
         if issubclass(unraisable.exc_type, KeyboardInterrupt):
-            self.told.put("lost")
+            self.events.put("lost")
         else:
             sys.__unraisablehook__(unraisable)
 
@@ -48,7 +48,7 @@ class _Heard:
         patience = None  # forever, for the first
         while True:
             try:
-                word = self.told.get(timeout=patience)
+                word = self.events.get(timeout=patience)
             except Empty:
                 word = "lost"
             if word == "end":
@@ -79,7 +79,7 @@ def end() -> None:
     if signal.getsignal(signal.SIGINT) == _heard.handle:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         sys.unraisablehook = sys.__unraisablehook__
-        _heard.told.put("end")
+        _heard.events.put("end")
         check()
 
 

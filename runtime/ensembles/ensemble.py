@@ -227,12 +227,12 @@ def _check_together(
         _check_results(given, asked, own)
 
 
-def _check_rows(given: Arguments, model: System, y0: Any, told: set[str]) -> None:
+def _check_rows(given: Arguments, model: System, y0: Any, names: set[str]) -> None:
     """Refuse rows of states that were found under inputs that are not known."""
     for row in y0 if isinstance(y0, list | tuple) else ():
         held = inputs_of(row, model.names_of_states)
         moved = [] if held is None else [model.input_names[i] for i in np.flatnonzero(held)]
-        forgotten = [name for name in moved if name not in told]
+        forgotten = [name for name in moved if name not in names]
         if forgotten:
             given.refuse(
                 f"y0 has rows of states that belong to {', '.join(forgotten)}, and rows of numbers "

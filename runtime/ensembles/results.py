@@ -85,11 +85,11 @@ def _varied(model: System, variants: Variants, wide: Any) -> Data:
 
 def _message(done: NDArray[np.bool_], passed: NDArray[np.bool_]) -> str:
     failed, beyond = int((~done).sum()), int((done & passed).sum())
-    told = f"{done.size - failed} of {done.size} reached the end of the time"
-    told += ", `reason` says why the others did not." if failed else "."
+    text = f"{done.size - failed} of {done.size} reached the end of the time"
+    text += ", `reason` says why the others did not." if failed else "."
     if beyond:
-        told += f" {beyond} passed a bound of what the model describes on the way, see `beyond`."
-    return told
+        text += f" {beyond} passed a bound of what the model describes on the way, see `beyond`."
+    return text
 
 
 # -- reasons --------------------------------------------------------------------------------------
@@ -100,15 +100,15 @@ def _reasons(model: System, variants: Variants, collected: Collected) -> NDArray
     outcome = collected.problem.outcome
     max_steps = collected.problem.accuracy.max_steps
     reasons = np.full(outcome.ends.size, "", dtype=object)
-    told: dict[tuple[int, int], str] = {}
+    entries: dict[tuple[int, int], str] = {}
     for place in np.flatnonzero(outcome.ends != End.DONE).tolist():
         end, code = End(outcome.ends[place]), int(outcome.codes[place])
         if end is End.PARAMETERS:  # each by its own values
             reasons[place] = _refused_parameters(model, variants, place)
             continue
-        if (end, code) not in told:
-            told[end, code] = _told(model, end, code, max_steps)
-        reasons[place] = f"at t = {outcome.ended[place]:.6g} s: {told[end, code]}"
+        if (end, code) not in entries:
+            entries[end, code] = _in_words(model, end, code, max_steps)
+        reasons[place] = f"at t = {outcome.ended[place]:.6g} s: {entries[end, code]}"
         if collected.reasons.get(place):
             reasons[place] += f" Nor can BDF do it: {collected.reasons[place]}"
     return reasons
@@ -123,7 +123,7 @@ def _refused_parameters(model: System, variants: Variants, place: int) -> str:
     return "the parameters are those of no system"  # which only rounding can tell from others
 
 
-def _told(model: System, end: End, code: int, max_steps: int) -> str:
+def _in_words(model: System, end: End, code: int, max_steps: int) -> str:
     guards = model.equations.GUARDS
     if end is End.DEAD_POINT:
         return f"{guards[code][1]}. Try another initial state, or smaller forces."

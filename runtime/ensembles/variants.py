@@ -213,10 +213,10 @@ def _check_units(
     """Refuse numbers that say that they are in another unit; labels have none."""
     described = _described(model)
     for name, column in columns.items():
-        told, unit = column.attrs.get("units"), described[name]["unit"]
-        if told is not None and told != unit and name not in choices:
+        text, unit = column.attrs.get("units"), described[name]["unit"]
+        if text is not None and text != unit and name not in choices:
             arguments.refuse(
-                f"variants {name!r} are in {shown(told)}: they are needed in {unit!r}."
+                f"variants {name!r} are in {shown(text)}: they are needed in {unit!r}."
             )
 
 

@@ -249,10 +249,10 @@ _EXAMPLES = {
 
 def _with_value(given: Arguments, signal: str, kind: str, value: Any, unit: str) -> Reduced:
     """Check a kind that has a level, or another number."""
-    told = getattr(value, "attrs", {}).get("units")
+    text = getattr(value, "attrs", {}).get("units")
     number, wanted = f"{kind!r} of {signal!r}", {"above": unit, "percentile": "%"}.get(kind, "1")
-    if told is not None and told != wanted:
-        given.refuse(f"{number} is in {shown(told)}: it is needed in {wanted!r}.")
+    if text is not None and text != wanted:
+        given.refuse(f"{number} is in {shown(text)}: it is needed in {wanted!r}.")
     if kind == "above":
         return Reduced(signal, kind, given.number(number, value, unit))
     if kind == "percentile":

@@ -220,7 +220,7 @@ class Equations:
     @property
     def iterates(self) -> bool:
         """Whether a loop is closed by iteration."""
-        return any("iterates" in told for told in self.manifest["functions"].values())
+        return any("iterates" in text for text in self.manifest["functions"].values())
 
     def _behind(self, name: str) -> tuple[int, ...]:
         """Return how much a function reads behind constants, state and inputs; none of most."""

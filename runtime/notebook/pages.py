@@ -28,8 +28,8 @@ def system(shown: System) -> str:
         "inputs": shown.input_names,
         "signals": shown.signal_names,
     }
-    told = table((name, ""), rows_of(names))
-    return heading(name.replace("_", " ")) + columns(picture(still(skeleton, places, 0, "")), told)
+    text = table((name, ""), rows_of(names))
+    return heading(name.replace("_", " ")) + columns(picture(still(skeleton, places, 0, "")), text)
 
 
 def linearisation(shown: Linearisation) -> str:
@@ -57,13 +57,13 @@ def motion(shown: Simulation, drawn: Callable[[xr.Dataset], Iterable[Figure]]) -
     drawn : callable
         Returns figures of the dataset of the motion.
     """
-    told = {
+    entries = {
         "ended": shown.message,
         "time": f"{shown.t[0]:g} s to {shown.t[-1]:g} s, {shown.t.size} outputs",
         "by": f"{shown.solver}, {shown.get('steps', 0)} steps, {shown.nfev} evaluations",
         **{f"warning {i}": str(found) for i, found in enumerate(shown.validity, 1)},
     }
-    whole = table(("motion", "" if shown.success else "failed"), told.items())
+    whole = table(("motion", "" if shown.success else "failed"), entries.items())
     if shown.t.size < 2:
         return whole
     curves = dataset_of(shown.signals.model, shown)

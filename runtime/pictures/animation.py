@@ -187,8 +187,8 @@ class _Drawer:
             self._axes.plot(*zip(root, root + tip, strict=True), color=_INK, lw=1)
             x, y = root + 1.22 * tip
             self._axes.text(x, y, name, ha="center", va="center", size=9)
-        told = f"{long * 1e3:g} mm" if long < 1.0 else f"{long:g} m"
-        words = f"axes {told} long"
+        said = f"{long * 1e3:g} mm" if long < 1.0 else f"{long:g} m"
+        words = f"axes {said} long"
         self._axes.text(0.02, 0.0, words, transform=self._axes.transAxes, size=8.5, color="#5c5c5c")
 
 

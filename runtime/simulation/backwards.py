@@ -125,7 +125,7 @@ def motion_gradient(
         directions = checked_directions(given, system)
         span = forward_span(given, t_span)
         if not given.refused:
-            times = told_at(given, t_eval, span)
+            times = output_times_of(given, t_eval, span)
             asked = _asked(given, system, of, times)
             given.array("y0", y0, dimensions=[1], last=len(system.state_names), empty=True)
             accuracy = accuracy_of(
@@ -150,7 +150,7 @@ def forward_span(given: Arguments, t_span: Any) -> tuple[float, float]:
     return span
 
 
-def told_at(given: Arguments, t_eval: Any, span: tuple[float, float]) -> Array:
+def output_times_of(given: Arguments, t_eval: Any, span: tuple[float, float]) -> Array:
     """Check the times at which a motion is looked at, `OUTPUTS` of them by default [s]."""
     return outputs_of(given, np.linspace(*span, OUTPUTS) if t_eval is None else t_eval, span)
 

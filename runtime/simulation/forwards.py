@@ -20,7 +20,7 @@ from ..systems.derivatives import checked_directions, direction_of, kept_togethe
 from ..systems.state import inputs_of
 from ..systems.system import System
 from .accuracy import accuracy_of
-from .backwards import MOST_STEPS, followed, forward_span, told_at
+from .backwards import MOST_STEPS, followed, forward_span, output_times_of
 from .courses import Signal
 from .lanes.directions import Along
 from .lanes.directions import followed as in_lanes
@@ -120,7 +120,7 @@ def motion_sensitivity(
         checked_directions(given, system)
         span = forward_span(given, t_span)
         if not given.refused:
-            times = told_at(given, t_eval, span)
+            times = output_times_of(given, t_eval, span)
             along = _along(given, system, by)
             chosen = system.signal_names
             if signals is not None:

@@ -60,7 +60,7 @@ _TOLERANCE = (1e-6, 1e-9)
 _TOLERANCE_OF_BDF = (1e-8, 1e-10)
 # So many steps of BDF are more than a thousand oscillations: its damping begins to show.
 _LONG = 200_000
-_told = False
+_warned = False
 
 
 def simulate(
@@ -262,10 +262,10 @@ def _fixed_step(
             "other method."
         )
         return 1.0
-    told = [name for name, value in others.items() if value is not None]
-    told += [] if isinstance(max_step, float) and max_step == np.inf else ["max_step"]
-    if told:
-        given.refuse(f"method 'RK4' has fixed steps: leave out {', '.join(told)}.")
+    lines = [name for name, value in others.items() if value is not None]
+    lines += [] if isinstance(max_step, float) and max_step == np.inf else ["max_step"]
+    if lines:
+        given.refuse(f"method 'RK4' has fixed steps: leave out {', '.join(lines)}.")
     if step is None:
         given.refuse("method 'RK4' needs step, the length of all steps in seconds, such as 1e-3.")
         return 1.0
@@ -306,10 +306,10 @@ def _choose_backend(model: System, backend: Backend, options: Options) -> Callab
     if backend != "scipy" and method in _in_c(model):
         return solve_native
     if backend == "sundials" or options.stop_at_outputs or method not in SCIPY_METHODS:
-        told = f"{_why_none(model, backend, method)}. {_what_else(model, backend, options)}"
-        raise InputError([told], "simulate")
+        text = f"{_why_none(model, backend, method)}. {_what_else(model, backend, options)}"
+        raise InputError([text], "simulate")
     if backend == "auto" and method in NATIVE_METHODS and _could_be_in_c(model):
-        _tell_once()
+        _warn_once()
     return solve_scipy
 
 
@@ -362,10 +362,10 @@ def _what_else(model: System, backend: Backend, options: Options) -> str:
     return f"{advice[0].upper()}{advice[1:]}: {by} then."
 
 
-def _tell_once() -> None:
-    global _told  # noqa: PLW0603 (told once in a process)
-    if not _told:
-        _told = True
+def _warn_once() -> None:
+    global _warned  # noqa: PLW0603 (said once in a process)
+    if not _warned:
+        _warned = True
         warnings.warn(
             f"{why_not_native()}. Until then SciPy integrates, with the same results but slower.",
             RuntimeWarning,

@@ -261,8 +261,8 @@ def _go_together(given: Arguments, what: str, shapes: list[tuple[int, ...]]) -> 
     try:
         np.broadcast_shapes(*shapes)
     except ValueError:
-        told = ", ".join(map(str, shapes))
-        given.refuse(f"{what}: the leading dimensions {told} must go together.")
+        text = ", ".join(map(str, shapes))
+        given.refuse(f"{what}: the leading dimensions {text} must go together.")
         return False
     return True
 

@@ -74,11 +74,11 @@ class Skeleton:
                 found[body] = places
         return found
 
-    def _number(self, told: str | float) -> float:
-        if not isinstance(told, str):
-            return told
-        value = self.system.parameters[told.removeprefix("-")]
-        return -value if told.startswith("-") else value
+    def _number(self, text: str | float) -> float:
+        if not isinstance(text, str):
+            return text
+        value = self.system.parameters[text.removeprefix("-")]
+        return -value if text.startswith("-") else value
 
     @cached_property
     def _centers(self) -> Array:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import InputError
-from ..core.files import Paths, replacing, told
+from ..core.files import Paths, as_input_errors, replacing
 from .emitted import Emitted
 from .text import environment
 
@@ -117,7 +117,7 @@ def _stack(costs: Iterable[Mapping[str, int]]) -> int:
 
 def _refuse_others(path: Path, texts: Mapping[str, str]) -> None:
     """Refuse a folder with other files, and what is no folder."""
-    with told(path):
+    with as_input_errors(path):
         if not path.exists():
             return
         if not path.is_dir():

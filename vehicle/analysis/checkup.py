@@ -141,12 +141,12 @@ def checkup(subject: Any) -> Checkup:
     return Checkup(
         wheels,
         axle,
-        (*_told(assembly, [(one.side, one.problems) for one in wheels]), *problems),
-        (*_told(assembly, [(one.side, one.notes) for one in wheels]), *notes),
+        (*_in_words(assembly, [(one.side, one.problems) for one in wheels]), *problems),
+        (*_in_words(assembly, [(one.side, one.notes) for one in wheels]), *notes),
     )
 
 
-def _told(assembly: Assembly, by_side: list[tuple[str, tuple[str, ...]]]) -> list[str]:
+def _in_words(assembly: Assembly, by_side: list[tuple[str, tuple[str, ...]]]) -> list[str]:
     """Return what is said of wheels, beginning with their names where there are several."""
     several = len(assembly.wheels) > 1
     return [

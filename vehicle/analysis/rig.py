@@ -93,7 +93,7 @@ def measured_curves(path: str | Path) -> xr.Dataset:
         column.name: numbers[:, at] * in_si(sheet.unit_for(column, units[column.name]) or "")[1]
         for at, column in enumerate(columns)
     }
-    varying, held = _told_apart(sheet, {name: table[name] for name in places})
+    varying, held = _separated(sheet, {name: table[name] for name in places})
     along = _ALONG[varying]
     data = {
         quantity.name: xr.Variable(varying, table[quantity.name], quantity.attributes())
@@ -116,7 +116,7 @@ def _quantity(name: str) -> Quantity:
     return _ALONG[name] if name in _ALONG else _EVERY[name]
 
 
-def _told_apart(sheet: Table, places: Mapping[str, Array]) -> tuple[str, list[tuple[str, float]]]:
+def _separated(sheet: Table, places: Mapping[str, Array]) -> tuple[str, list[tuple[str, float]]]:
     """Return which position varies, and where the other one is held if it is there."""
     spread = {name: float(np.ptp(values)) for name, values in places.items()}
     least = min(_NOISE, _PART_OF_NOISE * max(spread.values()))

@@ -91,7 +91,7 @@ def command(
 
 
 def _facts(found: "Fit") -> dict[str, Any]:
-    names = ("moved", "uncertainty", "told", "success", "message")
+    names = ("moved", "uncertainty", "determined", "success", "message")
     facts: dict[str, Any] = {name: getattr(found, name) for name in names}
     facts["curves"] = [vars(curve) for curve in found.curves]
     return facts | {"suspension": found.suspension.to_dict()}
@@ -107,7 +107,7 @@ def _print(found: "Fit", measured: "Dataset", file: str) -> None:
     for place in found.places:
         by, deviation = found.moved[place.name], found.uncertainty[place.name]
         numbers = [f"{value:.3f}" for value in (place.value, place.value + by, by, deviation)]
-        part = f"{100.0 * found.told[place.name]:.0f} %"
+        part = f"{100.0 * found.determined[place.name]:.0f} %"
         values.add_row(escape(place.name), *numbers, place.unit or "-", part)
     console.print(values)
     curves = Table(title="deviations of the curves, root mean square")

@@ -99,7 +99,7 @@ def command(
             console.print(_extremes(with_sums, study.envelope(with_sums), parts, file))
         elif not shown:
             print_table(overview(found, f"{file}: sizes of the forces [N]", parts))
-        _tell(found)
+        _print_rest(found)
         name_files(written)
     if not _did_what_was_asked(found, [*described.get("cases", shown or ())]):
         raise typer.Exit(Exit.REFUSED)
@@ -112,7 +112,7 @@ def _did_what_was_asked(found: "Dataset", asked: list[str]) -> bool:
     return not all(found["reason"].values)
 
 
-def _tell(found: "Dataset") -> None:
+def _print_rest(found: "Dataset") -> None:
     """Say what decided, and what could not be carried."""
     for name, reason in zip(found["case"].values, found["reason"].values, strict=True):
         if reason:

@@ -102,7 +102,7 @@ def command(
         print_json(_summary(result, motion, run))
     else:
         console.print(_table(motion, run))
-        for line in _told(result, run):
+        for line in _in_words(result, run):
             say(line)
         name_files(written)
     for excursion in left:
@@ -126,7 +126,7 @@ class _Run:
             raise typer.BadParameter("--wheels is only for the file of an axle")
         self.wheels = wheels or "both"
         if getattr(model, "free_rack", False):
-            _tell_of_the_free_rack(file, scenario.inputs)
+            _note_free_rack(file, scenario.inputs)
 
     def curves(self, motion: "Dataset") -> list[str]:
         """Return the names of what is shown of a motion, in order."""
@@ -141,7 +141,7 @@ class _Run:
         return by_wheel(self.model, motion)
 
 
-def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:
+def _note_free_rack(file: str, inputs: dict[str, Any]) -> None:
     """Say that nothing holds the rack; refuse to prescribe its motion."""
     from ...core.errors import InputError
 
@@ -234,7 +234,7 @@ def _table(motion: "Dataset", run: _Run) -> Table:
     return table
 
 
-def _told(result: "Simulation", run: _Run) -> list[str]:
+def _in_words(result: "Simulation", run: _Run) -> list[str]:
     """Return what happened, and what it took."""
     crossings, counts = _crossings(result, run), _counts(result)
     lines = [f"{result.solver}: " + ", ".join(f"{v} {_WORDS[n]}" for n, v in counts.items())]

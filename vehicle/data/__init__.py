@@ -6,7 +6,7 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 
 from ...core.errors import InputError
-from ...core.files import told
+from ...core.files import as_input_errors
 from ...core.suggestions import suggestion
 
 _ENDING = ".toml"
@@ -26,7 +26,7 @@ def find(
     if isinstance(path_or_name, str) and path_or_name in packaged:
         return packaged[path_or_name]
     path = Path(path_or_name)
-    with told(path, "cannot be read"):
+    with as_input_errors(path, "cannot be read"):
         found = path.exists()
     if not found:
         hint = suggestion(path.name, packaged)

@@ -120,12 +120,12 @@ def move_along(document: Any, old: Suspension, points: Mapping[str, Point]) -> l
         put(document, ("bodies", name, "com_mm"), moved)
     tyre = document["tyre"]
     tyre["free_height_mm"] = _rounded(tyre["free_height_mm"] + shift[2])
-    told = ["tyre: touches the ground as far from the design position as in the packaged file"]
+    lines = ["tyre: touches the ground as far from the design position as in the packaged file"]
     if bodies:
-        told.append(f"centre of mass of {', '.join(bodies)}: moved along with the wheel centre")
+        lines.append(f"centre of mass of {', '.join(bodies)}: moved along with the wheel centre")
     if "strut" in document:
-        told.append(_fit_strut(document, old, points))
-    return told
+        lines.append(_fit_strut(document, old, points))
+    return lines
 
 
 def _fit_strut(document: Any, old: Suspension, points: Mapping[str, Point]) -> str:

@@ -94,8 +94,8 @@ def _of_workbook(file: Path, pages: Sequence[Page], wanted: str | None) -> Found
     if wanted is not None:
         having = [page for page in pages if page.name == wanted]
     if len(having) > 1:
-        told = " and ".join(repr(page.name) for page in having)
-        problem = f"there are hardpoints on the sheets {told}. Say which: --sheet (sheet=)."
+        text = " and ".join(repr(page.name) for page in having)
+        problem = f"there are hardpoints on the sheets {text}. Say which: --sheet (sheet=)."
         raise InputError([problem], str(file))
     page = next(iter(having or filled), None)
     if page is None or not page.rows:
@@ -183,8 +183,8 @@ def _check(
         if len(those) != 1
     ]
     if problems:
-        told = legible(", ".join(str(cell) for cell in heading if cell is not None))
-        raise InputError([*problems, f"the first row is: {short(told, 500)}."], source)
+        text = legible(", ".join(str(cell) for cell in heading if cell is not None))
+        raise InputError([*problems, f"the first row is: {short(text, 500)}."], source)
 
 
 def _units_above(rows: Sequence[Row]) -> Iterable[str]:
@@ -193,7 +193,9 @@ def _units_above(rows: Sequence[Row]) -> Iterable[str]:
         texts = [str(cell) for cell in cells if cell is not None]
         for at, text in enumerate(texts[:-1]):
             if key(text.rstrip(":")) in _UNITS_ABOVE:
-                yield from [unit for told in texts[at + 1 :] if (unit := unit_of(told)) in LENGTHS]
+                yield from [
+                    unit for words in texts[at + 1 :] if (unit := unit_of(words)) in LENGTHS
+                ]
 
 
 def _of_lotus(file: Path) -> Found | None:

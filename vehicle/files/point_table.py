@@ -178,9 +178,9 @@ def _unit(found: Found, given: str | None) -> str:
             "--unit mm (unit=)."
         )
     elif not every <= LENGTHS.keys() or (len(every) > 1 and not problems):
-        told = short(", ".join(sorted(every)))
+        words = short(", ".join(sorted(every)))
         problems.append(
-            f"the unit of x, y and z must be {', '.join(LENGTHS)}, of all the same; it is {told}."
+            f"the unit of x, y and z must be {', '.join(LENGTHS)}, of all the same; it is {words}."
         )
     if problems:
         raise InputError(problems, table.source)
@@ -219,9 +219,9 @@ def _points(found: Found, columns: Iterable[int]) -> dict[str, Point]:
 
 
 def _no_point(values: Iterable[Any]) -> str:
-    told = ", ".join(repr("" if v is None else short(legible(str(v)), 30)) for v in values)
+    text = ", ".join(repr("" if v is None else short(legible(str(v)), 30)) for v in values)
     formula = " A formula counts once Excel has saved its value." if None in [*values] else ""
-    return f"three numbers are needed, not {told}.{formula}"
+    return f"three numbers are needed, not {text}.{formula}"
 
 
 def merged(

@@ -53,8 +53,8 @@ class Values:
         """Return a value; empty if there is none. Refuse it if there are two."""
         found = list(dict.fromkeys(self._found.get((block, key), ())))
         if len(found) > 1:
-            told = " and ".join(repr(shown(value)) for value in found)
-            problem = f"[{block.upper()}] {key.upper()} is {told}. Keep one of them."
+            text = " and ".join(repr(shown(value)) for value in found)
+            problem = f"[{block.upper()}] {key.upper()} is {text}. Keep one of them."
             raise InputError([problem], self.source)
         return found[0] if found else ""
 
@@ -64,8 +64,8 @@ def unit_of(values: Values, key: str, usual: str, known: Mapping[str, float]) ->
     given = values.one("units", key)
     if given.lower() in known:
         return known[given.lower()]
-    told = f"is {shown(given)!r}, which is not known" if given else "is missing"
-    problem = f"[UNITS] {key.upper()} {told}. Write {key.upper()} = '{usual}', or: " + ", ".join(
+    text = f"is {shown(given)!r}, which is not known" if given else "is missing"
+    problem = f"[UNITS] {key.upper()} {text}. Write {key.upper()} = '{usual}', or: " + ", ".join(
         name for name in known if name != usual
     )
     raise InputError([f"{problem}."], values.source)

@@ -46,7 +46,7 @@ def measure(
     gaps: list[Array],
     ranges: dict[str, tuple[float, float]],
     *,
-    tell: Callable[[str], None] = lambda _: None,
+    report: Callable[[str], None] = lambda _: None,
 ) -> Accuracy:
     """Compare interpolated with compiled values.
 
@@ -72,14 +72,14 @@ def measure(
         With the rounding of the encoding.
     """
     travel, rack = grid.travel.between, grid.rack.between
-    tell("accuracy of the interpolation")
+    report("accuracy of the interpolation")
     exact = poses(model, travel, rack)
     return Accuracy(
         points=max(
             _distance(grid, sampled.points[name], points) for name, points in exact.points.items()
         ),
         spin_axis=_angle(grid, sampled.spin_axis, exact.spin_axis),
-        curves=_of_curves(grid, drawn, gaps, curves(model, travel, rack, tell=tell), ranges),
+        curves=_of_curves(grid, drawn, gaps, curves(model, travel, rack, report=report), ranges),
         places=travel.size * rack.size,
     )
 

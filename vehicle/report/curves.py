@@ -92,7 +92,7 @@ def printed(unit: str) -> str:
 
 
 def curves(
-    model: Model, travel: Array, rack: Array, *, tell: Callable[[str], None] = lambda _: None
+    model: Model, travel: Array, rack: Array, *, report: Callable[[str], None] = lambda _: None
 ) -> list[Curve]:
     """Compute all characteristics at every combination of travels and rack displacements.
 
@@ -112,12 +112,12 @@ def curves(
         Those over travel, then those over rack displacement; without those that are defined
         nowhere.
     """
-    tell("characteristics over wheel travel")
+    report("characteristics over wheel travel")
     rack = racks_of(model, rack)
     lengthwise = [over(model, "travel", travel, rack_position=float(r)) for r in rack]
     found = _stacked(lengthwise, "wheel_travel", "travel")
     if model.suspension.steered():
-        tell("characteristics over rack displacement")
+        report("characteristics over rack displacement")
         crosswise = [over(model, "rack", rack, travel=float(t)) for t in travel]
         found += _stacked(crosswise, "rack_position", "rack")
     return [curve for curve in found if np.isfinite(curve.values).any()]

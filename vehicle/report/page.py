@@ -135,15 +135,15 @@ def write(
             given.refuse(f"without = {shown(without)}: a list of names is needed.")
         if not (given.refused or isinstance(model, Model)) and (chapters or without or goals):
             given.refuse("chapters, without, goals: only the report of a suspension has them")
-    tell = progress or (lambda _: None)
+    report = progress or (lambda _: None)
     if isinstance(model, Model):
         text = render(
-            model, title=title, chapters=chapters, without=without, goals=goals, tell=tell
+            model, title=title, chapters=chapters, without=without, goals=goals, report=report
         )
     else:
-        tell("positions of the mechanism")
+        report("positions of the mechanism")
         text = report_page(model, title, motion)
-    tell("writing the page")
+    report("writing the page")
     with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
     return Path(path)
@@ -156,10 +156,10 @@ def render(
     chapters: Sequence[Chapter] = (),
     without: Collection[str] = (),
     goals: Sequence[Goal] = (),
-    tell: Callable[[str], None] = lambda _: None,
+    report: Callable[[str], None] = lambda _: None,
 ) -> str:
     """Return the report as text; see `write`."""
-    samples = _sample(model, tell, without, goals)
+    samples = _sample(model, report, without, goals)
     side, steered = model.suspension.vehicle.side, model.suspension.steered()
     template = _environment().get_template("page.html.jinja")
     return template.render(
@@ -232,21 +232,21 @@ def write_chapters(
 
 def _sample(
     model: Model,
-    tell: Callable[[str], None],
+    report: Callable[[str], None],
     without: Collection[str],
     goals: Sequence[Goal],
 ) -> _Samples:
-    tell("reach of the mechanism")
+    report("reach of the mechanism")
     grid = reachable_grid(model)
     travel, rack = grid.travel.values, grid.rack.values
-    tell("positions over wheel travel and rack displacement")
+    report("positions over wheel travel and rack displacement")
     sampled = poses(model, travel, rack)
-    drawn = [c for c in curves(model, travel, rack, tell=tell) if c.name not in without]
+    drawn = [c for c in curves(model, travel, rack, report=report) if c.name not in without]
     gaps = gaps_on(model, grid)
     marked = marks(drawn, grid, goals, model.suspension.vehicle.side)
     ranges = {c.key: marked.widened(c.key, shown_range(c.values)) for c in drawn}
-    accuracy = measure(model, grid, sampled, drawn, gaps, ranges, tell=tell)
-    tell("one second of motion")
+    accuracy = measure(model, grid, sampled, drawn, gaps, ranges, report=report)
+    report("one second of motion")
     return _Samples(
         grid=grid,
         poses=sampled,

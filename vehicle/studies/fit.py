@@ -26,7 +26,7 @@ _USUAL_ACCURACY = 0.02
 # Points of a curve that count as if their errors were independent: neighbours on a rig err alike.
 _INDEPENDENT = 10
 # Of what a value may be off by, a measurement that tells less than this part tells nothing.
-_LEAST_TOLD = 0.1
+_LEAST_DETERMINED = 0.1
 # A curve of a car whose errors are found is farther off than this once in a hundred times.
 _CHANCE = 0.01
 # What is held is held so well [m].
@@ -83,7 +83,7 @@ class Fit:
         By how much each is off, in the display unit.
     uncertainty : dict of str to float
         Its standard deviation with the measurement known, in the same unit.
-    told : dict of str to float
+    determined : dict of str to float
         From 0 to 1, which part of the variance that its tolerance leaves the measurement takes
         away: near 0 the curves do not determine the value, and it stays where it was.
     curves : tuple of Fitted
@@ -101,7 +101,7 @@ class Fit:
     places: tuple[DesignVariable, ...]
     moved: dict[str, float]
     uncertainty: dict[str, float]
-    told: dict[str, float]
+    determined: dict[str, float]
     curves: tuple[Fitted, ...]
     success: bool
     message: str
@@ -275,7 +275,7 @@ def _fit(search: Search, x: Array, gave_up: str) -> Fit:
     slopes = search.slopes(x)
     variances = np.diag(np.linalg.inv(slopes.T @ slopes))
     # before, each value has a third of its range as standard deviation
-    told = 1.0 - variances * SIGMAS**2
+    determined = 1.0 - variances * SIGMAS**2
     curves = _curves(search, x)
     names = [place.name for place in search.places]
     facts = {
@@ -283,7 +283,7 @@ def _fit(search: Search, x: Array, gave_up: str) -> Fit:
         "not explained": [curve.name for curve in curves if not curve.is_explained],
         "at the end of its tolerance": search.at_the_end(x),
         "the curves do not determine": [
-            name for name, part in zip(names, told, strict=True) if part < _LEAST_TOLD
+            name for name, part in zip(names, determined, strict=True) if part < _LEAST_DETERMINED
         ],
     }
     deviations = search.moved(np.sqrt(variances))
@@ -293,7 +293,7 @@ def _fit(search: Search, x: Array, gave_up: str) -> Fit:
         places=search.places,
         moved=search.moved(x),
         uncertainty=deviations,
-        told=dict(zip(names, np.clip(told, 0.0, 1.0).tolist(), strict=True)),
+        determined=dict(zip(names, np.clip(determined, 0.0, 1.0).tolist(), strict=True)),
         curves=curves,
         success=not (gave_up or facts["not explained"]),
         message=in_words(facts) or "explained",

@@ -167,5 +167,5 @@ def least(search: Search) -> tuple[Array, str]:
 
 def in_words(facts: Mapping[str, Sequence[str]]) -> str:
     """Return facts with the names that they are about, of those that are about any."""
-    told = [f"{fact}: {', '.join(dict.fromkeys(names))}" for fact, names in facts.items() if names]
-    return "; ".join(told)
+    lines = [f"{fact}: {', '.join(dict.fromkeys(names))}" for fact, names in facts.items() if names]
+    return "; ".join(lines)

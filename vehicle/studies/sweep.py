@@ -220,9 +220,9 @@ class _Cars:
         data = {name: self._shaped(variable.variable, names) for name, variable in filled.items()}
         rest = {name: c.variable for name, c in filled.coords.items() if name != _CAR}
         done = int(filled["success"].sum())
-        told = f"{done} of {self.count} reached the end of the time"
-        told += "." if done == self.count else ", `reason` says why the others did not."
-        facts = {"title": "motion over a grid of values", "message": told}
+        text = f"{done} of {self.count} reached the end of the time"
+        text += "." if done == self.count else ", `reason` says why the others did not."
+        facts = {"title": "motion over a grid of values", "message": text}
         return xr.Dataset(data, {**rest, **coordinates}, facts)
 
     def _shaped(self, variable: xr.Variable, names: Sequence[str]) -> xr.Variable:

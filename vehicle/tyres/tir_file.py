@@ -138,9 +138,9 @@ class _Reader:
         if not (kind or fit):
             problem = "[MODEL] has neither PROPERTY_FILE_FORMAT nor FITTYP"
         else:
-            told = f"PROPERTY_FILE_FORMAT = '{_shown(kind)}'" if kind else ""
-            told += " and " if kind and fit else ""
-            problem = f"[MODEL] {told}{f'FITTYP = {_shown(fit)}' if fit else ''} cannot be read"
+            text = f"PROPERTY_FILE_FORMAT = '{_shown(kind)}'" if kind else ""
+            text += " and " if kind and fit else ""
+            problem = f"[MODEL] {text}{f'FITTYP = {_shown(fit)}' if fit else ''} cannot be read"
         readable = "PROPERTY_FILE_FORMAT = 'PAC2002', or FITTYP = 6, 21 (MF 5.2), 61 or 62"
         raise InputError([f"{problem}; {readable} can. Convert the tyre."], self._source)
 
@@ -165,9 +165,9 @@ class _Reader:
                 found[quantity] = 1.0
                 continue
             if given.lower() not in units:
-                told = f"= '{_shown(given)}' is not known" if given else "is missing"
+                text = f"= '{_shown(given)}' is not known" if given else "is missing"
                 self._problems.append(
-                    f"[UNITS] {quantity} {told}. Write one of: {', '.join(units)}."
+                    f"[UNITS] {quantity} {text}. Write one of: {', '.join(units)}."
                 )
             found[quantity] = units.get(given.lower(), 1.0)
         return _Scales(found)

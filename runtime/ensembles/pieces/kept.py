@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
-from ...core.files import replacing, told
+from ...core.files import as_input_errors, replacing
 from ..collected import Collected
 from .cutting import Span
 from .identity import Identity, identity_of
@@ -147,7 +147,7 @@ def kept_in(folder: str | Path, collected: Collected) -> Kept:
         be read or written.
     """
     path, identity = Path(folder), identity_of(collected)
-    with told(path):
+    with as_input_errors(path):
         if path.exists() and not path.is_dir():
             _refuse(path, "this is no folder. Name a folder that is empty, or that is not there.")
         there = {entry.name for entry in path.iterdir()} if path.exists() else set()

@@ -158,8 +158,8 @@ def found_of(
     """
     other = differences(common.versions)
     if other:
-        told = f"a worker was asked by a process that has {other}: install the same in both."
-        raise InputError([told], "ensemble")
+        text = f"a worker was asked by a process that has {other}: install the same in both."
+        raise InputError([text], "ensemble")
     problem = Problem(
         System(common.equations.module(), common.parameters),
         replace(piece.systems, drives=common.drives),

@@ -31,12 +31,12 @@ def versions() -> Mapping[str, str]:
 
 def differences(theirs: Mapping[str, str]) -> str:
     """Say which versions are others than here; nothing if none is."""
-    told = [
+    lines = [
         f"other {name}" if name == FILES else f"{name} {theirs.get(name)} instead of {own}"
         for name, own in versions().items()
         if theirs.get(name) != own
     ]
-    return ", ".join(told)
+    return ", ".join(lines)
 
 
 def _digest() -> str:

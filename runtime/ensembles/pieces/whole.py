@@ -33,7 +33,7 @@ def run_in_pieces(
     report : callable, optional
         Called with how many systems are done, now and then.
     """
-    tell = report or (lambda _: None)
+    notify = report or (lambda _: None)
     done: list[Span] = []
     for found in kept.found() if kept else ():
         put(found, collected)
@@ -41,7 +41,7 @@ def run_in_pieces(
     count = collected.problem.systems.count
     left = left_of(count, done)
     count -= sum(last - first for first, last in left)
-    tell(count)
+    notify(count)
     if not left:
         return
     with _pieces(collected, workers, threads, left) as pieces:
@@ -51,7 +51,7 @@ def run_in_pieces(
                 if kept:
                     kept.keep(piece)
                 count += piece.last - piece.first
-            tell(count)
+            notify(count)
 
 
 @contextmanager

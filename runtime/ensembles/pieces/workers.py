@@ -231,5 +231,5 @@ def _other(found: Any) -> str:
             f"cannot load this version of kintrafo ({type(found).__name__}: {found}). Install it "
             "there, as it is here."
         )
-    told = differences(found)
-    return f"has {told}. Install the same there." if told else ""
+    text = differences(found)
+    return f"has {text}. Install the same there." if text else ""

@@ -95,9 +95,9 @@ def _page(
 
 def _parameters(system: System) -> list[tuple[str, str, str, str]]:
     """Return the rows of the table of parameters."""
-    told = system.equations.PARAMETERS
+    entries = system.equations.PARAMETERS
     return [
-        (name, f"{value:.8g}", told[name]["unit"], told[name]["meaning"])
+        (name, f"{value:.8g}", entries[name]["unit"], entries[name]["meaning"])
         for name, value in system.parameters.items()
     ]
 
@@ -129,7 +129,7 @@ def _grows(modes: Sequence[Mode]) -> bool:
 def _data(skeleton: Skeleton, scenes: Sequence[Scene]) -> str:
     system = skeleton.system
     size = extent(skeleton.places(system.design_state))
-    told = {**system.equations.STATE, **system.equations.SIGNALS}
+    entries = {**system.equations.STATE, **system.equations.SIGNALS}
     data = {
         "bodies": list(skeleton.bodies),
         "ground": skeleton.ground,
@@ -139,8 +139,8 @@ def _data(skeleton: Skeleton, scenes: Sequence[Scene]) -> str:
         "springs": skeleton.springs,
         "wheels": skeleton.wheels,
         "states": system.state_names,
-        "units": {name: entry["unit"] for name, entry in told.items()},
-        "meanings": {name: legible(entry["meaning"]) for name, entry in told.items()},
+        "units": {name: entry["unit"] for name, entry in entries.items()},
+        "meanings": {name: legible(entry["meaning"]) for name, entry in entries.items()},
         "scenes": [
             {
                 "name": s.name,

@@ -89,9 +89,9 @@ def by_hand(skeleton: Skeleton) -> Iterator[Scene]:
         name = system.state_names[place]
         yield from _scene(skeleton, name, system.equations.STATE[name], _moving(start, place, none))
     for place, name in enumerate(system.input_names):
-        told = system.equations.INPUTS[name]
-        if told["unit"] in ("m", "rad") and _moves(skeleton, place):
-            yield from _scene(skeleton, name, told, _given(start, none, place))
+        entries = system.equations.INPUTS[name]
+        if entries["unit"] in ("m", "rad") and _moves(skeleton, place):
+            yield from _scene(skeleton, name, entries, _given(start, none, place))
 
 
 Position = Callable[[float], tuple[Array, Array]]
@@ -136,11 +136,11 @@ def extent(places: dict[str, Array]) -> float:
 
 
 def _scene(
-    skeleton: Skeleton, name: str, told: dict[str, Any], moved: tuple[float, Position]
+    skeleton: Skeleton, name: str, entries: dict[str, Any], moved: tuple[float, Position]
 ) -> Iterator[Scene]:
     middle, at = moved
     size = extent(skeleton.places(skeleton.system.design_state))
-    most = _MOST_TURN if told["unit"] == "rad" else _MOST_SLIDE * size
+    most = _MOST_TURN if entries["unit"] == "rad" else _MOST_SLIDE * size
     down, up = (_reach(skeleton, at, middle, sign * most) for sign in (-1, 1))
     if up - down < 1e-6 * most:
         return
@@ -155,8 +155,8 @@ def _scene(
     remark = f"It cannot go further {' or '.join(ends)}: a loop does not close." if ends else ""
     yield Scene(
         name,
-        told["unit"],
-        legible(told["meaning"]),
+        entries["unit"],
+        legible(entries["meaning"]),
         values,
         skeleton.places(states, inputs),
         states,

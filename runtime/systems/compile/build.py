@@ -29,7 +29,7 @@ Report = Callable[[str], None]
 
 _REMEDY = "Install a C compiler (on Debian: apt-get install gcc libc6-dev), or name one in CC"
 _COMPILED_PER_S = 8_000  # operations: of a file by GCC, on the processors that this was written on
-_told = False
+_warned = False
 
 
 def compile_mechanism(
@@ -117,24 +117,24 @@ def compile_mechanism(
         with nullcontext(progress) if progress else on_terminal(f"compile {model.name}") as report:
             yield lambda text: report(f"{model.name}: {text}")
 
-    def derive(tell: Report) -> "Derivation":
+    def derive(notify: Report) -> "Derivation":
         with translated_errors(model):
-            return generate(model, parameter_derivatives=parameter_derivatives, tell=tell)
+            return generate(model, parameter_derivatives=parameter_derivatives, tell=notify)
 
     derived, said = None, identity(model)
     if said is None:
-        with shown() as tell:
-            derived = derive(tell)
+        with shown() as notify:
+            derived = derive(notify)
         said = identity_of_derived(derived)
     more = " with parameter_derivatives" if parameter_derivatives else ""
     key = fingerprint(said + more, built_by=built_by)
     target = kept / f"{model.name}-{key}"
     problem = damage(target)
     if problem and target.exists():
-        _tell_of_damage(target, problem)
+        _warn_of_damage(target, problem)
     if problem:
-        with appearing(target) as temporary, shown() as tell:
-            build(derived or derive(tell), temporary, compiler, name=target.name, report=tell)
+        with appearing(target) as temporary, shown() as notify:
+            build(derived or derive(notify), temporary, compiler, name=target.name, report=notify)
         refuse_damaged(target)
     return load(target)
 
@@ -163,19 +163,19 @@ def _compiler(backend: Backend) -> Compiler | None:
         message = f'there is no C compiler. {_REMEDY}; or use backend="numpy".'
         raise CompilerError(message)
     if compiler is None:
-        _tell_once()
+        _warn_once()
     return compiler
 
 
-def _tell_of_damage(target: Path, problem: str) -> None:
+def _warn_of_damage(target: Path, problem: str) -> None:
     message = f"{target}: {problem}. What was compiled before is damaged, and is made again."
     warnings.warn(message, RuntimeWarning, stacklevel=3)
 
 
-def _tell_once() -> None:
-    global _told  # noqa: PLW0603 (told once in a process)
-    if not _told:
-        _told = True
+def _warn_once() -> None:
+    global _warned  # noqa: PLW0603 (said once in a process)
+    if not _warned:
+        _warned = True
         warnings.warn(
             "there is no C compiler; NumPy evaluates the equations instead, with the same results "
             f"but slower. {_REMEDY}.",

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...core.arguments import Arguments, shown
 from ...core.errors import InputError, KintrafoError
-from ...core.files import told
+from ...core.files import as_input_errors
 from ...core.suggestions import suggestion
 from .loader import AsItIs, forget
 
@@ -128,7 +128,7 @@ def _run(path: Path) -> ModuleType:
     from ...generator import DeclarationError
 
     try:
-        with told(path, "cannot be read"):
+        with as_input_errors(path, "cannot be read"):
             source = path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
         problem = f"is no text in UTF-8 (byte {error.start}). Give a Python file."

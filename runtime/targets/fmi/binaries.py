@@ -62,16 +62,16 @@ def filled(content: bytes, token: str, values: Sequence[float]) -> bytes:
     start = content.index(MARK.encode())
     assert content.count(MARK.encode()) == 1
     numbers = struct.pack(f"<{len(values)}d", *values)
-    told = token.encode().ljust(_TOKEN_SIZE, b"\0") + numbers
+    text = token.encode().ljust(_TOKEN_SIZE, b"\0") + numbers
     at = start + _MARK_SIZE
-    return content[:at] + told + content[at + len(told) :]
+    return content[:at] + text + content[at + len(text) :]
 
 
 def _compiled(sources: Mapping[str, str], name: str, platform: str) -> bytes:
     """Return the library of a model, from the cache or compiled now."""
     compiler = _compiler(platform)
-    told = "\0".join((*sources, *sources.values(), *compiler.command, compiler.version))
-    folder = cache_folder() / f"unit_{name}-{hashlib.sha256(told.encode()).hexdigest()[:16]}"
+    text = "\0".join((*sources, *sources.values(), *compiler.command, compiler.version))
+    folder = cache_folder() / f"unit_{name}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     file = f"{name}{'.dll' if platform == 'windows' else '.so'}"
     if damage(folder):
         with appearing(folder) as temporary:

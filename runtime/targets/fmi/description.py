@@ -265,8 +265,8 @@ class Description:
 
     def token(self, version: int) -> str:
         """Return what the description and the library of one export have in common."""
-        told = repr((version, self.variables, self.crossings, self.manifest["mechanism"]))
-        digits = hashlib.sha256(told.encode()).hexdigest()
+        text = repr((version, self.variables, self.crossings, self.manifest["mechanism"]))
+        digits = hashlib.sha256(text.encode()).hexdigest()
         parts = (digits[a:b] for a, b in ((0, 8), (8, 12), (12, 16), (16, 20), (20, 32)))
         return f"{{{'-'.join(parts)}}}"
 

@@ -78,10 +78,10 @@ def _structure(root: ET.Element, known: Description) -> None:
         ("InitialUnknown", [*known.outputs, *known.rates]),
         ("EventIndicator", known.events),
     ):
-        told = f"{moving} {fixed}" if tag == "InitialUnknown" else moving
+        text = f"{moving} {fixed}" if tag == "InitialUnknown" else moving
         for variable in listed:
             row = element(structure, tag, {"valueReference": variable.reference})
-            row.set("dependencies", told.strip())
+            row.set("dependencies", text.strip())
 
 
 def build_description(known: Description, sources: Sequence[str]) -> str:

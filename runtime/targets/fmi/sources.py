@@ -69,9 +69,13 @@ def _text(file: Any) -> str:
 
 def _numbers(known: Description, token: str, values: list[float]) -> str:
     """Return the file of the numbers."""
-    told = {"title": known.emitted.title, "version": version("kintrafo"), "name": known.identifier}
+    entries = {
+        "title": known.emitted.title,
+        "version": version("kintrafo"),
+        "name": known.identifier,
+    }
     template = environment("fmi").get_template("numbers.c.jinja")
-    return template.render(told, mark=MARK, token=token, values=values)
+    return template.render(entries, mark=MARK, token=token, values=values)
 
 
 def _model(known: Description) -> str:

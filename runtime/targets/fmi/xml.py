@@ -17,8 +17,8 @@ def number(value: float) -> str:
 
 def element(parent: ET.Element, tag: str, attributes: Mapping[str, object]) -> ET.Element:
     """Add an element, with those of its attributes that are there."""
-    told = {name: str(value) for name, value in attributes.items() if value not in (None, "")}
-    return ET.SubElement(parent, tag, told)
+    entries = {name: str(value) for name, value in attributes.items() if value not in (None, "")}
+    return ET.SubElement(parent, tag, entries)
 
 
 def unit_definitions(parent: ET.Element, variables: Iterable[Variable]) -> None:

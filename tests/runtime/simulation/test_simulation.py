@@ -483,7 +483,7 @@ def test_without_sundials_the_user_is_told_once(monkeypatch):
     from kintrafo.simulation import solvers
 
     monkeypatch.setattr(solvers, "sundials", None)
-    monkeypatch.setattr(simulation, "_told", False)
+    monkeypatch.setattr(simulation, "_warned", False)
     with pytest.warns(RuntimeWarning, match="built without SUNDIALS") as told:  # noqa: PT031
         first = simulate(MODEL, (0, 0.1), START)
         second = simulate(MODEL, (0, 0.1), START)

@@ -114,7 +114,7 @@ def test_who_follows_the_advice_is_not_refused(
     """Whatever is linked, and whatever is asked for: what the message names instead is there."""
     linked = None if release == "none" else SimpleNamespace(version=lambda: release)
     monkeypatch.setattr(solvers, "sundials", linked)
-    monkeypatch.setattr(simulation, "_told", True)
+    monkeypatch.setattr(simulation, "_warned", True)
     model = SimpleNamespace(
         equations=SimpleNamespace(ADDRESSES={"rhs": 1} if compiled else {}),
         state_names=("q",) if moves else (),

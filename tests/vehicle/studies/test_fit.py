@@ -39,7 +39,7 @@ def test_known_errors_are_found() -> None:
     assert found.success
     assert found.moved[ROD] == pytest.approx(1.5, abs=0.01)
     assert found.moved[BALL] == pytest.approx(-1.0, abs=0.01)
-    assert all(part > 0.99 for part in found.told.values())
+    assert all(part > 0.99 for part in found.determined.values())
     assert all(curve.after < 0.02 * curve.before for curve in found.curves)
 
 
@@ -63,7 +63,7 @@ def test_small_errors_are_those_of_linear_regression() -> None:
     np.testing.assert_allclose(ours, mean, rtol=5e-3, atol=5e-4)
     np.testing.assert_allclose([found.uncertainty[p] for p in order], deviations, rtol=5e-3)
     told = [1.0 - (3.0 * d / tolerances[p]) ** 2 for p, d in zip(order, deviations, strict=True)]
-    np.testing.assert_allclose([found.told[p] for p in order], told, atol=5e-3)
+    np.testing.assert_allclose([found.determined[p] for p in order], told, atol=5e-3)
 
 
 def test_noise_leaves_what_is_told() -> None:
@@ -86,9 +86,9 @@ def test_what_curves_do_not_tell_stays() -> None:
     mass = "bodies.wheel.mass_kg"
     found = variation.fit(CAR, rig(AS_BUILT), {ROD: 3.0, BALL: 3.0, mass: 1.0}, accuracy=ACCURACY)
     assert found.moved[mass] == 0.0
-    assert found.told[mass] == pytest.approx(0.0, abs=1e-12)
+    assert found.determined[mass] == pytest.approx(0.0, abs=1e-12)
     assert found.uncertainty[mass] == pytest.approx(1.0 / 3.0)
-    assert found.message == f"the curves tell nothing of: {mass}"
+    assert found.message == f"the curves do not determine: {mass}"
 
 
 def test_what_is_beyond_tolerances_is_not_explained() -> None:
@@ -160,7 +160,7 @@ def test_the_command_tells_it(kintrafo: Any, tmp_path: Any) -> None:
     assert found.hardpoints.tie_rod_inner[2] == pytest.approx(281.5, abs=0.2)
     assert (tmp_path / "a.svg").stat().st_size > 1000
     code, out, _ = kintrafo("fit", *files, "--json")
-    assert (code, '"told"' in out) == (0, True)
+    assert (code, '"determined"' in out) == (0, True)
     (tmp_path / "t.toml").write_text(text.replace("3.0", "0.1"), encoding="utf-8")
     code, out, _ = kintrafo("fit", *files)
     assert (code, "not explained" in out) == (1, True)

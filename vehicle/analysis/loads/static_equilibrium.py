@@ -84,7 +84,7 @@ def static_equilibrium(assembly: Assembly, loads: WheelLoads) -> tuple[Array, li
         words = f"{' and '.join(one.wheels)}: " if several else ""
         why.append([reason and words + reason for reason in search.reasons])
         first = own.stop
-    reasons = ["; ".join(filter(None, told)) for told in zip(*why, strict=True)]
+    reasons = ["; ".join(filter(None, text)) for text in zip(*why, strict=True)]
     lost = np.array([bool(reason) for reason in reasons])
     return np.where(lost[:, None], np.nan, np.concatenate(found, axis=1)), reasons
 

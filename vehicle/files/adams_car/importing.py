@@ -209,19 +209,19 @@ def _assumed(
     rest: str,
 ) -> list[str]:
     """Return what the subsystem leaves open."""
-    told = [
+    lines = [
         "axes: x rearward, y to the right, z up, as is usual in Adams/Car",
         f"{'' if spring else 'spring, '}damper, masses, tyre, rack and vehicle: as in the {rest}",
         *([f"force of the spring: as in the {rest}"] if spring and spring.force is None else []),
         *([SMOOTH] if spring and spring.curve else []),
         *(f"{name}: as in the {rest}" for name in kept),
     ]
-    told += [
+    lines += [
         f"{key.removesuffix('_deg')}: {getattr(new.wheel, key):g} deg, as in the {rest}"
         for key in ANGLES.values()
         if key not in angles
     ]
-    return told + ground(new)
+    return lines + ground(new)
 
 
 def _left_out(subsystem: Subsystem, read: Mapping[str, str]) -> list[str]:

@@ -88,15 +88,15 @@ class DoubleWishbone(SuspensionFile, WishbonePoints):
 
     def problems(self) -> list[str]:
         """Say, besides, where the damper has no place."""
-        told = super().problems()
+        lines = super().problems()
         if self._is_apart() and not self._ratio() >= _LEAST_RATIO:
-            told.append(
+            lines.append(
                 f'"Shock > Location Chassis" = {list(self.shock.chassis)} m and "Location Arm" = '
                 f"{list(self.shock.arm)} m: between them the damper moves {self._ratio():.3g} "
                 "times as fast as the spring at design. Here both have the same points, "
                 f"and at least {_LEAST_RATIO:g} is needed. Correct them, or {POINTS_ONLY}."
             )
-        return told
+        return lines
 
     def forces(self) -> dict[str, Any]:
         """Return spring, damper and stops."""
@@ -111,13 +111,13 @@ class DoubleWishbone(SuspensionFile, WishbonePoints):
         if not self._is_apart():
             return of_curves
         ratio = self._ratio()
-        told = (
+        lines = (
             f"damper: between the points of the spring, with {ratio:.4g} times its force at "
             f"{1.0 / ratio:.4g} times its speed, which does the same at design as between its own, "
             f'"Shock > Location Chassis" = {list(self.shock.chassis)} and "Location Arm" = '
             f"{list(self.shock.arm)} m"
         )
-        return [told, *of_curves]
+        return [lines, *of_curves]
 
     def _damper(self) -> DamperLaw:
         """Return the damper between the points of the spring."""

@@ -73,13 +73,13 @@ class Element(Part):
 
     def problems(self) -> list[str]:
         """Say which of its laws there is no place for, and which exclude each other."""
-        told = [
+        lines = [
             f'"{self.NAME} > {given[0]}" is {law}, which cannot be read. Remove it and enter the '
             f'force over the speed as "Damping Curve Data", or {POINTS_ONLY}.'
             for keys, law in _LAWS.items()
             if (given := self.given(*keys))
         ]
-        return told + [
+        return lines + [
             f'"{self.NAME} > {keys[0]}" and "{keys[1]}" both give its force. Keep one of them.'
             for keys in (self.springs(), self.dampers())
             if len(keys) > 1
@@ -173,34 +173,34 @@ class DamperLaw(NamedTuple):
 
 def problems_of(spring: Spring, shock: Shock) -> list[str]:
     """Say why a spring and a damper have no place in this project's suspensions."""
-    told = [*spring.problems(), *shock.problems()]
+    lines = [*spring.problems(), *shock.problems()]
     if not spring.springs():
-        told.append('"Spring > Spring Coefficient" or "Spring Curve Data" is missing. Add one.')
+        lines.append('"Spring > Spring Coefficient" or "Spring Curve Data" is missing. Add one.')
     elif spring.free_length is None:
-        told.append('"Spring > Free Length" is missing. Add it, in m.')
+        lines.append('"Spring > Free Length" is missing. Add it, in m.')
     if spring.rate == 0.0 and spring.preload:
-        told.append(
+        lines.append(
             f'"Spring > Preload" = {spring.preload:g} N without a rate is a constant force, which '
             "has no place here. Remove it, or enter a rate."
         )
-    told += _problems_of_stops(spring)
+    lines += _problems_of_stops(spring)
     second = shock.springs() if shock.rate or shock.curve else []
     if shock.springs() and not second:  # without a rate, Chrono still has what else it has
         second = [*(["Preload"] if shock.preload else []), *(_STOPS if shock.stops() else ())]
     if second:
-        told.append(
+        lines.append(
             f'"Shock > {second[0]}" is a second spring, which has no place here. Remove '
             'it, as older versions of Chrono did not use it, or add it to the spring of "Spring".'
         )
     if spring.damping or spring.damping_curve:
         if shock.dampers():
-            told.append(
+            lines.append(
                 f'"Spring > {spring.dampers()[0]}" is a second damper, beside that of "Shock". '
                 "Remove it, as older versions of Chrono did not use it, or add it to the other."
             )
     elif not (shock.dampers() or shock.given("Map Data")):
-        told.append('"Shock > Damping Coefficient" or "Damping Curve Data" is missing. Add one.')
-    return told
+        lines.append('"Shock > Damping Coefficient" or "Damping Curve Data" is missing. Add one.')
+    return lines
 
 
 def _problems_of_stops(spring: Spring) -> list[str]:
@@ -254,18 +254,18 @@ def damper_law(spring: Spring, shock: Shock) -> DamperLaw:
 
 def words_of_curves(stops: Stops | None, spring: SpringLaw, damper: DamperLaw) -> list[str]:
     """Return how curves go on at their ends, and which points of a spring are left out."""
-    told = [stops.words()] if stops else []
+    lines = [stops.words()] if stops else []
     curves = {"spring": spring.curve if stops is None else (), "damper": damper.curve}
     named = [name for name, curve in curves.items() if curve]
     if named:
-        told.append(
+        lines.append(
             f"{' and '.join(named)}: beyond its curve the force goes on straight, where that of "
             "Chrono stays as at the end"
         )
     if spring.lost:
         points = ", ".join(f"{1e3 * x:g} mm: {force:g} N" for x, force in spring.lost)
-        told.append(
+        lines.append(
             f"spring: by {len(spring.curve)} points, as many as a curve may have; left out are "
             f"those of the greatest extension ({points})"
         )
-    return told
+    return lines

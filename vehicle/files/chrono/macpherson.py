@@ -89,15 +89,15 @@ class MacPhersonStrut(SuspensionFile, StrutPoints):
 
     def problems(self) -> list[str]:
         """Say, besides, where the damper has no place."""
-        told, off = super().problems(), self._off_the_axis()
+        lines, off = super().problems(), self._off_the_axis()
         if self.shock.dampers() and off > ON_THE_LINE:
-            told.append(
+            lines.append(
                 f'"Shock > Location Chassis" = {list(self.shock.chassis)} m and "Location Upright" '
                 f"= {list(self.shock.upright)} m are {1e3 * off:.3g} mm off the axis of the strut, "
                 f"which leads through those of the spring; allowed is {1e3 * ON_THE_LINE:g} mm. "
                 f"Correct them, or {POINTS_ONLY}."
             )
-        return told
+        return lines
 
     def forces(self) -> dict[str, Any]:
         """Return the strut with its spring and damper, and the stops."""
@@ -117,16 +117,16 @@ class MacPhersonStrut(SuspensionFile, StrutPoints):
 
     def left_open(self) -> list[str]:
         """Say what stroke the strut has, and along which line the damper acts."""
-        told = [f"strut: {1e3 * _STROKE:g} mm longer when fully extended than at design"]
+        lines = [f"strut: {1e3 * _STROKE:g} mm longer when fully extended than at design"]
         laws = spring_law(self.spring), damper_law(self.spring, self.shock)
-        told += words_of_curves(self.spring.stops(), *laws)
+        lines += words_of_curves(self.spring.stops(), *laws)
         ends = np.subtract(self.shock.chassis, self.spring.chassis)
         if self.shock.dampers() and np.linalg.norm(ends) > ON_THE_LINE:
-            told.append(
+            lines.append(
                 "damper: along the strut's axis in every position, as at design between its own "
                 f'points, "Shock > Location Chassis" = {list(self.shock.chassis)} m'
             )
-        return told
+        return lines
 
     def _off_the_axis(self) -> float:
         """Return how far the ends of the damper are from the strut's axis [m]."""

@@ -48,10 +48,10 @@ def with_points(
     for key, angle in alignment.items():
         put(document, ("wheel", key), angle)
     new = Suspension.from_dict(document.unwrap(), source=source)
-    told = [
+    lines = [
         f"spring, damper, masses, tyre and vehicle: as in the packaged {starter}",
         *(["damper: between the points of the spring"] if kind == "double_wishbone" else []),
         RACK,
         *moved,
     ]
-    return new, [*told, *ground(new)]
+    return new, [*lines, *ground(new)]

@@ -133,26 +133,26 @@ class SuspensionFile(PointsFile):
 
     def assumptions(self, tire: Tire) -> list[str]:
         """Return what the files leave open, a sentence each."""
-        told = [RACK]
+        lines = [RACK]
         given = "" if tire.rate is not None else f"{TYRE_RATE / 1e3:g} N/mm, "
-        told.append(f"tyre: {given}just touching at design")
+        lines.append(f"tyre: {given}just touching at design")
         if tire.is_usual:
-            told.append(
+            lines.append(
                 f"wheel: {USUAL.mass:g} kg, {USUAL.inertia[1]:g} kg m^2 about its axis and "
                 f"{USUAL.inertia[0]:g} kg m^2 across it; give a tire for its own"
             )
         else:
-            told.append(
+            lines.append(
                 f"tire: of the template {tire.template}, on a rim without mass, as the file of "
                 "Chrono's wheel is not read"
             )
         across, _, other = np.array(self.spindle.inertia) + tire.inertia
         if abs(across - other) > _ALIKE * max(across, other):
-            told.append(
+            lines.append(
                 f"wheel: {(across + other) / 2.0:g} kg m^2 across its axis, the mean of {across:g} "
                 f"and {other:g}"
             )
-        return told + self.left_open()
+        return lines + self.left_open()
 
     def _axes(self, arm: ControlArm) -> Any:
         return np.eye(3) if self.vehicle_axes else arm.axes()

@@ -168,9 +168,9 @@ def read_tire(path: str | Path) -> Tire:
     of_elements = f"tire: {USUAL.mass:g} kg and the inertia of a usual one, as its file has none"
     assumed = [] if places.mass else [of_elements]
     if "file" in there:
-        radius, told = _radius_in(Path(path).parent, str(_at(data, there["file"])))
+        radius, text = _radius_in(Path(path).parent, str(_at(data, there["file"])))
         tire = replace(tire, radius=radius if tire.radius is None else tire.radius)
-        assumed.append(told)
+        assumed.append(text)
     left = [f"tire > {line}" for line in listed(unread)]
     return replace(tire, assumed=tuple(assumed), left_out=tuple(left))
 
@@ -204,8 +204,8 @@ def _radius_in(folder: Path, name: str) -> tuple[float | None, str]:
     except InputError as error:
         radius, problem = math.nan, error.problems[0]
     if problem:
-        told = f"not known, since it is in {legible(short(name))}: {problem} Enter radius_mm"
-        return None, f"radius of the tire: {told} in [tyre]"
+        text = f"not known, since it is in {legible(short(name))}: {problem} Enter radius_mm"
+        return None, f"radius of the tire: {text} in [tyre]"
     return radius, f"tire: of {legible(short(name))} only UNLOADED_RADIUS is read"
 
 

@@ -356,8 +356,8 @@ def _problems_of_sides(axle: Axle) -> list[str]:
         right, left = (getattr(getattr(s, section), key) for s in (axle.right, axle.left))
         if right != left:
             problems.append(
-                f"[{section}] {key} is {_told(right)} in the file of the right side and "
-                f"{_told(left)} in that of the left: they have one of it. Make them equal."
+                f"[{section}] {key} is {_in_words(right)} in the file of the right side and "
+                f"{_in_words(left)} in that of the left: they have one of it. Make them equal."
             )
     return problems
 
@@ -368,7 +368,7 @@ def _apart(axle: Axle) -> bool:
     return bool(np.abs(right - left).max() > _SAME_AXIS)
 
 
-def _told(value: float | None) -> str:
+def _in_words(value: float | None) -> str:
     return "not given" if value is None else f"{value:g}"
 
 

@@ -96,7 +96,7 @@ class Hold:
             return []
         times = "without end" if firm < _NOTHING else f"{1.0 / firm:.0f} times that"
         problem = (
-            f"[rods] {', '.join(self.names)} hardly hold the axle, which moves {_told(free)}: if "
+            f"[rods] {', '.join(self.names)} hardly hold the axle, which moves {_said(free)}: if "
             f"a rod is a little longer, it moves {times}, at one height and inclination of the "
             f"axle; at most {_LOOSEST:g} times are allowed. Of the rods two or more must stop it "
             "along x and in pitch, and one or two triangulated ones along y: a Panhard rod, or "
@@ -131,7 +131,7 @@ class Hold:
             return f"{begin}none is left: the axle cannot move. Leave rods out."
         _, _, directions = np.linalg.svd(self.rows)
         return (
-            f"{begin}one is left, {_told(directions[-1])}: such an axle heaves and rolls only "
+            f"{begin}one is left, {_said(directions[-1])}: such an axle heaves and rolls only "
             "because its bushes deflect, and here rods are rigid. Leave one of the rods out: "
             "three links and a Panhard rod, or four links of which two are triangulated. Or "
             "describe "
@@ -139,7 +139,7 @@ class Hold:
         )
 
 
-def _told(motion: Array) -> str:
+def _said(motion: Array) -> str:
     """Return a motion of the beam in words: its largest part, and all of it in figures."""
     most = int(np.abs(motion).argmax())
     figures = (np.round(motion / motion[most], 2) + 0.0).tolist()
