@@ -96,7 +96,17 @@ def model_of(
         Whether what acts on the wheels are inputs.
     progress : callable, optional
         Called with what is being done, in a few words, where equations are derived.
+
+    Raises
+    ------
+    InputError
+        If it is something else, or a car with inputs that it does not have.
     """
+    with Arguments("model_of") as given:
+        kinds = (Suspension, Axle, WholeAxle, Car)
+        given.kind("subject", subject, kinds, "what kintrafo.load returns is needed")
+        given.flag("wheel_loads", wheel_loads)
+        given.function("progress", progress)
     if isinstance(subject, Car):
         if wheel_loads:
             raise InputError([_NO_WHEEL_LOADS], "CarModel")

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 import typer
 
 _UNITS = {
-    **{name.upper(): name for name in ("mm", "deg", "s", "ms", "km/h", "rev/s", "1/s", "kg")},
+    **{name.upper(): name for name in ("mm", "m", "deg", "s", "ms", "km/h", "rev/s", "1/s", "kg")},
     "HZ": "Hz",
     "N": "N",
 }
