@@ -16,6 +16,7 @@ from .forces.wheel_loads import WheelLoads
 from .formulation import Formulation
 from .geometry import FORWARD, UP, Direction, Line, Point
 from .inputs import Input, Motion
+from .internal_states import InternalState
 from .joints import (
     Cylindrical,
     Free,
@@ -32,6 +33,7 @@ from .laws import (
     Actuator,
     DamperTable,
     Friction,
+    LaggingDamper,
     LinearDamper,
     LinearSpring,
     SpringTable,
@@ -63,6 +65,7 @@ from .parameters import (
     Share,
     Speed,
     SpringRate,
+    TimeConstant,
     TorsionDamperRate,
     TorsionProgression,
     TorsionRate,
@@ -112,8 +115,10 @@ __all__ = [
     "Gravity",
     "Ground",
     "Input",
+    "InternalState",
     "Joint",
     "JointForce",
+    "LaggingDamper",
     "Lead",
     "Length",
     "Line",
@@ -143,6 +148,7 @@ __all__ = [
     "SpringTable",
     "Stop",
     "Surroundings",
+    "TimeConstant",
     "TorsionDamperRate",
     "TorsionProgression",
     "TorsionRate",

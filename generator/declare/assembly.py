@@ -12,6 +12,7 @@ from .declared import DeclarationError, Name, declared, parts
 from .forces import Force
 from .forces.force_element import ForceElement
 from .inputs import Input
+from .internal_states import InternalState
 from .joints import Cylindrical, Joint, RelativeCoordinate, Spherical, Universal
 from .outputs import Output
 from .parameters import Owner, Parameter
@@ -60,6 +61,11 @@ class Assembly:
     def every(self, kind: type[Any] | tuple[type[Any], ...]) -> list[Any]:
         """Return what there is of a kind in all that is declared, each once."""
         return [part for part in self._parts if isinstance(part, kind)]
+
+    @property
+    def internal_states(self) -> tuple[InternalState, ...]:
+        """The states that forces have of their own."""
+        return tuple(self.every(InternalState))
 
     @property
     def owners(self) -> tuple[Owner, ...]:

@@ -81,7 +81,8 @@ class Formulation:
     @property
     def states(self) -> StateLayout:
         """The layout of the state."""
-        return StateLayout.of(self.independent, self.mechanism.coordinates)
+        mechanism = self.mechanism
+        return StateLayout.of(self.independent, mechanism.coordinates, mechanism.internal_states)
 
     @property
     def motions(self) -> dict[str, Motion]:

@@ -13,9 +13,11 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 import sympy as sp
 
+from ...core.si_units import powers_of
 from ..program.functions import Positive
 from .declared import Count, DeclarationError, Name, declared
 from .inputs import Input
+from .internal_states import InternalState
 from .parameters import (
     Angle,
     AngularSpeed,
@@ -29,6 +31,7 @@ from .parameters import (
     Progression,
     Speed,
     SpringRate,
+    TimeConstant,
     TorsionDamperRate,
     TorsionProgression,
     TorsionRate,
@@ -104,6 +107,11 @@ class AnyLaw(ABC):
     @abstractmethod
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
+
+    def rates(self, at: Stretch) -> dict[str, sp.Expr]:
+        """Return the rates of its internal states, by name."""
+        del at
+        return {}
 
     def problems(self, path: AnyPath) -> list[str]:
         """Say what of it cannot be on a path."""
@@ -444,4 +452,61 @@ class Actuator(AnyLaw):
         return sp.Symbol(self.input.name)
 
 
-Law = LinearSpring | SpringTable | LinearDamper | DamperTable | Friction | Stop | Actuator
+@declared
+@dataclass(frozen=True)
+class LaggingDamper(AnyLaw):
+    """A damper whose force follows ``-rate velocity`` with a lag.
+
+    ``lag force' = -rate velocity - force``.
+
+    So does a damper in a row with a spring of the stiffness ``rate / lag``, as between soft bushes
+    (Maxwell's element): slow strokes feel the damper, fast ones the spring.
+
+    Parameters
+    ----------
+    rate
+        [N s/m]; of a twist, [N m s/rad].
+    lag
+        [s].
+    state
+        The force, an internal state [N or N m].
+    """
+
+    rate: DamperRate | TorsionDamperRate
+    lag: TimeConstant
+    state: InternalState
+
+    signal = "damper_force"
+    meaning = "damper force"
+
+    def told(self) -> str:
+        """Return what it is, and its formula."""
+        return f"{self.meaning} `{self.state.name}`, `-{self.rate.name}*velocity` with a lag"
+
+    def force(self, at: Stretch) -> sp.Expr:
+        """Return the force on the ends."""
+        del at
+        return self.state.symbol
+
+    def rates(self, at: Stretch) -> dict[str, sp.Expr]:
+        """Return the rate of the force."""
+        behind = -self.rate.symbol * at.velocity - self.state.symbol
+        return {self.state.name: behind / self.lag.symbol}
+
+    def problems(self, path: AnyPath) -> list[str]:
+        """See that the state is in the unit of the force."""
+        if powers_of(self.state.unit) == powers_of(path.words.unit):
+            return []
+        return [f"state {self.state.name!r} is in {self.state.unit}; {path.words.unit} is needed"]
+
+
+Law = (
+    LinearSpring
+    | SpringTable
+    | LinearDamper
+    | LaggingDamper
+    | DamperTable
+    | Friction
+    | Stop
+    | Actuator
+)

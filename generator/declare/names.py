@@ -79,18 +79,19 @@ def name_problems(mechanism: Assembly) -> list[str]:
         "parameter": [p.name for p in mechanism.parameters],
         "coordinate": coordinates,
         "input": mechanism.input_names,
+        "internal state": [s.name for s in mechanism.internal_states],
         "force": [name for kind, name in forces if kind == "force"],
         "output": [o.name for o in mechanism.outputs],
     }
     # what the code reads by its own name; other names have something before or behind them
-    read_alone = ("parameter", "coordinate", "input")
+    read_alone = ("parameter", "coordinate", "input", "internal state")
     problems = [p for kind in read_alone for n in kinds[kind] for p in _reserved(kind, n)]
     for kind, names in kinds.items():
         if kind != "joint":  # of joints there is no enumeration
             problems += _differ_in_case_only(kind, names)
     owners: dict[str, str] = {}
     rates = [f"{name}_rate" for name in coordinates]
-    read = {k: kinds[k] for k in ("parameter", "coordinate", "input")} | {"rate": rates}
+    read = {kind: kinds[kind] for kind in read_alone} | {"rate": rates}
     read["state of a free body"] = [
         entry.name
         for j in dict.fromkeys(mechanism.joints)
@@ -102,7 +103,7 @@ def name_problems(mechanism: Assembly) -> list[str]:
         for name in dict.fromkeys(names):
             if name in owners:
                 problems.append(
-                    f"{name!r} is the name of a {owners[name]} and of {_article(kind)}; "
+                    f"{name!r} is the name of {_article(owners[name])} and of {_article(kind)}; "
                     f"rename the {owners[name]}"
                 )
             owners.setdefault(name, kind)
@@ -143,6 +144,7 @@ def text_problems(mechanism: Assembly) -> list[str]:
         *((f"parameter {p.name!r}", (p.unit, p.meaning)) for p in mechanism.parameters),
         *((f"coordinate {c.name!r}", (c.unit, c.meaning)) for c in mechanism.coordinates),
         *((f"input {i.name!r}", (i.unit, i.meaning)) for i in mechanism.inputs),
+        *((f"internal state {s.name!r}", (s.unit, s.meaning)) for s in mechanism.internal_states),
         *((f"output {o.name!r}", [*_texts(o)]) for o in mechanism.outputs),
     ]
     problems = unwritable("title of the mechanism", mechanism.title)
@@ -181,5 +183,6 @@ def _article(kind: str) -> str:
     return {
         "rate": "the rate of a coordinate",
         "input": "an input",
+        "internal state": "an internal state",
         "derived": "a parameter of a copy",
     }.get(kind, f"a {kind}")

@@ -112,8 +112,11 @@ class Parameter(Owner):
     above: Number | None = None
     most: Number | None = None
 
-    of_angle: ClassVar[bool] = False
-    """Whether it is about an angle or a moment, where others are about a length or a force."""
+    of_angle: ClassVar[bool | None] = False
+    """Whether it is about an angle or a moment, where others are about a length or a force.
+
+    None: it is about neither.
+    """
 
     def __post_init__(self) -> None:
         problem = problem_of(self.unit)
@@ -148,7 +151,9 @@ class Quantity(Parameter):
 
     _bounds: ClassVar[dict[str, float]] = {}
 
-    def __init_subclass__(cls, *, unit: str, of_angle: bool = False, **bounds: float) -> None:
+    def __init_subclass__(
+        cls, *, unit: str, of_angle: bool | None = False, **bounds: float
+    ) -> None:
         super().__init_subclass__()
         cls.unit, cls.of_angle, cls._bounds = unit, of_angle, bounds
 
@@ -193,6 +198,10 @@ class Speed(Quantity, unit="m/s", above=0.0):
 
 class AngularSpeed(Quantity, unit="rad/s", above=0.0, of_angle=True):
     """An angular speed [rad/s], more than zero."""
+
+
+class TimeConstant(Quantity, unit="s", above=0.0, of_angle=None):
+    """The time of what follows with a lag [s], more than zero."""
 
 
 class Gravity(Quantity, unit="m/s^2", least=0.0):

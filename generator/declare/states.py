@@ -1,9 +1,10 @@
-"""The state of a formulation: its positions q, its speeds v, and how they are called.
+"""The state of a formulation: positions q, speeds v, internal states z, and how they are called.
 
 What a hinge or a guide does has one coordinate and its rate. A body that moves freely has seven
 positions, of which four are a unit quaternion, and six speeds in its own axes. Speeds are what
 velocities, the mass matrix and the forces are counted in; positions change by ``q' = N(q) v``,
-which is ``q' = v`` but for bodies that move freely (`kinematics.base`).
+which is ``q' = v`` but for bodies that move freely (`kinematics.base`). Forces may have internal
+states, of first order.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from .joints import Free, Joint
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from .internal_states import InternalState
     from .joints import RelativeCoordinate
 
 
@@ -60,22 +62,29 @@ class JointStates:
 
 @dataclass(frozen=True)
 class StateLayout:
-    """The state x = [q, v] of a formulation, joint by joint.
+    """The state x = [q, v, z] of a formulation.
 
     Attributes
     ----------
     joints
         The part of each independent joint, in their order.
+    internal
+        Those of forces.
     """
 
     joints: tuple[JointStates, ...]
+    internal: tuple[Entry, ...] = ()
 
     @classmethod
     def of(
-        cls, independent: Iterable[Joint], coordinates: Sequence[RelativeCoordinate]
+        cls,
+        independent: Iterable[Joint],
+        coordinates: Sequence[RelativeCoordinate],
+        internal: Iterable[InternalState],
     ) -> StateLayout:
         """Return the layout for independent joints, with the names of reported coordinates."""
-        return cls(tuple(_states_of(joint, coordinates) for joint in independent))
+        joints = tuple(_states_of(joint, coordinates) for joint in independent)
+        return cls(joints, tuple(Entry(s.name, s.unit, s.meaning) for s in internal))
 
     @property
     def positions(self) -> tuple[Entry, ...]:
@@ -90,7 +99,7 @@ class StateLayout:
     @property
     def entries(self) -> tuple[Entry, ...]:
         """All elements, in the order of the state."""
-        return (*self.positions, *self.speeds)
+        return (*self.positions, *self.speeds, *self.internal)
 
     @property
     def coordinates(self) -> tuple[str, ...]:

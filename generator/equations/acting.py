@@ -44,8 +44,9 @@ def acted(force: Force, at: Seen) -> Action:
             raise UnseenError(problem)
         forces = _all_spelled(at, action.forces, "the force along")
         values = _all_spelled(at, action.values, "the value")
+        rates = _all_spelled(at, action.rates, "the rate of")
         total = None if action.total is None else spelled(at.program.define, action.total)
-        return replace(action, forces=forces, values=values, total=total)
+        return replace(action, forces=forces, values=values, total=total, rates=rates)
 
 
 def shown_by(force: Force, at: Seen, action: Action) -> Iterator[Shown]:
@@ -115,7 +116,7 @@ def _problem(force: Force, at: Seen, action: Any) -> str:
     """Say what of an action is lost; nothing where nothing is."""
     if not isinstance(action, Action):
         return f"it returns {action!r}; an Action(forces) is needed"
-    for what in ("forces", "values"):
+    for what in ("forces", "values", "rates"):
         if not isinstance(getattr(action, what), Mapping):
             return f"the {what} of its Action are {getattr(action, what)!r}, and no dictionary"
     for name in action.forces:

@@ -141,7 +141,9 @@ class Dynamics:
     Attributes
     ----------
     accelerations
-        q'' by coordinate name.
+        v' by coordinate name.
+    internal_rates
+        z' by the names of internal states.
     """
 
     def __init__(self, moving: InMotion) -> None:
@@ -405,6 +407,34 @@ class Dynamics:
             for k in self.names:
                 if k in action.forces:
                     self._force[k] += action.forces[k]
+        self.internal_rates = self._rates_of_internal()
+
+    def _rates_of_internal(self) -> dict[str, sp.Expr]:
+        """Return the rates of internal states in their order; each is that of one force."""
+        names = [entry.name for entry in self.coordinates.states.internal]
+        given = [
+            (name, force)
+            for force, a in zip(self.mechanism.forces, self._actions, strict=True)
+            for name in a.rates
+        ]
+        problems = [
+            f"{' '.join(force.identity)}: a rate of {name!r}, which is no internal state of the "
+            "mechanism; have an InternalState among the fields of the force"
+            for name, force in given
+            if name not in names
+        ]
+        for name in names:
+            forces = [" ".join(force.identity) for known, force in given if known == name]
+            if len(forces) != 1:
+                found = f"rates by {' and '.join(forces)}" if forces else "no rate"
+                problems.append(
+                    f"internal state {name!r} has {found}; one force returns "
+                    f"Action(..., rates={{{name!r}: ...}})"
+                )
+        if problems:
+            raise DeclarationError(self.mechanism.name, problems)
+        rates = {name: rate for action in self._actions for name, rate in action.rates.items()}
+        return {name: self.program.define(f"{name}_rate", rates[name]) for name in names}
 
     def signals(self) -> Iterator[Shown]:
         """Yield what the forces show, force by force."""

@@ -398,6 +398,7 @@ class _Builder:
         program, speed_of = dynamics.program, self.states.speed_of
         rates = {f"d({name})/dt": rate for name, rate in dynamics.moving.rates().items()}
         rates |= {f"d({speed_of[k]})/dt": a for k, a in dynamics.accelerations.items()}
+        rates |= {f"d({name})/dt": rate for name, rate in dynamics.internal_rates.items()}
         what = f" with {variant.replace('_', ' ')}" if variant else ""
         rhs, jacobian = ("_".join(filter(None, (n, variant))) for n in ("rhs", "rhs_jacobian"))
         self.variant_of |= dict.fromkeys((rhs, jacobian), variant)
@@ -410,7 +411,11 @@ class _Builder:
     ) -> None:
         program = dynamics.program
         program.section(f"derivatives of {rhs}")
-        values = [*dynamics.moving.rates().values(), *dynamics.to_differentiate().values()]
+        values = [
+            *dynamics.moving.rates().values(),
+            *dynamics.to_differentiate().values(),
+            *dynamics.internal_rates.values(),
+        ]
         self._add_derivatives(program, jacobian, f"of {rhs}", values, labels, "state")
         if rhs == "rhs":
             name = "rhs_input_jacobian"

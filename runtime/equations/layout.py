@@ -1,4 +1,4 @@
-"""The state of a mechanism: positions q, then speeds v, with q' = N(q) v."""
+"""The state of a mechanism: positions q, then speeds v, with q' = N(q) v, then internal states."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -18,7 +18,8 @@ class StateLayout:
     """How a state is made up.
 
     Most coordinates are positions whose rates are speeds. A body that moves freely in the world has
-    seven positions, of which the last four are a quaternion, and six speeds in its own axes.
+    seven positions, of which the last four are a quaternion, and six speeds in its own axes. Behind
+    the speeds come internal states of forces.
 
     Attributes
     ----------

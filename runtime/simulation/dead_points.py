@@ -110,7 +110,7 @@ class Approach:
         """Return the rates of the positions of a state that the model takes."""
         positions = self._layout.positions
         if not self._layout.free:
-            return state[positions:]
+            return state[positions : 2 * positions]
         return self._model.evaluate("rhs", state, self._inputs_at(time))[:positions]
 
     def doubt(self, now: Array, gained: Array, lapse: float, step: float) -> int | None:

@@ -75,36 +75,42 @@ def rest(
     held = inputs_of(start, system.names_of_states)
     known = {} if held is None else dict(zip(system.input_names, held.tolist(), strict=True))
     own = system.inputs({**known, **acting})
-    search = _Search(system, own)
-    position = search.from_position(np.array(state[: system.layout.positions]))
-    return State.of(search.at_rest(position), own, system.names_of_states)
+    found = _Search(system, own).from_state(np.array(state))
+    return State.of(found, own, system.names_of_states)
 
 
 class _Search:
-    """Newton's method on the accelerations of a system under some inputs, at rest."""
+    """Newton's method on the accelerations of a system under some inputs, at rest.
+
+    Unknown are the positions and the internal states of forces, whose rates vanish as well.
+    """
 
     def __init__(self, system: System, inputs: Array) -> None:
         self._system, self._inputs, self._layout = system, inputs, system.layout
+        positions = self._layout.positions
+        self._speeds = slice(positions, positions + self._layout.speeds)
 
-    def from_position(self, position: Array) -> Array:
-        position = self._layout.normalised(position)
-        left = self._accelerations(position)
+    def from_state(self, state: Array) -> Array:
+        """Return the state of rest that is found from one near it, whatever its speeds are."""
+        state = self._layout.normalised(state)
+        state[self._speeds] = 0.0
+        left = self._accelerations(state)
         for _ in range(_MOST_STEPS):
-            slopes, directions = self._slopes(position)
+            slopes, directions = self._slopes(state)
             step = np.asarray(-np.linalg.pinv(slopes, rcond=_NOTHING) @ left)
-            position, left, part = self._shortened(position, left, directions @ step)
+            state, left, part = self._shortened(state, left, directions @ step)
             if np.abs(part * step).max(initial=0.0) <= _LAST_STEP:
                 break
         # what no step can take away is no rounding
         if np.abs(left).max(initial=0.0) > _NOTHING * max(1.0, np.abs(slopes).max(initial=0.0)):
-            self._refuse(position, left)
-        return position
+            self._refuse(state, left)
+        return state
 
-    def _shortened(self, position: Array, left: Array, step: Array) -> tuple[Array, Array, float]:
+    def _shortened(self, state: Array, left: Array, step: Array) -> tuple[Array, Array, float]:
         """Return where a step leads, halved until it leads nearer; or nowhere."""
         part = 1.0
         for _ in range(_HALVINGS):
-            moved = self._layout.normalised(position + part * step)
+            moved = self._layout.normalised(state + part * step)
             try:
                 after = self._accelerations(moved)
             except ModelError:
@@ -113,32 +119,34 @@ class _Search:
             if np.linalg.norm(after) < np.linalg.norm(left):
                 return moved, after, part
             part *= 0.5
-        return position, left, 0.0
+        return state, left, 0.0
 
-    def at_rest(self, position: Array) -> Array:
-        """Return the state of a position, with all speeds zero."""
-        return np.concatenate([position, np.zeros(len(self._system.state_names) - position.size)])
+    def _accelerations(self, state: Array) -> Array:
+        rates = self._system.evaluate("rhs", state, self._inputs)
+        return rates[self._layout.positions :]
 
-    def _accelerations(self, position: Array) -> Array:
-        rates = self._system.evaluate("rhs", self.at_rest(position), self._inputs)
-        return rates[position.size :]
+    def _slopes(self, state: Array) -> tuple[Array, Array]:
+        """Return how accelerations change with the unknowns, and how the state does."""
+        jacobian = self._system.evaluate("rhs_jacobian", state, self._inputs)
+        positions, speeds = self._layout.positions, self._layout.speeds
+        directions = np.zeros((len(jacobian), len(jacobian) - positions))
+        directions[:positions, :speeds] = jacobian[:positions, self._speeds]
+        directions[positions + speeds :, speeds:] = np.eye(len(jacobian) - positions - speeds)
+        return jacobian[positions:] @ directions, directions
 
-    def _slopes(self, position: Array) -> tuple[Array, Array]:
-        """Return the slopes of the accelerations along what speeds change, and the latter."""
-        slopes = self._system.evaluate("rhs_jacobian", self.at_rest(position), self._inputs)
-        directions = slopes[: position.size, position.size : position.size + self._layout.speeds]
-        return slopes[position.size :, : position.size] @ directions, directions
-
-    def _refuse(self, position: Array, left: Array) -> None:
-        described = self._system.equations.STATE
-        values = dict(zip(self._system.state_names, position.tolist(), strict=False))
+    def _refuse(self, state: Array, left: Array) -> None:
+        described, positions = self._system.equations.STATE, self._layout.positions
+        names = self._system.state_names
+        values = dict(zip(names[:positions], state.tolist(), strict=False))
         worst = int(np.abs(left).argmax())
         own = {speed: place for place, speed in self._layout.own}
-        name = self._system.state_names[own.get(worst, position.size + worst)]
-        unit = described[name]["unit"].removesuffix("/s")
+        name = names[own.get(worst, positions + worst)]
+        unit = described[name]["unit"]
+        rate = f"is still accelerated by {left[worst]:.3g} {unit}/s^2"
+        if worst not in own:
+            rate = f"still changes by {left[worst]:.3g} ({unit})/s"
         words = (
-            f"no rest was found: at {located(values, described)}, {name} is still accelerated by "
-            f"{left[worst]:.3g} {unit}/s^2. Begin nearer to it, with other inputs, or see "
-            "whether there is one."
+            f"no rest was found: at {located(values, described)}, {name} {rate}. Begin nearer to "
+            "it, with other inputs, or see whether there is one."
         )
         raise InputError([words], "rest")

@@ -34,11 +34,14 @@ class Action:
         What its signals will show, by name.
     total
         Of what pushes two ends apart: with how much [N or N m].
+    rates
+        Of each of its internal states the rate, by name.
     """
 
     forces: dict[str, sp.Expr]
     values: dict[str, sp.Expr] = field(default_factory=dict)
     total: sp.Expr | None = None
+    rates: dict[str, sp.Expr] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

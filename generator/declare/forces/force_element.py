@@ -55,7 +55,7 @@ class ForceElement(Force):
             f"{wanted}"
             for law in self.laws
             for number in vars(law).values()
-            if isinstance(number, Parameter) and number.of_angle != self.turns
+            if isinstance(number, Parameter) and number.of_angle not in (None, self.turns)
         ]
         problems += [
             f"input {given.name!r} is in {given.unit}; {self.path.words.unit} is needed"
@@ -121,7 +121,8 @@ class ForceElement(Force):
             values[shown] = program.define(shown, own)
             total += values[shown]
         total = program.define(f"{name}_total_force", total)
-        return Action({k: total * m for k, m in course.motion.items()}, values, total)
+        own = {state: rate for law in self.laws for state, rate in law.rates(stretch).items()}
+        return Action({k: total * m for k, m in course.motion.items()}, values, total, own)
 
     def _by_signal(self, mechanism: Whole) -> dict[str, list[Law]]:
         """Return the laws by the names of their signals; those of one name are shown together."""
