@@ -30,6 +30,7 @@ from . import (
     simulate,
     sweep,
     tolerance,
+    tyre,
 )
 from .numbers import explained
 from .option_groups import with_groups
@@ -82,7 +83,7 @@ class _Command(TyperCommand):
 # In the order in which an engineer needs them.
 _PANELS = {
     "Begin": (new, import_, check),
-    "Compute": (characteristics, simulate, ride, loads, compliance, sheet, compare),
+    "Compute": (characteristics, simulate, ride, loads, compliance, sheet, compare, tyre),
     "Design": (sensitivity, tolerance, optimise, pareto, fit, sweep),
     "Hand over": (report, export),
 }

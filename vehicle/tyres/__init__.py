@@ -5,13 +5,24 @@
 `tmeasy`          TMeasy, from files of Project Chrono
 `linear`          linear up to the friction
 `tir_file`        property files, and `coefficients`, what is in them
+`figures`         key figures over load
 `loading`         whatever file a tyre is in
 """
 
+from .figures import key_figures, tabulated
 from .linear import LinearSlip
 from .loading import load
 from .magic_formula import MagicFormula
 from .tmeasy import TMeasy
 from .tyre import Tyre, TyreState
 
-__all__ = ["LinearSlip", "MagicFormula", "TMeasy", "Tyre", "TyreState", "load"]
+__all__ = [
+    "LinearSlip",
+    "MagicFormula",
+    "TMeasy",
+    "Tyre",
+    "TyreState",
+    "key_figures",
+    "load",
+    "tabulated",
+]

@@ -1,0 +1,62 @@
+"""``kintrafo tyre``: key figures of a tyre, and its curves."""
+
+from typing import Annotated
+
+from ...terminal.console import print_json, print_table, say
+from .options import argument, option
+from .outputs import BarOptions, name_files, title_of
+
+EXAMPLES = (
+    "kintrafo tyre passenger_205_55",
+    "kintrafo tyre passenger_205_55 --load 2000,4000 --plot tyre.pdf",
+    "kintrafo tyre passenger_205_55 -o tyre.csv",
+)
+
+
+def command(
+    file: Annotated[
+        str, argument("Property file (.tir), TMeasy tyre (.json), or a packaged name.", "TYRE")
+    ],
+    *,
+    load: Annotated[
+        list[str] | None,
+        option("At these loads [N]; half, once and 1.5 times the nominal one.", "NUMBER,..."),
+    ] = None,
+    output: BarOptions,
+) -> None:
+    """Print stiffnesses, friction, load sensitivity and lengths of a tyre; --plot draws its curves.
+
+    At the speed and the pressure of the file, in the axes of ISO 8855. Keys of the file that are
+    not used are listed.
+    """
+    from ...core.arguments import Arguments
+    from ...datasets import export
+    from ..tyres import key_figures, tabulated
+    from ..tyres import load as load_tyre
+
+    outputs = output.files(file)
+    tyre = load_tyre(file)
+    with Arguments("tyre") as given:
+        loads = [given.number("--load", _number(text), "N") for text in load or ()]
+    found = key_figures(tyre, loads or None)
+    written = outputs.write_data(found)
+    if outputs.pages:
+        from ..plots.tyres import write_tyre
+
+        written += outputs.draw(write_tyre, tyre, title=f"{title_of(file)}, {tyre.name}")
+    if output.json:
+        print_json(export.as_dict(found))
+        return
+    print_table(tabulated(found, f"{title_of(file)}: "))
+    for line in tyre.assumed:
+        say(f"Assumed: {line}")
+    for line in tyre.left_out:
+        say(f"Not used: {line}")
+    name_files(written)
+
+
+def _number(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text

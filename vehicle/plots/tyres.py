@@ -1,0 +1,155 @@
+"""Curves of a tyre: forces and moment over slip, by load and camber, and combined slip."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ...core.files import Paths
+from ...pictures.figures import BLUE, GREEN, ORANGE
+from ..tyres import Tyre
+from .panels import write_panels
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_POINTS = 241
+_COLOURS = (BLUE, ORANGE, GREEN, "#cc79a7")
+_LOADS = (0.5, 1.0, 1.5)
+_ANGLES = (0.0, 2.0, 4.0, 8.0)  # of combined slip [deg]
+_CAMBERS = (-4.0, 0.0, 4.0)  # [deg]
+_WIDEST = 20.0  # slip angle that is drawn [deg]
+_DASHES = ("-", "--", ":", "-.")
+
+
+def write_tyre(
+    tyre: Tyre,
+    path: str | Path,
+    *,
+    title: str = "",
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write curves of a tyre: forces and aligning moment over slip, at several loads and cambers.
+
+    Parameters
+    ----------
+    tyre : Tyre
+    path : str or pathlib.Path
+        The ending is the format: ``.png``, ``.svg`` or ``.pdf``.
+    title : str, optional
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InputError
+        If the file must not or cannot be written.
+    """
+    drawn = _Curves(tyre)
+    panels: dict[str, Callable[[Axes], None]] = {
+        "side": drawn.side,
+        "along": drawn.along,
+        "moment": drawn.moment,
+        "combined": drawn.combined,
+        "camber": drawn.camber,
+        "stiffness": drawn.stiffness,
+    }
+    return write_panels(
+        lambda axes, name: panels[name](axes),
+        [*panels],
+        path,
+        height=3.2,
+        title=title,
+        force=force,
+        inputs=inputs,
+    )
+
+
+class _Curves:
+    """The panels of a tyre; one colour a load, one dash a slip angle or a camber."""
+
+    def __init__(self, tyre: Tyre) -> None:
+        low, high = tyre.ranges.get("load", (0.0, np.inf))
+        loads = np.clip(np.multiply(_LOADS, tyre.nominal_load), max(low, 1.0), high)
+        self._tyre, self._loads = tyre, list(dict.fromkeys(loads.tolist()))
+        ends = tyre.ranges.get("slip_angle", (-0.5, 0.5))
+        widest = min(_WIDEST, float(np.degrees(min(map(abs, ends)))))
+        self._angles = np.linspace(-widest, widest, _POINTS)
+        slips = tyre.ranges.get("slip", (-1.0, 1.0))
+        self._slips = np.linspace(max(slips[0], -1.0), min(slips[1], 1.0), _POINTS)
+
+    def _over_angle(self, axes: Axes, what: str, label: str) -> None:
+        for load, colour in zip(self._loads, _COLOURS, strict=False):
+            found = vars(self._tyre.evaluate(load, np.radians(self._angles)))[what]
+            scale = 1.0 if what == "mz" else 1e-3
+            axes.plot(self._angles, found * scale, color=colour, label=f"{load:.0f} N")
+        axes.set_xlabel("slip angle [deg], positive moving left")
+        axes.set_ylabel(label)
+
+    def side(self, axes: Axes) -> None:
+        """Draw the lateral force over the slip angle."""
+        self._over_angle(axes, "fy", "lateral force [kN], positive left")
+
+    def moment(self, axes: Axes) -> None:
+        """Draw the aligning moment over the slip angle."""
+        self._over_angle(axes, "mz", "aligning moment [N m]")
+
+    def along(self, axes: Axes) -> None:
+        """Draw the longitudinal force over the slip."""
+        for load, colour in zip(self._loads, _COLOURS, strict=False):
+            found = self._tyre.evaluate(load, slip=self._slips).fx
+            axes.plot(100.0 * self._slips, 1e-3 * found, color=colour, label=f"{load:.0f} N")
+        axes.set_xlabel("slip [%], positive in driving")
+        axes.set_ylabel("longitudinal force [kN]")
+
+    def combined(self, axes: Axes) -> None:
+        """Draw lateral over longitudinal force at the nominal load, at several slip angles."""
+        load = self._tyre.nominal_load
+        for angle, dash in zip(_ANGLES, _DASHES, strict=True):
+            found = self._tyre.evaluate(load, np.radians(angle), self._slips)
+            label = f"slip angle {angle:g} deg"
+            axes.plot(1e-3 * found.fx, 1e-3 * found.fy, dash, color="black", label=label)
+        axes.set_xlabel("longitudinal force [kN]")
+        axes.set_ylabel(f"lateral force [kN], at {load:.0f} N")
+        axes.set_aspect("equal", adjustable="datalim")
+
+    def camber(self, axes: Axes) -> None:
+        """Draw the lateral force over small slip angles at several cambers."""
+        load, small = self._tyre.nominal_load, self._angles[np.abs(self._angles) <= 6.0]
+        low, high = self._tyre.ranges.get("camber", (-np.inf, np.inf))
+        for camber, dash in zip(_CAMBERS, _DASHES, strict=False):
+            if low <= np.radians(camber) <= high:
+                found = self._tyre.evaluate(load, np.radians(small), camber=np.radians(camber))
+                label = f"camber {camber:g} deg"
+                axes.plot(small, 1e-3 * found.fy, dash, color="#777777", label=label)
+        axes.set_xlabel("slip angle [deg]; camber is positive with the top to the right")
+        axes.set_ylabel(f"lateral force [kN], at {load:.0f} N")
+
+    def stiffness(self, axes: Axes) -> None:
+        """Draw cornering stiffness and relaxation length over the load."""
+        loads = np.linspace(0.1, 1.0, 60) * self._loads[-1] / _LOADS[-1] * 2.0
+        low, high = self._tyre.ranges.get("load", (0.0, np.inf))
+        loads = loads[(loads >= low) & (loads <= high)]
+        found = self._tyre.evaluate(loads)
+        per_degree = np.pi / 180.0
+        axes.plot(
+            1e-3 * loads, per_degree * found.cornering_stiffness, color="black",
+            label="cornering stiffness [N/deg]",
+        )  # fmt: skip
+        axes.set_xlabel("load [kN]")
+        axes.set_ylabel("cornering stiffness [N/deg]")
+        if np.isfinite(found.relaxation_y).all():
+            axes.plot(
+                1e-3 * loads, 1e3 * found.relaxation_y, "--", color="black",
+                label="lateral relaxation length [mm]",
+            )  # fmt: skip
+            axes.set_ylabel("stiffness [N/deg], length [mm]")
+        axes.set_ylim(bottom=0.0)

@@ -1,0 +1,161 @@
+"""Key figures of a tyre over its load: stiffness, friction, load sensitivity, lengths."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...core.arguments import Arguments
+from ...core.quantities import variable
+from ...core.tabulated import Tabulated, significant
+from .tyre import Array, Tyre
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_POINTS = 1201
+_GREATEST = {"slip_angle": 0.5, "slip": 1.0}  # where the file has no range
+_SMALL = 1e-4  # inclination of the camber stiffness [rad]
+_SHARES = (0.5, 1.0, 1.5)
+_PER_DEGREE = np.pi / 180.0
+_STEP = 0.05  # of the load, for the load sensitivity
+
+
+def key_figures(tyre: Tyre, loads: Any = None) -> "xr.Dataset":
+    """Return stiffnesses, friction, load sensitivity and lengths of a tyre over its load.
+
+    Parameters
+    ----------
+    tyre : Tyre
+    loads : array_like, optional
+        [N], in the range of the tyre; half, once and one and a half times the nominal load unless
+        given.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``load`` [N], at the speed and the pressure of the file: ``cornering_stiffness``
+        [N/rad], ``slip_stiffness`` [N], ``camber_stiffness`` [N/rad], ``friction_lateral``,
+        ``friction_driving`` and ``friction_braking``, greatest forces over the load, with
+        ``angle_of_friction`` [rad], ``slip_of_driving`` and ``slip_of_braking`` where they are;
+        ``load_sensitivity``, the change of the lateral friction for a unit of load [1/N];
+        ``trail`` [m], ``relaxation_x``, ``relaxation_y`` [m], ``loaded_radius``,
+        ``effective_radius`` [m] and ``vertical_stiffness`` [N/m].
+
+    Raises
+    ------
+    InputError
+        If a load is none, or outside the range of the tyre.
+    """
+    from xarray import Dataset  # noqa: PLC0415 (slow to import)
+
+    with Arguments("key_figures") as given:
+        given.kind("tyre", tyre, Tyre, "a tyre is needed, such as kintrafo.tyres.load returns")
+    low, high = tyre.ranges.get("load", (0.0, np.inf))
+    usual = np.clip(np.multiply(_SHARES, tyre.nominal_load), low, high)
+    with Arguments("key_figures") as given:
+        chosen = given.array("loads", usual if loads is None else loads, "N", dimensions=(1,))
+        if not given.refused and (chosen.min() < max(low, 1.0) or chosen.max() > high):
+            given.refuse(f"loads: from {max(low, 1.0):g} to {high:g} N the tyre is known.")
+    at_zero = tyre.evaluate(chosen)
+    leaning = [tyre.evaluate(chosen, camber=side * _SMALL).fy for side in (-1.0, 1.0)]
+    lateral, angle = _friction(tyre, chosen, "slip_angle", 0)
+    driving, slip = _friction(tyre, chosen, "slip", 1)
+    braking, braked = _friction(tyre, chosen, "slip", -1)
+    around = np.clip([chosen * (1.0 - _STEP), chosen * (1.0 + _STEP)], low, high)
+    sides = [_friction(tyre, load, "slip_angle", 0)[0] for load in around]
+    values = {
+        "cornering_stiffness": (at_zero.cornering_stiffness, "cornering stiffness", "N/rad"),
+        "slip_stiffness": (at_zero.slip_stiffness, "slip stiffness", "N"),
+        "camber_stiffness": (
+            (leaning[0] - leaning[1]) / (2.0 * _SMALL),
+            "camber stiffness, positive with the force to where the top leans",
+            "N/rad",
+        ),
+        "friction_lateral": (lateral, "greatest lateral force over load", "1"),
+        "angle_of_friction": (angle, "slip angle of it", "rad"),
+        "load_sensitivity": (
+            (sides[1] - sides[0]) / (around[1] - around[0]),
+            "change of lateral friction for a unit of load",
+            "1/N",
+        ),
+        "friction_driving": (driving, "greatest driving force over load", "1"),
+        "slip_of_driving": (slip, "slip of it", "1"),
+        "friction_braking": (braking, "greatest braking force over load", "1"),
+        "slip_of_braking": (braked, "slip of it", "1"),
+        "trail": (at_zero.trail, "pneumatic trail without slip", "m"),
+        "relaxation_x": (at_zero.relaxation_x, "longitudinal relaxation length", "m"),
+        "relaxation_y": (at_zero.relaxation_y, "lateral relaxation length", "m"),
+        "loaded_radius": (at_zero.loaded_radius, "loaded radius", "m"),
+        "effective_radius": (at_zero.effective_radius, "effective rolling radius", "m"),
+        "vertical_stiffness": (at_zero.vertical_stiffness, "vertical stiffness", "N/m"),
+    }
+    return Dataset(
+        {name: variable("load", *described) for name, described in values.items()},
+        {"load": variable("load", chosen, "load", "N")},
+        {"title": f"key figures of a tyre, {tyre.name}"},
+    )
+
+
+def _friction(tyre: Tyre, loads: Array, over: str, way: int) -> tuple[Array, Array]:
+    """Return the greatest force over the load, and where it is; of the lateral one both ways."""
+    low, high = tyre.ranges.get(over, (-_GREATEST[over], _GREATEST[over]))
+    start, end = (low, high) if way == 0 else (0.0, high if way > 0 else low)
+    along = np.linspace(start, end, _POINTS)
+    if over == "slip_angle":
+        forces = np.abs(tyre.evaluate(loads[:, None], along).fy)
+    else:
+        forces = np.abs(tyre.evaluate(loads[:, None], slip=along).fx)
+    index = np.argmax(forces, axis=1)
+    places = np.arange(len(loads))
+    return forces[places, index] / loads, np.abs(along[index]) * (1.0 if way >= 0 else -1.0)
+
+
+def tabulated(found: "xr.Dataset", head: str = "") -> Tabulated:
+    """Return key figures as a table.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        From `key_figures`.
+    head : str, optional
+        Begins the title.
+
+    Returns
+    -------
+    Tabulated
+    """
+    loads = [f"{load:.0f} N" for load in found["load"].values]
+    rows = []
+    for name, data in found.data_vars.items():
+        unit, scale = _SHOWN.get(str(name), (str(data.attrs["units"]), _same))
+        cells = [significant(scale(float(value))) for value in data.values]
+        rows.append((str(data.attrs["long_name"]), "-" if unit == "1" else unit, *cells))
+    title = f"{head}{found.attrs['title']}"
+    columns = ("at zero camber", "unit", *loads)
+    return Tabulated(title, columns, tuple(rows), frozenset({0, 1}))
+
+
+def _same(value: float) -> float:
+    return value
+
+
+def _thousand(value: float) -> float:
+    return 1e3 * value
+
+
+def _per_degree(value: float) -> float:
+    return value * _PER_DEGREE
+
+
+_SHOWN: dict[str, tuple[str, Callable[[float], float]]] = {
+    "cornering_stiffness": ("N/deg", _per_degree),
+    "camber_stiffness": ("N/deg", _per_degree),
+    "angle_of_friction": ("deg", lambda value: value / _PER_DEGREE),
+    "load_sensitivity": ("1/kN", _thousand),
+    "vertical_stiffness": ("N/mm", lambda value: 1e-3 * value),
+    **dict.fromkeys(
+        ("trail", "relaxation_x", "relaxation_y", "loaded_radius", "effective_radius"),
+        ("mm", _thousand),
+    ),
+}
