@@ -216,7 +216,7 @@ def coarse_report(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let reports have few positions, where the numbers between them do not matter."""
     from kintrafo.vehicle.report.grid import Axis, Grid
 
-    grid = Grid(Axis(-0.05, 0.025, 5), Axis(-0.04, 0.02, 5))
+    grid = Grid(Axis(-0.03, 0.015, 5), Axis(-0.03, 0.015, 5))
     monkeypatch.setattr("kintrafo.vehicle.report.page.reachable_grid", lambda _: grid)
 
 

@@ -13,7 +13,7 @@ from kintrafo.pictures.figures import STYLE, save
 from kintrafo.vehicle.plots.curves import figure
 from matplotlib import rc_context
 
-PAGE = Path(__file__).parent.parent / "axles.md"
+PAGE = Path(__file__).parent.parent / "suspension/characteristics.md"
 DRAWN = {"bump": "camber", "roll": "roll_stiffness"}
 
 

@@ -11,7 +11,6 @@ from ...core.vectors import distance_from_line
 from ..assembly import wheel
 from ..assembly.corner_kinematics import corner
 from ..assembly.equilibrium import equilibrium
-from ..corner.facts import Extended
 from ..models.model import Model
 from ..models.plausibility import plausibility
 from ..models.positions import PositionError, Range, design_height, travel_range
@@ -19,8 +18,10 @@ from . import paper
 
 Array = NDArray[np.float64]
 
-# Less travel than this between design and an end is worth a word [m].
-_LITTLE_TRAVEL = 0.040
+# Less travel than this between design and an end is noted, as a part of the height of the wheel
+# centre: 40 mm of a passenger car (300 mm), 27 mm of a Formula Student car (200 mm; its rules ask
+# for 25 mm).
+_LITTLE_TRAVEL = 0.04 / 0.3
 # So far from design, the wheel's place at rest is worth a word [m].
 _FAR_FROM_DESIGN = 0.005
 
@@ -136,7 +137,7 @@ def facts_of(model: Model) -> WheelFacts:
         extension_travel=extension,
         equilibrium=rest,
         problems=(*seen.problems, *problems),
-        notes=(*seen.notes, *_notes(model.suspension.extended(), travel, rest, extension)),
+        notes=(*seen.notes, *_notes(model, travel, rest, extension)),
     )
 
 
@@ -234,15 +235,16 @@ def _extension_travel(model: Model, reach: Range) -> float | None:
 
 
 def _notes(
-    extended: Extended | None,
+    model: Model,
     travel: tuple[float, float],
     rest: RestFacts | None,
     extension: float | None,
 ) -> list[str]:
+    extended = model.suspension.extended()
     notes = [
         f"only {abs(end) * 1e3:.1f} mm of {name} can be reached from design."
         for end, name in zip(travel, ("rebound", "bump"), strict=True)
-        if abs(end) < _LITTLE_TRAVEL
+        if abs(end) < _LITTLE_TRAVEL * design_height(model)
     ]
     if rest is None:
         return notes

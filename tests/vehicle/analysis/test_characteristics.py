@@ -742,4 +742,5 @@ def test_examples_of_the_page_run(capsys):
         exec(block, names)
     printed = capsys.readouterr().out.splitlines()
     assert float(printed[0]) == pytest.approx(np.deg2rad(-0.9139), abs=1e-6)
-    assert printed[1:] == ["positive with the top outboard", "12.35 Hz, damping ratio 0.233"]
+    assert printed[1] == "positive with the top outboard"
+    assert printed[-1] == "12.35 Hz, damping ratio 0.233"

@@ -77,7 +77,7 @@ def test_without_friction_nothing_else_changes(name):
 
 def test_the_page_has_the_ranges_that_are_used():
     """Each line of the table: names or words, the range with its unit, the source."""
-    _, _, table = PAGE.read_text(encoding="utf-8").partition("## Where passenger cars lie")
+    _, _, table = PAGE.read_text(encoding="utf-8").partition("## Typical ranges of passenger cars")
     table, _, _ = table.partition("\n## ")
     written = {}
     for names, low, high, unit in re.findall(

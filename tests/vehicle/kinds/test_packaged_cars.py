@@ -26,7 +26,7 @@ def test_rests_at_design_with_the_wheel_on_the_ground(name):
     at_rest = model.signals(equilibrium(model))
     design = model.signals(model.design_state)
     assert at_rest["wheel_center_z"] == pytest.approx(design["wheel_center_z"], abs=5e-4)
-    assert at_rest["tyre_force"] > 1000.0
+    assert at_rest["tyre_force"] > 500.0  # a racing car weighs little
 
 
 @pytest.mark.parametrize("name", packaged())
