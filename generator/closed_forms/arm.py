@@ -30,14 +30,18 @@ import sympy as sp
 from ..kinematics.extent import extent_squared, require
 from ..program.floors import BRANCH, DIRECTION, LENGTH, ROOT
 from ..program.functions import SignOf
-from ..program.vectors import ZERO, Vector
+from ..program.vectors import Vector
+from .constraints import Distance
+from .lines import axes_about
+from .solved_motion import Condition, TargetPoint, add_turn
 
 if TYPE_CHECKING:
     from ..declare.geometry import Point
     from ..kinematics.extent import Spanning
     from ..kinematics.kinematics import Kinematics
-    from ..kinematics.motion import Axes
+    from ..kinematics.motion import Axes, PointMotion
     from .leg import Leg, Rod
+    from .solved_motion import Unsolved
 
 
 @dataclass(frozen=True)
@@ -46,16 +50,15 @@ class Arm:
 
     Attributes
     ----------
-    along, radius
-        Coordinates of the point D from the base: along the line, and across it.
+    local
+        The point D from the base, in body axes.
     design_axes
         Line, direction to D across it, normal to both; in work axes.
     base
         The point on the line from which D is seen, at the design position.
     """
 
-    along: sp.Expr
-    radius: sp.Expr
+    local: Vector
     design_axes: Axes
     base: Vector
 
@@ -70,28 +73,28 @@ class Arm:
         extent: sp.Expr,
     ) -> Arm:
         """Return the arm of a body from a base on its line, whose design direction is given."""
-        program = kin.program
-        arm = program.vector(f"{body}_arm_design", kin.design(end) - kin.design(base))
-        along = program.define(f"{body}_arm_along", arm.dot(line))
-        across = program.vector(f"{body}_arm_across", arm - line * along)
-        radius = program.define(f"{body}_arm_radius", sp.sqrt(across.dot(across)))
+        way = kin.program.vector(f"{body}_arm_design", kin.design(end) - kin.design(base))
+        axes, local = axes_about(kin, f"{body}_arm", line, way)
         require(
             kin,
             f"{body}_arm_radius",
-            radius,
+            local.y,
             LENGTH * sp.sqrt(extent),
             "m",
             f"at the design position, {end.name} is on the line about which {body} turns",
             f"move {end.name} away from that line",
         )
-        t = program.vector(f"{body}_arm_unit", across * (1 / radius))
-        normal = program.vector(f"{body}_normal_design", line.cross(t))
-        return cls(along, radius, (line, t, normal), kin.design(base))
+        return cls(local, axes, kin.design(base))
 
     @property
-    def local(self) -> Vector:
-        """The point D in body axes."""
-        return Vector(self.along, self.radius, ZERO.z)
+    def along(self) -> sp.Expr:
+        """How far D is from the base, along the line."""
+        return self.local.x
+
+    @property
+    def radius(self) -> sp.Expr:
+        """How far D is from the line."""
+        return self.local.y
 
 
 @dataclass(frozen=True)
@@ -155,9 +158,14 @@ def fit_rod(kin: Kinematics, step: Spanning, leg: Leg, arm: Arm, line: Vector, r
     return Fit(axes, rod_vector, inverse_lever, rod)
 
 
-def solution_for(leg: Leg) -> str:
-    """Say how the turn of a body that a leg holds is solved, for the report."""
-    return f"a cos x + b sin x = c for the turn of {leg.body} about its line, branch as at design"
+def add_turn_of_rod(
+    kin: Kinematics, unsolved: Unsolved, fit: Fit, arm: Arm, anchor: PointMotion
+) -> None:
+    """Record velocities and bias of a body that a rod from an anchor holds by an arm."""
+    end, rod = arm.local, fit.rod
+    length = Distance(fit.rod_vector, end - fit.rod_vector, end, rod.squared)
+    target = TargetPoint(kin, unsolved.placed, anchor)
+    add_turn(kin, unsolved, Condition(length, target, end, rod), fit.inverse_lever)
 
 
 def _require_reach(kin: Kinematics, leg: Leg, arm: Arm, extent: sp.Expr) -> None:

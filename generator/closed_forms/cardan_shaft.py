@@ -20,14 +20,13 @@ from typing import TYPE_CHECKING, ClassVar
 import sympy as sp
 
 from ..declare.joints import Revolute, Universal
-from ..kinematics.motion import Axes, BodyMotion, PointMotion, once
 from ..loops.forms import ClosedForm
 from ..program.conditions import Assumption
 from ..program.functions import SignOf
-from ..program.vectors import NO_TWIST, ZERO, Twist, Vector
 from .cross import turn_on_cross
 from .guided_pair import GuidedPair
-from .lines import line_of_ends, projector
+from .lines import line_of_ends
+from .turned_alike import place_turned_alike
 from .yoke import DrivenYoke, GivenAxis, norm, second_axis, through_center, turn_through_cross
 
 if TYPE_CHECKING:
@@ -36,7 +35,7 @@ if TYPE_CHECKING:
 
     from ..declare.geometry import Point
     from ..kinematics.kinematics import Kinematics
-    from ..kinematics.motion import OnLine
+    from ..kinematics.motion import BodyMotion, OnLine
     from ..kinematics.step import Ends
     from ..loops.cut import CutLoop
     from ..loops.forms import Closing
@@ -153,11 +152,10 @@ class CardanShaft(ClosedForm):
             f"the shaft {shaft.near} lies along the first axis of universal joint "
             f"{self.driving.name}",
         )
-        self._place_far(kin, line.end_motion)
-        far = kin.placed[shaft.far]
+        near = kin.placed[shaft.near]
+        place_turned_alike(kin, shaft.far, near, self.parent, shaft.end)
         own = kin.design_direction(self.driven.first_axis)
-        given = GivenAxis(far.axes[1], far.design_axes[1])
-        turn_through_cross(kin, self, self._yoke, own, given, line.end_motion)
+        turn_through_cross(kin, self, self._yoke, own, self._second_axis(kin, near))
 
     @property
     def _yoke(self) -> DrivenYoke:
@@ -178,39 +176,12 @@ class CardanShaft(ClosedForm):
         slide = shaft.sense * sense * (line.length - start)
         kin.slides[shaft.joint.name] = program.define(f"slide_{shaft.joint.name}", slide)
 
-    def _place_far(self, kin: Kinematics, end: PointMotion) -> None:
-        """Place the link at the driven body; the second of its axes is that of its own cross."""
-        near, far, program = kin.placed[self.shaft.near], self.shaft.far, kin.program
+    def _second_axis(self, kin: Kinematics, near: BodyMotion) -> GivenAxis:
+        """Return the axis of the driven cross that is fixed in the shaft."""
+        program, far = kin.program, self.shaft.far
         n, second, third = near.design_axes
         b = second_axis(kin, self.driven, -n)
         c = program.define(f"{far}_phase_cosine", b.dot(second))
         s = program.define(f"{far}_phase_sine", b.dot(third))
-
-        def axes_from(x: Vector, y: Vector, z: Vector) -> Axes:
-            return -x, y * c + z * s, y * s - z * c
-
-        def seen(v: Vector) -> Vector:
-            return Vector(-v.x, v.y * c + v.z * s, v.y * s - v.z * c)
-
-        parts = (f"{far}_line", f"{far}_second_axis", f"{far}_third_axis")
-        placed = BodyMotion(
-            far,
-            origin=end.position,
-            axes=program.axes(parts, axes_from(*near.axes)),
-            design_origin=kin.design(self.shaft.end),
-            design_axes=(-n, b, program.vector(f"{far}_third_design", b.cross(n))),
-            local={self.shaft.end: ZERO},
-            carrier=(self.parent, kin.local(kin.placed[self.parent], self.shaft.end)),
-        )
-        to_body = projector(kin, placed)
-        for k in dict.fromkeys([*near.motion, *end.motion]):
-            base = to_body(f"velocity_{k}", end.motion.get(k, ZERO))
-            omega = seen(near.motion.get(k, NO_TWIST).angular)
-            placed.motion[k] = kin.define_twist(far, k, Twist(omega, base))
-
-        def bias() -> Twist:
-            base = to_body("acceleration", end.bias)
-            return kin.define_bias(far, Twist(seen(near.bias().angular), base))
-
-        placed.bias = once(bias)
-        kin.placed[far] = placed
+        now = program.vector(f"{far}_second_axis", near.axes[1] * c + near.axes[2] * s)
+        return GivenAxis(now, b)

@@ -12,7 +12,7 @@ solved with what the iteration knows of J^-1 (`inverse`, where the guard is, too
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
@@ -20,17 +20,17 @@ import sympy as sp
 from ...equations.following import ITERATIONS
 from ..declare.joints import Joint, Prismatic, Spherical
 from ..kinematics.hinge_angles import driven_coordinates
-from ..kinematics.motion import BodyMotion, PointMotion, from_axes, once
+from ..kinematics.motion import BodyMotion, PointMotion, from_axes
 from ..loops.errors import NoClosedFormError
 from ..loops.forms import Attempt, Iteration
-from ..program.function import LOST
 from ..program.newton import Matrix, named
 from ..program.vectors import ZERO, Twist, Vector
-from .carrier_equations import Pose, RodEquation, block, rotation, split, turned
+from .carrier_equations import Pose, RodEquation, block, rotation, screws, split, turned
 from .guided_pair import GuidedPair
-from .inverse import Inverse, guarded_factor
-from .lines import place_rod, projector
+from .inverse import Inverse
+from .lines import place_rod
 from .rigid_rod import RigidRod
+from .solved_motion import Condition, TargetPoint, Unsolved, add_motion
 from .ups import Strut, is_strut
 
 if TYPE_CHECKING:
@@ -237,10 +237,6 @@ class _Held:
             raise NoClosedFormError(message)
         return cls(step, base, origin, size, rods)
 
-    def scaled(self, values: Sequence[sp.Expr]) -> list[sp.Expr]:
-        """Return values of the rods, times the factors s of their equations."""
-        return [v * rod.equation.scale for v, rod in zip(values, self.rods, strict=True)]
-
 
 @dataclass(frozen=True)
 class _RodAtBody:
@@ -298,30 +294,27 @@ def _found(kin: Kinematics, held: _Held) -> dict[str, sp.Expr]:
 
 def _corrected(kin: Kinematics, held: _Held) -> _Solved:
     """Correct what the iteration has found, and return the pose with its linear equations."""
-    program, body, count = kin.program, held.step.body, len(held.rods)
+    program, body = kin.program, held.step.body
     found = _found(kin, held)
-    u, sigma = split(list(found.values())[:count])
+    u, sigma = split(list(found.values())[: len(held.rods)])
     axes = rotation(program, f"{body}_found", u)
     start = Pose(axes, program.vector(f"{body}_found_shift", sigma * held.size))
     left = [
         program.define(
-            f"{rod.entry.rod}_residual", rod.equation.residual(rod.equation.rod_vector(start))
+            f"{rod.entry.rod}_residual",
+            rod.equation.length(rod.equation.rod_vector(start)).residual(),
         )
         for rod in held.rods
     ]
-    places = range(1, count + 1)
-    adjugate = [[found[f"inverse_{i}{j}"] for j in places] for i in places]
-    factor = guarded_factor(
+    inverse = Inverse.found(
         kin,
         body,
-        found["determinant"],
+        found,
         left,
-        found[LOST],
         f"the loops of {body} through {held.step.rod_names} cannot close, or an iteration has "
         f"not found how in {{iterations}} steps on the way from the design position: the rods "
         f"cannot reach {body}, or they have no hold on it",
     )
-    inverse = Inverse(adjugate, factor)
     step = [
         program.define(f"{body}_correction_{i}", value)
         for i, value in enumerate(inverse.step(left), 1)
@@ -365,52 +358,35 @@ def _place(kin: Kinematics, held: _Held, solved: _Solved) -> None:
 
 def _add_motion(kin: Kinematics, held: _Held, solved: _Solved, placed: BodyMotion) -> None:
     """Add velocities and bias: every rod keeps its length, or has that of a known slide."""
-    body, to_body = placed.body, projector(kin, placed)
-    rates = [ZERO for _ in held.rods]  # of the ends of the rods, as seen from where they start
+    conditions = [
+        Condition(
+            replace(rod.equation.length(rod_vector), scale=sp.Integer(1)),
+            TargetPoint(kin, placed, rod.anchor, f"{rod.entry.rod}_start"),
+            rod.equation.end,
+            rod.rod,
+        )
+        for rod, rod_vector in zip(held.rods, solved.rod_vectors, strict=True)
+    ]
 
     def solve(name: str, residual_rates: Sequence[sp.Expr]) -> list[sp.Expr]:
-        return solved.inverse.solve(kin, name, solved.rows, held.scaled(residual_rates))
+        pairs = zip(residual_rates, held.rods, strict=True)
+        b = [-rate * rod.equation.scale for rate, rod in pairs]
+        return solved.inverse.solve(kin, name, solved.rows, b)
 
-    def twist_of(x: Sequence[sp.Expr], base: Vector) -> Twist:
-        """Return a twist (or a bias) from the solution, and from the base where that is known."""
-        turn, way = split(x)
-        return Twist(turn, base if held.base else way * held.size)
-
-    for k in _coordinates(held):
-        base = to_body(f"velocity_{k}", held.base.motion.get(k, ZERO)) if held.base else ZERO
-        starts = [
-            to_body(f"{rod.entry.rod}_start_{k}", rod.anchor.motion.get(k, ZERO))
-            for rod in held.rods
-        ]
-        growths = [rod.rod.stretch.get(k, sp.Integer(0)) for rod in held.rods]
-        residual_rates = [
-            growth - rod_vector.dot(base - start)
-            for growth, rod_vector, start in zip(growths, solved.rod_vectors, starts, strict=True)
-        ]
-        twist = twist_of(solve(f"{body}_{k}", residual_rates), base)
-        placed.motion[k] = now = kin.define_twist(body, k, twist)
-        for i, (rod, start) in enumerate(zip(held.rods, starts, strict=True)):
-            rates[i] += (
-                now.linear - start + now.angular.cross(rod.equation.end)
-            ) * kin.coordinates.rate(k)
-
-    def bias() -> Twist:
-        omega = kin.total(placed).angular
-        base = to_body("acceleration", held.base.bias) if held.base else ZERO
-        residual_rates = []
-        for rod, rod_vector, rate in zip(held.rods, solved.rod_vectors, rates, strict=True):
-            now = kin.program.vector(f"{rod.entry.rod}_rate", rate, "123")
-            start = to_body(f"{rod.entry.rod}_start_bias", rod.anchor.bias)
-            pull = base - start + omega.cross(omega.cross(rod.equation.end))
-            residual_rates.append(rod.rod.stretch_bias - rod_vector.dot(pull) - now.dot(now))
-        return kin.define_bias(body, twist_of(solve(f"{body}_bias", residual_rates), base))
-
-    placed.bias = once(bias)
+    base = [TargetPoint(kin, placed, held.base, "velocity")] if held.base else []
+    unsolved = _OnRods(kin, placed, base, screws(None if held.base else held.size))
+    add_motion(kin, unsolved, conditions, solve)
 
 
-def _coordinates(held: _Held) -> list[str]:
-    """Return the coordinates that move the body."""
-    motions = [held.base.motion] if held.base else []
-    motions += [rod.anchor.motion for rod in held.rods]
-    names = [*motions, *(rod.rod.stretch for rod in held.rods)]
-    return list(dict.fromkeys(name for moved in names for name in moved))
+class _OnRods(Unsolved):
+    """A body that turns about a known point, or moves freely."""
+
+    carriers: Sequence[TargetPoint]
+
+    def at_rest(self, k: str) -> Twist:
+        """Return the twist with which the point carries it."""
+        return Twist(ZERO, sum((base.rates(k).velocity for base in self.carriers), ZERO))
+
+    def coasting(self) -> Twist:
+        """Return the bias with which the point carries it."""
+        return Twist(ZERO, sum((base.biases().acceleration for base in self.carriers), ZERO))

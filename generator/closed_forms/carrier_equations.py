@@ -29,7 +29,8 @@ import sympy as sp
 
 from ..kinematics.motion import Axes, from_axes, to_axes
 from ..program.newton import Derivation, Found
-from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
+from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vector
+from .constraints import STILL, Distance, Moving
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -79,14 +80,24 @@ class RodEquation:
         """Return the way from the start of the rod to its end, in body axes."""
         return self.end - to_axes(pose.axes, self.anchor - pose.shift)
 
-    def residual(self, rod_vector: Vector) -> sp.Expr:
-        """Return g_i."""
-        return (rod_vector.dot(rod_vector) - self.squared) * (self.scale / 2)
+    def length(self, rod_vector: Vector) -> Distance:
+        """Return the equation, given the way along the rod."""
+        start = self.end - rod_vector
+        return Distance(rod_vector, start, self.end, self.squared, self.scale)
 
     def row(self, rod_vector: Vector) -> list[sp.Expr]:
         """Return the row of J."""
-        turn = self.end.cross(rod_vector) * self.scale
-        return [*turn] if self.size is None else [*turn, *(rod_vector * (self.scale * self.size))]
+        length = self.length(rod_vector)
+        return [length.rate(STILL, Moving.of(screw)) for screw in screws(self.size)]
+
+
+def screws(size: sp.Expr | None) -> list[Twist]:
+    """Return what the unknowns do to the body: turns about its axes, and shifts along them."""
+    shifts = [] if size is None else [Twist(ZERO, e * size) for e in _UNITS]
+    return [Twist(e, ZERO) for e in _UNITS] + shifts
+
+
+_UNITS = (UNIT_X, UNIT_Y, UNIT_Z)
 
 
 def rotation(program: Program, name: str, u: Vector) -> Axes:
@@ -95,7 +106,7 @@ def rotation(program: Program, name: str, u: Vector) -> Axes:
     v = program.vector(f"{name}_scaled", u * half, "123")
     columns = (
         e + v.cross(e) + u * v.dot(e) - e * v.dot(u)  # v~ u~ e = u (v . e) - e (v . u)
-        for e in (UNIT_X, UNIT_Y, UNIT_Z)
+        for e in _UNITS
     )
     return program.axes((f"{name}_x", f"{name}_y", f"{name}_z"), columns)
 
@@ -161,7 +172,7 @@ def block(
             for i, e in enumerate(equations, 1)
         ]
         left = [
-            own.define(f"residual_{i}", e.residual(rod_vector))
+            own.define(f"residual_{i}", e.length(rod_vector).residual())
             for i, (e, rod_vector) in enumerate(zip(equations, rod_vectors, strict=True), 1)
         ]
         rows = [e.row(rod_vector) for e, rod_vector in zip(equations, rod_vectors, strict=True)]

@@ -5,17 +5,11 @@ placed. All is written in work axes. What the coordinates do to a body is a disp
 design position (`Frame`), composed from joint to joint along the tree, so that the geometry of the
 equations is that of the design position: axes, points, lengths.
 
-Every joint that closes a loop gives what it leaves in common, every rod its length:
-
-    Meeting     d . (p2 - p1) / c = 0                 hinge, cross, ball joint (in a plane too)
-    Guided      d1 . (p2 - p1) / c = 0                guide: across it; d1 turns with the first body
-    Square      a1 . b2 = 0                           hinge, cross, guide: directions stay square
-    Distance    (|p2 - p1|^2 - l^2) / (2 l c) = 0     rod
-
-c is a length of the mechanism, in which slides are counted, too, so that neither equations nor
-unknowns have a unit. The rate of an equation is linear in the motions of its two bodies. With the
-screw of a joint as that motion it is an element of the Jacobian J, and with what placed bodies do
-it is the right side of the equations for velocities (`together`).
+Every joint that closes a loop gives what it leaves in common, every rod its length (`constraints`).
+The c of their factors is a length of the mechanism, in which slides are counted, too, so that
+neither equations nor unknowns have a unit. With the screw of a joint as a motion, the rate of an
+equation is an element of the Jacobian J; with what placed bodies do it is the right side of the
+equations for velocities (`coupled_loops`).
 """
 
 from __future__ import annotations
@@ -30,6 +24,7 @@ from ..kinematics.motion import IDENTITY, Axes, from_axes
 from ..program.functions import Frozen
 from ..program.newton import Derivation, Found, Matrix
 from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
+from .constraints import STILL, Coincident, Constraint, Distance, Guided, Moving, Perpendicular
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -75,30 +70,6 @@ class Frame:
 
 
 @dataclass(frozen=True)
-class Moving:
-    """Velocities of a body, and accelerations where they are asked for, in work axes."""
-
-    at: Vector = ZERO
-    omega: Vector = ZERO
-    velocity: Vector = ZERO
-    alpha: Vector = ZERO
-    acceleration: Vector = ZERO
-
-    def velocity_of(self, point: Vector) -> Vector:
-        """Return the velocity of what of the body is at a point."""
-        return self.velocity + self.omega.cross(point - self.at)
-
-    def acceleration_of(self, point: Vector) -> Vector:
-        """Return the acceleration of what of the body is at a point."""
-        arm = point - self.at
-        centripetal = self.omega.cross(self.omega.cross(arm))
-        return self.acceleration + self.alpha.cross(arm) + centripetal
-
-
-STILL = Moving()
-
-
-@dataclass(frozen=True)
 class Screw:
     """What a unit rate of a coordinate does to all that the joint carries."""
 
@@ -118,111 +89,21 @@ class Screw:
         return Moving(self.through, *self.at_rate(sp.Integer(1)))
 
 
-# -- equations ------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True)
-class _Equation:
-    """A closure equation at some position: the two bodies that it is about."""
+class Closure:
+    """A constraint, and the two bodies that it is about."""
 
     first: str
     second: str
+    constraint: Constraint
 
-    def residual(self) -> sp.Expr:
-        """Return what the position leaves of the equation."""
-        raise NotImplementedError
+    def rate(self, motions: Mapping[str, Moving]) -> sp.Expr:
+        """Return how fast its residual changes with the motions of all bodies."""
+        return self.constraint.rate(motions[self.first], motions[self.second])
 
-    def rate(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return how fast the residual changes with the motions of both bodies."""
-        raise NotImplementedError
-
-    def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
+    def acceleration(self, motions: Mapping[str, Moving]) -> sp.Expr:
         """Return the second derivative of the residual, where residual and rate are zero."""
-        raise NotImplementedError
-
-
-@dataclass(frozen=True)
-class _Meeting(_Equation):
-    """Two points meet, along a direction; ``scale`` is 1 / c."""
-
-    p1: Vector
-    p2: Vector
-    along: Vector
-    scale: sp.Expr
-
-    def residual(self) -> sp.Expr:
-        return self.along.dot(self.p2 - self.p1) * self.scale
-
-    def rate(self, one: Moving, two: Moving) -> sp.Expr:
-        return self.along.dot(two.velocity_of(self.p2) - one.velocity_of(self.p1)) * self.scale
-
-    def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
-        pull = two.acceleration_of(self.p2) - one.acceleration_of(self.p1)
-        return self.along.dot(pull) * self.scale
-
-
-class _Guided(_Meeting):
-    """A point stays on the guide of another body, along a direction of that body across it.
-
-    The direction turns with the first body, and the second one slides as that sees it.
-    """
-
-    def rate(self, one: Moving, two: Moving) -> sp.Expr:
-        return self.along.dot(self._slip(one, two)) * self.scale
-
-    def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
-        pull = two.acceleration_of(self.p2) - one.acceleration_of(self.p2)
-        coriolis = one.omega.cross(self._slip(one, two)) * 2
-        return self.along.dot(pull - coriolis) * self.scale
-
-    def _slip(self, one: Moving, two: Moving) -> Vector:
-        """Return the velocity of the point as the first body sees it."""
-        return two.velocity_of(self.p2) - one.velocity_of(self.p2)
-
-
-@dataclass(frozen=True)
-class _Square(_Equation):
-    """A direction of the first body stays square to one of the second."""
-
-    a1: Vector
-    b2: Vector
-
-    def residual(self) -> sp.Expr:
-        return self.a1.dot(self.b2)
-
-    def rate(self, one: Moving, two: Moving) -> sp.Expr:
-        return (two.omega - one.omega).dot(self.b2.cross(self.a1))
-
-    def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
-        a_rate, b_rate = one.omega.cross(self.a1), two.omega.cross(self.b2)
-        changing = b_rate.cross(self.a1) + self.b2.cross(a_rate)
-        relative = (two.omega - one.omega).dot(changing)
-        return relative + (two.alpha - one.alpha).dot(self.b2.cross(self.a1))
-
-
-@dataclass(frozen=True)
-class _Distance(_Equation):
-    """A rod keeps its length l; ``scale`` is 1 / (l c)."""
-
-    rod_vector: Vector
-    p1: Vector
-    p2: Vector
-    squared: sp.Expr
-    scale: sp.Expr
-
-    def residual(self) -> sp.Expr:
-        return (self.rod_vector.dot(self.rod_vector) - self.squared) * (self.scale / 2)
-
-    def rate(self, one: Moving, two: Moving) -> sp.Expr:
-        return self.rod_vector.dot(self._rate(one, two)) * self.scale
-
-    def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
-        rate = self._rate(one, two)
-        pull = two.acceleration_of(self.p2) - one.acceleration_of(self.p1)
-        return (self.rod_vector.dot(pull) + rate.dot(rate)) * self.scale
-
-    def _rate(self, one: Moving, two: Moving) -> Vector:
-        return two.velocity_of(self.p2) - one.velocity_of(self.p1)
+        return self.constraint.acceleration(motions[self.first], motions[self.second])
 
 
 # -- a position -----------------------------------------------------------------------------------
@@ -245,7 +126,7 @@ class Position:
     tree: Tree
     frames: dict[str, Frame]
     screws: list[Screw]
-    equations: list[_Equation]
+    equations: list[Closure]
 
     def jacobian(self) -> Matrix:
         """Return how the residuals change with the unknowns."""
@@ -259,13 +140,14 @@ class Position:
         places = [p for p, branch in enumerate(self.tree.tree) if branch.driven == driven]
         return [[self._element(equation, p) for p in places] for equation in self.equations]
 
-    def _element(self, equation: _Equation, place: int) -> sp.Expr:
+    def _element(self, equation: Closure, place: int) -> sp.Expr:
         """Return an element of J: zero where both bodies are carried alike, or neither is."""
         one, two = (place in self.carriers(b) for b in (equation.first, equation.second))
         if one == two:
             return sp.Integer(0)
         screw = self.screws[place].moving()
-        return equation.rate(screw, STILL) if one else equation.rate(STILL, screw)
+        motions = (screw, STILL) if one else (STILL, screw)
+        return equation.constraint.rate(*motions)
 
     def carriers(self, body: str) -> list[int]:
         """Return the places of the joints that carry a body, from the body inward."""
@@ -318,7 +200,8 @@ def position(
         p2 = program.vector(f"{label}{held.rod}_end", two.at(geometry[f"{held.rod}_end"]))
         rod_vector = program.vector(f"{label}{held.rod}_rod_vector", p2 - p1)
         squared, scale = geometry[f"{held.rod}_squared"].x, geometry[f"{held.rod}_scale"].x
-        equations.append(_Distance(held.anchor_body, held.body, rod_vector, p1, p2, squared, scale))
+        length = Distance(rod_vector, p1, p2, squared, scale)
+        equations.append(Closure(held.anchor_body, held.body, length))
     return Position(tree, frames, screws, equations)
 
 
@@ -357,7 +240,7 @@ def _at_cut(
     geometry: Geometry,
     frames: Mapping[str, Frame],
     plane: Frame,
-) -> list[_Equation]:
+) -> list[Closure]:
     """Return the equations of a joint that closes a loop; a plane is that of a placed body."""
     name, bodies = cut.joint.name, cut.joint.bodies
     scale, at = geometry["scale"].x, geometry[f"{name}_at"]
@@ -370,15 +253,17 @@ def _at_cut(
         return program.vector(f"{label}{name}_{what}_{number}", direction)
 
     square = _SQUARE_IN_PLANE if cut.planar else _SQUARE
-    equations: list[_Equation] = [
-        _Square(*bodies, carried(one, a, 1), carried(two, b, 2)) for a, b in square[cut.joint.kind]
+    found: list[Constraint] = [
+        Perpendicular(carried(one, a, 1), carried(two, b, 2)) for a, b in square[cut.joint.kind]
     ]
     if isinstance(cut.joint, Prismatic):
         across = ("side",) if cut.planar else ("side", "top")
         ways = (carried(one, what, 1) for what in across)
-        return [*equations, *(_Guided(*bodies, p1, p2, way, scale) for way in ways)]
-    directions = [carried(plane, what, 0) for what in ("side", "top")] if cut.planar else _WORK
-    return [*equations, *(_Meeting(*bodies, p1, p2, way, scale) for way in directions)]
+        found += [Guided(p1, p2, way, scale) for way in ways]
+    else:
+        directions = [carried(plane, what, 0) for what in ("side", "top")] if cut.planar else _WORK
+        found += [Coincident(p1, p2, way, scale) for way in directions]
+    return [Closure(*bodies, constraint) for constraint in found]
 
 
 _WORK: Axes = (UNIT_X, UNIT_Y, UNIT_Z)
@@ -429,7 +314,7 @@ def block(
         now = position(own, "", tree, here, x)
         own.section("what is left of the equations")
         left = [
-            own.define(f"residual_{i}", equation.residual())
+            own.define(f"residual_{i}", equation.constraint.residual())
             for i, equation in enumerate(now.equations, 1)
         ]
         apart = [

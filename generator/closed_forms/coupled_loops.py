@@ -31,12 +31,12 @@ from ..kinematics.motion import BodyMotion, from_axes, to_axes
 from ..loops.forms import Attempt, Iteration
 from ..loops.known import coordinates_of
 from ..loops.mobility import Mobility
-from ..program.function import LOST
 from ..program.newton import Matrix, named
 from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vector
-from .closure_equations import Geometry, Moving, Position, Screw, bases, block, position
+from .closure_equations import Geometry, Position, Screw, bases, block, position
+from .constraints import Moving
 from .coupling import Coupling
-from .inverse import Inverse, guarded_factor
+from .inverse import Inverse
 from .lines import place_rod
 from .tree import CutJoint, JointOfTree, Tree
 
@@ -321,27 +321,21 @@ def _corrected(kin: Kinematics, step: CoupledLoops, geometry: Geometry) -> _Solv
     results = program.iterated(
         f"{name}_loops", block(program, step, geometry, driven_coordinates(kin))
     )
-    count = len(step.unknowns)
-    found = list(results.values())[:count]
+    found = list(results.values())[: len(step.unknowns)]
     start = position(program, f"{name}_found_", step, geometry, found)
     left = [
-        program.define(f"{name}_residual_{i}", equation.residual())
+        program.define(f"{name}_residual_{i}", equation.constraint.residual())
         for i, equation in enumerate(start.equations, 1)
     ]
-    matrix = [
-        [results[f"inverse_{i}{j}"] for j in range(1, len(left) + 1)] for i in range(1, count + 1)
-    ]
-    factor = guarded_factor(
+    inverse = Inverse.found(
         kin,
         name,
-        results["determinant"],
+        results,
         left,
-        results[LOST],
         f"the loops through {', '.join(step.bodies)} cannot close, or an iteration has not found "
         f"how in {{iterations}} steps on the way from the design position: {step.closing_names} "
         f"cannot meet with any coordinates of {step.joint_names}",
     )
-    inverse = Inverse(matrix, factor)
     unknowns = [
         program.define(f"{branch.joint.name}_coordinate", x + dx)
         for branch, x, dx in zip(step.unknowns, found, inverse.step(left), strict=True)
@@ -384,9 +378,7 @@ def _add_motion(kin: Kinematics, step: CoupledLoops, solved: _Solved) -> None:
         given = {p.body: _in_motion(p, p.motion.get(k, NO_TWIST)) for p in placed}
         driven = [_driven_rate(kin, solved, branch, k) for branch in step.tree]
         carried = _velocities(kin, solved, f"{k}_carried", given, driven)
-        residual_rates = [
-            e.rate(carried[e.first], carried[e.second]) for e in solved.position.equations
-        ]
+        residual_rates = [equation.rate(carried) for equation in solved.position.equations]
         x = solved.solve(kin, f"{name}_{k}", residual_rates)
         x = [program.define(f"{name}_{k}_{i}", value) for i, value in enumerate(x, 1)]
         x = solved.filled(driven, x)
@@ -428,8 +420,7 @@ def _biases(
     now = _velocities(kin, solved, "now", given, rates)
     driven = [_driven_acceleration(kin, solved, branch) for branch in step.tree]
     coasting = _accelerations(kin, solved, "coasting", now, rates, driven)
-    equations = solved.position.equations
-    residual_rates = [e.acceleration(coasting[e.first], coasting[e.second]) for e in equations]
+    residual_rates = [equation.acceleration(coasting) for equation in solved.position.equations]
     x = solved.filled(driven, solved.solve(kin, f"{name}_bias", residual_rates))
     moving = _accelerations(kin, solved, "bias", now, rates, x)
     found = {}

@@ -15,13 +15,14 @@ from ..kinematics.motion import Axes, BodyMotion, from_axes, to_axes
 from ..loops.errors import NoClosedFormError
 from ..loops.forms import Follower
 from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Z, ZERO, Twist, Vector
+from .solved_motion import SlideOnGuide
 
 if TYPE_CHECKING:
     from typing import Self
 
     from ..declare.geometry import Point
     from ..kinematics.kinematics import Kinematics
-    from ..loops.known import Coordinate, Known
+    from ..loops.known import Known
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class PlaceByJoint(Follower):
 
     joint: Revolute | Prismatic
     parent: str
-    child: str
+    body: str
 
     rank: ClassVar[int] = 3
 
@@ -50,26 +51,16 @@ class PlaceByJoint(Follower):
         return cls(joint, parent, child)
 
     @property
-    def about(self) -> str:
-        """The body that the joint carries."""
-        return self.child
-
-    @property
     def title(self) -> str:
         """What the derivation calls this step."""
-        return f"{self.child}: {self.joint.kind} joint"
-
-    def accept(self, known: Known) -> set[Coordinate]:
-        """Record the body."""
-        known.place(self.child)
-        return set()
+        return f"{self.body}: {self.joint.kind} joint"
 
     def carry_out(self, kin: Kinematics) -> None:
         """Place the body from its parent."""
         if isinstance(self.joint, Revolute):
-            _place_revolute(kin, self.joint, self.parent, self.child)
+            _place_revolute(kin, self.joint, self.parent, self.body)
         else:
-            _place_prismatic(kin, self.joint, self.parent, self.child)
+            _place_prismatic(kin, self.joint, self.parent, self.body)
 
 
 @dataclass(frozen=True)
@@ -204,35 +195,18 @@ def _place_prismatic(kin: Kinematics, joint: Prismatic, parent_name: str, child:
     coordinate = kin.coordinates.of(joint)
     slide = kin.given(joint)
     direction = kin.local_direction(parent, joint.direction)
-    start = parent.design_origin
-    offset = direction * slide
-    placed = BodyMotion(
-        child,
-        origin=kin.program.vector(
-            f"{child}_origin", parent.origin + from_axes(parent.axes, offset)
-        ),
-        axes=parent.axes,
-        design_origin=start,
-        design_axes=parent.design_axes,
-    )
-    for k, twist in parent.motion.items():
-        velocity = twist.linear + twist.angular.cross(offset)
-        placed.motion[k] = kin.define_twist(child, k, Twist(twist.angular, velocity))
-    if kin.coordinates.moves(joint):  # that of a strut turns its first link as well
+    on_guide = SlideOnGuide(kin, child, parent, direction * slide)
+    placed = on_guide.placed
+    for k in parent.motion:
+        placed.motion[k] = kin.define_twist(child, k, on_guide.at_rest(k))
+    if kin.coordinates.moves(joint):  # that of a strut turns its first link, too
         carried = placed.motion.get(coordinate, NO_TWIST)
         own = direction * kin.coordinates.ratio(joint)
         placed.motion[coordinate] = carried + Twist(ZERO, own)
 
     def bias() -> Twist:
-        carried = parent.bias()
-        omega = kin.total(parent).angular
-        speed = direction * kin.coordinates.speed(joint)
-        linear = (
-            kin.point_bias(parent, offset)
-            + omega.cross(speed) * 2
-            + direction * kin.coordinates.given_acceleration(joint)
-        )
-        return kin.define_bias(child, Twist(carried.angular, linear))
+        carried = on_guide.carried_bias(direction * kin.coordinates.speed(joint))
+        own = direction * kin.coordinates.given_acceleration(joint)
+        return kin.define_bias(child, carried + Twist(ZERO, own))
 
     placed.bias = bias
-    kin.placed[child] = placed

@@ -19,13 +19,13 @@ t along u, and so is F - E in space; with w the part of F - E across n,
 
     t = (s_2 w - s_3 n x w) / (s_2^2 + s_3^2).
 
-``v_F - v_E = omega x s + (n x R v) q'`` along n x s gives its turn, and once more its acceleration.
-The second link follows from the first one by its hinge, whose angle is known.
+That F meets the end of s along n x s gives the rate of the turn. The second link follows from the
+first one by its hinge, whose angle is known.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import sympy as sp
@@ -33,20 +33,21 @@ import sympy as sp
 from ..declare.joints import Revolute
 from ..kinematics.extent import extent_squared, require
 from ..kinematics.hinge_angles import HingeDesign, positive_axis_at_design
-from ..kinematics.motion import Axes, BodyMotion, PointMotion, once, to_axes
+from ..kinematics.motion import Axes, to_axes
 from ..loops.forms import PlannedStep
 from ..program.floors import DIRECTION, LENGTH
 from ..program.functions import SignOf
-from ..program.vectors import UNIT_X, ZERO, Twist, Vector
-from .hinge import Hinge, report_angle
+from ..program.vectors import ZERO, Vector
+from .constraints import Coincident, Moving
+from .hinge import Hinge, place_on_hinge, report_angle
 from .leg import Leg, Rod
-from .turning_body import TurningBody
+from .solved_motion import Condition, TargetPoint, add_turn
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from typing import Self
 
     from ..declare.geometry import Point
-    from ..declare.joints import Joint
     from ..kinematics.kinematics import Kinematics
     from ..loops.cut import CutLoop
     from ..loops.known import Coordinate, Known
@@ -116,20 +117,14 @@ class Elbow(Leg):
         return self.rod, joint.other(self.rod)
 
     @property
-    def pinned(self) -> bool:
-        """Its links are placed by their pins."""
-        return True
+    def placing(self) -> PlannedStep:
+        """The step that places its links by their pins."""
+        return PlaceElbow(self.pair)
 
     @property
     def measure(self) -> str:
         """What its length is, for the report."""
         return f"{' and '.join(self.links)} at {self.pair.joint.name}.angle"
-
-    def record(self, known: Known, joint: Joint) -> set[Coordinate]:
-        """Record the joint that it drives, and its own."""
-        place = PlaceElbow(self.pair)
-        known.steps.append(place)
-        return known.add_all([joint]) | place.accept(known)
 
     def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> Rod:
         """Append its length, of known angle."""
@@ -155,17 +150,10 @@ class Elbow(Leg):
             f"{' and '.join(self.links)} coincide",
             "move one of the two",
         )
-        coordinates, joint = kin.coordinates, self.pair.joint
-        stretch, bias = {}, sp.Integer(0)
-        if coordinates.moves(joint):
-            slope = bend.skew * bend.cosine - reach * bend.sine
-            slope = program.define(f"{name}_stretch", slope)
-            stretch[coordinates.of(joint)] = slope * coordinates.ratio(joint)
-            bias = (
-                slope * coordinates.given_acceleration(joint) - near * coordinates.speed(joint) ** 2
-            )
+        slope = program.define(f"{name}_stretch", bend.skew * bend.cosine - reach * bend.sine)
         length = program.define(f"{name}_length_now", sp.sqrt(squared))
-        return Rod(f"pair of {' and '.join(self.links)}", design, length, squared, stretch, bias)
+        rod = Rod(f"pair of {' and '.join(self.links)}", design, length, squared)
+        return rod.driven(kin.coordinates, self.pair.joint, slope, -near)
 
 
 @dataclass(frozen=True)
@@ -212,7 +200,10 @@ class PlaceElbow(PlannedStep):
         inverse = program.define(f"{body}_reach_inverse", 1 / squared)
         t = program.vector(f"{body}_arm", (across * s.y - n.cross(across) * s.z) * inverse)
         axes: Axes = (n, t, program.vector(f"{body}_normal", n.cross(t)))
-        _place(kin, pair, hinge, axes, end, reach, inverse)
+        unsolved = place_on_hinge(kin, hinge, axes)
+        target = _BentEnd(kin, unsolved.placed, end, bend=pair.joint, reach=reach)
+        meeting = Coincident(s, s, Vector(ZERO.x, -s.z, s.y))
+        add_turn(kin, unsolved, Condition(meeting, target, s), -inverse)
         report_angle(kin, hinge, axes)
 
 
@@ -300,47 +291,41 @@ def _dot_across(one: Vector, two: Vector, axis: Vector) -> sp.Expr:
     return one.dot(two) - one.dot(axis) * two.dot(axis)
 
 
-def _place(
-    kin: Kinematics,
-    pair: TwoLinks,
-    hinge: Hinge,
-    axes: Axes,
-    end: PointMotion,
-    reach: _Reach,
-    inverse: sp.Expr,
-) -> None:
-    """Record pose, velocities and bias of the first link."""
-    program, body, parent, s = kin.program, hinge.body, hinge.parent, reach.end
-    placed = BodyMotion(
-        body,
-        origin=hinge.origin.position,
-        axes=axes,
-        design_origin=kin.design(hinge.through),
-        design_axes=hinge.arm.design_axes,
-        local={hinge.through: ZERO, hinge.point: hinge.arm.local},
-        carrier=(parent.body, kin.local(parent, hinge.through)),
-        hinge=hinge.first_axis_of,
-    )
-    turning, coordinates = TurningBody(kin, placed, hinge.origin, end), kin.coordinates
-    own = coordinates.of(pair.joint)
-    grip = Vector(ZERO.x, -s.z, s.y)  # n x s
-    for k in turning.moved_by([own] if coordinates.moves(pair.joint) else []):
-        given = turning.rates(k)
-        bending = reach.swing * coordinates.ratio(pair.joint) if k == own else ZERO
-        relative_velocity = given.target - given.base - given.carried.cross(s) - bending
-        turn = program.define(f"{body}_turn_{k}", grip.dot(relative_velocity) * inverse)
-        omega = program.vector(f"{body}_omega_{k}", given.carried + UNIT_X * turn, "123")
-        placed.motion[k] = Twist(omega, given.base)
+@dataclass(frozen=True, kw_only=True)
+class _BentEnd(TargetPoint):
+    """The target of the second link, as the first one sees it without what the bend does.
 
-    def bias() -> Twist:
-        given, omega = turning.biases(), kin.total(placed).angular
-        rate = coordinates.speed(pair.joint)
-        pull = given.target - given.base - omega.cross(omega.cross(s)) - given.carried.cross(s)
-        pull -= omega.cross(reach.swing * rate) * 2
-        pull -= reach.swing * coordinates.given_acceleration(pair.joint)
-        pull -= reach.curl * rate**2
-        turn = program.define(f"{body}_turn_bias", grip.dot(pull) * inverse)
-        return kin.define_bias(body, Twist(given.carried + UNIT_X * turn, given.base))
+    That is where the target would have to be if the second link did not turn on the first one.
 
-    placed.bias = once(bias)
-    kin.placed[body] = placed
+    Attributes
+    ----------
+    bend
+        The hinge between the links.
+    """
+
+    bend: Revolute
+    reach: _Reach
+
+    @property
+    def coordinates(self) -> Iterable[str]:
+        """Those that move the target, and that of the bend."""
+        coordinates = self.kin.coordinates
+        moves = coordinates.moves(self.bend)
+        return [*super().coordinates, *([coordinates.of(self.bend)] if moves else ())]
+
+    def rates(self, k: str) -> Moving:
+        """Return the velocity less that of the bend."""
+        seen, coordinates = super().rates(k), self.kin.coordinates
+        if k != coordinates.of(self.bend):
+            return seen
+        return replace(
+            seen, velocity=seen.velocity - self.reach.swing * coordinates.ratio(self.bend)
+        )
+
+    def biases(self) -> Moving:
+        """Return the acceleration less that of the bend, with what Coriolis adds."""
+        seen, coordinates = super().biases(), self.kin.coordinates
+        omega, rate = self.kin.total(self.placed).angular, coordinates.speed(self.bend)
+        bending = self.reach.swing * coordinates.given_acceleration(self.bend)
+        bending += omega.cross(self.reach.swing * rate) * 2 + self.reach.curl * rate**2
+        return replace(seen, acceleration=seen.acceleration - bending)

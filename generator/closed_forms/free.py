@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from typing import Self
 
     from ..kinematics.kinematics import Kinematics
-    from ..loops.known import Coordinate, Known
+    from ..loops.known import Known
 
 
 @dataclass(frozen=True)
@@ -40,11 +40,6 @@ class PlaceFree(Follower):
     def title(self) -> str:
         """What the derivation calls this step."""
         return f"{self.about}: free in the world"
-
-    def accept(self, known: Known) -> set[Coordinate]:
-        """Record the body."""
-        known.place(self.about)
-        return set()
 
     def carry_out(self, kin: Kinematics) -> None:
         """Leave it where it is: in the axes in which what hangs on it is solved, it rests."""

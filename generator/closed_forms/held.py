@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
@@ -59,9 +58,10 @@ class HeldByLeg(ClosedForm):
         return f"{self.leg.ends} = length of {self.leg.measure}", self.solution
 
     @property
-    @abstractmethod
     def solution(self) -> str:
         """How the equation is solved, for the report."""
+        about = self.leg.body
+        return f"a cos x + b sin x = c for the turn of {about} about its line, branch as at design"
 
 
 @dataclass(frozen=True)

@@ -16,11 +16,12 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ...equations.following import ITERATIONS
+from ..program.function import LOST
 from ..program.functions import Frozen, IsPositive
 from ..program.newton import Matrix, times
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from ..kinematics.kinematics import Kinematics
 
@@ -38,6 +39,48 @@ class Inverse:
 
     matrix: Matrix
     factor: sp.Expr
+
+    @classmethod
+    def found(
+        cls,
+        kin: Kinematics,
+        name: str,
+        results: Mapping[str, sp.Expr],
+        left: Sequence[sp.Expr],
+        meaning: str,
+    ) -> Inverse:
+        """Append the reciprocal of the determinant that an iteration has found, guarded.
+
+        With e the square of what the iteration has left of g, over that of `_TOLERANCE`, and d the
+        determinant with the sign that it has at the design position, the guard is
+        ``(d - e) / (1 + e)``. It is not positive where a loop cannot close, where J is singular,
+        and where the iteration has not come through from the design position: that counts to e.
+        Else it is d to the last digit.
+
+        Parameters
+        ----------
+        kin, name
+            The kinematics so far, and what begins the names of the steps.
+        results
+            Of the iteration, by name.
+        left
+            What it has left of g.
+        meaning
+            What it means that the guard acts; ``{iterations}`` is how many there were at most.
+        """
+        program, lost = kin.program, results[LOST]
+        squares = sum((g * g for g in left), sp.Integer(0))
+        excess = program.define(f"{name}_excess", squares / _TOLERANCE**2 + lost / _TOLERANCE)
+        closure = (results["determinant"] - excess) / (1 + excess)
+        meaning = meaning.format(iterations=ITERATIONS)
+        arrived = program.guarded(f"{name}_closure", closure, meaning, "1")
+        held = IsPositive(arrived.args[0])  # else no correction: what was found last stays finite
+        places = range(1, len(left) + 1)
+        rows = [i for i in places if f"inverse_{i}1" in results]
+        return cls(
+            [[results[f"inverse_{i}{j}"] for j in places] for i in rows],
+            program.define(f"{name}_arrived", Frozen(held / arrived)),
+        )
 
     def step(self, left: Sequence[sp.Expr]) -> list[sp.Expr]:
         """Return the correction for what is left of the equations."""
@@ -59,45 +102,3 @@ class Inverse:
         ]
         more = times(self.matrix, left)
         return [x + self.factor * dx for x, dx in zip(first, more, strict=True)]
-
-
-def guarded_factor(
-    kin: Kinematics,
-    name: str,
-    found: sp.Expr,
-    left: Sequence[sp.Expr],
-    lost: sp.Expr,
-    meaning: str,
-) -> sp.Expr:
-    """Append the reciprocal of a determinant, guarded.
-
-    With e the square of what the iteration has left of g, over that of `_TOLERANCE`, and d the
-    determinant with the sign that it has at the design position, the guard is
-    ``(d - e) / (1 + e)``. It is not positive where a loop cannot close, where J is singular, and
-    where the iteration has not come through from the design position: that counts to e. Else it is
-    d to the last digit.
-
-    Parameters
-    ----------
-    found
-        The determinant, as the iteration returns it.
-    left
-        What the iteration has left of g.
-    lost
-        One where the iteration has not arrived, else zero.
-    meaning
-        What it means that the guard acts; how many iterations there were is said behind it.
-    """
-    program = kin.program
-    squares = sum((g * g for g in left), sp.Integer(0))
-    excess = program.define(f"{name}_excess", squares / _TOLERANCE**2 + lost / _TOLERANCE)
-    arrived = program.guarded(
-        f"{name}_closure",
-        (found - excess) / (1 + excess),
-        meaning.format(iterations=ITERATIONS),
-        "1",
-    )
-    held_at_all = IsPositive(
-        arrived.args[0]
-    )  # else no correction: what was found last stays finite
-    return program.define(f"{name}_arrived", Frozen(held_at_all / arrived))

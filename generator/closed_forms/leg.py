@@ -9,7 +9,7 @@ are in files of their own; one that is defined is tried wherever a leg may be.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import sympy as sp
@@ -21,10 +21,12 @@ if TYPE_CHECKING:
 
     from ..declare.geometry import Point
     from ..declare.joints import Joint
+    from ..kinematics.coordinates import Coordinates
     from ..kinematics.extent import Spanning
     from ..kinematics.kinematics import Kinematics
     from ..kinematics.motion import PointMotion
     from ..loops.cut import CutLoop
+    from ..loops.forms import PlannedStep
     from ..loops.graph import Cycle
     from ..loops.known import Coordinate, Known
     from ..program.vectors import Vector
@@ -55,6 +57,24 @@ class Rod:
     squared: sp.Expr
     stretch: dict[str, sp.Expr] = field(default_factory=dict)
     stretch_bias: sp.Expr = sp.S.Zero
+
+    def driven(
+        self, coordinates: Coordinates, joint: Joint, slope: sp.Expr, curvature: sp.Expr
+    ) -> Rod:
+        """Return the rod with a length that the coordinate of a joint changes.
+
+        Parameters
+        ----------
+        coordinates, joint
+            Those of the model, and the joint of known coordinate.
+        slope, curvature
+            First and second derivative of half the square of the length by that.
+        """
+        if not coordinates.moves(joint):
+            return self
+        stretch = {coordinates.of(joint): slope * coordinates.ratio(joint)}
+        given, speed = coordinates.given_acceleration(joint), coordinates.speed(joint)
+        return replace(self, stretch=stretch, stretch_bias=slope * given + curvature * speed**2)
 
 
 @dataclass(frozen=True)
@@ -95,14 +115,21 @@ class Leg(ABC):
     def links(self) -> tuple[str, ...]:
         """Its links, from the anchor to the end."""
 
-    @abstractmethod
-    def record(self, known: Known, joint: Joint) -> set[Coordinate]:
-        """Record that it holds a body on a joint; return the coordinates that were not known."""
+    @property
+    def placing(self) -> PlannedStep | None:
+        """The step that places its links by their pins; none: they are left on their line."""
+        return None
 
     @property
     def pinned(self) -> bool:
-        """Whether its links are placed by steps of their own, and not left on their line."""
-        return False
+        """Whether its links are placed by their pins."""
+        return self.placing is not None
+
+    def record(self, known: Known, joint: Joint) -> set[Coordinate]:
+        """Record that it holds a body on a joint; return the coordinates that were not known."""
+        assert self.placing is not None
+        known.steps.append(self.placing)
+        return known.add_all([joint]) | self.placing.accept(known)
 
     @property
     def points(self) -> tuple[Point, ...]:

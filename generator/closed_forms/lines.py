@@ -7,16 +7,15 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..kinematics.extent import extent_squared, require
-from ..kinematics.motion import BodyMotion, OnLine, PointMotion, to_axes
+from ..kinematics.motion import OnLine, PointMotion
 from ..program.floors import DIRECTION, LENGTH
 from ..program.vectors import ZERO, Vector
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from ..declare.geometry import Point
     from ..kinematics.extent import Spanning
     from ..kinematics.kinematics import Kinematics
+    from ..kinematics.motion import Axes
     from .leg import Leg
 
 
@@ -143,32 +142,25 @@ def place_rod(kin: Kinematics, leg: Leg, rod_anchor: PointMotion, length: sp.Exp
     )
 
 
-def line_omega(record: OnLine, swing: Vector) -> Vector:
-    """Return the angular velocity of a line across itself, in body axes (line first).
+def axes_about(kin: Kinematics, name: str, line: Vector, way: Vector) -> tuple[Axes, Vector]:
+    """Append axes along a line, along what of a way is across it, and across both (constants).
 
-    From ``d(span)/dt = length' n + length (omega x n)``.
+    Parameters
+    ----------
+    kin, name
+        The kinematics so far, and what begins the names of the steps.
+    line, way
+        A unit vector, and a vector at some angle to it.
+
+    Returns
+    -------
+    axes, parts
+        The axes, and the way along these: along the line, and across it.
     """
-    return Vector(ZERO.x, -swing.z * record.inverse_length, swing.y * record.inverse_length)
-
-
-def line_alpha(kin: Kinematics, record: OnLine, omega: Vector, swing: Vector) -> Vector:
-    """Return the angular bias acceleration of a line across itself, in body axes (line first).
-
-    The second derivative of ``span = length n``, in its two components across the line.
-    """
-    rates = (motion * kin.coordinates.rate(k) for k, motion in record.length_motion.items())
-    twice = 2 * sum(rates, sp.Integer(0))
-    return Vector(
-        ZERO.x,
-        omega.x * omega.z - (swing.z + twice * omega.y) * record.inverse_length,
-        (swing.y - twice * omega.z) * record.inverse_length - omega.x * omega.y,
-    )
-
-
-def projector(kin: Kinematics, placed: BodyMotion) -> Callable[[str, Vector], Vector]:
-    """Return a function that appends the body components of a work vector."""
-
-    def to_body(label: str, v: Vector) -> Vector:
-        return kin.program.vector(f"{placed.body}_{label}", to_axes(placed.axes, v), "123")
-
-    return to_body
+    program = kin.program
+    along = program.define(f"{name}_along", way.dot(line))
+    across = program.vector(f"{name}_across", way - line * along)
+    radius = program.define(f"{name}_radius", sp.sqrt(across.dot(across)))
+    t = program.vector(f"{name}_unit", across * (1 / radius))
+    normal = program.vector(f"{name}_normal", line.cross(t))
+    return (line, t, normal), Vector(along, radius, ZERO.z)

@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..kinematics.extent import extent_squared, require
-from ..kinematics.motion import Axes, BodyMotion, OffLine, OnLine, PointMotion, once
+from ..kinematics.motion import Axes, BodyMotion, OffLine, OnLine, PointMotion
 from ..program.floors import BRANCH, NORMAL, ROOT
 from ..program.functions import SignOf
-from ..program.vectors import ZERO, Twist, Vector
-from .lines import place_rod, projector
+from ..program.vectors import ZERO, Vector
+from .constraints import Distance
+from .lines import axes_about, place_rod
+from .solved_motion import Condition, TargetPoint, TurnOnLine, add_turn, place_at, projector
 
 if TYPE_CHECKING:
     from ..kinematics.extent import Spanning
@@ -52,7 +54,6 @@ def solve_offset_turn(kin: Kinematics, step: Spanning, leg: Leg) -> None:
     record = kin.off_line[leg.body]
     rod_anchor = leg.anchor_motion(kin)
     turn = _OffsetTurn(kin, step, leg, record, rod_anchor)
-    kin.placed[leg.body] = turn.placed
     place_rod(kin, leg, rod_anchor, turn.rod_length)
     _aim(kin, record, turn.placed)
 
@@ -82,11 +83,7 @@ class _OffsetTurn:
         self.base = telescope.end
         base, end, anchor = (kin.design(p) for p in (self.base, self.leg.end, self.leg.anchor))
         arm = program.vector(f"{body}_arm_design", end - base)
-        along = program.define(f"{body}_arm_along", arm.dot(e1))
-        across = program.vector(f"{body}_arm_across", arm - e1 * along)
-        radius = program.define(f"{body}_arm_radius", sp.sqrt(across.dot(across)))
-        e2 = program.vector(f"{body}_arm_unit", across * (1 / radius))
-        e3 = program.vector(f"{body}_normal_design", e1.cross(e2))
+        (e1, e2, e3), self.arm = axes_about(kin, f"{body}_arm", e1, arm)
         rod = program.vector(f"{self.leg.rod}_design", end - anchor)
         self.rod_length = program.define(f"{self.leg.rod}_length", sp.sqrt(rod.dot(rod)))
         kin.rod_lengths[self.leg.rod] = self.rod_length
@@ -94,7 +91,6 @@ class _OffsetTurn:
         self.extent = extent_squared(kin, self.step)
         self._require(arm, span, anchor - base)
         self.branch = program.define(f"{body}_branch", SignOf(arm.dot(span.cross(anchor - base))))
-        self.arm = Vector(along, radius, ZERO.z)
         self.arm_squared = program.define(f"{body}_arm_squared", self.arm.dot(self.arm))
         self.offset = Vector(
             ZERO.x,
@@ -175,20 +171,18 @@ class _OffsetTurn:
             f"{body}_share_of_normal", self.branch * sp.sqrt(room * inverse)
         )
         arm = program.vector(f"{body}_arm_now", record.span * u + w * v + normal * self.height)
-        self.placed = BodyMotion(
+        self.placed = place_at(
+            self.kin,
             body,
-            origin=record.end_motion.position,
-            axes=self._axes(arm, along_span),
-            design_origin=self.kin.design(self.base),
-            design_axes=self.design_axes,
+            (record.ends.end_body, self.base),
+            self._axes(arm, along_span),
+            self.design_axes,
             local={
-                self.base: ZERO,
                 self.leg.end: self.arm,
                 record.ends.axis_point: Vector(record.lead, ZERO.y, ZERO.z) - self.offset,
             },
-            carrier=self._carrier(),
         )
-        seen = program.vector(f"{body}_reach_seen", self._to_body(w), "123")
+        seen = projector(self.kin, self.placed)("reach_seen", w)
         self.rod_vector = program.vector(f"{body}_rod", self.arm - seen, "123")
 
     def _axes(self, arm: Vector, along_span: sp.Expr) -> Axes:
@@ -217,77 +211,21 @@ class _OffsetTurn:
             axes.append(program.vector(f"{body}_axis_{i}", axis))
         return axes[0], axes[1], program.vector(f"{body}_axis_3", axes[0].cross(axes[1]))
 
-    def _carrier(self) -> tuple[str, Vector]:
-        carrier = self.record.ends.end_body
-        return carrier, self.kin.local(self.kin.placed[carrier], self.base)
-
-    def _to_body(self, v: Vector) -> Vector:
-        return Vector(*(v.dot(axis) for axis in self.placed.axes))
-
     def _motion(self) -> None:
         """Velocities and bias: C stays on the axis, the rod keeps its length."""
         program, body, record = self.program, self.body, self.record
-        to_body = projector(self.kin, self.placed)
         inverse = record.inverse_reach
         sway = Vector(
             sp.Integer(1),
             program.define(f"{body}_sway_2", self.offset.y * inverse),
             program.define(f"{body}_sway_3", self.offset.z * inverse),
         )
-        inverse_lever = program.define(
-            f"{body}_inverse_lever", -record.reach / (self.height * self.normal_squared)
-        )
-        rod_rate = ZERO
-        names = dict.fromkeys(
-            [*record.end_motion.motion, *record.relative.motion, *self.rod_anchor.motion]
-        )
-        for k in names:
-            base = to_body(f"velocity_{k}", record.end_motion.motion.get(k, ZERO))
-            swing = to_body(f"swing_{k}", record.relative.motion.get(k, ZERO))
-            across = Vector(ZERO.x, -swing.z * inverse, swing.y * inverse)
-            across = program.vector(f"{body}_across_{k}", across, "123")
-            anchor = to_body(f"rod_anchor_{k}", self.rod_anchor.motion.get(k, ZERO))
-            relative_velocity = base - anchor + across.cross(self.arm)
-            turn = program.define(
-                f"{body}_turn_{k}", self.rod_vector.dot(relative_velocity) * inverse_lever
-            )
-            omega = program.vector(f"{body}_omega_{k}", across + sway * turn, "123")
-            self.placed.motion[k] = Twist(omega, base)
-            rod_rate += (base - anchor + omega.cross(self.arm)) * self.kin.coordinates.rate(k)
-
-        def bias() -> Twist:
-            rate = program.vector(f"{body}_rod_rate", rod_rate, "123")
-            omega = self.kin.total(self.placed).angular
-            base = to_body("acceleration", record.end_motion.bias)
-            anchor = to_body("rod_anchor_bias", self.rod_anchor.bias)
-            swing = to_body("swing_bias", record.relative.bias)
-            across = self._across_bias(omega, swing)
-            whirl = program.vector(f"{body}_whirl", omega.cross(self.arm), "123")
-            pull = base - anchor + omega.cross(whirl) + across.cross(self.arm)
-            turn = program.define(
-                f"{body}_turn_bias", (self.rod_vector.dot(pull) + rate.dot(rate)) * inverse_lever
-            )
-            alpha = program.vector(f"{body}_alpha", across + sway * turn, "123")
-            return Twist(alpha, base)
-
-        self.placed.bias = once(bias)
-
-    def _across_bias(self, omega: Vector, swing: Vector) -> Vector:
-        """Return the angular bias acceleration at zero turn: C stays on the axis, once more.
-
-        The second derivative of ``S = (h, o2, o3)``, in its two components across the axis.
-        """
-        record, inverse = self.record, self.record.inverse_reach
-        rates = (
-            motion * self.kin.coordinates.rate(k) for k, motion in record.length_motion.items()
-        )
-        twice = 2 * sum(rates, sp.Integer(0))
-        spin = self.program.define(f"{self.body}_spin_on_span", omega.dot(self.span))
-        square = self.program.define(f"{self.body}_omega_squared", omega.dot(omega))
-        second = omega.y * spin - self.offset.y * square + twice * omega.z
-        third = omega.z * spin - self.offset.z * square - twice * omega.y
-        across = Vector(ZERO.x, (third - swing.z) * inverse, (swing.y - second) * inverse)
-        return self.program.vector(f"{self.body}_across_bias", across, "123")
+        lever = self.height * self.normal_squared
+        inverse_lever = program.define(f"{body}_inverse_lever", -record.reach / lever)
+        line = TurnOnLine(self.kin, self.placed, record.end_motion, record, inverse, sway)
+        length = Distance(self.rod_vector, self.arm - self.rod_vector, self.arm, self.rod_length**2)
+        target = TargetPoint(self.kin, self.placed, self.rod_anchor)
+        add_turn(self.kin, line, Condition(length, target, self.arm), inverse_lever)
 
 
 def _aim(kin: Kinematics, record: OffLine, placed: BodyMotion) -> None:

@@ -16,18 +16,16 @@ from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
-from ..kinematics.motion import BodyMotion, once, to_axes
 from ..loops.forms import ClosedForm
 from ..loops.parallel import ends_of, is_along
 from ..loops.turned import turn_alike
 from ..program.conditions import Assumption
-from ..program.vectors import ZERO, Twist
+from .turned_alike import place_turned_alike
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from typing import Self
 
-    from ..declare.geometry import Point
     from ..declare.joints import Revolute
     from ..kinematics.kinematics import Kinematics
     from ..loops.cut import CutLoop
@@ -167,37 +165,13 @@ class ParallelLinks(ClosedForm):
 
     def carry_out(self, kin: Kinematics) -> None:
         """Move the body along, and the link."""
+        near, far = self.link.near.axis.through, self.leader.far.axis.through
         if self.body not in kin.placed:
-            _carry(kin, self.body, self.base, self.leader.name, self.leader.far.axis.through)
-        _carry(kin, self.link.name, self.leader.name, self.base, self.link.near.axis.through)
+            place_turned_alike(kin, self.body, kin.placed[self.base], self.leader.name, far)
+        place_turned_alike(kin, self.link.name, kin.placed[self.leader.name], self.base, near)
 
 
 def _across(n: Vector, way: Vector) -> sp.Expr:
     """Return how long a way is across a direction."""
     off = n.cross(way)
     return sp.sqrt(off.dot(off) / n.dot(n))
-
-
-def _carry(kin: Kinematics, body: str, like: str, on: str, point: Point) -> None:
-    """Place a body that turns like another one and moves with a point of a third."""
-    turning, moved = kin.placed[like], kin.point_motion(on, point)
-    placed = BodyMotion(
-        body,
-        origin=moved.position,
-        axes=turning.axes,
-        design_origin=kin.design(point),
-        design_axes=turning.design_axes,
-        local={point: ZERO},
-        carrier=(on, kin.local(kin.placed[on], point)),
-    )
-    for k in dict.fromkeys([*turning.motion, *moved.motion]):
-        angular = turning.motion[k].angular if k in turning.motion else ZERO
-        linear = to_axes(turning.axes, moved.motion.get(k, ZERO))
-        placed.motion[k] = kin.define_twist(body, k, Twist(angular, linear))
-
-    def bias() -> Twist:
-        linear = to_axes(turning.axes, moved.bias)
-        return kin.define_bias(body, Twist(turning.bias().angular, linear))
-
-    placed.bias = once(bias)
-    kin.placed[body] = placed

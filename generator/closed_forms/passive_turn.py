@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from typing import Self
 
     from ..kinematics.kinematics import Kinematics
-    from ..loops.known import Coordinate, Known
+    from ..loops.known import Known
 
 
 @dataclass(frozen=True)
@@ -35,19 +35,9 @@ class PlacePassive(Leftover):
                 yield cls(body)
 
     @property
-    def about(self) -> str:
-        """The link."""
-        return self.body
-
-    @property
     def title(self) -> str:
         """What the derivation calls this step."""
         return f"{self.body}: passive turn about its line"
-
-    def accept(self, known: Known) -> set[Coordinate]:
-        """Record the link."""
-        known.place(self.body)
-        return set()
 
     def carry_out(self, kin: Kinematics) -> None:
         """Turn the link about its line, somehow."""

@@ -3,9 +3,8 @@
 Turn a body about its hinge until a point of it meets a placed pin.
 
 With O the hinge, n its axis and ``radius`` the distance of the point from it, the direction to
-the point is t = (pin - O) across n, divided by the radius. The pin's velocity gives the turn:
-``omega1 radius = (v_pin - v_O - omega_parent x arm) . (n x t)``. Nothing is left to choose, and
-nothing is singular: the loop has closed before.
+the point is t = (pin - O) across n, divided by the radius. That the points meet along n x t gives
+the rate of the turn. Nothing is left to choose, nothing is singular: the loop has closed before.
 """
 
 from __future__ import annotations
@@ -15,19 +14,20 @@ from typing import TYPE_CHECKING
 
 from ..kinematics.extent import extent_squared
 from ..kinematics.motion import Axes, Meeting
-from ..loops.forms import PlannedStep
-from ..program.vectors import Vector
-from .hinge import Condition, Hinge, place_on_hinge, report_angle
+from ..loops.forms import Placement
+from ..program.vectors import UNIT_Z
+from .constraints import Coincident
+from .hinge import Hinge, place_on_hinge, report_angle
+from .solved_motion import Condition, TargetPoint, add_turn
 
 if TYPE_CHECKING:
     from ..declare.geometry import Point
     from ..declare.joints import Revolute
     from ..kinematics.kinematics import Kinematics
-    from ..loops.known import Coordinate, Known
 
 
 @dataclass(frozen=True)
-class PlaceByPin(PlannedStep):
+class PlaceByPin(Placement):
     """A body on a hinge of a placed body meets another placed body at a pin: its angle follows."""
 
     body: str
@@ -37,19 +37,9 @@ class PlaceByPin(PlannedStep):
     pin_body: str
 
     @property
-    def about(self) -> str:
-        """The body."""
-        return self.body
-
-    @property
     def title(self) -> str:
         """What the derivation calls this step."""
         return f"{self.body}: pinned to {self.pin_body}"
-
-    def accept(self, known: Known) -> set[Coordinate]:
-        """Record the body; the step that closes the loop records its joints."""
-        known.place(self.body)
-        return set()
 
     def carry_out(self, kin: Kinematics) -> None:
         """Turn the body about its hinge until the points meet."""
@@ -64,5 +54,8 @@ class PlaceByPin(PlannedStep):
         inverse = program.define(f"{body}_radius_inverse", 1 / hinge.arm.radius)
         t = program.vector(f"{body}_arm", (span - n * hinge.arm.along) * inverse)
         axes: Axes = (n, t, program.vector(f"{body}_normal", n.cross(t)))
-        place_on_hinge(kin, hinge, axes, Condition(pin, Vector.of(0, 0, 1), -inverse))
+        unsolved = place_on_hinge(kin, hinge, axes)
+        arm = hinge.arm.local
+        target = TargetPoint(kin, unsolved.placed, pin)
+        add_turn(kin, unsolved, Condition(Coincident(arm, arm, UNIT_Z), target, arm))
         report_angle(kin, hinge, axes)

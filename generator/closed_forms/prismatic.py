@@ -20,12 +20,13 @@ import sympy as sp
 
 from ..declare.joints import Prismatic
 from ..kinematics.extent import extent_squared, require
-from ..kinematics.motion import BodyMotion, from_axes, once
+from ..kinematics.motion import from_axes
 from ..program.floors import BRANCH, ROOT
 from ..program.functions import SignOf
-from ..program.vectors import ZERO, Twist
+from .constraints import Distance
 from .held import HeldOnJoint
-from .lines import place_rod, projector
+from .lines import place_rod
+from .solved_motion import Condition, SlideOnGuide, TargetPoint, add_turn, projector
 
 if TYPE_CHECKING:
     from ..kinematics.kinematics import Kinematics
@@ -77,46 +78,17 @@ class PrismaticByLength(HeldOnJoint):
         sense = 1 if joint.second.name == body else -1
         kin.slides[joint.name] = sense * slide
         offset = local * slide
-        placed = BodyMotion(
-            body,
-            origin=program.vector(f"{body}_origin", parent.origin + from_axes(parent.axes, offset)),
-            axes=parent.axes,
-            design_origin=parent.design_origin,
-            design_axes=parent.design_axes,
-        )
-        kin.placed[body] = placed
-        to_body = projector(kin, placed)
+        unsolved = SlideOnGuide(kin, body, parent, offset, [local])
+        placed = unsolved.placed
         arm = kin.local(placed, leg.end)
-        rod_vector = program.vector(
-            f"{body}_rod", to_body("rod_now", d * (branch * root) - across), "123"
+        rod_vector = projector(kin, placed)("rod", d * (branch * root) - across)
+        length = Distance(rod_vector, arm - rod_vector, arm, rod.squared)
+        add_turn(
+            kin,
+            unsolved,
+            Condition(length, TargetPoint(kin, placed, anchor), arm, rod),
+            program.define(f"{body}_inverse_lever", -branch / root),
         )
-        inverse_lever = program.define(f"{body}_inverse_lever", -branch / root)
-        rate = ZERO
-        for k in dict.fromkeys([*parent.motion, *anchor.motion, *rod.stretch]):
-            carried = parent.motion.get(k, Twist(ZERO, ZERO))
-            base = carried.linear + carried.angular.cross(offset)
-            target = to_body(f"target_{k}", anchor.motion.get(k, ZERO))
-            relative_velocity = base - target + carried.angular.cross(arm)
-            fitted = rod_vector.dot(relative_velocity) - rod.stretch.get(k, sp.Integer(0))
-            speed = program.define(f"{body}_speed_{k}", fitted * inverse_lever)
-            twist = kin.define_twist(body, k, Twist(carried.angular, base + local * speed))
-            placed.motion[k] = twist
-            rate += (twist.linear - target + carried.angular.cross(arm)) * kin.coordinates.rate(k)
-
-        def bias() -> Twist:
-            now = program.vector(f"{body}_rod_rate", rate, "123")
-            carried, omega = parent.bias(), kin.total(parent).angular
-            relative_velocity_now = kin.total(placed).linear - (
-                kin.total(parent).linear + omega.cross(offset)
-            )  # of the slide
-            base = kin.point_bias(parent, offset) + omega.cross(relative_velocity_now) * 2
-            target = to_body("target_bias", anchor.bias)
-            pull = base - target + carried.angular.cross(arm) + omega.cross(omega.cross(arm))
-            fitted = rod_vector.dot(pull) + now.dot(now) - rod.stretch_bias
-            speed = program.define(f"{body}_speed_bias", fitted * inverse_lever)
-            return kin.define_bias(body, Twist(carried.angular, base + local * speed))
-
-        placed.bias = once(bias)
         if not leg.pinned:
             place_rod(kin, leg, anchor, rod.length)
 

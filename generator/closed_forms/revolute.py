@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 from ..declare.joints import Revolute
 from ..kinematics.extent import extent_squared
-from .arm import Reach, fit_rod, solution_for
+from .arm import Reach, add_turn_of_rod, fit_rod
 from .held import HeldOnJoint
-from .hinge import Condition, Hinge, place_on_hinge, report_angle
+from .hinge import Hinge, place_on_hinge, report_angle
 from .lines import place_rod
 
 if TYPE_CHECKING:
@@ -29,11 +29,6 @@ class RevoluteByLength(HeldOnJoint):
 
     rank: ClassVar[int] = 5
     kind = Revolute
-
-    @property
-    def solution(self) -> str:
-        """How the equation is solved, for the report."""
-        return solution_for(self.leg)
 
     def carry_out(self, kin: Kinematics) -> None:
         """Turn the body about its hinge until the leg fits."""
@@ -50,9 +45,7 @@ class RevoluteByLength(HeldOnJoint):
             program.vector(f"{body}_reach_normal", hinge.axis.cross(e)),
         )
         fit = fit_rod(kin, self, leg, hinge.arm, hinge.axis, reach)
-        place_on_hinge(
-            kin, hinge, fit.axes, Condition(anchor, fit.rod_vector, fit.inverse_lever, fit.rod)
-        )
+        add_turn_of_rod(kin, place_on_hinge(kin, hinge, fit.axes), fit, hinge.arm, anchor)
         report_angle(kin, hinge, fit.axes)
         if not leg.pinned:
             place_rod(kin, leg, anchor, fit.rod.length)

@@ -53,9 +53,11 @@ class RigidRod(Leg):
         return (self.rod,)
 
     @property
-    def pinned(self) -> bool:
-        """Whether it is placed by its pins; others are free to turn about their line."""
-        return self.hinge is not None
+    def placing(self) -> PlaceByPin | None:
+        """In a plane, the step that places it by its pins; others may turn about their line."""
+        if self.hinge is None:
+            return None
+        return PlaceByPin(self.rod, self.hinge, self.anchor_body, self.end, self.body)
 
     def record(self, known: Known, joint: Joint) -> set[Coordinate]:
         """Record the body that it drives, and the rod: placed by its hinge, or on its line."""
@@ -68,12 +70,11 @@ class RigidRod(Leg):
 
     def settle(self, known: Known) -> None:
         """Record that both of its ends are placed."""
-        if self.hinge is None:
+        if self.placing is None:
             known.on_line.add(self.rod)
-            return
-        pin = PlaceByPin(self.rod, self.hinge, self.anchor_body, self.end, self.body)
-        known.steps.append(pin)
-        known.placed.add(self.rod)
+        else:
+            known.steps.append(self.placing)
+            known.placed.add(self.rod)
 
     def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> Rod:
         """Append its length, a constant."""

@@ -12,9 +12,8 @@ design position. Branch: s is the sign of u at the design position. Valid while 
 the edge the line of the pins is perpendicular to the guide. Slide known: u is known, and the loop
 has closed before: the telescope then is a leg. That d is across n is one of the `assumptions`.
 
-Both links have the body axes (n, d, n x d), in which D - A = (h, u, e). The third component of
-``v_D - v_A`` has no part of u', so that it gives the turn: u omega1 = (v_D - v_A - omega_parent x
-(D - A))_3, and once more for the accelerations, with the Coriolis term 2 u' omega1.
+Both links have the body axes (n, d, n x d), in which D - A = (h, u, e). That D stays on the guide,
+along n x d, gives the rate of the turn.
 
 A telescope whose slide x is known is a rod of known variable length. With (h, c, e) the way from
 pin to pin at the design position, along n, along d and along n x d,
@@ -35,20 +34,21 @@ import sympy as sp
 
 from ..declare.joints import Revolute
 from ..kinematics.extent import extent_squared, require
-from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, once, to_axes
+from ..kinematics.motion import Axes, PointMotion, from_axes, to_axes
 from ..loops.forms import ClosedForm, PlannedStep
 from ..program.floors import BRANCH, DIRECTION, LENGTH, ROOT
 from ..program.functions import Positive, SignOf
-from ..program.vectors import UNIT_X, ZERO, Twist, Vector
+from ..program.vectors import UNIT_Y, UNIT_Z, ZERO, Vector
+from .constraints import Guided
 from .guided_pair import GuidedPair
 from .leg import Leg, Rod
-from .turning_body import TurningBody
+from .solved_motion import Condition, TargetPoint, TurnOnHinge, add_turn, place_at
+from .turned_alike import place_turned_alike
 
 if TYPE_CHECKING:
     from typing import Self
 
     from ..declare.geometry import Point
-    from ..declare.joints import Joint
     from ..kinematics.extent import Spanning
     from ..kinematics.kinematics import Kinematics
     from ..loops.cut import CutLoop
@@ -57,10 +57,32 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class RPR(ClosedForm):
-    """Two placed pins are the ends of a telescope in a plane: slide and direction follow."""
+class _OnPins(PlannedStep):
+    """A telescope in a plane between two placed pins."""
 
     telescope: GuidedPair
+
+    @property
+    def about(self) -> str:
+        """The link at the anchor."""
+        return self.telescope.near
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The two pins."""
+        return self.telescope.points
+
+    def accept(self, known: Known) -> set[Coordinate]:
+        """Record the two links, and the joints at them."""
+        telescope = self.telescope
+        known.placed |= {telescope.near, telescope.far}
+        ends = telescope.joints_at_ends(known.mechanism.joints)
+        return known.add_all([telescope.joint, *ends])
+
+
+@dataclass(frozen=True)
+class RPR(_OnPins, ClosedForm):
+    """Two placed pins are the ends of a telescope in a plane: slide and direction follow."""
 
     rank: ClassVar[int] = 2
 
@@ -74,23 +96,9 @@ class RPR(ClosedForm):
         return cls(telescope)
 
     @property
-    def about(self) -> str:
-        """The link at the anchor."""
-        return self.telescope.near
-
-    @property
     def title(self) -> str:
         """What the derivation calls this step."""
         return f"transformer: telescope of {self.telescope.links}"
-
-    @property
-    def points(self) -> tuple[Point, ...]:
-        """The two pins."""
-        return self.telescope.points
-
-    def accept(self, known: Known) -> set[Coordinate]:
-        """Record the two links, and the joints at them."""
-        return _accept(known, self.telescope)
 
     def words(self, closing: Closing | None) -> tuple[str, str]:
         """Return the closure equation and its solution."""
@@ -115,7 +123,7 @@ class RPR(ClosedForm):
             f"{telescope.end.name} come nearer to each other than the guide of {telescope.links} "
             "allows",
             "m^2",
-            # the square of the distance of the pins is more by e^2: their direction counts as well
+            # the square of the distance of the pins is more by e^2: their direction counts, too
             ROOT * extent + Positive(DIRECTION * extent - e**2),
         )
         extension = program.define(f"{near}_extension", pins.guide.branch * sp.sqrt(squared))
@@ -125,29 +133,13 @@ class RPR(ClosedForm):
 
 
 @dataclass(frozen=True)
-class PlaceTelescope(PlannedStep):
+class PlaceTelescope(_OnPins):
     """Two placed pins are the ends of a telescope of known slide: its direction follows."""
-
-    telescope: GuidedPair
-
-    @property
-    def about(self) -> str:
-        """The link at the anchor."""
-        return self.telescope.near
 
     @property
     def title(self) -> str:
         """What the derivation calls this step."""
         return f"{self.telescope.links}: telescope"
-
-    @property
-    def points(self) -> tuple[Point, ...]:
-        """The two pins."""
-        return self.telescope.points
-
-    def accept(self, known: Known) -> set[Coordinate]:
-        """Record the two links, and the joints at them."""
-        return _accept(known, self.telescope)
 
     def carry_out(self, kin: Kinematics) -> None:
         """Find the direction of the telescope."""
@@ -175,20 +167,14 @@ class PinnedTelescope(Leg):
         return self.telescope.near, self.telescope.far
 
     @property
-    def pinned(self) -> bool:
-        """Its links are placed by their pins."""
-        return True
+    def placing(self) -> PlannedStep:
+        """The step that places its links by their pins."""
+        return PlaceTelescope(self.telescope)
 
     @property
     def measure(self) -> str:
         """What its length is, for the report."""
         return f"{self.telescope.links} at {self.telescope.joint.name}.slide"
-
-    def record(self, known: Known, joint: Joint) -> set[Coordinate]:
-        """Record the joint that it drives, and its own."""
-        place = PlaceTelescope(self.telescope)
-        known.steps.append(place)
-        return known.add_all([joint]) | place.accept(known)
 
     def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> Rod:
         """Append its length, of known slide."""
@@ -197,14 +183,9 @@ class PinnedTelescope(Leg):
         extension = guide.known_extension(kin, extent)
         beside = guide.start.x**2 + guide.start.z**2
         squared = kin.program.define(f"{near}_length_squared", extension**2 + beside)
-        coordinates, joint = kin.coordinates, telescope.joint
-        stretch, bias = {}, sp.Integer(0)
-        if coordinates.moves(joint):
-            stretch[coordinates.of(joint)] = telescope.sense * extension * coordinates.ratio(joint)
-            given = telescope.sense * coordinates.given_acceleration(joint)
-            bias = coordinates.speed(joint) ** 2 + extension * given
-        name = f"telescope of {telescope.links}"
-        return Rod(name, design, sp.sqrt(squared), squared, stretch, bias)
+        rod = Rod(f"telescope of {telescope.links}", design, sp.sqrt(squared), squared)
+        slope = telescope.sense * extension
+        return rod.driven(kin.coordinates, telescope.joint, slope, sp.Integer(1))
 
 
 # -- structure ------------------------------------------------------------------------------------
@@ -219,13 +200,6 @@ def _pinned(known: Known, cut: CutLoop) -> GuidedPair | None:
     if not all(isinstance(hinge, Revolute) for hinge in hinges):
         return None
     return None if {pair.near, pair.far} & known.placed else pair
-
-
-def _accept(known: Known, telescope: GuidedPair) -> set[Coordinate]:
-    """Record the two links of a telescope, and the joints at them."""
-    known.placed |= {telescope.near, telescope.far}
-    ends = telescope.joints_at_ends(known.mechanism.joints)
-    return known.add_all([telescope.joint, *ends])
 
 
 def _hinges(kin: Kinematics, telescope: GuidedPair) -> tuple[Revolute, Revolute]:
@@ -342,55 +316,14 @@ class _Pins:
 
 def _place(kin: Kinematics, pins: _Pins, extension: sp.Expr) -> None:
     """Place both links, given the way along the guide."""
-    program, telescope, start = kin.program, pins.telescope, pins.guide.start
+    telescope, start = pins.telescope, pins.guide.start
     near, arm = telescope.near, Vector(start.x, extension, start.z)
     axes = _axes(kin, pins, extension)
-    parent, carrier = kin.placed[telescope.anchor_body], kin.placed[telescope.end_body]
-    link = BodyMotion(
-        near,
-        origin=pins.anchor.position,
-        axes=axes,
-        design_origin=kin.design(telescope.anchor),
-        design_axes=pins.guide.axes,
-        local={telescope.anchor: ZERO},
-        carrier=(parent.body, kin.local(parent, telescope.anchor)),
-    )
-    other = BodyMotion(
-        telescope.far,
-        origin=pins.end.position,
-        axes=axes,
-        design_origin=kin.design(telescope.end),
-        design_axes=pins.guide.axes,
-        local={telescope.end: ZERO},
-        carrier=(carrier.body, kin.local(carrier, telescope.end)),
-    )
-    turning = TurningBody(kin, link, pins.anchor, pins.end)
-    inverse_lever = program.define(f"{near}_inverse_lever", -1 / extension)
-    growth = sp.Integer(0)  # of the extension
-
-    for k in turning.moved_by():
-        given = turning.rates(k)
-        base, target = given.base, given.target
-        turn = program.define(
-            f"{near}_turn_{k}", (base - target + given.carried.cross(arm)).z * inverse_lever
-        )
-        omega = program.vector(f"{near}_omega_{k}", given.carried + UNIT_X * turn, "123")
-        link.motion[k], other.motion[k] = Twist(omega, base), Twist(omega, target)
-        growth += (target - base - omega.cross(arm)).y * kin.coordinates.rate(k)
-
-    def bias() -> Twist:
-        given, omega = turning.biases(), kin.total(link).angular
-        whirl = program.vector(f"{near}_whirl", omega.cross(arm), "123")
-        pull = given.base - given.target + omega.cross(whirl) + given.carried.cross(arm)
-        coriolis = 2 * omega.x * program.define(f"{near}_growth", growth)
-        turn = program.define(f"{near}_turn_bias", (pull.z + coriolis) * inverse_lever)
-        return kin.define_bias(near, Twist(given.carried + UNIT_X * turn, given.base))
-
-    def target_bias() -> Twist:
-        return Twist(link.bias().angular, turning.to_body("target_bias", pins.end.bias))
-
-    link.bias, other.bias = once(bias), once(target_bias)
-    kin.placed[near], kin.placed[telescope.far] = link, other
+    at = telescope.anchor_body, telescope.anchor
+    link = place_at(kin, near, at, axes, pins.guide.axes)
+    guided, end = Guided(arm, arm, UNIT_Z, guide=UNIT_Y), TargetPoint(kin, link, pins.end)
+    add_turn(kin, TurnOnHinge(kin, link, *at), Condition(guided, end, arm, is_first=True))
+    place_turned_alike(kin, telescope.far, link, telescope.end_body, telescope.end)
 
 
 def _axes(kin: Kinematics, pins: _Pins, extension: sp.Expr) -> Axes:

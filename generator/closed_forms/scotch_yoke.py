@@ -21,17 +21,18 @@ import sympy as sp
 
 from ..declare.joints import Prismatic, Revolute
 from ..kinematics.extent import require
-from ..kinematics.motion import BodyMotion, PointMotion, from_axes, once
+from ..kinematics.motion import once
 from ..loops.forms import ClosedForm
 from ..program.floors import LENGTH
 from ..program.vectors import NO_TWIST, ZERO, Twist, Vector
-from .lines import projector
+from .solved_motion import SlideOnGuide, projector
 
 if TYPE_CHECKING:
     from typing import Self
 
     from ..declare.geometry import Point
     from ..kinematics.kinematics import Kinematics
+    from ..kinematics.motion import BodyMotion, PointMotion
     from ..loops.cut import CutLoop
     from ..loops.forms import Closing
     from ..loops.known import Coordinate, Known
@@ -110,23 +111,15 @@ class ScotchYoke(ClosedForm):
 
     def carry_out(self, kin: Kinematics) -> None:
         """Find both slides, and place what they move."""
-        program, base = kin.program, kin.placed[self.base]
+        base = kin.placed[self.base]
         axes, pin = _Oblique.of(kin, self, base), kin.point_motion(self.pin_body, self.pin)
         q = projector(kin, base)(f"{self.block}_pin", pin.position - base.origin)
         x = axes.parts(kin, f"{self.yoke}_slide", q - kin.local(base, self.pin))
         kin.slides[self.slot.name] = x[0] if self.slot.second.name == self.block else -x[0]
         kin.slides[self.guide.name] = x[1] if self.guide.second.name == self.yoke else -x[1]
-        offsets = {self.yoke: axes.along(_NONE, x[1]), self.block: axes.along(*x)}
-        for body, offset in offsets.items():
-            at = base.origin + from_axes(base.axes, offset)
-            kin.placed[body] = BodyMotion(
-                body,
-                origin=program.vector(f"{body}_origin", at),
-                axes=base.axes,
-                design_origin=base.design_origin,
-                design_axes=base.design_axes,
-            )
-        self._add_motion(kin, axes, q, pin, offsets)
+        yoke = SlideOnGuide(kin, self.yoke, base, axes.along(_NONE, x[1]))
+        block = SlideOnGuide(kin, self.block, base, axes.along(*x))
+        self._add_motion(kin, axes, q, pin, (yoke, block))
 
     def _add_motion(
         self,
@@ -134,9 +127,12 @@ class ScotchYoke(ClosedForm):
         axes: _Oblique,
         q: Vector,
         pin: PointMotion,
-        offsets: dict[str, Vector],
+        sliding: tuple[SlideOnGuide, SlideOnGuide],
     ) -> None:
-        """Record velocities and biases: the base carries both, and they slide on it."""
+        """Record velocities and biases: the base carries both, and they slide on it.
+
+        By hand: block and yoke have the same two unknowns, and need no division.
+        """
         base = kin.placed[self.base]
         to_base, speeds = projector(kin, base), (_NONE, _NONE)
         for k in dict.fromkeys([*base.motion, *pin.motion]):
@@ -148,26 +144,24 @@ class ScotchYoke(ClosedForm):
                 speeds[0] + v[0] * kin.coordinates.rate(k),
                 speeds[1] + v[1] * kin.coordinates.rate(k),
             )
-            for body, offset in offsets.items():
-                own = axes.along(v[0] if body == self.block else _NONE, v[1])
-                linear = carried.linear + carried.angular.cross(offset) + own
-                twist = Twist(carried.angular, linear)
-                kin.placed[body].motion[k] = kin.define_twist(body, k, twist)
+            for on_base, slide in zip(sliding, (_NONE, v[0]), strict=True):
+                twist = on_base.at_rest(k) + Twist(ZERO, axes.along(slide, v[1]))
+                placed = on_base.placed
+                placed.motion[k] = kin.define_twist(placed.body, k, twist)
 
-        def bias(body: str) -> Twist:
-            """Return the bias of the yoke, which has no part of the slot, or of the block."""
+        def bias(on_base: SlideOnGuide, part: int) -> Twist:
+            """Return the bias of the block, or of the yoke, which has no part of the slot."""
             spin = kin.total(base).angular
             target = to_base(f"{self.block}_pin_bias", pin.bias)
             left = target - kin.point_bias(base, q) - spin.cross(axes.along(*speeds)) * 2
             a = axes.parts(kin, f"{self.yoke}_speed_bias", left)
-            part = int(body == self.block)
-            sliding = spin.cross(axes.along(part * speeds[0], speeds[1])) * 2
-            sliding += axes.along(part * a[0], a[1])
-            linear = kin.point_bias(base, offsets[body]) + sliding
-            return kin.define_bias(body, Twist(base.bias().angular, linear))
+            carried = on_base.carried_bias(axes.along(part * speeds[0], speeds[1]))
+            own = Twist(ZERO, axes.along(part * a[0], a[1]))
+            return kin.define_bias(on_base.placed.body, carried + own)
 
-        kin.placed[self.yoke].bias = once(lambda: bias(self.yoke))
-        kin.placed[self.block].bias = once(lambda: bias(self.block))
+        yoke, block = sliding
+        yoke.placed.bias = once(lambda: bias(yoke, 0))
+        block.placed.bias = once(lambda: bias(block, 1))
 
 
 @dataclass(frozen=True)

@@ -102,5 +102,4 @@ class SingleCross(ClosedForm):
             f"{cross.name}_on_{driving.body}", to_axes(driving.design_axes, design), "123"
         )
         given = GivenAxis(kin.program.vector(cross.name, from_axes(driving.axes, local)), design)
-        center = kin.point_motion(self.yoke.parent, cross.at)
-        turn_through_cross(kin, self, self.yoke, own, given, center)
+        turn_through_cross(kin, self, self.yoke, own, given)

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, ClassVar
 import sympy as sp
 
 from ..kinematics.extent import extent_squared
-from ..kinematics.motion import BodyMotion, OnLine, PointMotion, RodEnds, once
-from ..program.vectors import ZERO, Twist, Vector
-from .arm import Arm, Fit, Reach, fit_rod, solution_for
+from ..kinematics.motion import OnLine, PointMotion, RodEnds
+from .arm import Arm, Reach, add_turn_of_rod, fit_rod
 from .held import HeldByLeg
-from .lines import line_alpha, line_omega, place_rod, projector
+from .lines import place_rod
 from .offset_turn import solve_offset_turn
 from .rigid_rod import RigidRod
+from .solved_motion import TurnOnLine, place_at
 from .telescope import Telescope
 
 if TYPE_CHECKING:
@@ -45,11 +45,6 @@ class TurnByLength(HeldByLeg):
         if leg is None or leg.anchor_body not in known.placed or leg.body not in known.on_line:
             return None
         return cls(leg)
-
-    @property
-    def solution(self) -> str:
-        """How the equation is solved, for the report."""
-        return solution_for(self.leg)
 
     def accept(self, known: Known) -> set[Coordinate]:
         """Record the body, and the telescopes that it aims."""
@@ -80,17 +75,10 @@ class TurnByLength(HeldByLeg):
         rod_anchor = leg.anchor_motion(kin)
         reach = _reach(kin, leg.body, record, base, arm, rod_anchor)
         fit = fit_rod(kin, self, leg, arm, record.direction, reach)
-        placed = BodyMotion(
-            leg.body,
-            origin=base.motion.position,
-            axes=fit.axes,
-            design_origin=kin.design(base.point),
-            design_axes=arm.design_axes,
-            local={base.point: ZERO, leg.end: arm.local},
-            carrier=(base.carrier, kin.local(kin.placed[base.carrier], base.point)),
-        )
-        _turn_motion(kin, placed, record, base, arm.local, fit, rod_anchor)
-        kin.placed[leg.body] = placed
+        at, local = (base.carrier, base.point), {leg.end: arm.local}
+        placed = place_at(kin, leg.body, at, fit.axes, arm.design_axes, local=local)
+        unsolved = TurnOnLine(kin, placed, base.motion, record, record.inverse_length)
+        add_turn_of_rod(kin, unsolved, fit, arm, rod_anchor)
         place_rod(kin, leg, rod_anchor, fit.rod.length)
 
 
@@ -133,46 +121,3 @@ def _reach(
         program.vector(f"{body}_reach_across", e - record.span * part),
         program.vector(f"{body}_reach_normal", record.direction.cross(e)),
     )
-
-
-def _turn_motion(
-    kin: Kinematics,
-    placed: BodyMotion,
-    record: OnLine,
-    base_point: _Base,
-    arm: Vector,
-    fit: Fit,
-    rod_anchor: PointMotion,
-) -> None:
-    """Velocities and bias: the line turns with its points, the rod keeps its length."""
-    body, program = placed.body, kin.program
-    to_body = projector(kin, placed)
-    rod_vector, inverse_lever = fit.rod_vector, fit.inverse_lever
-    rod_rate = ZERO
-    names = dict.fromkeys([*base_point.motion.motion, *record.relative.motion, *rod_anchor.motion])
-    for k in names:
-        base = to_body(f"velocity_{k}", base_point.motion.motion.get(k, ZERO))
-        across = line_omega(record, to_body(f"swing_{k}", record.relative.motion.get(k, ZERO)))
-        across = program.vector(f"{body}_omega_{k}", across, "123")
-        anchor = to_body(f"rod_anchor_{k}", rod_anchor.motion.get(k, ZERO))
-        relative_velocity = base - anchor + across.cross(arm)
-        turn = program.define(f"{body}_turn_{k}", rod_vector.dot(relative_velocity) * inverse_lever)
-        omega = Vector(turn, across.y, across.z)
-        placed.motion[k] = Twist(omega, base)
-        rod_rate += (base - anchor + omega.cross(arm)) * kin.coordinates.rate(k)
-
-    def bias() -> Twist:
-        rate = program.vector(f"{body}_rod_rate", rod_rate, "123")
-        omega = kin.total(placed).angular
-        base = to_body("acceleration", base_point.motion.bias)
-        anchor = to_body("rod_anchor_bias", rod_anchor.bias)
-        alpha = line_alpha(kin, record, omega, to_body("swing_bias", record.relative.bias))
-        alpha = program.vector(f"{body}_alpha", alpha, "123")
-        whirl = program.vector(f"{body}_whirl", omega.cross(arm), "123")
-        pull = base - anchor + omega.cross(whirl) + alpha.cross(arm)
-        turn = program.define(
-            f"{body}_turn_bias", (rod_vector.dot(pull) + rate.dot(rate)) * inverse_lever
-        )
-        return Twist(Vector(turn, alpha.y, alpha.z), base)
-
-    placed.bias = once(bias)

@@ -14,13 +14,12 @@ from typing import TYPE_CHECKING, ClassVar
 import sympy as sp
 
 from ..declare.joints import Spherical, Universal
-from ..kinematics.motion import BodyMotion, once, to_axes
 from ..loops.forms import ClosedForm, Follower
 from ..program.floors import LENGTH
-from ..program.vectors import NO_TWIST, ZERO, Twist, Vector
 from .guided_pair import GuidedPair
 from .leg import Leg, Rod
-from .lines import line_of_ends, projector
+from .lines import line_of_ends
+from .turned_alike import place_turned_alike
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -33,6 +32,7 @@ if TYPE_CHECKING:
     from ..loops.cut import CutLoop
     from ..loops.forms import Closing
     from ..loops.known import Coordinate, Known
+    from ..program.vectors import Vector
 
 
 @dataclass(frozen=True)
@@ -101,6 +101,7 @@ class UPS(ClosedForm):
 class PlaceByGuide(Follower):
     """The second link of a strut: turned like the first, and at the end."""
 
+    body: str
     strut: GuidedPair
 
     rank: ClassVar[int] = 2
@@ -113,43 +114,14 @@ class PlaceByGuide(Follower):
         return step if isinstance(step, cls) and step.about == child else None
 
     @property
-    def about(self) -> str:
-        """The link that is placed."""
-        return self.strut.far
-
-    @property
     def title(self) -> str:
         """What the derivation calls this step."""
-        return f"{self.strut.far}: on the guide of {self.strut.near}"
-
-    def accept(self, known: Known) -> set[Coordinate]:
-        """Record the link."""
-        known.place(self.about)
-        return set()
+        return f"{self.body}: on the guide of {self.strut.near}"
 
     def carry_out(self, kin: Kinematics) -> None:
         """Place the link: it turns like the first one, and its end is where it is."""
         strut = self.strut
-        near, end = kin.placed[strut.near], kin.point_motion(strut.end_body, strut.end)
-        placed = BodyMotion(
-            strut.far,
-            origin=end.position,
-            axes=near.axes,
-            design_origin=kin.design(strut.end),
-            design_axes=near.design_axes,
-            local={strut.end: ZERO},
-            carrier=(strut.end_body, kin.local(kin.placed[strut.end_body], strut.end)),
-        )
-        to_body = projector(kin, placed)
-        for k in dict.fromkeys([*near.motion, *end.motion]):
-            velocity = to_body(f"velocity_{k}", end.motion.get(k, ZERO))
-            placed.motion[k] = Twist(near.motion.get(k, NO_TWIST).angular, velocity)
-
-        def bias() -> Twist:
-            return Twist(near.bias().angular, to_axes(placed.axes, end.bias))
-
-        placed.bias = once(bias)
-        kin.placed[strut.far] = placed
+        place_turned_alike(kin, self.body, kin.placed[strut.near], strut.end_body, strut.end)
 
 
 @dataclass(frozen=True)
@@ -197,12 +169,8 @@ class Strut(Leg):
             "m",
             LENGTH * sp.sqrt(extent),
         )
-        stretch, bias = {}, sp.Integer(0)
-        if kin.coordinates.moves(joint):
-            stretch[kin.coordinates.of(joint)] = sense * length * kin.coordinates.ratio(joint)
-            given = sense * kin.coordinates.given_acceleration(joint)
-            bias = kin.coordinates.speed(joint) ** 2 + length * given
-        return Rod(f"strut {near}", design, length, length**2, stretch, bias)
+        rod = Rod(f"strut {near}", design, length, length**2)
+        return rod.driven(kin.coordinates, joint, sense * length, sp.Integer(1))
 
 
 def is_strut(pair: GuidedPair, cross: Joint, ball: Joint) -> bool:
@@ -221,7 +189,7 @@ def _strut(known: Known, cut: CutLoop) -> GuidedPair | None:
 
 def _accept(known: Known, strut: GuidedPair) -> set[Coordinate]:
     known.on_line.add(strut.near)
-    known.guided[strut.joint.name] = PlaceByGuide(strut)
+    known.guided[strut.joint.name] = PlaceByGuide(strut.far, strut)
     links = (strut.near, strut.far)
     return known.add_all(j for link in links for j in known.mechanism.joints_of(link))
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from typing import Self
 
     from ..kinematics.kinematics import Kinematics
-    from ..loops.known import Coordinate, Known
+    from ..loops.known import Known
 
 
 @dataclass(frozen=True)
@@ -32,19 +32,9 @@ class PlaceWelded(Follower):
         return cls(child, parent) if isinstance(joint, Weld) else None
 
     @property
-    def about(self) -> str:
-        """The body."""
-        return self.body
-
-    @property
     def title(self) -> str:
         """What the derivation calls this step."""
         return f"{self.body}: welded to {self.parent}"
-
-    def accept(self, known: Known) -> set[Coordinate]:
-        """Record the body."""
-        known.place(self.body)
-        return set()
 
     def carry_out(self, kin: Kinematics) -> None:
         """Give the body the pose and the motion of the other one."""

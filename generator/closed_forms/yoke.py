@@ -11,9 +11,7 @@ Branch: s is the sign of b . (e x t), which is w, at the design position. The fi
 yoke is across its bearing: h = k = 0, and this is Hooke's ``tan x = cos(bend) tan y``. Valid while
 ``|beta|^2 > k^2``, which at h = 0 is lost only where what drives is at a right angle to the hinge.
 
-With c = f x b, ``(omega_driven - omega_driving) . c = 0`` gives the rate of the turn, whose factor
-is ``e . c = r w``. The second derivative adds ``(omega_driven - omega_driving) . c'``, where
-``c' = (omega_driven x f) x b + f x (omega_driving x b)``.
+That b and f stay perpendicular gives the rate of the turn, whose factor is ``e . (f x b) = r w``.
 """
 
 from __future__ import annotations
@@ -24,12 +22,15 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..kinematics.extent import require
-from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, once, to_axes
+from ..kinematics.motion import Axes, from_axes, to_axes
 from ..program.conditions import Assumption
 from ..program.floors import BRANCH, DIRECTION, LENGTH
 from ..program.functions import SignOf
-from ..program.vectors import NO_TWIST, UNIT_X, ZERO, Twist, Vector
-from .lines import projector
+from ..program.vectors import Vector
+from .constraints import Perpendicular
+from .cross import second_of_cross
+from .lines import axes_about
+from .solved_motion import Condition, TargetBody, TurnOnHinge, add_turn, place_at
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -93,20 +94,9 @@ class GivenAxis:
 
 def second_axis(kin: Kinematics, cross: Universal, line: Vector) -> Vector:
     """Return the axis of a cross in its second body at the design position, across its line."""
-    body = cross.second.name
-    across = kin.design_direction(cross.first_axis).cross(line)
-    across = kin.program.vector(f"{body}_cross_design", across)
-    require(
-        kin,
-        f"{body}_cross_design",
-        sp.sqrt(across.dot(across)),
-        LENGTH,
-        "1",
-        f"at the design position, the shaft {body} lies along the first axis of universal joint "
-        f"{cross.name}",
-        "turn that axis, or move an end of the shaft",
-    )
-    return kin.unit(f"{body}_second_design", across)
+    body, first = cross.second.name, kin.design_direction(cross.first_axis)
+    meaning = f"the shaft {body} lies along the first axis of universal joint {cross.name}"
+    return second_of_cross(kin, body, first, line, meaning)
 
 
 def turn_through_cross(
@@ -115,7 +105,6 @@ def turn_through_cross(
     yoke: DrivenYoke,
     own: Vector,
     given: GivenAxis,
-    center: PointMotion,
 ) -> None:
     """Turn a body on its hinge until both axes of a cross are at right angles.
 
@@ -125,10 +114,8 @@ def turn_through_cross(
         Which loop it closes.
     own
         The axis of the cross on the driven body, at the design position.
-    center
-        The motion of the centre.
     """
-    _Turned.of(kin, step, yoke, own, given).place(kin, yoke, center)
+    _Turned.of(kin, step, yoke, own, given).place(kin, yoke)
 
 
 @dataclass(frozen=True)
@@ -186,75 +173,32 @@ class _Turned:
         )
         return cls(axes, design_axes, first, Vector(along, k, height))
 
-    def place(self, kin: Kinematics, yoke: DrivenYoke, center: PointMotion) -> None:
+    def place(self, kin: Kinematics, yoke: DrivenYoke) -> None:
         """Record pose, velocities and bias of the driven body."""
-        program, body = kin.program, yoke.body
-        driving, parent = kin.placed[yoke.driving], kin.placed[yoke.parent]
-        first_axis = yoke.hinge.second.name == body and yoke.hinge.angle_to is None
-        placed = BodyMotion(
-            body,
-            origin=center.position,
-            axes=self.axes,
-            design_origin=kin.design(yoke.cross.at),
-            design_axes=self.design_axes,
-            local={yoke.cross.at: ZERO},
-            carrier=(yoke.parent, kin.local(parent, yoke.cross.at)),
-            hinge=yoke.hinge.name if first_axis else None,
-        )
-        to_body = projector(kin, placed)
-
-        def carried(label: str, other: BodyMotion, v: Vector) -> Vector:
-            return to_body(label, from_axes(other.axes, v))
-
-        c = program.vector(f"{body}_grip", self.own.cross(self.given), "123")
-        inverse = program.define(f"{body}_grip_inverse", 1 / c.x)
-        for k in dict.fromkeys([*center.motion, *parent.motion, *driving.motion]):
-            base = to_body(f"velocity_{k}", center.motion.get(k, ZERO))
-            own = carried(f"carried_{k}", parent, parent.motion.get(k, NO_TWIST).angular)
-            turned = carried(f"shaft_{k}", driving, driving.motion.get(k, NO_TWIST).angular)
-            turn = program.define(f"{body}_turn_{k}", (turned - own).dot(c) * inverse)
-            placed.motion[k] = kin.define_twist(body, k, Twist(own + UNIT_X * turn, base))
-
-        def bias() -> Twist:
-            omega = kin.total(placed).angular
-            own = carried("carried_now", parent, kin.total(parent).angular)
-            turned = carried("shaft_now", driving, kin.total(driving).angular)
-            spin = Vector(omega.x - own.x, ZERO.y, ZERO.z)
-            alpha = carried("carried_bias", parent, parent.bias().angular) + own.cross(spin)
-            alpha = program.vector(f"{body}_alpha_carried", alpha, "123")
-            left = carried("shaft_bias", driving, driving.bias().angular) - alpha
-            rate = omega.cross(self.own).cross(self.given)
-            rate += self.own.cross(turned.cross(self.given))
-            rate = program.vector(f"{body}_grip_rate", rate, "123")
-            fitted = left.dot(c) - (omega - turned).dot(rate)
-            turn = program.define(f"{body}_turn_bias", fitted * inverse)
-            base = to_body("acceleration", center.bias)
-            return kin.define_bias(body, Twist(alpha + UNIT_X * turn, base))
-
-        placed.bias = once(bias)
-        kin.placed[body] = placed
+        at, own = (yoke.parent, yoke.cross.at), yoke.hinge.second.name == yoke.body
+        hinge = yoke.hinge.name if own and yoke.hinge.angle_to is None else None
+        placed = place_at(kin, yoke.body, at, self.axes, self.design_axes, hinge=hinge)
+        right_angle = Perpendicular(self.given, self.own)
+        target = TargetBody(kin, placed, kin.placed[yoke.driving], "shaft")
+        add_turn(kin, TurnOnHinge(kin, placed, *at), Condition(right_angle, target))
 
 
 def _own_axis(kin: Kinematics, yoke: DrivenYoke, f: Vector) -> tuple[Axes, Vector]:
     """Return the axes of the driven body at the design position, and f in them (constants)."""
-    program, body = kin.program, yoke.body
+    body = yoke.body
     e = kin.unit(f"{body}_hinge_design", kin.to_work(yoke.hinge.axis.vector))
-    along = program.define(f"{body}_first_along", f.dot(e))
-    across = program.vector(f"{body}_first_across_design", f - e * along)
-    radius = program.define(f"{body}_first_radius", sp.sqrt(across.dot(across)))
+    axes, own = axes_about(kin, f"{body}_first", e, f)
     require(
         kin,
         f"{body}_first_radius",
-        radius,
+        own.y,
         LENGTH,
         "1",
         f"the first axis of universal joint {yoke.cross.name} is along hinge {yoke.hinge.name}, "
         f"about which {body} turns",
         "give the cross an axis across that hinge",
     )
-    t = program.vector(f"{body}_first_unit", across * (1 / radius))
-    normal = program.vector(f"{body}_normal_design", e.cross(t))
-    return (e, t, normal), Vector(along, radius, ZERO.z)
+    return axes, own
 
 
 def _branch(kin: Kinematics, yoke: DrivenYoke, b: Vector, design_axes: Axes) -> sp.Expr:

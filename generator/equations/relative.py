@@ -300,11 +300,9 @@ class RelativeCoordinates:
 
     def _cross_axes(self, joint: Universal) -> Axes:
         """Return line and second axis of a shaft, and what is across both."""
-        body = joint.second.name
-        placed = self.kin.placed[body]
-        if body in self.kin.on_line:  # its axes are these
+        placed, line = self.kin.placed[joint.second.name], self._line(joint)
+        if placed.axes[0] == line:  # the cross placed it, so that its axes are these
             return placed.axes
-        line = self._line(joint)
         design = self.kin.unit(f"{joint.name}_line", self.kin.to_work(joint.shaft.vector))
         second = self.kin.unit(
             f"{joint.name}_second", self.kin.design_direction(joint.first_axis).cross(design)

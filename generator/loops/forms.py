@@ -26,6 +26,28 @@ class PlannedStep(Step):
         """Record what follows from the step; return the coordinates that were not known."""
 
 
+class Placement(PlannedStep):
+    """A step that places one body, whose joints are known: nothing else follows from it.
+
+    Attributes
+    ----------
+    body
+        The body.
+    """
+
+    body: str
+
+    @property
+    def about(self) -> str:
+        """The body."""
+        return self.body
+
+    def accept(self, known: Known) -> set[Coordinate]:
+        """Record the body."""
+        known.place(self.about)
+        return set()
+
+
 class Closing(Protocol):
     """What closes a loop that is solved by iteration: a joint, or a rod."""
 
@@ -75,7 +97,7 @@ class ClosedForm(Solution):
         """
 
 
-class Follower(PlannedStep):
+class Follower(Placement):
     """A step that places a body beside a placed one, without a closure equation."""
 
     rank: ClassVar[int]
@@ -86,7 +108,7 @@ class Follower(PlannedStep):
         """Return the step that places a body by a joint of a placed one, if it can."""
 
 
-class Leftover(PlannedStep):
+class Leftover(Placement):
     """A step that places a body which nothing else places, when all loops are closed."""
 
     @classmethod

@@ -19,7 +19,7 @@ from own_models import needs_gcc, own
 
 STATES, SPREAD = 50, 0.01  # about design, in SI units
 FUNCTIONS = "rhs", "rhs_jacobian", "mass_matrix", "signals", "positions"
-MOTION = "99130c26192ebab8"
+MOTION = "0f33b570590c3cde"
 EXPECTED = {
     file.stem: file.read_text(encoding="utf-8").strip()
     for file in sorted((Path(__file__).parent / "digests").glob("*.txt"))

@@ -1,0 +1,500 @@
+"""Velocities and biases of a body from the constraints that determine what is unknown of them.
+
+An *unsolved* body moves with others while its unknown rates are zero; what a unit of each adds to
+that is a screw. As many *conditions* say what the body has to do with what is placed. The rates
+of their constraints with the unknowns at rest, and the screws, make a system of linear equations
+for each coordinate; the second derivatives without accelerations of the unknowns make that of the
+bias, with the same matrix. All is in axes of the body, at its origin.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Protocol
+
+import sympy as sp
+
+from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, once, to_axes
+from ..program.vectors import NO_TWIST, UNIT_X, ZERO, Twist, Vector
+from .constraints import STILL, Moving
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping, Sequence
+
+    from ..declare.geometry import Point
+    from ..kinematics.kinematics import Kinematics
+    from .constraints import Constraint
+    from .leg import Rod
+
+    Solve = Callable[[str, Sequence[sp.Expr]], Sequence[sp.Expr]]
+    """Appends the unknowns that make up for the rates of residuals, with a name for the steps."""
+
+
+# -- what is placed -------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Target(ABC):
+    """What is placed, as seen in axes of the body.
+
+    Attributes
+    ----------
+    placed
+        The body in whose axes it is seen.
+    of
+        Its motion.
+    label
+        Begins the names of the steps, behind that of the body.
+    """
+
+    kin: Kinematics
+    placed: BodyMotion
+    of: PointMotion | BodyMotion
+    label: str = "target"
+
+    @property
+    def coordinates(self) -> Iterable[str]:
+        """The coordinates that move it."""
+        return self.of.motion
+
+    @abstractmethod
+    def rates(self, k: str) -> Moving:
+        """Return its motion per unit rate of a coordinate."""
+
+    @abstractmethod
+    def biases(self) -> Moving:
+        """Return its rotation, and its accelerations without those of the coordinates."""
+
+    def _seen(self, label: str, v: Vector) -> Vector:
+        return projector(self.kin, self.placed)(f"{self.label}_{label}", v)
+
+
+class TargetPoint(Target):
+    """A point of known motion: its velocity and bias."""
+
+    of: PointMotion
+
+    def rates(self, k: str) -> Moving:
+        """Return its velocity per unit rate of a coordinate."""
+        return Moving(velocity=self._seen(k, self.of.motion.get(k, ZERO)))
+
+    def biases(self) -> Moving:
+        """Return its bias acceleration."""
+        return Moving(acceleration=self._seen("bias", self.of.bias))
+
+
+class TargetBody(Target):
+    """A placed body: its rotation alone."""
+
+    of: BodyMotion
+
+    def rates(self, k: str) -> Moving:
+        """Return its angular velocity per unit rate of a coordinate."""
+        return Moving(omega=self._carried(k, self.of.motion.get(k, NO_TWIST)))
+
+    def biases(self) -> Moving:
+        """Return its angular velocity, and its angular bias acceleration."""
+        omega = self._carried("now", self.kin.total(self.of))
+        return Moving(omega=omega, alpha=self._carried("bias", self.of.bias()))
+
+    def _carried(self, label: str, twist: Twist) -> Vector:
+        return self._seen(label, from_axes(self.of.axes, twist.angular))
+
+
+# -- what is unknown ------------------------------------------------------------------------------
+
+
+class Unsolved(ABC):
+    """A body whose pose is known, and whose motion has something unknown.
+
+    Parameters
+    ----------
+    kin, placed
+        The kinematics so far, and the body.
+    carriers
+        What moves it while the unknowns are at rest.
+    screws
+        What a unit rate of each unknown adds to its twist.
+    """
+
+    unknown: ClassVar[str] = "turn"
+    """What an unknown is, for the names of steps."""
+
+    def __init__(
+        self,
+        kin: Kinematics,
+        placed: BodyMotion,
+        carriers: Sequence[Target],
+        screws: Sequence[Twist],
+    ) -> None:
+        self.kin, self.placed, self.carriers, self.screws = kin, placed, carriers, screws
+
+    @abstractmethod
+    def at_rest(self, k: str) -> Twist:
+        """Return its twist per unit rate of a coordinate, with the unknowns at rest."""
+
+    @abstractmethod
+    def coasting(self) -> Twist:
+        """Return its bias without accelerations of the unknowns, at the rates that they have."""
+
+    def with_unknowns(self, twist: Twist, values: Sequence[sp.Expr]) -> Twist:
+        """Return a twist, or a bias, with what the unknowns add."""
+        for screw, value in zip(self.screws, values, strict=True):
+            twist += screw * value
+        return twist
+
+    def _named(self, label: str, v: Vector) -> Vector:
+        return self.kin.program.vector(f"{self.placed.body}_{label}", v, "123")
+
+
+class TurnOnHinge(Unsolved):
+    """A body on a hinge along the first of its axes, through its origin.
+
+    Parameters
+    ----------
+    kin, placed
+        The kinematics so far, and the body.
+    on, point
+        The placed body at the other side of the hinge, and the point of it that is the origin.
+    """
+
+    def __init__(self, kin: Kinematics, placed: BodyMotion, on: str, point: Point) -> None:
+        self._origin = TargetPoint(kin, placed, kin.point_motion(on, point), "velocity")
+        self._parent = TargetBody(kin, placed, kin.placed[on], "carried")
+        super().__init__(kin, placed, (self._origin, self._parent), (Twist(UNIT_X, ZERO),))
+
+    def at_rest(self, k: str) -> Twist:
+        """Return the twist with which the axis carries it."""
+        return Twist(self._parent.rates(k).omega, self._origin.rates(k).velocity)
+
+    def coasting(self) -> Twist:
+        """Return the bias with which the axis carries it."""
+        parent, omega = self._parent.biases(), self.kin.total(self.placed).angular
+        spin = UNIT_X * (omega.x - parent.omega.x)
+        alpha = self._named("alpha_carried", parent.alpha + parent.omega.cross(spin))
+        return Twist(alpha, self._origin.biases().acceleration)
+
+
+class Line(Protocol):
+    """What a turn about a line reads of it."""
+
+    @property
+    def relative(self) -> PointMotion:
+        """Motion of its end relative to its anchor."""
+
+    @property
+    def length_motion(self) -> Mapping[str, sp.Expr]:
+        """Rate of its length, per unit rate of each coordinate."""
+
+
+class TurnOnLine(Unsolved):
+    """A body that turns about the line of two points, along the first of its axes.
+
+    Seen from the body, one point moves along that axis, and the other one is fixed, at a constant
+    offset o from it. The span S = (h, o2, o3) and the relative velocity v of the points give
+
+        omega = (0, -v3, v2) / h + omega1 (1, o2 / h, o3 / h),
+
+    and their relative acceleration the second derivative of S, in the same components.
+
+    Parameters
+    ----------
+    kin, placed
+        The kinematics so far, and the body.
+    base
+        Motion of its origin, which is one of the points.
+    line
+        That of the two points.
+    inverse
+        1 / h.
+    sway
+        S / h, where there is an offset.
+    """
+
+    def __init__(
+        self,
+        kin: Kinematics,
+        placed: BodyMotion,
+        base: PointMotion,
+        line: Line,
+        inverse: sp.Expr,
+        sway: Vector = UNIT_X,
+    ) -> None:
+        self._base = TargetPoint(kin, placed, base, "velocity")
+        self._swing = TargetPoint(kin, placed, line.relative, "swing")
+        self._line, self._inverse, self._sway = line, inverse, sway
+        super().__init__(kin, placed, (self._base, self._swing), (Twist(sway, ZERO),))
+
+    def at_rest(self, k: str) -> Twist:
+        """Return the twist with which the points carry it."""
+        swing = self._swing.rates(k).velocity
+        across = Vector(ZERO.x, -swing.z * self._inverse, swing.y * self._inverse)
+        return Twist(self._named(f"across_{k}", across), self._base.rates(k).velocity)
+
+    def coasting(self) -> Twist:
+        """Return the bias with which the points carry it."""
+        omega, sway = self.kin.total(self.placed).angular, self._sway
+        swing, motion = self._swing.biases().acceleration, self._line.length_motion
+        twice = 2 * sum((v * self.kin.coordinates.rate(k) for k, v in motion.items()), ZERO.x)
+        spin = self.kin.program.define(f"{self.placed.body}_spin", omega.dot(sway))
+        square = self.kin.program.define(f"{self.placed.body}_omega_squared", omega.dot(omega))
+        across = Vector(
+            ZERO.x,
+            omega.z * spin - sway.z * square - (swing.z + twice * omega.y) * self._inverse,
+            (swing.y - twice * omega.z) * self._inverse - omega.y * spin + sway.y * square,
+        )
+        return Twist(self._named("across_bias", across), self._base.biases().acceleration)
+
+
+class SlideOnGuide(Unsolved):
+    """A body that slides on another one along constant directions, and turns as that does.
+
+    Its pose is recorded.
+
+    Parameters
+    ----------
+    kin, body
+        The kinematics so far, and the body.
+    parent
+        The placed body on which it slides.
+    offset
+        How far it has come from its design position.
+    directions
+        Of the slides that are unknown.
+    """
+
+    unknown = "speed"
+
+    def __init__(
+        self,
+        kin: Kinematics,
+        body: str,
+        parent: BodyMotion,
+        offset: Vector,
+        directions: Iterable[Vector] = (),
+    ) -> None:
+        self._parent, self._offset = parent, offset
+        at = parent.origin + from_axes(parent.axes, offset)
+        placed = kin.placed[body] = BodyMotion(
+            body,
+            origin=kin.program.vector(f"{body}_origin", at),
+            axes=parent.axes,
+            design_origin=parent.design_origin,
+            design_axes=parent.design_axes,
+        )
+        carriers = (TargetBody(kin, placed, parent),)
+        super().__init__(kin, placed, carriers, [Twist(ZERO, d) for d in directions])
+
+    def at_rest(self, k: str) -> Twist:
+        """Return the twist with which the parent carries it."""
+        return self._carried(self._parent.motion.get(k, NO_TWIST))
+
+    def coasting(self) -> Twist:
+        """Return the bias with which the parent carries it."""
+        carried = self._carried(self.kin.total(self._parent))
+        return self.carried_bias(self.kin.total(self.placed).linear - carried.linear)
+
+    def carried_bias(self, sliding: Vector) -> Twist:
+        """Return the same, given its velocity on the parent."""
+        parent, omega = self._parent, self.kin.total(self._parent).angular
+        linear = self.kin.point_bias(parent, self._offset) + omega.cross(sliding) * 2
+        return Twist(parent.bias().angular, linear)
+
+    def _carried(self, twist: Twist) -> Twist:
+        return Twist(twist.angular, twist.linear + twist.angular.cross(self._offset))
+
+
+# -- solving --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What determines an unknown.
+
+    Attributes
+    ----------
+    constraint
+        With the target as its first body, and the one that moves as its second.
+    target
+        What it holds the body to.
+    at
+        The point of the body that it is about.
+    rod
+        The leg whose length a `Distance` is, where that changes.
+    is_first
+        Whether the body that moves is the first one of the constraint.
+    """
+
+    constraint: Constraint
+    target: Target
+    at: Vector = ZERO
+    rod: Rod | None = None
+    is_first: bool = False
+
+    @property
+    def coordinates(self) -> Iterable[str]:
+        """The coordinates that move the target, or change the length."""
+        return [*self.target.coordinates, *(self.rod.stretch if self.rod else ())]
+
+    def pivot(self, screw: Twist) -> sp.Expr:
+        """Return how fast the residual changes with a unit rate of an unknown."""
+        return self.constraint.rate(*self._ordered(STILL, Moving.of(screw)))
+
+    def rate(self, k: str, rest: Twist) -> sp.Expr:
+        """Return how fast the residual changes per unit rate of a coordinate.
+
+        Both bodies are seen from axes that move along with the target.
+        """
+        target = self.target.rates(k)
+        velocity = rest.linear - target.velocity + rest.angular.cross(self.at)
+        body = Moving(self.at, rest.angular, velocity)
+        stretch = self.rod.stretch.get(k, sp.Integer(0)) if self.rod else sp.Integer(0)
+        return self.constraint.rate(*self._ordered(Moving(omega=target.omega), body)) - stretch
+
+    def acceleration(self, kin: Kinematics, now: Twist, rest: Twist) -> sp.Expr:
+        """Return the second derivative of the residual without accelerations of the unknowns.
+
+        Parameters
+        ----------
+        kin
+            The kinematics so far.
+        now
+            Angular velocity of the body, and velocity of its origin relative to the target.
+        rest
+            Bias of the body.
+        """
+        target, omega = self.target.biases(), now.angular
+        name = f"{self.target.placed.body}_{self.target.label}"
+        whirl = kin.program.vector(f"{name}_whirl", omega.cross(self.at), "123")
+        velocity = kin.program.vector(f"{name}_slip", now.linear + whirl, "123")
+        pull = rest.linear - target.acceleration + rest.angular.cross(self.at) + omega.cross(whirl)
+        body = Moving(self.at, omega, velocity, rest.angular, pull)
+        fixed = Moving(omega=target.omega, alpha=target.alpha)
+        stretch = self.rod.stretch_bias if self.rod else sp.Integer(0)
+        return self.constraint.acceleration(*self._ordered(fixed, body)) - stretch
+
+    def _ordered(self, target: Moving, body: Moving) -> tuple[Moving, Moving]:
+        return (body, target) if self.is_first else (target, body)
+
+
+def add_turn(
+    kin: Kinematics,
+    unsolved: Unsolved,
+    condition: Condition,
+    inverse_lever: sp.Expr | None = None,
+) -> None:
+    """Record velocities and bias of a body with one unknown.
+
+    Parameters
+    ----------
+    kin
+        The kinematics so far.
+    unsolved, condition
+        The body, and what determines its unknown.
+    inverse_lever
+        ``-1 / condition.pivot`` where the solution for the position has a shorter expression for it
+        than the constraint.
+    """
+    if inverse_lever is None:
+        lever = condition.pivot(unsolved.screws[0])
+        inverse_lever = kin.program.define(f"{unsolved.placed.body}_inverse_lever", -1 / lever)
+
+    def solve(name: str, residual_rates: Sequence[sp.Expr]) -> list[sp.Expr]:
+        return [kin.program.define(name, residual_rates[0] * inverse_lever)]
+
+    add_motion(kin, unsolved, [condition], solve)
+
+
+def add_motion(
+    kin: Kinematics, unsolved: Unsolved, conditions: Sequence[Condition], solve: Solve
+) -> None:
+    """Record velocities and bias of a body.
+
+    Parameters
+    ----------
+    kin
+        The kinematics so far.
+    unsolved
+        The body.
+    conditions
+        As many as there are unknowns.
+    solve
+        How their linear equations are solved.
+    """
+    placed = unsolved.placed
+    relative = [ZERO for _ in conditions]  # velocity of the origin, as seen from each target
+    names = [k for carrier in unsolved.carriers for k in carrier.coordinates]
+    names += [k for condition in conditions for k in condition.coordinates]
+    for k in dict.fromkeys(names):
+        rest = unsolved.at_rest(k)
+        found = solve(
+            f"{placed.body}_{unsolved.unknown}_{k}", [c.rate(k, rest) for c in conditions]
+        )
+        twist = kin.define_twist(placed.body, k, unsolved.with_unknowns(rest, found))
+        placed.motion[k] = twist
+        rate = kin.coordinates.rate(k)
+        relative = [
+            seen + (twist.linear - condition.target.rates(k).velocity) * rate
+            for seen, condition in zip(relative, conditions, strict=True)
+        ]
+
+    def bias() -> Twist:
+        omega, rest = kin.total(placed).angular, unsolved.coasting()
+        residual_rates = [
+            condition.acceleration(kin, Twist(omega, velocity), rest)
+            for condition, velocity in zip(conditions, relative, strict=True)
+        ]
+        found = solve(f"{placed.body}_{unsolved.unknown}_bias", residual_rates)
+        return kin.define_bias(placed.body, unsolved.with_unknowns(rest, found))
+
+    placed.bias = once(bias)
+
+
+# -- helpers --------------------------------------------------------------------------------------
+
+
+def place_at(
+    kin: Kinematics,
+    body: str,
+    at: tuple[str, Point],
+    axes: Axes,
+    design_axes: Axes,
+    *,
+    local: Mapping[Point, Vector] | None = None,
+    hinge: str | None = None,
+) -> BodyMotion:
+    """Record the pose of a body whose origin is a point of a placed one, and return it.
+
+    Parameters
+    ----------
+    kin, body
+        The kinematics so far, and the body.
+    at
+        The placed body, and the point.
+    axes, design_axes
+        Of the body: now, and at the design position.
+    local, hinge
+        Further points and the hinge, as in `BodyMotion`.
+    """
+    on, point = at
+    kin.placed[body] = BodyMotion(
+        body,
+        origin=kin.point_motion(on, point).position,
+        axes=axes,
+        design_origin=kin.design(point),
+        design_axes=design_axes,
+        local={point: ZERO, **(local or {})},
+        carrier=(on, kin.local(kin.placed[on], point)),
+        hinge=hinge,
+    )
+    return kin.placed[body]
+
+
+def projector(kin: Kinematics, placed: BodyMotion) -> Callable[[str, Vector], Vector]:
+    """Return a function that appends the body components of a work vector."""
+
+    def to_body(label: str, v: Vector) -> Vector:
+        return kin.program.vector(f"{placed.body}_{label}", to_axes(placed.axes, v), "123")
+
+    return to_body
