@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from kintrafo import (
+    Axle,
     Model,
     Suspension,
     arm_angles,
@@ -383,3 +384,24 @@ class Energy(Stiffness):
             found[which] = (values[0] - values[1]) / 2e-6
         self.pose = at
         return found
+
+
+SIDES = ("left", "right")
+STIFFNESS_OF_RACK = 2.5e5  # N/m: a tenth of what is usual
+RACK = {"rack": {"axial_N_per_mm": 1e-3 * STIFFNESS_OF_RACK}}
+BAR_OF: dict[Suspension, dict[str, Any]] = {
+    STRUT: {
+        "unit": "mm", "bush": [240.0, -400.0, 320.0], "link_top": [30.0, -580.0, 330.0],
+        "link_foot": [30.0, -580.0, 200.0], "link_on": "control_arm", "rate_Nm_per_deg": 17.5,
+    },
+    WISHBONES: {
+        "unit": "mm", "bush": [-250.0, -380.0, 260.0], "link_top": [-60.0, -600.0, 300.0],
+        "link_foot": [-50.0, -610.0, 195.0], "link_on": "knuckle", "axis": [0.1, 1.0, -0.05],
+        "rate_Nm_per_deg": 25.0,
+    },
+}  # fmt: skip
+
+
+def axle_of(car: Suspension, **bar: Any) -> Axle:
+    """Return a car and its image with an anti-roll bar."""
+    return Axle.from_dict({"axle": "front", "side": car, "anti_roll_bar": BAR_OF[car] | bar})

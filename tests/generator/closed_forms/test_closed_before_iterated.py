@@ -163,7 +163,7 @@ class Drive:
 )
 def test_no_answer_is_behind_a_gap(kind, ratio, gap, start):
     drive = Drive.of(kind, ratio, gap, start)
-    inputs = np.linspace(-0.5, 3.0, 141) * drive.middle
+    inputs = np.linspace(-0.5, 3.0, 71) * drive.middle
     parameters = drive.parameters()
     answered, _, _ = Placements.of(model(kind)).at(parameters, inputs[:, None])
     assert not answered[~drive.closes(inputs)].any()
@@ -181,7 +181,7 @@ def test_no_answer_is_behind_a_gap(kind, ratio, gap, start):
 @needs_gcc
 def test_c_answers_what_numpy_answers():
     drive = Drive.of("lever", 27.0, 0.3, 1.0)
-    inputs = np.linspace(-0.5, 3.0, 141) * drive.middle
+    inputs = np.linspace(-0.5, 3.0, 71) * drive.middle
     parameters = drive.parameters()
     expected, _, _ = Placements.of(model("lever")).at(parameters, inputs[:, None])
     module = own(model("lever"), derivatives=False)

@@ -20,27 +20,20 @@ from kintrafo.vehicle.report import elastokinematics_chapter
 from oracle.constraints import Pose
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
-from soft_suspensions import BUSHES_OF, SOFTER, STRUT, TRAILING, UNDER, WISHBONES, Energy
-
-SIDES = ("left", "right")
-STIFFNESS_OF_RACK = 2.5e5  # N/m: a tenth of what is usual
-RACK = {"rack": {"axial_N_per_mm": 1e-3 * STIFFNESS_OF_RACK}}
-BAR_OF: dict[Suspension, dict[str, Any]] = {
-    STRUT: {
-        "unit": "mm", "bush": [240.0, -400.0, 320.0], "link_top": [30.0, -580.0, 330.0],
-        "link_foot": [30.0, -580.0, 200.0], "link_on": "control_arm", "rate_Nm_per_deg": 17.5,
-    },
-    WISHBONES: {
-        "unit": "mm", "bush": [-250.0, -380.0, 260.0], "link_top": [-60.0, -600.0, 300.0],
-        "link_foot": [-50.0, -610.0, 195.0], "link_on": "knuckle", "axis": [0.1, 1.0, -0.05],
-        "rate_Nm_per_deg": 25.0,
-    },
-}  # fmt: skip
-
-
-def axle_of(car: Suspension, **bar: Any) -> Axle:
-    """Return a car and its image with an anti-roll bar."""
-    return Axle.from_dict({"axle": "front", "side": car, "anti_roll_bar": BAR_OF[car] | bar})
+from soft_suspensions import (
+    BAR_OF,
+    BUSHES_OF,
+    RACK,
+    SIDES,
+    SOFTER,
+    STIFFNESS_OF_RACK,
+    STRUT,
+    TRAILING,
+    UNDER,
+    WISHBONES,
+    Energy,
+    axle_of,
+)
 
 
 def without_bar(car: Suspension) -> Axle:
@@ -214,38 +207,6 @@ def test_nothing_is_left_of_the_potential(car: Suspension) -> None:
 
 
 @pytest.mark.parametrize("held", ["height", "tyre", "spring", "locked"])
-@pytest.mark.parametrize("wheels", ["parallel", "opposed", "left"])
-def test_small_loads_are_those_of_the_unit_load_theorem(held: Any, wheels: str) -> None:
-    """Without a static load both differ by a part in proportion to the load.
-
-    Bar, rack and both sides are soft; the stop, which only pushes, is left out.
-    """
-    axle = Axle.from_dict(
-        {
-            "axle": "front",
-            "side": STRUT.with_changes({"bump_stop": None}),
-            "anti_roll_bar": BAR_OF[STRUT],
-        }
-    )
-    off = []
-    for size in (20.0, 2.0):
-        for under in UNDER:
-            amounts = np.array([size if under != "aligning" else 0.3 * size])
-            found = flat(compliance.nonlinear(
-                axle, BUSHES_OF[STRUT] | {"rack": {"axial_N_per_mm": 2500.0}}, under, amounts,
-                wheels=wheels, held=held, hardpoints="relaxed",
-            ))  # fmt: skip
-            for side in SIDES:
-                toe = found[f"toe_change_{side}"].values
-                largest = max(abs(toe[1, 0]), 1e-8 * size)
-                off.append(abs(toe[0, 0] - toe[1, 0]) / largest)
-    first, second = np.reshape(off, (2, len(UNDER) * len(SIDES)))
-    assert (first < 0.03).all()
-    # a tenth of it, but for rounding: 1e-10 rad of 1e-6 rad
-    assert (second < 0.13 * first + 1e-4).all()
-
-
-@pytest.mark.parametrize("held", ["height", "tyre", "spring", "locked"])
 def test_wheels_that_share_nothing_are_those_of_one_side(held: Any) -> None:
     """No bar, a rigid rack: each side by itself, its image among them, to rounding."""
     parts = 0.4, -1.0
@@ -285,38 +246,6 @@ def test_curves_of_wheels_that_share_nothing_are_those_of_one_side(car: Suspensi
         np.testing.assert_allclose(still, 0.0, atol=1e-10)
     for name in ("wheel_load", "contact_rate"):
         np.testing.assert_allclose(both[f"{name}_left"], alone[name], rtol=1e-7)
-
-
-def test_loaded_bushes_leave_the_design_as_it_is() -> None:
-    """With a soft rack, and a bar that is twisted at design and loads the bushes there."""
-    heavy = STRUT.with_changes(
-        {"strut.spring_force_at_design_N": 4000.0, "gravity.acceleration_m_per_s2": 9.81}
-    )
-    axle = Axle.from_dict(
-        {
-            "axle": "front", "side": heavy,
-            "anti_roll_bar": BAR_OF[STRUT] | {"free_twist_deg": 4.0},
-        }
-    )  # fmt: skip
-    found = flat(compliance.elastokinematics(axle, BUSHES_OF[STRUT] | RACK, "bump", [0.0, 0.03]))
-    at_design = found.sel(wheel_travel=0.0)
-    torque = -axle.bar.rate() * axle.bar.free_twist()
-    np.testing.assert_allclose(at_design["bar_torque"], torque, rtol=1e-9)
-    loads_of_wheels = []
-    for side in SIDES:
-        for name in ("toe", "camber", "half_track_change", "wheelbase_change"):
-            kinematic, elastic = at_design[f"{name}_{side}"].values
-            assert elastic == pytest.approx(kinematic, abs=1e-10), name
-        rigid, soft = at_design[f"wheel_load_{side}"].values
-        assert soft == pytest.approx(rigid, rel=1e-9)
-        loads_of_wheels.append(soft)
-    assert loads_of_wheels[1] - loads_of_wheels[0] > 100.0
-    relaxed = flat(
-        compliance.elastokinematics(
-            axle, BUSHES_OF[STRUT] | RACK, "bump", [0.0], hardpoints="relaxed"
-        )
-    )
-    assert abs(np.diff(relaxed["toe_left"], axis=0)[0, 0]) > 1e-5
 
 
 def test_rates_are_slopes_of_the_loads() -> None:
@@ -400,18 +329,6 @@ def test_mirrored_motions_are_answered_alike(motion: str) -> None:
     if motion == "roll":
         np.testing.assert_allclose(found["bar_torque"][0], kinematic["bar_torque"], atol=1e-6)
     assert np.abs(np.diff(found["toe_left"], axis=0)).max() > 1e-6
-
-
-def test_many_positions_are_looked_at_in_parts(monkeypatch: pytest.MonkeyPatch) -> None:
-    axle, angles = axle_of(STRUT), np.deg2rad([-1.0, 0.5, 1.0])
-    whole = flat(compliance.elastokinematics(axle, RACK, "roll", angles))
-    # the function has the name of its module
-    module = import_module("kintrafo.vehicle.analysis.compliance.elastokinematics")
-    monkeypatch.setattr(module, "_TOGETHER", 2)
-    parts = flat(compliance.elastokinematics(axle, RACK, "roll", angles))
-    assert parts.sizes == whole.sizes
-    np.testing.assert_allclose(parts["toe_left"], whole["toe_left"], rtol=0.0, atol=1e-12)
-    assert parts.attrs == whole.attrs
 
 
 # -- refusals -------------------------------------------------------------------------------------

@@ -3,7 +3,6 @@
 import re
 import tomllib
 from dataclasses import replace
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -174,45 +173,6 @@ def with_rack(car: Suspension) -> dict[str, Any]:
 # -- limits ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("held", ["height", "tyre", "spring", "locked"])
-@pytest.mark.parametrize("car", CARS, ids=lambda car: car.suspension)
-def test_small_loads_are_those_of_the_unit_load_theorem(car: Suspension, held: Any) -> None:
-    """Without a static load both differ by a part in proportion to the load."""
-    model = Model(without_stops(car))
-    off = []
-    for size in (20.0, 2.0):
-        for under in UNDER:
-            amounts = np.array([size if under != "aligning" else 0.3 * size])
-            found = compliance.nonlinear(
-                model, BUSHES_OF[car], under, amounts, held=held, hardpoints="relaxed"
-            )
-            largest = max(abs(float(found["toe_change"][1, 0])), 1e-8 * size)
-            off.append(abs(float(np.diff(found["toe_change"], axis=0)[0, 0])) / largest)
-    first, second = np.reshape(off, (2, len(UNDER)))
-    assert (first < 0.02).all()
-    # a tenth of it, but for rounding: 1e-10 rad of 1e-6 rad
-    assert (second < 0.13 * first + 1e-4).all()
-
-
-@pytest.mark.parametrize("car", CARS, ids=lambda car: car.suspension)
-def test_loaded_bushes_leave_the_design_as_it_is(car: Suspension) -> None:
-    heavy = car.with_changes(
-        {"strut.spring_force_at_design_N" if car is STRUT else "spring.force_at_design_N": 4000.0,
-         "gravity.acceleration_m_per_s2": 9.81}
-    )  # fmt: skip
-    bushes = with_rack(car)
-    found = compliance.elastokinematics(Model(heavy), bushes, along=[0.0, 0.03])
-    at_design = found.sel(wheel_travel=0.0)
-    for name in ("toe", "camber", "half_track_change", "wheelbase_change"):
-        kinematic, elastic = at_design[name].values
-        assert elastic == pytest.approx(kinematic, abs=1e-10), name
-    rigid, soft = at_design["wheel_load"].values
-    assert rigid > 2000.0
-    assert soft == pytest.approx(rigid, rel=1e-9)
-    relaxed = compliance.elastokinematics(Model(heavy), bushes, along=[0.0], hardpoints="relaxed")
-    assert abs(np.diff(relaxed["toe"], axis=0)[0, 0]) > 1e-5
-
-
 @pytest.mark.parametrize("travel", [-0.06, 0.0, 0.05])
 def test_torsion_of_the_arm_adds_to_the_wheel_rate(travel: float) -> None:
     """A bush that only resists torsion leaves the joints where they are: virtual work."""
@@ -270,41 +230,6 @@ def test_two_rates_against_tilting_have_axes() -> None:
     assert moved([20.0, 20.0], upright) == pytest.approx(moved(20.0, sideways), rel=1e-9)
     # a force from the front turns the arm about the vertical
     assert moved([4000.0, 20.0], upright) < 0.98 * one
-
-
-@pytest.mark.parametrize("camber", [-2.0, 1.5])
-@pytest.mark.parametrize("hardpoints", ["loaded", "relaxed"])
-@pytest.mark.parametrize("car", CARS, ids=lambda car: car.suspension)
-def test_other_travels_change_nothing(car: Suspension, hardpoints: Any, camber: float) -> None:
-    """Axes across the spin axis are chosen anew where toe and camber change their sizes."""
-    heavy = car.with_changes(
-        {"strut.spring_force_at_design_N" if car is STRUT else "spring.force_at_design_N": 4000.0,
-         "gravity.acceleration_m_per_s2": 9.81, "wheel.camber_deg": camber}
-    )  # fmt: skip
-    model, travels = Model(heavy), np.array([-0.04, -0.02, 0.0, 0.02])
-    bushes = with_rack(car)
-    whole = compliance.elastokinematics(model, bushes, along=travels, hardpoints=hardpoints)
-    for order in ([3, 2, 1, 0], [2, 0, 3], [1]):
-        found = compliance.elastokinematics(
-            model, bushes, along=travels[order], hardpoints=hardpoints
-        )
-        for name in whole:
-            # forces of 1e4 N in the last step of Newton's method, 1e-9 m or rad
-            atol = 1e-2 if name in ("wheel_load", "contact_rate") else 1e-9
-            np.testing.assert_allclose(found[name], whole[name][:, order], rtol=0.0, atol=atol)
-
-
-def test_many_travels_are_looked_at_in_parts(monkeypatch: pytest.MonkeyPatch) -> None:
-    model, travels = Model("reference_car"), np.linspace(-0.05, 0.05, 7)
-    bushes = {"arm_rear": {"radial_N_per_mm": 1e3}}
-    whole = compliance.elastokinematics(model, bushes, along=travels)
-    module = import_module("kintrafo.vehicle.analysis.compliance.elastokinematics")
-    monkeypatch.setattr(module, "_TOGETHER", 3)
-    parts = compliance.elastokinematics(model, bushes, along=travels)
-    # which of two bearings holds the arm along its axis does not depend on the positions either
-    assert parts.sizes == whole.sizes
-    np.testing.assert_allclose(parts["toe"], whole["toe"], rtol=0.0, atol=1e-12)
-    assert parts.attrs == whole.attrs
 
 
 @pytest.mark.parametrize("hardpoints", ["loaded", "relaxed"])

@@ -454,23 +454,6 @@ def test_large_loads_move_it_as_a_beam_on_springs(
     assert abs(told_of(at)["axle_lateral"]) + abs(told_of(at)["axle_steer"]) > 1e-3
 
 
-@pytest.mark.parametrize("axle", [AXLE, FIVE], ids=["four rods", "five rods"])
-def test_first_order_is_what_small_loads_do(axle: RigidAxle) -> None:
-    axle = axle.with_changes({k: FREE[k] for k in list(FREE)[:2]})
-    bushes = every_way(RATES_OF_FIVE if len(axle.rods) > len(RATES) else RATES)
-    off = []
-    for size in (200.0, 100.0):
-        found = compliance.nonlinear(
-            axle, bushes, "lateral", [size], wheels=(-1.0, 0.6), hardpoints="relaxed"
-        )
-        ours = found["axle_lateral_change"][:, 0].values
-        steer = found["axle_steer_change"][:, 0].values
-        off.append([np.ptp(ours) / ours[1], np.ptp(steer) / steer[1]])
-    assert np.max(off[1]) < 5e-4
-    # by a part in proportion to the load
-    np.testing.assert_allclose(off[0], 2.0 * np.array(off[1]), rtol=0.05)
-
-
 # -- files, commands, and what is wrong -----------------------------------------------------------
 
 

@@ -217,14 +217,15 @@ def test_compare_with_itself_differs_by_nothing(kintrafo):
     assert "two or more" in err
 
 
-def test_simulation_settles_where_statics_says(kintrafo, tmp_path):
-    arguments = ("simulate", CAR, "--road-step", 20, "--duration", 2, "--json", "-o", "step.nc")
+@pytest.mark.parametrize("car", [CAR, "double_wishbone_car"])
+def test_simulation_settles_where_statics_says(kintrafo, tmp_path, car):
+    arguments = ("simulate", car, "--road-step", 20, "--duration", 2, "--json", "-o", "step.nc")
     code, out, _ = kintrafo(*arguments, "--plot", "step.png")
     assert code == 0
     last = {name: entry["last"] for name, entry in json.loads(out)["statistics"].items()}
     from kintrafo import equilibrium
 
-    model = Model(CAR)
+    model = Model(car)
     rest = model.signals(equilibrium(model, road_height=0.02))
     # 2 s are 30 time constants of the wheel-hop mode; the integration is good to 1e-6
     assert last["wheel_center_z"] == pytest.approx(float(rest["wheel_center_z"]), abs=1e-6)
