@@ -4,15 +4,19 @@
 `magic_formula`   PAC2002, MF 6.1 and MF 6.2
 `tmeasy`          TMeasy, from files of Project Chrono
 `linear`          linear up to the friction
-`tir_file`        property files, and `coefficients`, what is in them
+`tir_file`        property files, and `coefficients`, what is in them;
+                  `tir_writer` writes them
 `figures`         key figures over load
+`fitting`         coefficients from what was measured (`measured`)
 `loading`         whatever file a tyre is in
 """
 
 from .figures import key_figures, tabulated
+from .fitting import TyreFit, fit
 from .linear import LinearSlip
 from .loading import load
 from .magic_formula import MagicFormula
+from .tir_writer import write_tir
 from .tmeasy import TMeasy
 from .tyre import Tyre, TyreState
 
@@ -21,8 +25,11 @@ __all__ = [
     "MagicFormula",
     "TMeasy",
     "Tyre",
+    "TyreFit",
     "TyreState",
+    "fit",
     "key_figures",
     "load",
     "tabulated",
+    "write_tir",
 ]

@@ -125,13 +125,16 @@ def tabulated(found: "xr.Dataset", head: str = "") -> Tabulated:
     -------
     Tabulated
     """
+    with Arguments("tabulated") as given:
+        given.dataset(found, over="load")
+        given.text("head", head)
     loads = [f"{load:.0f} N" for load in found["load"].values]
     rows = []
     for name, data in found.data_vars.items():
         unit, scale = _SHOWN.get(str(name), (str(data.attrs["units"]), _same))
         cells = [significant(scale(float(value))) for value in data.values]
         rows.append((str(data.attrs["long_name"]), "-" if unit == "1" else unit, *cells))
-    title = f"{head}{found.attrs['title']}"
+    title = f"{head}{found.attrs.get('title', 'key figures')}"
     columns = ("at zero camber", "unit", *loads)
     return Tabulated(title, columns, tuple(rows), frozenset({0, 1}))
 

@@ -1,0 +1,118 @@
+"""Measurements of a tyre: states and forces, from a table or from arrays."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...core.tables import read_table
+from ...core.units import in_si
+from .tyre import Array
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+STATES: Mapping[str, str] = {
+    "load": "N", "slip_angle": "rad", "slip": "1", "camber": "rad", "speed": "m/s",
+    "pressure": "Pa",
+}  # fmt: skip
+"""What a tyre is measured at, as arguments of `Tyre.evaluate`, with units."""
+FORCES: Mapping[str, str] = {"fx": "N", "fy": "N", "mx": "N m", "my": "N m", "mz": "N m"}
+"""What is measured, as attributes of a `TyreState`."""
+_ALL = {**STATES, **FORCES}
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Rows of a measurement.
+
+    Attributes
+    ----------
+    states, forces : dict of str to ndarray, shape (n,)
+        What is given of `STATES` and `FORCES`, in SI units and the axes of ISO 8855.
+    source : str
+    left_out : tuple of str
+        Columns that were not read.
+    """
+
+    states: dict[str, Array]
+    forces: dict[str, Array]
+    source: str
+    left_out: tuple[str, ...] = ()
+
+    @property
+    def count(self) -> int:
+        """Number of rows."""
+        return len(self.states["load"])
+
+
+def measured(data: "str | Path | Mapping[str, Any]") -> Measured:
+    """Return a measurement: a load, states, and one force or more.
+
+    Parameters
+    ----------
+    data : str, pathlib.Path or mapping
+        A CSV file whose columns are named with their units, such as ``load_N``, ``slip_angle_deg``,
+        ``slip``, ``camber_deg``, ``fy_N``, ``mz_Nm``; or arrays by name, in SI units.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, or has no load or no force.
+    """
+    if isinstance(data, Mapping):
+        return _checked(_of_arrays(data), "fit", ())
+    with Arguments("fit") as given:
+        given.path("data", data)
+    sheet = read_table(data)
+    columns = sheet.columns(_ALL)
+    names = [column.name for column in columns]
+    problems = [
+        f"{name} is in {names.count(name)} columns. Keep one of them."
+        for name in dict.fromkeys(names)
+        if names.count(name) > 1
+    ]
+    problems += [p for column in columns if (p := sheet.unit_problem(column, _ALL[column.name]))]
+    if problems:
+        raise InputError(problems, sheet.source)
+    table = sheet.numbers([column.at for column in columns])
+    values = {
+        column.name: table[:, at] * in_si(sheet.unit_for(column, _ALL[column.name]) or "")[1]
+        for at, column in enumerate(columns)
+    }
+    read = {column.at for column in columns}
+    others = tuple(name for i, name in enumerate(sheet.names) if i not in read)
+    return _checked(values, sheet.source, others)
+
+
+def _of_arrays(data: Mapping[str, Any]) -> dict[str, Array]:
+    with Arguments("fit") as given:
+        for name in data:
+            given.among("data", name, _ALL)
+        values = {
+            k: given.array(k, v, _ALL[k], dimensions=(1,)) for k, v in data.items() if k in _ALL
+        }
+        lengths = {len(value) for value in values.values()}
+        if len(lengths) > 1 and not given.refused:
+            given.refuse(f"data: columns have {sorted(lengths)} rows; equal numbers are needed.")
+    return values
+
+
+def _checked(values: dict[str, Array], source: str, left_out: tuple[str, ...]) -> Measured:
+    states = {name: values[name] for name in STATES if name in values}
+    forces = {name: values[name] for name in FORCES if name in values}
+    problems = []
+    if "load" not in states:
+        problems.append("the load is missing: a column load_N, positive upward on the tyre.")
+    elif np.any(states["load"] <= 0.0):
+        problems.append(
+            f"load = {states['load'].min():g} N: more than zero is needed (upward on the tyre)."
+        )
+    if not forces:
+        problems.append(f"no force is there: a column of {', '.join(FORCES)} is needed.")
+    if problems:
+        raise InputError(problems, source)
+    return Measured(states, forces, source, left_out)
