@@ -48,7 +48,7 @@ def _write(target: Path, text: str) -> bool:
     return True
 
 
-def _tell(progress: Progress, task: TaskID, title: str, text: str) -> None:
+def _show(progress: Progress, task: TaskID, title: str, text: str) -> None:
     progress.update(task, description=f"{title}: {text}")
 
 
@@ -63,8 +63,8 @@ def generate_all(
         for model in MODELS:
             title = f"deriving {model.name}"
             task = progress.add_task(title, total=1)
-            tell = partial(_tell, progress, task, title)
-            texts |= project_files(generate(model, tell=tell))
+            notify = partial(_show, progress, task, title)
+            texts |= project_files(generate(model, progress=notify))
             progress.update(task, description=title, advance=1)
     changed = 0
     for path, text in texts.items():

@@ -3,7 +3,7 @@ r"""A shaft that telescopes between two crosses: how a steering column turns the
 Two links on a guide along their common line are held by a cross each: one on a placed body, the
 *driving* one, the other on a body that is *driven*, on a hinge through the centre of its cross. So
 both centres are known, and with them the line n and the length. The cross on the driving body turns
-the shaft about its line (`cross`), and both links alike, since the guide does not turn.
+the shaft about its line (`universal_joint`), and both links alike, since the guide does not turn.
 
 The driven body turns on its hinge until its cross fits (`yoke`). Beside what is singular there, the
 shaft must not lie along the first axis of the driving cross.
@@ -23,10 +23,10 @@ from ..declare.joints import Revolute, Universal
 from ..loops.forms import ClosedForm
 from ..program.conditions import Assumption
 from ..program.functions import SignOf
-from .cross import turn_on_cross
 from .guided_pair import GuidedPair
 from .lines import line_of_ends
 from .turned_alike import place_turned_alike
+from .universal_joint import turn_on_cross
 from .yoke import DrivenYoke, GivenAxis, norm, second_axis, through_center, turn_through_cross
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from ..kinematics.motion import to_axes
 from ..loops.forms import Leftover
-from .cross import line_from_own_end, turn_on_cross
+from .universal_joint import line_from_own_end, turn_on_cross
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator

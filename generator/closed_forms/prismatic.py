@@ -24,7 +24,7 @@ from ..kinematics.motion import from_axes
 from ..program.floors import BRANCH, ROOT
 from ..program.functions import SignOf
 from .constraints import Distance
-from .held import HeldOnJoint
+from .held_by_leg import HeldOnJoint
 from .lines import place_rod
 from .solved_motion import Condition, SlideOnGuide, TargetPoint, add_turn, projector
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, ClassVar
 from ..declare.joints import Revolute
 from ..kinematics.extent import extent_squared
 from .arm import Reach, add_turn_of_rod, fit_rod
-from .held import HeldOnJoint
+from .held_by_leg import HeldOnJoint
 from .hinge import Hinge, place_on_hinge, report_angle
 from .lines import place_rod
 

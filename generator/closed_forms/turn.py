@@ -14,7 +14,7 @@ import sympy as sp
 from ..kinematics.extent import extent_squared
 from ..kinematics.motion import OnLine, PointMotion, RodEnds
 from .arm import Arm, Reach, add_turn_of_rod, fit_rod
-from .held import HeldByLeg
+from .held_by_leg import HeldByLeg
 from .lines import place_rod
 from .offset_turn import solve_offset_turn
 from .rigid_rod import RigidRod

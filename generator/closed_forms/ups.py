@@ -3,7 +3,7 @@
 Equation: ``|P_end - P_anchor| = l_0 + x``, l_0 being the distance at the design position and x the
 slide, or its negative where the strut shrinks with it. It is explicit in the slide, and in the
 length. Branch: the positive length. Singular set: the two points coincide. The first link gets its
-turn about the line from its cross (`cross`), the second one from the first.
+turn about the line from its cross (`universal_joint`), the second one from the first.
 """
 
 from __future__ import annotations

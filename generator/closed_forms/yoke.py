@@ -28,9 +28,9 @@ from ..program.floors import BRANCH, DIRECTION, LENGTH
 from ..program.functions import SignOf
 from ..program.vectors import Vector
 from .constraints import Perpendicular
-from .cross import second_of_cross
 from .lines import axes_about
 from .solved_motion import Condition, TargetBody, TurnOnHinge, add_turn, place_at
+from .universal_joint import second_of_cross
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

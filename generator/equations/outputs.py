@@ -20,7 +20,7 @@ from ..program.narrow import narrowed
 from ..program.program import Program
 from ..program.together import share_together
 from ..program.vectors import ZERO, Vector
-from ..telling import counted, silent
+from ..progress import counted, silent
 from .assumptions import define_assumptions, find_assumptions
 from .declared_outputs import signals_of
 from .design import design_state
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from ..program.conditions import Assumption, Condition
     from ..program.function import Function
     from ..program.steps import Guard
-    from ..telling import Tell
+    from ..progress import Notify
 
 AXES = ("x", "y", "z")
 
@@ -162,7 +162,7 @@ def generate(
     *,
     derivatives: bool = True,
     parameter_derivatives: bool = False,
-    tell: Tell = silent,
+    progress: Notify = silent,
 ) -> Derivation:
     """Derive a model and its functions.
 
@@ -179,10 +179,10 @@ def generate(
     show
         Called with what is being done, in a few words.
     """
-    tell("finding the loops and how they close")
-    derivation = _Builder(formulation, derivatives=derivatives, tell=tell).build()
+    progress("finding the loops and how they close")
+    derivation = _Builder(formulation, derivatives=derivatives, notify=progress).build()
     if parameter_derivatives:
-        tell("differentiating all functions by the parameters")
+        progress("differentiating all functions by the parameters")
         return _with_parameter_derivatives(derivation)
     return derivation
 
@@ -218,9 +218,9 @@ def _with_parameter_derivatives(derivation: Derivation) -> Derivation:
 class _Builder:
     """Collects the functions of one model from one program."""
 
-    def __init__(self, formulation: Formulation, *, derivatives: bool, tell: Tell) -> None:
+    def __init__(self, formulation: Formulation, *, derivatives: bool, notify: Notify) -> None:
         self.formulation = formulation
-        self._tell = tell
+        self._notify = notify
         self.derivatives = derivatives
         self.mechanism: Mechanism = formulation.mechanism
         self.states = formulation.states
@@ -232,12 +232,12 @@ class _Builder:
             derived={sp.Symbol(n): value for n, value in self.mechanism.derived.items()},
         )
         self.program = Program(self.constants)
-        tell("deriving positions, velocities and accelerations")
+        notify("deriving positions, velocities and accelerations")
         self.motion = InMotion.of(self.program, self.plan)
         self.moving = tuple(b.name for b in self.mechanism.moving)
         self.massive = tuple(b for b in self.moving if formulation.has_mass(b))
         self._check_masses()
-        tell(f"deriving the equations of motion of {len(self.massive)} bodies")
+        notify(f"deriving the equations of motion of {len(self.massive)} bodies")
         self.dynamics = Dynamics(self.motion)
         self.relative = {part: RelativeCoordinates(part) for part in self.motion.parts}
         self.functions: dict[str, Function] = {}
@@ -260,10 +260,10 @@ class _Builder:
         self._add_dynamics(self.dynamics)
         for variant, joints in self.formulation.held.items():
             names = [joint.name for joint in joints]
-            self._tell(f"deriving the equations of motion with {variant.replace('_', ' ')}")
+            self._notify(f"deriving the equations of motion with {variant.replace('_', ' ')}")
             held = Dynamics(InMotion.of(Program(self.constants), self.plan, names))
             self._add_right_hand_side(held, variant)
-        self._tell("deriving relative coordinates, poses and Jacobians")
+        self._notify("deriving relative coordinates, poses and Jacobians")
         self._add_relative()
         self._add_poses()
         self._add_signals()
@@ -275,7 +275,7 @@ class _Builder:
             {g.name: g.margin for g in guards},
         )
         self.functions["margins"] = replace(margins, guards=())  # it reports, and does not refuse
-        self._tell(f"finding what {len(self.program.steps):,} steps have in common")
+        self._notify(f"finding what {len(self.program.steps):,} steps have in common")
         order = self._share()
         assumed = define_assumptions(self.program, self.assumed)
         prepare = self.constants.function(self.functions.values(), assumed)
@@ -440,7 +440,7 @@ class _Builder:
         )
         title = f"differentiating {what.removeprefix('of ')} by the {by}"
         columns = {
-            s: program.tangents(s, values, str(s)) for s in counted(self._tell, title, symbols)
+            s: program.tangents(s, values, str(s)) for s in counted(self._notify, title, symbols)
         }
         entries = {
             f"{label} by {symbol}": column[row]

@@ -203,9 +203,7 @@ def _structure(topology: Topology) -> list[Block]:
         ),
         Picture(
             "graph",
-            "Joint graph: bodies, joints, and on each joint its number of degrees of freedom "
-            "(paper: "
-            "Figure 2).",
+            "Joint graph: bodies, joints, and on each joint its number of degrees of freedom.",
             mermaid(topology),
         ),
         Picture(
@@ -250,7 +248,7 @@ def _transformers(derivation: Derivation, number: Equations) -> Iterator[Block]:
     )
     yield Picture(
         "transformers",
-        "Kinematic transformers, and the coordinates between them (paper: Figure 3).",
+        "Kinematic transformers, and the coordinates between them.",
     )
     yield from _turns(derivation, number)
     for transformer in derivation.plan.transformers:

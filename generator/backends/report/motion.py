@@ -77,7 +77,7 @@ class Motion:
         return reported(self.mechanism, coordinate.joint.name, coordinate.kind) or ""
 
     def coordinate_rows(self) -> list[tuple[str, ...]]:
-        """Return the table of the relative coordinates (Figure 3)."""
+        """Return the table of the relative coordinates."""
         return [
             (
                 inline(beta(number)),
@@ -357,8 +357,8 @@ def _coordinates(motion: Motion) -> list[Block]:
     return [
         Heading(2, "Relative coordinates"),
         Paragraph(
-            "The coordinates in which everything below is written (paper: Figure 3), and where the "
-            "value of each comes from."
+            "The coordinates in which everything below is written, and where the value of each "
+            "comes from."
         ),
         Table(("", "name", "joint", "value", "meaning"), motion.coordinate_rows()),
     ]

@@ -119,7 +119,7 @@ def compile_mechanism(
 
     def derive(notify: Report) -> "Derivation":
         with translated_errors(model):
-            return generate(model, parameter_derivatives=parameter_derivatives, tell=notify)
+            return generate(model, parameter_derivatives=parameter_derivatives, progress=notify)
 
     derived, said = None, identity(model)
     if said is None:
@@ -241,8 +241,8 @@ def _operations_of(derived: "Derivation") -> dict[str, int]:
 
 def _estimated(sizes: list[int]) -> str:
     """Say about how long it takes to compile files of so many operations, where that is long."""
-    from ...generator.telling import WORTH_TELLING_S
+    from ...generator.progress import WORTH_REPORTING_S
 
     in_turn = sum(sizes) / min(len(sizes), os.cpu_count() or 1)
     seconds = max(*sizes, in_turn) / _COMPILED_PER_S
-    return f", about {seconds:.0f} s" if seconds > WORTH_TELLING_S else ""
+    return f", about {seconds:.0f} s" if seconds > WORTH_REPORTING_S else ""

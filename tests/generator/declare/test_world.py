@@ -18,7 +18,7 @@ from kintrafo.generator import (
 )
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.backends.report.derivation import joint_rows, mobility_line
-from kintrafo.generator.closed_forms.free import PlaceFree
+from kintrafo.generator.closed_forms.free_body import PlaceFree
 from kintrafo.generator.loops.graph import Topology
 from kintrafo.generator.loops.mobility import Mobility
 from kintrafo.generator.mechanisms.double_wishbone import (

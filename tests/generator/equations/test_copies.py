@@ -26,7 +26,7 @@ from kintrafo.generator import (
     combined,
 )
 from kintrafo.generator.closed_forms.catalogue import STEPS
-from kintrafo.generator.closed_forms.free import PlaceFree
+from kintrafo.generator.closed_forms.free_body import PlaceFree
 from kintrafo.generator.closed_forms.passive_turn import PlacePassive
 from kintrafo.generator.mechanisms import chains
 from kintrafo.generator.planning.plan import Plan

@@ -19,7 +19,7 @@ from changes import changed
 from kintrafo.generator import FORWARD, AlongLine, Formulation
 from kintrafo.generator.closed_forms.catalogue import STEPS
 from kintrafo.generator.closed_forms.elbow import PlaceElbow
-from kintrafo.generator.closed_forms.free import PlaceFree
+from kintrafo.generator.closed_forms.free_body import PlaceFree
 from kintrafo.generator.closed_forms.parallel_links import ParallelLinks
 from kintrafo.generator.closed_forms.passive_turn import PlacePassive
 from kintrafo.generator.closed_forms.scotch_yoke import ScotchYoke

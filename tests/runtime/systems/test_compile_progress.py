@@ -10,7 +10,7 @@ from pathlib import Path
 
 import kintrafo
 import pytest
-from kintrafo.generator import telling
+from kintrafo.generator import progress
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.systems.compile.build import _estimated
 from kintrafo.systems.compile.compiler import CompilerError, find_compiler
@@ -54,8 +54,8 @@ def test_it_is_shown_on_a_terminal_only(tmp_path, monkeypatch, terminal):
 
 def test_of_what_takes_long_the_rest_is_estimated(monkeypatch):
     clock, told = iter([0.0, 0.0, 4.0, 8.0]), []
-    monkeypatch.setattr(telling.time, "monotonic", lambda: next(clock))
-    assert list(telling.counted(told.append, "solving", "abc")) == ["a", "b", "c"]
+    monkeypatch.setattr(progress.time, "monotonic", lambda: next(clock))
+    assert list(progress.counted(told.append, "solving", "abc")) == ["a", "b", "c"]
     assert told == ["solving: 1 of 3", "solving: 2 of 3, 8 s to go", "solving: 3 of 3, 4 s to go"]
     monkeypatch.setattr(os, "cpu_count", lambda: 2)
     assert _estimated([20_000, 30_000]) == ""

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class PlaceByCross(Follower):
+class PlaceByUniversalJoint(Follower):
     """A shaft of known direction is turned by the cross of its universal joint."""
 
     joint: Universal

@@ -10,9 +10,9 @@ if TYPE_CHECKING:
     from typing import TypeVar
 
     T = TypeVar("T")
-    Tell = Callable[[str], None]
+    Notify = Callable[[str], None]
 
-WORTH_TELLING_S = 10.0
+WORTH_REPORTING_S = 10.0
 """What is over sooner needs no word about how long it takes."""
 
 
@@ -21,21 +21,25 @@ def silent(text: str) -> None:
     del text
 
 
-def counted(tell: Tell, what: str, items: Iterable[T]) -> Iterator[T]:
+def counted(notify: Notify, what: str, items: Iterable[T]) -> Iterator[T]:
     """Yield items one by one and report which of them it is.
 
-    Where all of them take more than `WORTH_TELLING_S`, as far as those behind say, also how long
+    Where all of them take more than `WORTH_REPORTING_S`, as far as those behind say, also how long
     the rest takes.
 
     Parameters
     ----------
+    notify
+        Called with each report.
     what
         What is done to each, in a few words.
+    items
+        What it is done to.
     """
     items, started = list(items), time.monotonic()
     for done, item in enumerate(items):
         passed = time.monotonic() - started
         left = passed / done * (len(items) - done) if done else 0.0
-        rest = f", {left:.0f} s to go" if passed + left > WORTH_TELLING_S else ""
-        tell(f"{what}: {done + 1} of {len(items)}{rest}")
+        rest = f", {left:.0f} s to go" if passed + left > WORTH_REPORTING_S else ""
+        notify(f"{what}: {done + 1} of {len(items)}{rest}")
         yield item
