@@ -1,5 +1,6 @@
 """``kintrafo import``: a suspension from another program, or hardpoints from a spreadsheet."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -39,6 +40,73 @@ else:
 Side = Literal["left", "right"]
 
 
+@dataclass(frozen=True)
+class _Options:
+    """What may be said of a source."""
+
+    base: Annotated[
+        str | None,
+        option(
+            "Hardpoint file that everything else is taken from. A table needs one; of Adams/Car "
+            "the default is a packaged one.",
+            "FILE",
+            "--from",
+            autocompletion=complete_file,
+        ),
+    ] = None
+    name: Annotated[
+        list[str] | None,
+        option("What a table or Adams/Car calls a hardpoint. May be repeated.", "OURS=THEIRS"),
+    ] = None
+    side: Annotated[
+        Side | None,
+        option(
+            "Of Adams/Car and Project Chrono: side of the car. Default: that of --from, or left."
+        ),
+    ] = None
+    mirror: Annotated[
+        bool,
+        option("The table is of the other side of the car.", None, "--mirror", panel=_TABLES),
+    ] = False
+    unit: Annotated[
+        str | None,
+        option("If the table gives no unit: mm, cm, m, in or ft.", "UNIT", panel=_TABLES),
+    ] = None
+    axes: Annotated[
+        str | None,
+        option(
+            "Directions of x, y and z: three of forward, rearward, left, right, up, down. Default: "
+            "forward left up (ISO 8855).",
+            "WORDS",
+            panel=_TABLES,
+        ),
+    ] = None
+    left_handed: Annotated[
+        bool,
+        option("The axes of --axes are left-handed.", None, "--left-handed", panel=_TABLES),
+    ] = False
+    sheet: Annotated[
+        str | None, option("Sheet of a workbook that has several.", "NAME", panel=_TABLES)
+    ] = None
+    kind: Annotated[
+        Kind | None,
+        option("What guides the wheel. Default: by the hardpoints.", panel=_ADAMS),
+    ] = None
+    tire: Annotated[
+        Path | None,
+        option("File of a tire: radius, mass and inertia.", "JSON", panel=_CHRONO, **FILE),
+    ] = None
+    points_only: Annotated[
+        bool,
+        option(
+            "Only hardpoints, camber and toe; the rest is as in the packaged file.",
+            None,
+            "--points-only",
+            panel=_CHRONO,
+        ),
+    ] = False
+
+
 def command(
     source: Annotated[
         Path,
@@ -52,67 +120,7 @@ def command(
     ],
     path: Annotated[Path, argument("File to write; ends in .toml.", "PATH")],
     *,
-    base: Annotated[
-        str | None,
-        option(
-            "Hardpoint file that everything else is taken from. A table needs one; of Adams/Car "
-            "the default is a packaged one.",
-            "FILE",
-            "--from",
-            autocompletion=complete_file,
-        ),
-    ] = None,
-    name: Annotated[
-        list[str] | None,
-        option("What a table or Adams/Car calls a hardpoint. May be repeated.", "OURS=THEIRS"),
-    ] = None,
-    side: Annotated[
-        Side | None,
-        option(
-            "Of Adams/Car and Project Chrono: side of the car. Default: that of --from, or left."
-        ),
-    ] = None,
-    mirror: Annotated[
-        bool,
-        option("The table is of the other side of the car.", None, "--mirror", panel=_TABLES),
-    ] = False,
-    unit: Annotated[
-        str | None,
-        option("If the table gives no unit: mm, cm, m, in or ft.", "UNIT", panel=_TABLES),
-    ] = None,
-    axes: Annotated[
-        str | None,
-        option(
-            "Directions of x, y and z: three of forward, rearward, left, right, up, down. Default: "
-            "forward left up (ISO 8855).",
-            "WORDS",
-            panel=_TABLES,
-        ),
-    ] = None,
-    left_handed: Annotated[
-        bool,
-        option("The axes of --axes are left-handed.", None, "--left-handed", panel=_TABLES),
-    ] = False,
-    sheet: Annotated[
-        str | None, option("Sheet of a workbook that has several.", "NAME", panel=_TABLES)
-    ] = None,
-    kind: Annotated[
-        Kind | None,
-        option("What guides the wheel. Default: by the hardpoints.", panel=_ADAMS),
-    ] = None,
-    tire: Annotated[
-        Path | None,
-        option("File of a tire: radius, mass and inertia.", "JSON", panel=_CHRONO, **FILE),
-    ] = None,
-    points_only: Annotated[
-        bool,
-        option(
-            "Only hardpoints, camber and toe; the rest is as in the packaged file.",
-            None,
-            "--points-only",
-            panel=_CHRONO,
-        ),
-    ] = False,
+    given: _Options,
     force: Force = False,
 ) -> None:
     """Write the hardpoint file of a suspension from another program, or from a table.
@@ -126,59 +134,34 @@ def command(
     from ...core.files import refuse
     from ..files.formats import NAMES, format_of
 
-    given = {
-        "base": base,
-        "name": name,
-        "side": side,
-        "mirror": mirror,
-        "unit": unit,
-        "axes": axes,
-        "left_handed": left_handed,
-        "sheet": sheet,
-        "kind": kind,
-        "tire": tire,
-        "points_only": points_only,
-    }
-    inputs = [source, *(file for file in (base, tire) if file is not None)]
+    inputs = [source, *(file for file in (given.base, given.tire) if file is not None)]
     refuse([path], force=force, inputs=inputs, endings=[".toml"])
     found = format_of(source)
-    read = _READERS[found]
-    options = {key: given[key] for key in read.__kwdefaults__ or {}}
-    for key, value in given.items():
+    read, options = _READERS[found]
+    for key, value in vars(given).items():
         if value and key not in options:
             spelled = "--from" if key == "base" else f"--{key.replace('_', '-')}"
             raise typer.BadParameter(f"{spelled} is not for {NAMES[found]}, as {source} is read")
     try:
-        read(source, path, {"force": force, "inputs": inputs}, **options)
+        read(source, path, {"force": force, "inputs": inputs}, given)
     except InputError:
         note(f"{source} is read as {NAMES[found]}.")
         raise
     say(f"Check it: kintrafo check {path}")
 
 
-def _table(
-    source: Path,
-    path: Path,
-    rule: Any,
-    *,
-    base: str | None = None,
-    name: list[str] | None = None,
-    mirror: bool = False,
-    unit: str | None = None,
-    axes: str | None = None,
-    left_handed: bool = False,
-    sheet: str | None = None,
-) -> None:
+def _table(source: Path, path: Path, rule: Any, given: _Options) -> None:
     from ..files.point_names import read_names
     from ..files.point_table import as_words, doubts, merged, read_points, write_merged
 
-    if base is None:
+    if given.base is None:
         raise typer.BadParameter(
             "a table of hardpoints needs --from FILE, a hardpoint file that the rest is taken from"
         )
-    names = read_names(name or ())
-    table = read_points(source, unit=unit, axes=axes, left_handed=left_handed, sheet=sheet)
-    found = merged(table, base, mirrored=mirror, names=names)
+    names = read_names(given.name or ())
+    how: Any = {key: getattr(given, key) for key in ("unit", "axes", "left_handed", "sheet")}
+    table = read_points(source, **how)
+    found = merged(table, given.base, mirrored=given.mirror, names=names)
     say(f"  {write_merged(found, path, **rule)}")
     for head, text in as_words(found, table).items():
         say(f"  {head}: {text}")
@@ -186,44 +169,27 @@ def _table(
         note(f"note: {doubt}")
 
 
-def _adams(
-    source: Path,
-    path: Path,
-    rule: Any,
-    *,
-    base: str | None = None,
-    name: list[str] | None = None,
-    side: Side | None = None,
-    kind: str | None = None,
-) -> None:
+def _adams(source: Path, path: Path, rule: Any, given: _Options) -> None:
     from ..files.adams_car import imported, read, read_names
     from ..files.point_table import write_merged
 
-    names = read_names(name or ())
-    found = imported(read(source), side=side, kind=kind, base=base, names=names)
+    how: Any = {key: getattr(given, key) for key in ("side", "kind", "base")}
+    found = imported(read(source), names=read_names(given.name or ()), **how)
     say(f"  {write_merged(found, path, **rule)}")
     for head, text in found.words():
         say(f"  {head:<8}  {text}")
 
 
-def _chrono(
-    source: Path,
-    path: Path,
-    rule: Any,
-    *,
-    side: Side | None = None,
-    tire: Path | None = None,
-    points_only: bool = False,
-) -> None:
+def _chrono(source: Path, path: Path, rule: Any, given: _Options) -> None:
     from ..files.chrono import read
     from ..input.toml_writer import write_toml
 
-    found = read(source, tire=tire, points_only=points_only)
-    files = f"{source.name} and {tire.name}" if tire else source.name
+    found = read(source, tire=given.tire, points_only=given.points_only)
+    files = f"{source.name} and {given.tire.name}" if given.tire else source.name
     head = [f"From {files} of Project Chrono (https://projectchrono.org)."]
     for title, lines in (("Assumed:", found.assumptions), ("Left out:", found.left_out)):
         head += [title, *(part for line in lines for part in _indented(line))] if lines else []
-    suspension = found.suspension.mirrored() if side == "right" else found.suspension
+    suspension = found.suspension.mirrored() if given.side == "right" else found.suspension
     write_toml(suspension, path, head=head, **rule)
     say(f"  {path}")
     for line in found.assumptions:
@@ -232,10 +198,14 @@ def _chrono(
         say(f"  left out  {line}")
 
 
-_READERS: "Mapping[Format, Callable[..., None]]" = {
-    "table": _table,
-    "adams": _adams,
-    "chrono": _chrono,
+# What reads each format, and what may be said of it.
+_READERS: "Mapping[Format, tuple[Callable[..., None], frozenset[str]]]" = {
+    "table": (
+        _table,
+        frozenset({"base", "name", "mirror", "unit", "axes", "left_handed", "sheet"}),
+    ),
+    "adams": (_adams, frozenset({"base", "name", "side", "kind"})),
+    "chrono": (_chrono, frozenset({"side", "tire", "points_only"})),
 }
 
 
