@@ -118,6 +118,11 @@ def long_name(data: "xr.DataArray") -> str:
     return str(data.attrs.get("long_name") or str(data.name).replace("_", " "))
 
 
+def heading_of(data: "xr.DataArray") -> str:
+    """Return what a variable is called in words, with its unit for people."""
+    return bracketed(long_name(data), data.attrs)
+
+
 def distinct(labels: Sequence[str]) -> list[str]:
     """Return labels that differ: one that came before gets a number.
 

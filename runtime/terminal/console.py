@@ -3,7 +3,7 @@
 import json
 import math
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -82,15 +82,11 @@ def curve_table(dataset: "Dataset", names: Sequence[str], title: str) -> Table:
     from ..core.quantities import bracketed, displayed
 
     (along,) = dataset.sizes
-    table = Table(title=escape(title))
     columns = [dataset[str(along)], *(dataset[name] for name in names)]
-    for column in columns:
-        name = bracketed(str(column.name).replace("_", " "), column.attrs)
-        table.add_column(escape(name), justify="right")
+    headings = [bracketed(str(c.name).replace("_", " "), c.attrs) for c in columns]
     values = [displayed(column) for column in columns]
-    for row in _rows(values[0]):
-        table.add_row(*(number(float(column[row])) for column in values))
-    return table
+    rows = ([number(float(column[row])) for column in values] for row in _rows(values[0]))
+    return table(title, headings, rows, words=())
 
 
 def _rows(positions: Any) -> list[int]:
@@ -101,11 +97,35 @@ def _rows(positions: Any) -> list[int]:
     return list(range(zero % stride, count, stride))
 
 
-def print_table(table: "Tabulated") -> None:
-    """Print a table: words to the left, numbers to the right."""
-    made = Table(title=escape(table.title))
-    for index, heading in enumerate(table.columns):
-        made.add_column(escape(heading), justify="left" if index in table.words else "right")
-    for row in table.rows:
+def table(
+    title: str,
+    columns: Iterable[str],
+    rows: Iterable[Iterable[str]],
+    words: Collection[int] = (0,),
+    caption: str | None = None,
+) -> Table:
+    """Return a table of texts: words to the left, numbers to the right.
+
+    Parameters
+    ----------
+    title : str
+    columns : iterable of str
+        Headings.
+    rows : iterable of iterable of str
+        A cell for each column.
+    words : collection of int, optional
+        The columns that are words; the others are numbers.
+    caption : str, optional
+        Below the table.
+    """
+    made = Table(title=escape(title), caption=caption)
+    for index, heading in enumerate(columns):
+        made.add_column(escape(heading), justify="left" if index in words else "right")
+    for row in rows:
         made.add_row(*map(escape, row))
-    console.print(made)
+    return made
+
+
+def print_table(tabulated: "Tabulated") -> None:
+    """Print a table that is made for the terminal and a page alike."""
+    console.print(table(tabulated.title, tabulated.columns, tabulated.rows, tabulated.words))

@@ -3,11 +3,9 @@
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import typer
-from rich.markup import escape
-from rich.table import Table
 
 from ...core.tabulated import significant
-from ...terminal.console import console, print_json, progress_bar, say
+from ...terminal.console import console, print_json, progress_bar, say, table
 from ..models.sides import SIDES
 from . import goals as wanted
 from .loading import assembly_of_file
@@ -17,6 +15,7 @@ from .outputs import CurveOptions, name_files, title_of
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from rich.table import Table
     from xarray import Dataset
 
     from ..analysis.compare import Difference
@@ -192,22 +191,17 @@ def _units(dataset: "Dataset", difference: "Difference") -> str:
     return str(dataset[difference.name].attrs.get("units", ""))
 
 
-def _table(dataset: "Dataset", found: list["Difference"], first: str, other: str) -> Table:
-    from ...core.quantities import bracketed, display_of, long_name
+def _table(dataset: "Dataset", found: list["Difference"], first: str, other: str) -> "Table":
+    from ...core.quantities import display_of, heading_of
 
     along = next(str(name) for name in dataset.sizes if name != "data_set")
-    where = bracketed(long_name(dataset[along]), dataset[along].attrs)
-    table = Table(title=escape(f"{other} compared with {first}"))
-    table.add_column("characteristic")
-    for column in (first, other, "difference", "largest", f"at {where}"):
-        table.add_column(escape(column), justify="right")
+    at = f"at {heading_of(dataset[along])}"
+    rows = []
     for difference in found:
         data = dataset[difference.name]
         factor = display_of(data.attrs).factor
         values = difference.first, difference.other, difference.at_design, difference.largest
-        table.add_row(
-            escape(bracketed(long_name(data), data.attrs)),
-            *(significant(value * factor) for value in values),
-            f"{difference.where * display_of(dataset[along].attrs).factor + 0.0:g}",
-        )
-    return table
+        where = f"{difference.where * display_of(dataset[along].attrs).factor + 0.0:g}"
+        rows.append((heading_of(data), *(significant(v * factor) for v in values), where))
+    columns = ("characteristic", first, other, "difference", "largest", at)
+    return table(f"{other} compared with {first}", columns, rows)

@@ -4,11 +4,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.markup import escape
-from rich.table import Table
 
 from ...core.tabulated import significant
-from ...terminal.console import console, print_json, progress_bar, say
+from ...terminal.console import console, print_json, progress_bar, say, table
 from ...terminal.exits import Exit
 from .loading import variable_subject
 from .options import File, Held, Of, among, argument, option
@@ -98,26 +96,21 @@ def _facts(found: "Fit") -> dict[str, Any]:
 
 
 def _print(found: "Fit", measured: "Dataset", file: str) -> None:
-    from ...core.quantities import bracketed, display_of, long_name
+    from ...core.quantities import display_of, heading_of
 
-    values = Table(title=escape(f"{file}: what may be off"))
-    values.add_column("value")
-    for column in ("file", "fitted", "off by", "+/-", "unit", "determined by the curves"):
-        values.add_column(column, justify="left" if column == "unit" else "right")
+    values, curves = [], []
     for place in found.places:
         by, deviation = found.moved[place.name], found.uncertainty[place.name]
         numbers = [f"{value:.3f}" for value in (place.value, place.value + by, by, deviation)]
         part = f"{100.0 * found.determined[place.name]:.0f} %"
-        values.add_row(escape(place.name), *numbers, place.unit or "-", part)
-    console.print(values)
-    curves = Table(title="deviations of the curves, root mean square")
-    curves.add_column("characteristic")
-    for column in ("file", "fitted", "accuracy"):
-        curves.add_column(column, justify="right")
+        values.append((place.name, *numbers, place.unit or "-", part))
     for curve in found.curves:
         data = measured[curve.name]
         factor = display_of(data.attrs).factor
-        numbers = [significant(v * factor) for v in (curve.before, curve.after, curve.within)]
-        curves.add_row(escape(bracketed(long_name(data), data.attrs)), *numbers)
-    console.print(curves)
+        shown = (significant(v * factor) for v in (curve.before, curve.after, curve.within))
+        curves.append((heading_of(data), *shown))
+    head = ("value", "file", "fitted", "off by", "+/-", "unit", "determined by the curves")
+    console.print(table(f"{file}: what may be off", head, values, words=(0, 5)))
+    title = "deviations of the curves, root mean square"
+    console.print(table(title, ("characteristic", "file", "fitted", "accuracy"), curves))
     say(f"{found.message}; {found.evaluations} suspensions were looked at.")

@@ -5,14 +5,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.markup import escape
-from rich.table import Table
 
 from ...core.tabulated import significant
 from ...terminal.console import note
+from ...terminal.console import table as table_of
 from .options import option
 
 if TYPE_CHECKING:
+    from rich.table import Table
     from xarray import Dataset
 
     from ..studies.evaluation import Subject
@@ -139,28 +139,24 @@ def judged(subjects: "Mapping[str, Subject]", goals: "Sequence[Goal]") -> list[d
     ]
 
 
-def table(found: Sequence[Mapping[str, Any]], title: str) -> Table:
+def table(found: Sequence[Mapping[str, Any]], title: str) -> "Table":
     """Return the table of what `judged` returns."""
     from ...core.quantities import display_of
     from ..studies.goals import words_of
     from ..studies.sweep_axes import sweep_axis
 
+    def cell(row: Mapping[str, Any]) -> str:
+        if row["met"]:
+            return "met"
+        over = sweep_axis(row["over"])
+        shown = display_of(over.known[row["name"]].attributes())
+        missed = significant(row["beyond"] * shown.factor)
+        return f"missed by {missed} at {over.factor * row['at']:g} {over.unit}"
+
     files = list(dict.fromkeys(row["file"] for row in found))
-    result = Table(title=escape(title))
-    for column in ("goal", *files):
-        result.add_column(escape(column))
-    rows = [[row for row in found if row["file"] == file] for file in files]
-    for same in zip(*rows, strict=True):
-        first = same[0]
-        over = sweep_axis(first["over"])
-        shown = display_of(over.known[first["name"]].attributes())
-        cells = [
-            "met"
-            if row["met"]
-            else f"missed by {significant(row['beyond'] * shown.factor)} at "
-            f"{over.factor * row['at']:g} {over.unit}"
-            for row in same
-        ]
-        words = words_of(first["kind"], first["name"], first["over"])
-        result.add_row(escape(words), *cells)
-    return result
+    by_file = [[row for row in found if row["file"] == file] for file in files]
+    rows = [
+        (words_of(same[0]["kind"], same[0]["name"], same[0]["over"]), *map(cell, same))
+        for same in zip(*by_file, strict=True)
+    ]
+    return table_of(title, ("goal", *files), rows, words=range(1 + len(files)))

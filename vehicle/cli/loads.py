@@ -4,18 +4,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.markup import escape
-from rich.table import Table
 
 from ...core.errors import InputError
 from ...core.tabulated import whole
-from ...terminal.console import console, print_json, print_table, say
+from ...terminal.console import console, print_json, print_table, say, table
 from ...terminal.exits import Exit
 from .loading import assembly_of_file
 from .options import File, among, option
 from .outputs import BarOptions, name_files, title_of
 
 if TYPE_CHECKING:
+    from rich.table import Table
     from xarray import Dataset
 
 EXAMPLES = (
@@ -120,40 +119,37 @@ def _print_rest(found: "Dataset") -> None:
     say("; ".join(filter(None, (found.attrs["message"], found.attrs["rules"]))) + ".")
 
 
-def _components(found: "Dataset", case: str, parts: list[str], file: str) -> Table:
+def _components(found: "Dataset", case: str, parts: list[str], file: str) -> "Table":
     """Return forces and moments of one case."""
     from ..analysis.loads.sheets import shown_rows
 
     here = found.sel(case=case)
-    table = Table(title=escape(f"{file}: loads in {case}, chassis axes"))
-    table.add_column("on the part, at, by")
-    for column in ("Fx [N]", "Fy", "Fz", "Mx [N m]", "My", "Mz"):
-        table.add_column(escape(column), justify="right")
-    for i in shown_rows(found, parts):
-        numbers = (*here["force"].values[i], *here["moment"].values[i])
-        table.add_row(escape(_label(found, i)), *(whole(float(number)) for number in numbers))
-    return table
+    rows = [
+        (
+            _label(found, i),
+            *(whole(float(v)) for v in (*here["force"].values[i], *here["moment"].values[i])),
+        )
+        for i in shown_rows(found, parts)
+    ]
+    columns = ("on the part, at, by", "Fx [N]", "Fy", "Fz", "Mx [N m]", "My", "Mz")
+    return table(f"{file}: loads in {case}, chassis axes", columns, rows)
 
 
-def _extremes(found: "Dataset", ends: "Dataset", parts: list[str], file: str) -> Table:
+def _extremes(found: "Dataset", ends: "Dataset", parts: list[str], file: str) -> "Table":
     """Return the least and the greatest of each component, with the cases in which they are."""
     from ..analysis.loads.sheets import shown_rows
 
-    table = Table(title=escape(f"{file}: extremes of the forces [N], chassis axes"))
-    table.add_column("on the part, at, by")
-    for column in ("Fx", "Fy", "Fz"):
-        table.add_column(column, justify="right")
-    for i in shown_rows(found, parts):
-        cells = [
-            "\n".join(
-                f"{ends[f'force_{end}_case'].values[i, axis]} "
-                f"{whole(float(ends[f'force_{end}'].values[i, axis])):>7}"
-                for end in ("min", "max")
-            )
-            for axis in range(3)
-        ]
-        table.add_row(escape(_label(found, i)), *map(escape, cells))
-    return table
+    def cell(row: int, axis: int) -> str:
+        return "\n".join(
+            f"{ends[f'force_{end}_case'].values[row, axis]} "
+            f"{whole(float(ends[f'force_{end}'].values[row, axis])):>7}"
+            for end in ("min", "max")
+        )
+
+    title = f"{file}: extremes of the forces [N], chassis axes"
+    rows = ((_label(found, i), *(cell(i, axis) for axis in range(3)))
+            for i in shown_rows(found, parts))  # fmt: skip
+    return table(title, ("on the part, at, by", "Fx", "Fy", "Fz"), rows)
 
 
 def _label(found: "Dataset", row: int) -> str:

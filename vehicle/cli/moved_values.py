@@ -3,23 +3,21 @@
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
-from rich.markup import escape
-from rich.table import Table
+from ...terminal.console import table
 
 if TYPE_CHECKING:
+    from rich.table import Table
+
     from ..studies.design_variables import DesignVariable
 
 
 def moved_table(
     places: "Iterable[DesignVariable]", moved: Mapping[str, float], title: str
-) -> Table:
+) -> "Table":
     """Return a table of what values were, what they are, and by how much they have moved."""
-    table = Table(title=escape(title))
-    table.add_column("value")
-    for column in ("was", "is", "moved by", "unit"):
-        table.add_column(column, justify="left" if column == "unit" else "right")
+    rows = []
     for place in places:
         by = moved[place.name]
         numbers = (f"{value:.3f}" for value in (place.value, place.value + by, by))
-        table.add_row(escape(place.name), *numbers, place.unit or "-")
-    return table
+        rows.append((place.name, *numbers, place.unit or "-"))
+    return table(title, ("value", "was", "is", "moved by", "unit"), rows, words=(0, 4))

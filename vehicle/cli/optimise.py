@@ -4,11 +4,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.markup import escape
-from rich.table import Table
 
 from ...core.tabulated import significant
-from ...terminal.console import console, print_json, progress_bar, say
+from ...terminal.console import console, print_json, progress_bar, say, table
 from ...terminal.exits import Exit
 from .loading import variable_subject
 from .moved_values import moved_table
@@ -16,6 +14,8 @@ from .options import File, argument
 from .outputs import CarOptions, name_files, title_of
 
 if TYPE_CHECKING:
+    from rich.table import Table
+
     from ..studies import Optimum
 
 EXAMPLES = (
@@ -75,14 +75,11 @@ def _print(found: "Optimum", file: str) -> None:
     say(f"{found.message}; {found.evaluations} suspensions were looked at.")
 
 
-def _goals(found: "Optimum") -> Table:
+def _goals(found: "Optimum") -> "Table":
     from ...core.quantities import bracketed, display_of
     from ..assembly.of import assembly_of
 
-    table = Table(title="largest deviations from the targets")
-    table.add_column("characteristic")
-    for column in ("before", "after", "what matters"):
-        table.add_column(column, justify="right")
+    rows = []
     for target in found.targets:
         attributes = target.quantity.attributes()
         factor = display_of(attributes).factor
@@ -91,6 +88,6 @@ def _goals(found: "Optimum") -> Table:
             for suspension in (found.start, found.suspension)
         ]
         name = bracketed(f"{target.quantity.long_name}{target.over_words}", attributes)
-        cells = (significant(float(v) * factor) for v in (*missed, target.within))
-        table.add_row(escape(name), *cells)
-    return table
+        rows.append((name, *(significant(float(v) * factor) for v in (*missed, target.within))))
+    columns = ("characteristic", "before", "after", "what matters")
+    return table("largest deviations from the targets", columns, rows)

@@ -5,11 +5,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.markup import escape
-from rich.table import Table
 
 from ...core.tabulated import significant
-from ...terminal.console import console, print_json, progress_bar, say
+from ...terminal.console import console, print_json, progress_bar, say, table
 from ...terminal.exits import Exit
 from .loading import variable_subject
 from .moved_values import moved_table
@@ -17,6 +15,8 @@ from .options import OUTPUT, File, argument, option
 from .outputs import BarOptions, Outputs, name_files, title_of
 
 if TYPE_CHECKING:
+    from rich.table import Table
+
     from ..studies import Front
 
 EXAMPLES = (
@@ -132,32 +132,30 @@ def _print(found: "Front", chosen: int, file: str) -> None:
     say(f"{found.message}; {found.evaluations} were looked at.")
 
 
-def _table(found: "Front", chosen: int, file: str) -> Table:
+def _table(found: "Front", chosen: int, file: str) -> "Table":
     """Return a row for the suspension as it is and for each member, or for some of many."""
     from ...core.quantities import bracketed, display_of
 
     count = len(found.moved)
-    table = Table(title=escape(f"{file}: {count} on the front"))
-    table.add_column("member", justify="right")
     described = [objective.attributes() for objective in found.objectives]
-    for attrs in described:
-        heading = f"{bracketed(str(attrs['long_name']), attrs)}\nwanted {attrs['wanted']}"
-        table.add_column(escape(heading), justify="right")
-    table.add_column("")
+    headings = [
+        f"{bracketed(str(attrs['long_name']), attrs)}\nwanted {attrs['wanted']}"
+        for attrs in described
+    ]
     factors = [display_of(attrs).factor for attrs in described]
 
-    def add(member: str, numbers: Sequence[float], remark: str) -> None:
+    def row(member: str, numbers: Sequence[float], remark: str) -> tuple[str, ...]:
         cells = (significant(v * factor) for v, factor in zip(numbers, factors, strict=True))
-        table.add_row(member, *cells, remark)
+        return member, *cells, remark
 
-    add("", [*found.before.values()], _of_start(found))
-    rows = _rows(count, chosen, found.compromise)
-    if len(rows) < count:
-        table.caption = "some of them; data files have all"
+    members = _rows(count, chosen, found.compromise)
     values = [found.dataset[objective.name].values for objective in found.objectives]
-    for member in rows:
-        add(str(member), [float(v[member - 1]) for v in values], _remark(found, member, chosen))
-    return table
+    rows = [row("", [*found.before.values()], _of_start(found))]
+    rows += [row(str(m), [float(v[m - 1]) for v in values], _remark(found, m, chosen))
+             for m in members]  # fmt: skip
+    columns = ("member", *headings, "")
+    caption = "some of them; data files have all" if len(members) < count else None
+    return table(f"{file}: {count} on the front", columns, rows, (len(columns) - 1,), caption)
 
 
 def _of_start(found: "Front") -> str:

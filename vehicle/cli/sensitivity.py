@@ -3,17 +3,15 @@
 from math import isfinite
 from typing import TYPE_CHECKING, Annotated
 
-from rich.markup import escape
-from rich.table import Column, Table
-
 from ...core.tabulated import significant
-from ...terminal.console import console, note, print_json, progress_bar
+from ...terminal.console import console, note, print_json, progress_bar, table
 from .loading import variable_subject
 from .options import File, option
 from .outputs import BarOptions, name_files, title_of
 from .variation_options import Look, StudyOptions
 
 if TYPE_CHECKING:
+    from rich.table import Table
     from xarray import Dataset
 
     from ..studies.sensitivity import Effect
@@ -76,7 +74,7 @@ def command(
     name_files(written)
 
 
-def _table(dataset: "Dataset", look: Look, file: str) -> Table:
+def _table(dataset: "Dataset", look: Look, file: str) -> "Table":
     """Return the effects: of one characteristic all of them, of several the greatest of each."""
     from ..studies import effects
 
@@ -85,17 +83,15 @@ def _table(dataset: "Dataset", look: Look, file: str) -> Table:
     if len(names) == 1:
         (name,) = names
         title = f"{title_of(file)}: effect of values on {_words(dataset, name)}, {look.where}"
-        table = Table("value", Column("effect", justify="right"), "unit", title=escape(title))
-        for effect in found[name]:
-            table.add_row(escape(effect.place), significant(effect.size), escape(effect.unit))
-        return table
+        every = [(effect.place, significant(effect.size), effect.unit) for effect in found[name]]
+        return table(title, ("value", "effect", "unit"), every, words=(0, 2))
+    rows = [
+        (_words(dataset, name), unit, _greatest([one for one in found[name] if one.unit == unit]))
+        for name in names
+        for unit in dict.fromkeys(effect.unit for effect in found[name])
+    ]
     title = f"{title_of(file)}: effect of values on characteristics, {look.where}"
-    table = Table("characteristic", "unit", "moved most by", title=escape(title))
-    for name in names:
-        for unit in dict.fromkeys(effect.unit for effect in found[name]):
-            same = [effect for effect in found[name] if effect.unit == unit]
-            table.add_row(_words(dataset, name), escape(unit), escape(_greatest(same)))
-    return table
+    return table(title, ("characteristic", "unit", "moved most by"), rows, words=range(3))
 
 
 def _greatest(effects: "list[Effect]") -> str:
@@ -108,7 +104,7 @@ def _greatest(effects: "list[Effect]") -> str:
 def _words(dataset: "Dataset", name: str) -> str:
     from ...core.quantities import long_name
 
-    return escape(long_name(dataset[name]).removeprefix("sensitivity of "))
+    return long_name(dataset[name]).removeprefix("sensitivity of ")
 
 
 def _short(place: str) -> str:

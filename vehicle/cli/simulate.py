@@ -4,11 +4,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
-from rich.markup import escape
-from rich.table import Table
 
 from ...core.tabulated import number
-from ...terminal.console import console, print_json, problems, say
+from ...terminal.console import console, print_json, problems, say, table
 from ...terminal.exits import Exit
 from .loading import model_of
 from .options import OUTPUT, File, option
@@ -16,6 +14,7 @@ from .outputs import CurveOptions, DataOptions, Outputs, name_files, title_of
 from .simulation_options import ScenarioOptions, SolverOptions
 
 if TYPE_CHECKING:
+    from rich.table import Table
     from xarray import Dataset
 
     from ...simulation.result import Simulation
@@ -216,22 +215,18 @@ def _summary(result: "Simulation", motion: "Dataset", run: _Run) -> dict[str, An
     }
 
 
-def _table(motion: "Dataset", run: _Run) -> Table:
-    from ...core.quantities import bracketed, display_of, long_name
+def _table(motion: "Dataset", run: _Run) -> "Table":
+    from ...core.quantities import display_of, heading_of
     from ...datasets.recording import statistics
 
-    table = Table(title=f"{escape(run.file)}: motion from 0 s to {float(motion['time'][-1]):g} s")
-    table.add_column("signal")
-    for column in ("smallest", "largest", "mean", "rms about it", "last"):
-        table.add_column(column, justify="right")
-    found = statistics(motion)
+    found, rows = statistics(motion), []
     for name in run.curves(motion):
-        data = motion[name]
-        factor = display_of(data.attrs).factor
-        values = vars(found[name]).values()
-        label = escape(bracketed(long_name(data), data.attrs))
-        table.add_row(label, *(number(value * factor) for value in values))
-    return table
+        factor = display_of(motion[name].attrs).factor
+        values = (number(value * factor) for value in vars(found[name]).values())
+        rows.append((heading_of(motion[name]), *values))
+    title = f"{run.file}: motion from 0 s to {float(motion['time'][-1]):g} s"
+    columns = ("signal", "smallest", "largest", "mean", "rms about it", "last")
+    return table(title, columns, rows)
 
 
 def _in_words(result: "Simulation", run: _Run) -> list[str]:

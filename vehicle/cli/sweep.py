@@ -3,11 +3,9 @@
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.markup import escape
-from rich.table import Table
 
 from ...core.tabulated import significant
-from ...terminal.console import console, print_json, progress_bar, say
+from ...terminal.console import console, print_json, progress_bar, say, table
 from ...terminal.exits import Exit
 from ..models.sides import SIDES
 from .loading import variable_subject
@@ -16,6 +14,7 @@ from .outputs import PlotOptions, name_files, title_of
 from .simulation_options import ScenarioOptions
 
 if TYPE_CHECKING:
+    from rich.table import Table
     from xarray import Dataset
 
     from ...systems.system import System
@@ -138,22 +137,21 @@ def _reductions(model: "System", kept: tuple[str, ...] | list[str]) -> dict[str,
     return found
 
 
-def _table(dataset: "Dataset", names: list[str], file: str) -> Table:
+def _table(dataset: "Dataset", names: list[str], file: str) -> "Table":
     """Return a row for each combination, or of many the extremes."""
-    from ...core.quantities import bracketed, display_of, long_name
+    from ...core.quantities import display_of, heading_of
 
-    rows = dataset[names].to_dataframe().reset_index()
-    table = Table(title=escape(f"{file}: {len(rows)} suspensions"))
+    rows, caption = dataset[names].to_dataframe().reset_index(), None
+    title = f"{file}: {len(rows)} suspensions"
     if len(rows) > _ROWS:
-        there = [rows[name].dropna() for name in names]
-        extremes = {i for some in there if some.size for i in (some.idxmin(), some.idxmax())}
+        numbers = [rows[name].dropna() for name in names]
+        extremes = {i for some in numbers if some.size for i in (some.idxmin(), some.idxmax())}
         rows = rows.loc[sorted(extremes)]
-        table.caption = "those with the smallest and the greatest numbers"
-    for name in rows.columns:
-        data = dataset[name]
-        table.add_column(escape(bracketed(long_name(data), data.attrs)), justify="right")
-    factors = [display_of(dataset[name].attrs).factor for name in rows.columns]
-    for row in rows.itertuples(index=False):
-        pairs = zip(row, factors, strict=True)
-        table.add_row(*(significant(float(value) * factor) for value, factor in pairs))
-    return table
+        caption = "those with the smallest and the greatest numbers"
+    columns = [dataset[name] for name in rows.columns]
+    factors = [display_of(data.attrs).factor for data in columns]
+    cells = (
+        [significant(float(value) * factor) for value, factor in zip(row, factors, strict=True)]
+        for row in rows.itertuples(index=False)
+    )
+    return table(title, map(heading_of, columns), cells, (), caption)

@@ -3,17 +3,15 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from rich.markup import escape
-from rich.table import Table
-
 from ...core.tabulated import significant
-from ...terminal.console import console, print_json, progress_bar, say
+from ...terminal.console import console, print_json, progress_bar, say, table
 from .loading import variable_subject
 from .options import File, argument, option
 from .outputs import BarOptions, name_files, title_of
 from .variation_options import Look, StudyOptions
 
 if TYPE_CHECKING:
+    from rich.table import Table
     from xarray import Dataset
 
 # Where the cars deviate by more or less than that much of what they do to first order, shares tell
@@ -83,24 +81,20 @@ def command(
     name_files(written)
 
 
-def _table(dataset: "Dataset", names: list[str], title: str, at: float) -> Table:
-    from ...core.quantities import bracketed, displayed, long_name
+def _table(dataset: "Dataset", names: list[str], title: str, at: float) -> "Table":
+    from ...core.quantities import displayed, heading_of
     from ..studies.tolerance import QUANTILE
 
-    table = Table(title=escape(title))
-    table.add_column("characteristic")
-    for column in ("as drawn", "least", "5 %", "95 %", "greatest"):
-        table.add_column(column, justify="right")
-    table.add_column("caused most by")
+    rows = []
     for name in names:
-        data = dataset[name]
-        over = next(str(d) for d in data.dims if d != QUANTILE)
+        over = next(str(d) for d in dataset[name].dims if d != QUANTILE)
         here = dataset.sel({over: at}, method="nearest")
         least, low, _, high, most = displayed(here[name])
         nominal = float(displayed(here[f"{name}_nominal"]))
         values = (significant(float(value)) for value in (nominal, least, low, high, most))
-        table.add_row(escape(bracketed(long_name(data), data.attrs)), *values, _causes(here, name))
-    return table
+        rows.append((heading_of(dataset[name]), *values, _causes(here, name)))
+    columns = ("characteristic", "as drawn", "least", "5 %", "95 %", "greatest", "caused most by")
+    return table(title, columns, rows, words=(0, 6))
 
 
 def _causes(here: "Dataset", name: str) -> str:

@@ -101,6 +101,8 @@ WRITING = {
     "export": (["export", "four_bar", "--to", "c", "-o", "."], "four_bar.h"),
     "export --to fmu": (["export", "four_bar", "--to", "fmu"], "four_bar.fmu"),
     "paper": (["paper", "."], "figure_6_wheel_motion.svg"),
+    "tyre": (["tyre", "passenger_205_55", "-o", "a.csv"], "a.csv"),
+    "ride": (["ride", "quarter_car", "--duration", "2", "-o", "a.nc"], "a.nc"),
 }
 
 
