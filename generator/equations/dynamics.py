@@ -150,7 +150,7 @@ class Dynamics:
         self.program, self.mechanism = moving.program, moving.mechanism
         self.moving, self.placed, self.part_of = moving, moving.placed, moving.part_of
         self.coordinates, self.names = moving.coordinates, moving.coordinates.independent
-        self._of_base = {k: base.body for base in moving.free for k in base.coordinates}
+        self._of_base = {k: base.body for base in moving.bases for k in base.coordinates}
         self.inertia: dict[str, Inertia] = {}
         self.rotors: list[Rotor] = []
         self.accelerations: dict[str, sp.Expr] = {}
@@ -160,7 +160,7 @@ class Dynamics:
         self._bias: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
         self._force: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
         self._momentum: Momenta = {}
-        self._at_base = {base.body: self.inertia[base.body] for base in moving.free}
+        self._at_base = {base.body: self.inertia[base.body] for base in moving.bases}
         self._wrenches: list[tuple[BodyMotion, Inertia, Twist]] = []
         self._factors: dict[tuple[str, str], sp.Expr] = {}
         self._actions: list[Action] = []
@@ -265,7 +265,7 @@ class Dynamics:
     # -- bodies ---------------------------------------------------------------------------------
 
     def _add_bodies(self) -> None:
-        bases = [base.body for base in self.moving.free]
+        bases = [base.body for base in self.moving.bases]
         for name, placed in self.placed.items():
             if placed.motion and not self._is_rotor(name) and name not in bases:
                 self.program.section(f"dynamics: {name}")
@@ -337,7 +337,7 @@ class Dynamics:
         )
         for k, momentum in momenta.items():
             seen = carried.on_base(f"{label}_{k}", momentum)
-            for own, share in zip(base.coordinates, (*seen.linear, *seen.angular), strict=True):
+            for own, share in base.shares(seen).items():
                 self._matrix[own, k] = self._matrix.get((own, k), NONE) + share
 
     def _project(
@@ -350,8 +350,7 @@ class Dynamics:
         carried = self._base_of(placed)
         if carried is not None:
             seen = carried.on_base(f"{placed.body}_{label}", wrench)
-            own = carried.base.coordinates
-            for k, share in zip(own, (*seen.linear, *seen.angular), strict=True):
+            for k, share in carried.base.shares(seen).items():
                 total[k] += share
 
     def _add_single_bias(self, placed: BodyMotion, k: str, angular: Vector) -> None:

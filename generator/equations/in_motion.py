@@ -1,6 +1,7 @@
 """A mechanism in motion: its parts that hang together through what they are based on alone.
 
-A base is the ground, or a body that moves freely. Two sides of a machine are parts of it: no
+A base is the ground, a body that moves freely, or one to which joints lead from the ground while
+all else hangs on it, as a car's body. Two sides of a machine are parts of it: no
 closure equation has bodies of both. Each part is solved by a `Kinematics` of its own, whose axes
 are chosen for it, so that it costs what it would cost alone, and what is alike in the parts is one
 constant. Bodies whose motion is prescribed from the base on, like a rod that both sides share, are
@@ -17,9 +18,10 @@ import sympy as sp
 
 from ..declare.declared import DeclarationError
 from ..declare.joints import Free
-from ..kinematics.base import FreeBase
+from ..kinematics.base import Base, FreeBase
 from ..kinematics.carried import Carried
 from ..kinematics.coordinates import Coordinates
+from ..kinematics.jointed_base import JointedBase, jointed_base
 from ..kinematics.kinematics import Kinematics
 from ..kinematics.motion import BodyMotion, PointMotion
 
@@ -43,8 +45,8 @@ class InMotion:
         Has the steps.
     coordinates
         Those that are driven.
-    free
-        The bodies that move freely.
+    bases
+        The bodies that move and carry others: those that move freely, and one on joints.
     parts
         The kinematics of each part.
     placed, part_of
@@ -56,7 +58,7 @@ class InMotion:
 
     program: Program
     coordinates: Coordinates
-    free: tuple[FreeBase, ...]
+    bases: tuple[Base, ...]
     parts: tuple[Kinematics, ...]
     placed: dict[str, BodyMotion]
     part_of: dict[str, Kinematics]
@@ -73,11 +75,23 @@ class InMotion:
         """
         coordinates = Coordinates(plan.formulation, held)
         joints = (part.joint for part in coordinates.states.free)
-        free = {j.second.name: FreeBase.of(program, j) for j in joints if isinstance(j, Free)}
-        parts = tuple(
-            _moved(program, plan, group.bodies, coordinates, group.base, free.get(group.base))
-            for group in groups_of(plan)
+        bases: dict[str, Base] = {
+            j.second.name: FreeBase.of(program, j) for j in joints if isinstance(j, Free)
+        }
+        roots = []
+        if jointed := jointed_base(plan.formulation):
+            links, body = jointed
+            way = {plan.formulation.mechanism.ground, *links, body}
+            roots = [
+                _moved(program, plan, way, coordinates, plan.formulation.mechanism.ground, None)
+            ]
+            bases[body] = JointedBase.of(program, roots[0], body)
+        groups = groups_of(plan, jointed)
+        hung = tuple(
+            _moved(program, plan, group.bodies, coordinates, group.base, bases.get(group.base))
+            for group in groups
         )
+        parts = (*hung, *roots)
         part_of: dict[str, Kinematics] = {}
         for part in parts:
             part_of |= {body: part for body in part.placed if body not in part_of}
@@ -90,7 +104,12 @@ class InMotion:
             body: carried[body].motion if body in carried else part.placed[body]
             for body, part in part_of.items()
         }
-        return cls(program, coordinates, tuple(free.values()), parts, placed, part_of, carried)
+        return cls(program, coordinates, tuple(bases.values()), parts, placed, part_of, carried)
+
+    @property
+    def free(self) -> tuple[FreeBase, ...]:
+        """The bodies that move freely."""
+        return tuple(base for base in self.bases if isinstance(base, FreeBase))
 
     @property
     def formulation(self) -> Formulation:
@@ -162,14 +181,15 @@ def _moved(
     bodies: set[str],
     coordinates: Coordinates,
     base: str,
-    free: FreeBase | None,
+    free: Base | None,
 ) -> Kinematics:
     """Carry out the steps of a plan that are about some bodies.
 
     What else takes part in them is of this part too, since nothing closes between two parts.
     """
-    steps = [step for step in plan.steps if step.about in bodies]
-    center = None if free is None else free.joint.second.center
+    own = bodies if free is None else bodies - {base}
+    steps = [step for step in plan.steps if step.about in own]
+    center = None if free is None else free.point
     origin = next((point for step in steps if (point := step.origin_on(base))), center)
     kin = Kinematics(program, coordinates, plan.loops, bodies, origin, free)
     for step in steps:
@@ -194,7 +214,7 @@ class Group:
     bodies: set[str]
 
 
-def groups_of(plan: Plan) -> list[Group]:
+def groups_of(plan: Plan, jointed: tuple[list[str], str] | None = None) -> list[Group]:
     """Return the parts of a mechanism in which it is solved, those on the ground first.
 
     A free body is one by itself. Where all that hangs on a base is tied to it there is one group,
@@ -207,12 +227,16 @@ def groups_of(plan: Plan) -> list[Group]:
     """
     mechanism, graph = plan.formulation.mechanism, plan.topology.graph
     free = [part.joint.second.name for part in plan.formulation.states.free]
-    bases = [mechanism.ground, *free]
+    links, on_joints = ([], []) if jointed is None else (jointed[0], [jointed[1]])
+    free += on_joints
+    # where joints lead from the ground to a base, nothing else hangs on the ground
+    bases = free if on_joints else [mechanism.ground, *free]
     tied = nx.Graph([joint.bodies for joint in plan.formulation.prescribed])
     tied.add_nodes_from(bases)
     common = {base: nx.node_connected_component(tied, base) for base in bases}
     held = set().union(*common.values())
     numbers = {body.name: i for i, body in enumerate(mechanism.bodies)}
+    held |= {mechanism.ground, *links}
     others = nx.connected_components(graph.subgraph(set(graph) - held))
     on_base: dict[str, list[set[str]]] = {base: [] for base in bases}
     for group in sorted(others, key=lambda group: min(numbers[body] for body in group)):

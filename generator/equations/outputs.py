@@ -478,7 +478,10 @@ class _Builder:
             "Closure residuals g(beta, q) for given beta.",
             {f"g_{name}": left for name, left in self._residuals().items()},
         )
-        if all(self.relative[self.motion.part_of[body]].reaches(body) for body in self.massive):
+        in_one_part = len(self.motion.bases) == len(self.motion.free)
+        if in_one_part and all(
+            self.relative[self.motion.part_of[body]].reaches(body) for body in self.massive
+        ):
             self._add_absolute(list(values))
         self._add_global()
 

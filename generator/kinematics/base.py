@@ -15,6 +15,7 @@ integration would carry away in the long run, and leaves the rotation as it is.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -23,10 +24,13 @@ import sympy as sp
 
 from ..declare.states import free_states
 from ..program.floors import SMALLEST
-from ..program.vectors import Vector
+from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vector
 from .motion import Axes, from_axes, to_axes
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ..declare.geometry import Point
     from ..declare.joints import Free
     from ..program.program import Program
 
@@ -40,23 +44,102 @@ to the norm.
 NONE = sp.Integer(0)
 
 
+class Base(ABC):
+    """A body that moves in the world and carries others.
+
+    Attributes
+    ----------
+    program
+        Has the steps.
+    axes
+        Its axes in the world; at design those of the world.
+    """
+
+    program: Program
+    axes: Axes
+
+    @property
+    @abstractmethod
+    def body(self) -> str:
+        """Its name."""
+
+    @property
+    @abstractmethod
+    def point(self) -> Point:
+        """Its centre of mass."""
+
+    @property
+    def center(self) -> Vector:
+        """Its centre of mass at design."""
+        return self.point.position
+
+    @property
+    @abstractmethod
+    def position(self) -> Vector:
+        """Where its centre of mass is, in the world."""
+
+    @property
+    @abstractmethod
+    def velocity(self) -> Vector:
+        """That of its centre of mass, in its own axes."""
+
+    @property
+    @abstractmethod
+    def omega(self) -> Vector:
+        """Its angular velocity, in its own axes."""
+
+    @property
+    @abstractmethod
+    def twists(self) -> Mapping[str, Twist]:
+        """The twist of its centre of mass per unit rate of each coordinate, in its own axes."""
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """What moves it."""
+        return tuple(self.twists)
+
+    @property
+    @abstractmethod
+    def bias(self) -> Twist:
+        """How the twist changes, in its own axes, without accelerations of the coordinates."""
+
+    def shares(self, wrench: Twist) -> dict[str, sp.Expr]:
+        """Return what a wrench about its centre of mass does along each coordinate."""
+        return {
+            k: twist.linear.dot(wrench.linear) + twist.angular.dot(wrench.angular)
+            for k, twist in self.twists.items()
+        }
+
+    # -- world and base ---------------------------------------------------------------------------
+
+    def to_world(self, v: Vector) -> Vector:
+        """Return the components in the world of a vector in its axes."""
+        return from_axes(self.axes, v)
+
+    def from_world(self, v: Vector) -> Vector:
+        """Return the components in its axes of a vector in the world."""
+        return to_axes(self.axes, v)
+
+    def place(self, at: Vector) -> Vector:
+        """Return where a point of the base is in the world, by its place at design."""
+        place: Vector = self.position + self.to_world(at - self.center)
+        return place
+
+
 @dataclass(frozen=True)
-class FreeBase:
+class FreeBase(Base):
     """A body that moves freely, in the world.
 
     Attributes
     ----------
     joint
         Whose second body it is.
-    center
-        Its centre of mass at design.
     axes
         Its axes.
     """
 
     program: Program
     joint: Free
-    center: Vector
     axes: Axes
 
     @classmethod
@@ -89,7 +172,7 @@ class FreeBase:
             Vector(xz + wy, yz - wx, 1 - xx - yy),
         )
         axes = program.axes((f"{body}_forward", f"{body}_left", f"{body}_up"), columns)
-        return cls(program, joint, joint.second.center.position, axes)
+        return cls(program, joint, axes)
 
     @property
     def body(self) -> str:
@@ -104,10 +187,22 @@ class FreeBase:
             [sp.Symbol(entry.name) for entry in states.speeds],
         )
 
+    @property
+    def point(self) -> Point:
+        """Its centre of mass."""
+        return self.joint.second.center
+
     @cached_property
-    def coordinates(self) -> tuple[str, ...]:
-        """What moves it: three velocities, then three angular velocities."""
-        return free_states(self.joint).coordinates
+    def twists(self) -> Mapping[str, Twist]:
+        """Three velocities, then three angular velocities."""
+        units = UNIT_X, UNIT_Y, UNIT_Z
+        six = (*(Twist(ZERO, unit) for unit in units), *(Twist(unit, ZERO) for unit in units))
+        return dict(zip(free_states(self.joint).coordinates, six, strict=True))
+
+    @property
+    def bias(self) -> Twist:
+        """None: its speeds are in its own axes."""
+        return NO_TWIST
 
     @property
     def position(self) -> Vector:
@@ -165,18 +260,3 @@ class FreeBase:
             "pitch": lambda: sp.atan2(-forward.z, sp.sqrt(left.z**2 + up.z**2)),
             "roll": lambda: sp.atan2(left.z, up.z),
         }[kind]()
-
-    # -- world and base ---------------------------------------------------------------------------
-
-    def to_world(self, v: Vector) -> Vector:
-        """Return the components in the world of a vector in its axes."""
-        return from_axes(self.axes, v)
-
-    def from_world(self, v: Vector) -> Vector:
-        """Return the components in its axes of a vector in the world."""
-        return to_axes(self.axes, v)
-
-    def place(self, at: Vector) -> Vector:
-        """Return where a point of the base is in the world, by its place at design."""
-        place: Vector = self.position + self.to_world(at - self.center)
-        return place

@@ -1,6 +1,6 @@
-"""What a free body carries: its motion in the world, from that on the body.
+"""What a moving base carries: its motion in the world, from that on the base.
 
-With v and omega those of the free body at its centre of mass O, in its own axes, a point at r from
+With v and omega those of the base at its centre of mass O, in its own axes, a point at r from
 O with the velocity r' relative to the body has
 
     velocity      v + omega x r + r',
@@ -12,17 +12,17 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..program.vectors import ZERO, Twist, Vector
+from ..program.vectors import Twist, Vector
 from .motion import from_axes, once, to_axes
 
 if TYPE_CHECKING:
-    from .base import FreeBase
+    from .base import Base
     from .kinematics import Kinematics
     from .motion import BodyMotion
 
 
 class Carried:
-    """A body that a free one carries, or the free one itself.
+    """A body that a base carries, or the base itself.
 
     Attributes
     ----------
@@ -37,7 +37,7 @@ class Carried:
         those of the base.
     """
 
-    def __init__(self, base: FreeBase, part: Kinematics, placed: BodyMotion) -> None:
+    def __init__(self, base: Base, part: Kinematics, placed: BodyMotion) -> None:
         self.base, self._part, self._placed = base, part, placed
         self._program, body = part.program, placed.body
         first, second, third = (f"{body}_{n}_on_{base.body}" for n in ("first", "second", "third"))
@@ -65,14 +65,19 @@ class Carried:
             self._program.vector(f"{self._placed.body}_lever_{i}", self.arm.cross(axis))
             for i, axis in enumerate(self.axes, 1)
         ]
-        moved = (Twist(ZERO, Vector(*row)) for row in zip(*self.axes, strict=True))
-        turned = (
-            Twist(Vector(*row), Vector(*arm))
-            for row, arm in zip(
-                zip(*self.axes, strict=True), zip(*levers, strict=True), strict=True
+        # what turns the base moves a point by omega x r, whose part along an axis is omega . r x a
+        return {
+            k: Twist(
+                to_axes(self.axes, twist.angular),
+                Vector(
+                    *(
+                        axis.dot(twist.linear) + lever.dot(twist.angular)
+                        for axis, lever in zip(self.axes, levers, strict=True)
+                    )
+                ),
             )
-        )
-        return dict(zip(self.base.coordinates, (*moved, *turned), strict=True))
+            for k, twist in self.base.twists.items()
+        }
 
     def _carrier(self) -> tuple[str, Vector] | None:
         """Return the neighbour that shares the origin; of a point of the base, its own axes."""
@@ -98,11 +103,16 @@ class Carried:
 
     def _bias(self) -> Twist:
         own, bias, omega = self._part.total(self._placed), self._placed.bias(), self._omega()
-        carried = self.base.omega.cross(self._velocity())
+        base = self.base.bias
+        carried = self.base.omega.cross(self._velocity()) + base.linear
+        carried += base.angular.cross(self.arm)
         carried = self._program.vector(f"{self._placed.body}_carried_acceleration", carried)
         linear = bias.linear + omega.cross(own.linear) * 2 + to_axes(self.axes, carried)
         return self._part.define_bias(
-            self._placed.body, Twist(bias.angular + omega.cross(own.angular), linear)
+            self._placed.body,
+            Twist(
+                bias.angular + omega.cross(own.angular) + to_axes(self.axes, base.angular), linear
+            ),
         )
 
     def on_base(self, label: str, wrench: Twist) -> Twist:

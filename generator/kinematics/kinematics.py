@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from ..declare.joints import RelativeCoordinate
     from ..program.program import Program
-    from .base import FreeBase
+    from .base import Base
     from .coordinates import Coordinates
 
 
@@ -59,15 +59,15 @@ class Kinematics:
     origin
         A point of the base at which positions are best counted; None: the origin of its axes.
     free
-        The body that moves freely on which those bodies hang; None: they hang on the ground.
+        The moving body on which those bodies hang; None: they hang on the ground.
 
     Notes
     -----
     *Records.* `spans` and `turned` say which telescopes and rods placed a body, `meetings` what a
     hinge or guide was solved for, by the joint: the residuals are derived from them.
 
-    *Base.* What the bodies hang on, ground or free body, is at rest here: motion is relative to it,
-    and ground axes are those of the base at design. `FreeBase` says what its own motion adds, and
+    *Base.* What the bodies hang on, ground or moving body, is at rest here: motion is relative to
+    it, and ground axes are those of the base at design. `Base` says what its own motion adds, and
     `in_world`, `from_world` and `place_in_world` lead from here to the world.
 
     *Work axes.* The base-fixed axes in which positions are computed are chosen so that most
@@ -82,7 +82,7 @@ class Kinematics:
         loops: Mapping[object, Loop],
         bodies: Collection[str],
         origin: Point | None = None,
-        free: FreeBase | None = None,
+        free: Base | None = None,
     ) -> None:
         self.program = program
         self.coordinates = coordinates

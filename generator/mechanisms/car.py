@@ -17,7 +17,7 @@ from ..declare.composition import replaced
 from ..declare.declared import parts
 from ..declare.parameters import Owner
 from ..program.vectors import Vector
-from . import axle
+from . import axle, macpherson
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -196,3 +196,6 @@ def _with_a_short_name(force: d.Force) -> d.Force:
 
 def _lower(title: str) -> str:
     return title[:1].lower() + title[1:] if title[1:2].islower() else title
+
+
+MODELS = (quarter(macpherson.MODELS[0]),)

@@ -1,0 +1,173 @@
+"""A body that joints lead to from the ground, one after the other, as a base of what hangs on it.
+
+The body of a car is one, on a guide and two hinges: it heaves, pitches and rolls. What hangs on it
+is solved in its axes, as on the ground; the coordinates of the joints are those of the state.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import networkx as nx
+
+from ..declare.joints import Prismatic, Revolute
+from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, Twist, Vector
+from .base import Base
+from .motion import IDENTITY, BodyMotion, from_axes, to_axes
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ..declare.formulation import Formulation
+    from ..declare.geometry import Point
+    from ..declare.mechanism import Mechanism
+    from ..program.program import Program
+    from .kinematics import Kinematics
+    from .motion import Axes
+
+
+@dataclass(frozen=True)
+class JointedBase(Base):
+    """A base at the end of driven joints.
+
+    Attributes
+    ----------
+    program
+        Has the steps.
+    root
+        The kinematics of these joints.
+    point
+        Its centre of mass.
+    axes
+        Its axes.
+    """
+
+    program: Program
+    root: Kinematics
+    name: str
+    com: Point
+    axes: Axes
+
+    @classmethod
+    def of(cls, program: Program, root: Kinematics, body: str) -> JointedBase:
+        """Append the axes of a body that is placed."""
+        placed, com = root.placed[body], root.mechanism.body(body).center
+        axes = IDENTITY
+        if placed.axes is not IDENTITY:
+            names = (f"{body}_forward", f"{body}_left", f"{body}_up")
+            axes = program.axes(names, (_turned(root, placed, v) for v in (UNIT_X, UNIT_Y, UNIT_Z)))
+        return cls(program, root, body, com, axes)
+
+    @property
+    def body(self) -> str:
+        """Its name."""
+        return self.name
+
+    @property
+    def point(self) -> Point:
+        """Its centre of mass."""
+        return self.com
+
+    @property
+    def _placed(self) -> BodyMotion:
+        return self.root.placed[self.name]
+
+    @cached_property
+    def _local(self) -> Vector:
+        return self.root.local(self._placed, self.com)
+
+    def _own(self, v: Vector) -> Vector:
+        """Return components along the axes of the base of a vector in the axes of its hinge."""
+        return self.root.to_ground(from_axes(self._placed.design_axes, v))
+
+    @cached_property
+    def position(self) -> Vector:
+        """Where its centre of mass is, in the world."""
+        return self.root.place_in_world(self.root.position(self._placed, self.com))
+
+    @cached_property
+    def twists(self) -> Mapping[str, Twist]:
+        """The twist of its centre of mass per unit rate of each coordinate."""
+        found = {}
+        for k, twist in self._placed.motion.items():
+            linear = self._own(twist.linear + twist.angular.cross(self._local))
+            found[k] = Twist(
+                self.program.vector(f"{self.name}_turn_by_{k}", self._own(twist.angular)),
+                self.program.vector(f"{self.name}_way_by_{k}", linear),
+            )
+        return found
+
+    @cached_property
+    def _total(self) -> Twist:
+        total = NO_TWIST
+        for k, twist in self.twists.items():
+            total += twist * self.root.coordinates.true_rate(k)
+        return Twist(
+            self.program.vector(f"{self.name}_turning", total.angular),
+            self.program.vector(f"{self.name}_going", total.linear),
+        )
+
+    @property
+    def velocity(self) -> Vector:
+        """That of its centre of mass."""
+        return self._total.linear
+
+    @property
+    def omega(self) -> Vector:
+        """Its angular velocity."""
+        return self._total.angular
+
+    @cached_property
+    def bias(self) -> Twist:
+        """How the twist changes: the acceleration less that of axes which turn."""
+        acceleration = self._own(self.root.point_bias(self._placed, self._local))
+        change = acceleration - self.omega.cross(self.velocity)
+        return Twist(
+            self.program.vector(f"{self.name}_alpha_left", self._own(self._placed.bias().angular)),
+            self.program.vector(f"{self.name}_change_left", change),
+        )
+
+
+def _turned(root: Kinematics, placed: BodyMotion, v: Vector) -> Vector:
+    """Return where a body has carried a direction of the ground."""
+    now = from_axes(placed.axes, to_axes(placed.design_axes, root.to_work(v)))
+    return root.to_ground(now)
+
+
+def jointed_base(formulation: Formulation) -> tuple[list[str], str] | None:
+    """Return the body that carries all others, with those that lead to it; None without one.
+
+    The way from the ground is along independent hinges and guides, each body of it but the last
+    has no other joints and no mass, and what hangs on the last one closes loops with it. Nothing
+    follows others through gears.
+    """
+    mechanism = formulation.mechanism
+    if mechanism.geared or formulation.states.free:
+        return None
+    links: list[str] = []
+    at, seen = mechanism.ground, set[str]()
+    while True:
+        onward = [joint for joint in mechanism.joints_of(at) if joint.name not in seen]
+        if len(onward) != 1 or onward[0] not in formulation.independent:
+            break
+        (joint,) = onward
+        if not isinstance(joint, Prismatic | Revolute) or joint.first.name != at or joint.gear:
+            break
+        if links and formulation.has_mass(at):
+            break
+        seen.add(joint.name)
+        links.append(at)
+        at = joint.second.name
+    return (links[1:], at) if seen and _closes_loops(mechanism, at, {*links}) else None
+
+
+def _closes_loops(mechanism: Mechanism, base: str, before: set[str]) -> bool:
+    """Return whether some of what hangs on a base is joined to it twice."""
+    graph = nx.Graph([joint.bodies for joint in mechanism.joints])
+    graph.remove_nodes_from({base, *before})
+    ends = [
+        joint.other(base) for joint in mechanism.joints_of(base) if joint.other(base) not in before
+    ]
+    return any(sum(end in group for end in ends) > 1 for group in nx.connected_components(graph))

@@ -1,0 +1,58 @@
+"""Cars against the oracle in maximal coordinates; what their equations take."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from kintrafo.generator.equations.in_motion import InMotion
+from kintrafo.generator.equations.outputs import generate
+from kintrafo.generator.kinematics.jointed_base import jointed_base
+from kintrafo.generator.mechanisms import MODELS, car, model_named
+from oracle_check import check_with_the_oracle
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from kintrafo.generator import Formulation
+
+WISHBONES = model_named("double_wishbone")
+
+
+def front_and_rear() -> tuple[Formulation, Formulation]:
+    """Return the axles of the reference car."""
+    struts = car.of_corners(model_named("macpherson"), pulls="control_arm")
+    return struts, car.of_corners(WISHBONES, steered=False)
+
+
+@pytest.mark.parametrize(
+    "model",
+    [
+        pytest.param(car.quarter(model_named("macpherson")), id="quarter"),
+        pytest.param(
+            car.car("rolling", "A car", front_and_rear(), car.FREEDOMS), id="car that rolls"
+        ),
+    ],
+)
+def test_accelerations_are_those_of_the_oracle(model: Formulation, tmp_path: Path) -> None:
+    check_with_the_oracle(model, tmp_path, reach=0.05, count=3)
+
+
+def test_only_a_body_that_carries_all_is_a_base() -> None:
+    assert jointed_base(car.quarter(WISHBONES)) == ([], "body")
+    bodies = ["body_after_heave", "body_after_pitch"]
+    rolling = car.car("rolling", "A car", front_and_rear(), car.FREEDOMS)
+    assert jointed_base(rolling) == (bodies, "body")
+    assert [m.name for m in MODELS if jointed_base(m)] == ["quarter_macpherson"]
+
+
+def test_a_base_takes_fewer_operations(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A suspension that is solved on its body is not solved in the axes of the world."""
+    model = car.quarter(WISHBONES)
+
+    def steps() -> int:
+        return len(generate(model, derivatives=False).functions["rhs"].steps)
+
+    on_base = steps()
+    monkeypatch.setattr(f"{InMotion.__module__}.jointed_base", lambda _: None)
+    assert on_base < steps()
