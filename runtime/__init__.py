@@ -52,8 +52,8 @@ if TYPE_CHECKING:
         state_at_height,
         travel_range,
     )
-    from .vehicle.models.rigid import RigidAxle
-    from .vehicle.models.rigid.model import RigidAxleModel
+    from .vehicle.models.rigid_axle import RigidAxle
+    from .vehicle.models.rigid_axle.model import RigidAxleModel
 
 __version__: str
 
@@ -146,8 +146,8 @@ _MODULES = {
         "state_at_height",
         "travel_range",
     ),
-    ".vehicle.models.rigid": ("RigidAxle",),
-    ".vehicle.models.rigid.model": ("RigidAxleModel",),
+    ".vehicle.models.rigid_axle": ("RigidAxle",),
+    ".vehicle.models.rigid_axle.model": ("RigidAxleModel",),
     ".simulation.result": ("Simulation", "SimulationError"),
     ".pages.animation": ("animate",),
     ".simulation.simulate": ("simulate",),

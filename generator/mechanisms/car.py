@@ -61,7 +61,7 @@ def car(
     name, title
         What it is called.
     axles
-        The front and the rear one, each from `of_corners` or `of_rigid_axle`.
+        The front and the rear one, each from `of_corners` or `of_whole_axle`.
     freedoms
         Coordinates of the body, the first ones of `FREEDOMS`.
     """
@@ -113,15 +113,15 @@ def of_corners(corner: d.Formulation, *, pulls: str = "", steered: bool = True) 
     return axle.model(one, mechanism)
 
 
-def of_rigid_axle(rigid: d.Formulation) -> d.Formulation:
-    """Return a rigid axle for a car."""
+def of_whole_axle(whole: d.Formulation) -> d.Formulation:
+    """Return an axle without sides, such as a rigid one, for a car."""
     forces = tuple(
         replace(force, name=force.name.replace("axle", _TYRE))
         if isinstance(force, d.LinearTyre)
         else force
-        for force in rigid.mechanism.forces
+        for force in whole.mechanism.forces
     )
-    return replace(rigid, mechanism=replace(rigid.mechanism, forces=forces))
+    return replace(whole, mechanism=replace(whole.mechanism, forces=forces))
 
 
 def with_a_fixed_rack(corner: d.Formulation) -> d.Formulation:

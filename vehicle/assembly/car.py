@@ -19,8 +19,8 @@ from ..models.car.car import Car
 from ..models.car.equations import CarModel
 from ..models.model import Model
 from ..models.reach import PositionError
-from ..models.rigid.axle import RigidAxle
 from ..models.sides import SIDES
+from ..models.whole_axle import WholeAxle
 from .assembly import Assembly, Bushings
 from .axle import AxleAssembly
 from .car_kinematics import CarKinematics, measures_of_axles
@@ -30,10 +30,10 @@ from .measures.measure import Measure
 from .part_poses import PartPoses
 from .quantity import HEAVE, PITCH, RACK, ROLL, Quantity
 from .rig import RigMotion, RigPosition, SweepRange, WheelReach
-from .rigid_axle import RigidAxleAssembly
 from .soft_lines import SoftLines
 from .usual import grid
 from .wheel_names import WheelNames
+from .whole_axle import WholeAxleAssembly, whole_axle_assembly
 
 NOT_A_CAR = (
     "this is a whole car, and a suspension or an axle is needed. The commands characteristics, "
@@ -344,7 +344,7 @@ class CarAssembly(Assembly):
         for end, part in self.held.items():
             for side in part.wheels:
                 wheel = f"{end}_{side}" if end else side
-                if isinstance(part, RigidAxleAssembly):
+                if isinstance(part, WholeAxleAssembly):
                     names = {n: f"{end}_{n}" for n in part.coordinates}
                     found[wheel] = _HeldWheel(part.model, part.names_of(side).signals, names)
                 else:
@@ -406,7 +406,7 @@ class CarAssembly(Assembly):
             return found | {"hop": {own: 1.0}}
         for end, part in self.held.items():
             names = [f"{end}_{name}" for name in part.coordinates]
-            apart = not isinstance(part, RigidAxleAssembly)
+            apart = not isinstance(part, WholeAxleAssembly)
             hop = dict.fromkeys(names, 0.5) if apart else {names[0]: 1.0}
             tramp = {names[0]: 0.5, names[1]: -0.5} if apart else {names[1]: 1.0}
             found |= {f"{end}_hop": hop, f"{end}_tramp": tramp}
@@ -484,7 +484,7 @@ class _HeldWheel:
 
     Attributes
     ----------
-    model : Model or RigidAxleModel
+    model : Model or WholeAxleModel
     prefix : str
         Begins the names of its signals there.
     names : dict of str to str
@@ -525,5 +525,7 @@ def _held_parts(car: Car) -> dict[str, Assembly]:
     return {end: _assembly(axle) for end, axle in car.axles.items()}
 
 
-def _assembly(axle: Axle | RigidAxle) -> Assembly:
-    return RigidAxleAssembly(axle) if isinstance(axle, RigidAxle) else AxleAssembly(axle)
+def _assembly(axle: Axle | WholeAxle) -> Assembly:
+    if isinstance(axle, WholeAxle):
+        return whole_axle_assembly(axle.KEY)(axle)
+    return AxleAssembly(axle)

@@ -1,7 +1,6 @@
 """The assembly of what a file describes."""
 
 from collections.abc import Callable
-from importlib import import_module
 from typing import Any
 
 from ...core.arguments import Arguments
@@ -18,7 +17,7 @@ from .assembly import Assembly
 from .axle import AxleAssembly
 from .car import NOT_A_CAR, CarAssembly
 from .corner import CornerAssembly
-from .whole_axle import WholeAxleAssembly
+from .whole_axle import whole_axle_assembly
 
 
 def assembly_of(subject: Any) -> Assembly:
@@ -31,25 +30,6 @@ def assembly_of(subject: Any) -> Assembly:
     """
     with Arguments("assembly") as given:
         return given_assembly(given, subject, cars=True)
-
-
-def whole_axle_assembly(key: str) -> type[WholeAxleAssembly]:
-    """Return the assembly of an axle that one file describes: that of the module with its name.
-
-    Parameters
-    ----------
-    key : str
-        One of `data.starter.whole_axles`.
-    """
-    module = import_module(f".{key}", __package__)
-    (found,) = (
-        kind
-        for kind in vars(module).values()
-        if isinstance(kind, type)
-        and issubclass(kind, WholeAxleAssembly)
-        and kind.__module__ == module.__name__
-    )
-    return found
 
 
 def _found(subject: Any) -> Assembly | None:

@@ -7,9 +7,9 @@ import numpy as np
 
 from ...core.quantities import variable
 from ..corner.corner import Array
-from ..models.rigid.axle import RigidAxle
-from ..models.rigid.model import HEAVE, ROLL, RigidAxleModel
-from ..models.rigid.structure import BEAM
+from ..models.rigid_axle.axle import RigidAxle
+from ..models.rigid_axle.model import HEAVE, ROLL, RigidAxleModel
+from ..models.rigid_axle.structure import BEAM
 from ..models.sides import SIDES
 from .anti_roll_bar import RollBar
 from .load import Load

@@ -13,8 +13,8 @@ import numpy as np
 
 from ...core.vectors import cross
 from ..corner.corner import UP, Array
-from ..models.rigid.axle import RigidAxle
-from ..models.rigid.model import HEAVE, ROLL, RigidAxleModel
+from ..models.rigid_axle.axle import RigidAxle
+from ..models.rigid_axle.model import HEAVE, ROLL, RigidAxleModel
 from ..models.sides import LEFT, RIGHT, SIDES
 from .whole_axle_kinematics import SENSE, WholeAxleKinematics
 

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from ...core.vectors import cross
 from ..corner.corner import UP
-from ..models.rigid.axle import RigidAxle
-from ..models.rigid.model import RigidAxleModel
-from ..models.rigid.structure import BEAM, CHASSIS, MIDDLE
+from ..models.rigid_axle.axle import RigidAxle
+from ..models.rigid_axle.model import RigidAxleModel
+from ..models.rigid_axle.structure import BEAM, CHASSIS, MIDDLE
 from ..models.sides import SIDES
 from .load import Load
 from .part_poses import CENTER, CONTACT, road_axes

@@ -2,6 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
+from importlib import import_module
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -302,3 +303,22 @@ class WholeAxleAssembly(Assembly):
         """Return the same without the friction of its dampers."""
         smooth = self.axle.with_changes({"damper.friction_N": 0.0})
         return type(self)(smooth, self.MODEL(smooth))
+
+
+def whole_axle_assembly(key: str) -> type[WholeAxleAssembly]:
+    """Return the assembly of an axle that one file describes: that of the module with its name.
+
+    Parameters
+    ----------
+    key : str
+        One of `data.starter.whole_axles`.
+    """
+    module = import_module(f".{key}", __package__)
+    (found,) = (
+        kind
+        for kind in vars(module).values()
+        if isinstance(kind, type)
+        and issubclass(kind, WholeAxleAssembly)
+        and kind.__module__ == module.__name__
+    )
+    return found

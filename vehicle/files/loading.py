@@ -3,13 +3,12 @@
 from pathlib import Path
 
 from ...core.arguments import Arguments
-from ..assembly.of import whole_axle_assembly
 from ..data.starter import AXLE, CAR
 from ..input.described import described_by
 from ..kinds import Suspension
 from ..models.axle.axle import Axle
 from ..models.car.car import Car
-from ..models.whole_axle import WholeAxle
+from ..models.whole_axle import WholeAxle, whole_axle_class
 
 
 def load(path_or_name: str | Path) -> Suspension | Axle | WholeAxle | Car:
@@ -45,7 +44,7 @@ def load(path_or_name: str | Path) -> Suspension | Axle | WholeAxle | Car:
     key = described_by(path_or_name)
     if key in _KINDS:
         return _KINDS[key].load(path_or_name)
-    return whole_axle_assembly(key).AXLE.load(path_or_name)
+    return whole_axle_class(key).load(path_or_name)
 
 
 _KINDS: dict[str, type[Suspension | Axle | Car]] = {"": Suspension, AXLE: Axle, CAR: Car}

@@ -11,7 +11,6 @@ from typing import Any
 
 from pydantic.json_schema import models_json_schema
 
-from ..assembly.of import whole_axle_assembly
 from ..corner.base import KIND
 from ..corner.bushes import BUSH_SCHEMA
 from ..data.starter import CAR, DEFAULT, whole_axles, words_of
@@ -22,7 +21,7 @@ from ..input.units import unit_of
 from ..kinds import KINDS
 from ..models.axle.file import AxleFile
 from ..models.car.file import CarFile
-from ..models.whole_axle import WholeAxle
+from ..models.whole_axle import WholeAxle, whole_axle_class
 
 _LIMITS = {
     "ge": "minimum",
@@ -157,7 +156,7 @@ def schema() -> dict[str, Any]:
 
 def _whole_axles() -> dict[str, type[WholeAxle]]:
     """Return the axles without sides by the keys that say so in their files."""
-    return {key: whole_axle_assembly(key).AXLE for key in whole_axles()}
+    return {key: whole_axle_class(key) for key in whole_axles()}
 
 
 def _chosen(by_key: Mapping[str, type[Section]], kinds: dict[str, Any]) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Iterable, Mapping
+from importlib import import_module
 from importlib.resources.abc import Traversable
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
@@ -11,6 +12,7 @@ from pydantic import ValidationError
 from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.vectors import components
+from ...systems.allowed import LengthLimit
 from ..corner.bushes import Bush
 from ..corner.corner import Array
 from ..corner.structure import Structure
@@ -153,6 +155,19 @@ class WholeAxle(DescribedSection):
         """At which end of the vehicle it is."""
         found: End = getattr(self, self.KEY)
         return found
+
+    @property
+    def overheld(self) -> bool:
+        """Whether it moves only as its bushes deflect."""
+        return False
+
+    def allowed_lengths(self) -> tuple[LengthLimit, ...]:
+        """Return the lengths of the dampers that the file allows."""
+        return tuple(
+            one._replace(part=f"{side} {one.part}")
+            for side in SIDES
+            for one in self.damper.allowed_lengths(f"{side}_damper_length")
+        )
 
     @property
     def center(self) -> Array:
@@ -361,3 +376,22 @@ def of_side(values: Mapping[str, float], side: str) -> Mapping[str, float]:
 
 def _length(points: Mapping[str, Array], name: str) -> float:
     return float(np.linalg.norm(points[f"{name}_top"] - points[f"{name}_seat"]))
+
+
+def whole_axle_class(key: str) -> type[WholeAxle]:
+    """Return what the file of such an axle describes: the class of the module with its name.
+
+    Parameters
+    ----------
+    key : str
+        One of `data.starter.whole_axles`.
+    """
+    module = import_module(f".{key}", __package__)
+    (found,) = (
+        kind
+        for kind in vars(module).values()
+        if isinstance(kind, type)
+        and issubclass(kind, WholeAxle)
+        and kind.__module__.startswith(module.__name__)
+    )
+    return found

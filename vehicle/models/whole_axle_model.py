@@ -18,7 +18,6 @@ from ..corner.corner import Array
 from ..corner.wheel_loads import with_wheel_loads
 from .attitudes import attitudes
 from .reach import PositionError
-from .sides import SIDES
 from .swing import GOAL, Seen, march
 from .whole_axle import WholeAxle
 
@@ -99,11 +98,8 @@ class WholeAxleModel(System):
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
         """Return the lengths of the dampers that the file allows."""
-        return tuple(
-            one._replace(part=f"{side} {one.part}")
-            for side in SIDES
-            for one in self.axle.damper.allowed_lengths(f"{side}_damper_length")
-        )
+        found: tuple[LengthLimit, ...] = self.axle.allowed_lengths()
+        return found
 
     # -- positions ------------------------------------------------------------------------------
 

@@ -2,10 +2,13 @@
 
 from typing import Any
 
+import kintrafo
 import numpy as np
 import pytest
 from axles import AXLE, BENT
 from kintrafo import Axle, InputError, Model, PositionError, RigidAxle, Suspension, loads
+from kintrafo.vehicle.assembly.of import assembly_of
+from kintrafo.vehicle.data.starter import whole_axles
 from listed_loads import wrench
 from rigid_axles import AXLES as RIGID
 
@@ -19,7 +22,8 @@ AXLES = {
     "uneven, bent": BENT,
     "multi-link": Axle.from_dict({"axle": "rear", "side": Suspension.load("multi_link_car")}),
 }
-EVERY: dict[str, Any] = {**CORNERS, **AXLES, **RIGID}
+WHOLE = {name: kintrafo.load(name) for name in whole_axles()}
+EVERY: dict[str, Any] = {**CORNERS, **AXLES, **RIGID, **WHOLE}
 SHORT = {"corner": CORNERS["reference_car"], "axle": AXLE, "rigid": RIGID["lopsided"]}
 each = pytest.mark.parametrize("subject", EVERY.values(), ids=EVERY)
 SIDES = ("left", "right")
@@ -36,10 +40,7 @@ HELD = {"travel_mm": 12.0, "contact_N": [800.0, -500.0, 0.0]}
 
 def steered(subject: Any) -> bool:
     """Return whether there is a rack."""
-    return (
-        not isinstance(subject, RigidAxle)
-        and (subject.suspension if isinstance(subject, Model) else subject).steered()
-    )
+    return assembly_of(subject).steered
 
 
 def cases_of(subject: Any) -> dict[str, Any]:

@@ -12,7 +12,7 @@ import pytest
 from kintrafo import Axle, InputError, Model, RigidAxle, characteristics, rig, roads, variation
 from kintrafo.vehicle.analysis.scenario import Scenario, run
 from kintrafo.vehicle.assembly.by_wheel import flat
-from kintrafo.vehicle.models.rigid.model import RigidAxleModel
+from kintrafo.vehicle.models.rigid_axle.model import RigidAxleModel
 from rigid_axles import AXLE, Found
 
 Array = np.ndarray

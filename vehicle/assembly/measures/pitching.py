@@ -11,7 +11,7 @@ from typing import Protocol
 
 from ...corner.corner import Array, Vehicle
 from ...models.axle import Axle
-from ...models.rigid.axle import RigidAxle
+from ...models.rigid_axle.axle import RigidAxle
 
 
 class Pitching(Protocol):

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ...corner.corner import Array
-from ...models.rigid.model import HEAVE, ROLL
+from ...models.rigid_axle.model import HEAVE, ROLL
 from ..rigid_axle_kinematics import RigidAxleKinematics
 from . import pitching, rolling
 from . import rigid_axle_rolling as rolls

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from ....core.arguments import Arguments, shown
 from ....core.errors import InputError
 from ...data import data_sets
-from ...data.starter import AXLE, AXLES, CAR, CARS, WHOLE_AXLES
+from ...data.starter import AXLE, AXLES, CAR, CARS, WHOLE_AXLES, whole_axle_in, whole_axles
 from ...input.described import Described, check_keys, described_by
 from ...input.messages import messages_of
 from ...input.places import put
@@ -22,13 +22,13 @@ from ...input.toml_file import read_toml
 from ...input.units import in_metres
 from ...kinds import Suspension
 from ..axle.axle import Axle
-from ..rigid.axle import RigidAxle
 from ..sides import LEFT, SIDES
+from ..whole_axle import WholeAxle, whole_axle_class
 from .file import COORDINATES, ENDS, CarFile
 
 Array = NDArray[np.float64]
 
-AnyAxle = Axle | RigidAxle
+AnyAxle = Axle | WholeAxle
 
 WHEELS = tuple(f"{end}_{side}" for end in ENDS for side in SIDES)
 """The names of the wheels of a car with two axles."""
@@ -52,7 +52,7 @@ class Car(Described):
         What its own file says.
     corner : Suspension or None
         The suspension of a quarter car.
-    axles : dict of str to Axle or RigidAxle
+    axles : dict of str to Axle or WholeAxle
         The front and the rear one by the end that they are at; empty for a quarter car.
 
     Examples
@@ -253,7 +253,7 @@ class Car(Described):
 
 def _centers(axle: AnyAxle) -> dict[str, Array]:
     """Return the wheel centres of an axle in its own axes [m]."""
-    if isinstance(axle, RigidAxle):
+    if isinstance(axle, WholeAxle):
         return {side: axle.points(side)["wheel_center"] for side in SIDES}
     return {side: one.hardpoints.metres("wheel_center") for side, one in axle.sides.items()}
 
@@ -290,22 +290,23 @@ def _corner(given: Any, folder: Path) -> Suspension:
 
 
 def _axle(given: Any, key: str, folder: Path) -> AnyAxle:
-    if isinstance(given, Axle | RigidAxle):
+    if isinstance(given, Axle | WholeAxle):
         return given
     if isinstance(given, Mapping):
-        kind = RigidAxle if RigidAxle.KEY in given else Axle
-        return kind.from_dict(given)
+        whole = whole_axle_in(given)
+        return whole_axle_class(whole).from_dict(given) if whole else Axle.from_dict(given)
     if isinstance(given, str | Path):
         named = isinstance(given, str) and given in data_sets(AXLES) | data_sets(WHOLE_AXLES)
         file = given if named else folder / given
         sort = described_by(file)
-        if sort == RigidAxle.KEY:
-            return RigidAxle.load(file)
+        if sort in whole_axles():
+            return whole_axle_class(sort).load(file)
         if sort == AXLE or not Path(file).is_file() or AXLE in read_toml(Path(file)):
             return Axle.load(file)
         problem = (
-            f"{given} is no axle: it has no line `{AXLE} = ...` or `{RigidAxle.KEY} = ...`. Name "
-            "an axle's file, which names the hardpoint file of its sides."
+            f"{given} is no axle: it has no line `{AXLE} = ...`, nor any of "
+            f"{', '.join(f'`{known} = ...`' for known in whole_axles())}. Name an axle's file, "
+            "which names the hardpoint file of its sides."
         )
         raise InputError([problem], key)
     problem = f"{shown(given)}: the name of an axle's file is needed."
@@ -313,7 +314,7 @@ def _axle(given: Any, key: str, folder: Path) -> AnyAxle:
 
 
 def _end_of(axle: AnyAxle) -> str:
-    return axle.rigid_axle if isinstance(axle, RigidAxle) else axle.end
+    return axle.end
 
 
 def _problems_of_axles(car: Car) -> list[str]:
@@ -330,10 +331,10 @@ def _problems_of_axles(car: Car) -> list[str]:
         if isinstance(axle, Axle) and axle.steering is not None
     ]
     problems += [
-        f"{end}: [rods] {', '.join(axle.rods)}: an axle on five rods moves only on its bushes, and "
-        "rods are rigid in a car. Leave one of them out."
+        f"{end}: [rods] {', '.join(axle.to_dict()['rods'])}: an axle on five rods moves only on "
+        "its bushes, and rods are rigid in a car. Leave one of them out."
         for end, axle in car.axles.items()
-        if isinstance(axle, RigidAxle) and axle.overheld
+        if isinstance(axle, WholeAxle) and axle.overheld
     ]
     return problems or [*_problems_of_places(car), *_problems_of_shared(car)]
 
@@ -393,7 +394,7 @@ def _problems_of_shared(car: Car) -> list[str]:
 
 
 def _vehicle_of(axle: AnyAxle) -> Any:
-    return axle.vehicle if isinstance(axle, RigidAxle) else axle.right.vehicle
+    return axle.vehicle if isinstance(axle, WholeAxle) else axle.right.vehicle
 
 
 def _problems_of_gravity(car: Car) -> list[str]:
@@ -408,7 +409,7 @@ def _of_gravity(car: Car) -> list[Any]:
     if car.corner is not None:
         return [car.corner]
     axles = car.axles.values()
-    return [a if isinstance(a, RigidAxle) else a.right for a in axles]
+    return [a if isinstance(a, WholeAxle) else a.right for a in axles]
 
 
 def masses(car: Car) -> list[tuple[float, Array]]:

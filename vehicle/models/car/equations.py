@@ -13,8 +13,7 @@ from ....systems.system import System
 from ..axle.axle import Axle
 from ..axle.equations import corner_of, parameters_by_side, parameters_of_bar
 from ..model import Model
-from ..rigid.axle import RigidAxle
-from ..rigid.model import RigidAxleModel
+from ..whole_axle import WholeAxle
 from .car import AnyAxle, Car
 
 if TYPE_CHECKING:
@@ -83,8 +82,8 @@ class CarModel(System):
 
 
 def _limits(axle: AnyAxle) -> Mapping[str, tuple[LengthLimit, ...]]:
-    if isinstance(axle, RigidAxle):
-        return {"": RigidAxleModel(axle).allowed_lengths()}
+    if isinstance(axle, WholeAxle):
+        return {"": axle.allowed_lengths()}
     return {f"{side}_": own.allowed_lengths() for side, own in axle.sides.items()}
 
 
@@ -96,8 +95,8 @@ def name_of(car: Car) -> str:
 
 
 def _name_of_axle(axle: AnyAxle) -> str:
-    if isinstance(axle, RigidAxle):
-        return "rigid_axle"
+    if isinstance(axle, WholeAxle):
+        return axle.KEY
     return f"{corner_of(axle)}_{axle.bar.link_on}" if axle.bar else corner_of(axle)
 
 
@@ -122,8 +121,8 @@ def declared(car: Car) -> "Formulation":
         return page.quarter(model_named(str(Model(car.corner).equations.NAME)))
 
     def of(end: str, axle: AnyAxle) -> "Formulation":
-        if isinstance(axle, RigidAxle):
-            return page.of_rigid_axle(model_named("rigid_axle"))
+        if isinstance(axle, WholeAxle):
+            return page.of_whole_axle(model_named(axle.KEY))
         pulls = axle.bar.link_on if axle.bar else ""
         return page.of_corners(model_named(corner_of(axle)), pulls=pulls, steered=end == "front")
 
@@ -147,7 +146,7 @@ def _parameters(car: Car, described: Mapping[str, Mapping[str, Any]]) -> dict[st
     if car.corner is not None:
         return values | Model(car.corner).parameters
     for end, axle in car.axles.items():
-        own = _of_rigid_axle(axle) if isinstance(axle, RigidAxle) else _of_axle(axle)
+        own = _of_whole_axle(axle) if isinstance(axle, WholeAxle) else _of_axle(axle)
         values["gravity"] = own["right_gravity"]
         values |= {f"{end}_{name}": value for name, value in own.items()}
     known = {name: value for name, value in values.items() if name in described}
@@ -166,7 +165,7 @@ def _of_axle(axle: Axle) -> dict[str, float]:
     }
 
 
-def _of_rigid_axle(axle: RigidAxle) -> dict[str, float]:
+def _of_whole_axle(axle: WholeAxle) -> dict[str, float]:
     values = axle.parameters()
     sided = {name.removeprefix("left_") for name in values if name.startswith("left_")}
     named = {(f"right_{name}" if name in sided else name): v for name, v in values.items()}
