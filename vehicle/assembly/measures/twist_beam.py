@@ -1,0 +1,151 @@
+"""The measures of a twist-beam axle, and what of its formulas is its own.
+
+Each wheel has what wheels have by themselves, in the motion of both that a rig calls parallel
+travel, and in addition what it does in roll, where the wheel centres move oppositely.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from ...corner.corner import Array, CarrierMotion, RoadWheel
+from ...models.sides import SIDES
+from .. import wheel
+from ..twist_beam_kinematics import TwistBeamKinematics
+from ..whole_axle_kinematics import SENSE
+from . import axle_rolling, pitching, rolling
+from .corner import GROUND, PITCH
+from .measure import Measure, of_axle, of_corner, of_wheel
+from .quantities import QUANTITIES
+
+_JACKING = replace(
+    QUANTITIES["jacking"],
+    definition="lift of the body by an inboard force at the contact, over the force, by the path "
+    "of the contact with the other wheel at its height",
+    sign="positive when an inboard force lifts the body",
+)
+
+
+def roll_center_height(of: TwistBeamKinematics) -> Array:
+    """Return the height of the roll centre above the line through the contacts [m].
+
+    As the wheel centres move oppositely, seen from the front, the line through the contacts turns
+    about a point midway between them; a lateral force there is along no motion of roll.
+    """
+    left, right = (of.contact(side) for side in SIDES)
+    line = (left - right)[:, 1:]
+    length = np.linalg.norm(line, axis=-1, keepdims=True)
+    line = line / length
+    across = np.stack([-line[:, 1], line[:, 0]], -1)
+    roll, heave = (
+        np.stack([of.contact_in(side, how)[:, 1:] for side in SIDES]) for how in ("roll", "heave")
+    )
+    times = -_dot(across, roll.mean(axis=0)) / _dot(across, heave.mean(axis=0))
+    moved = roll + times[:, None] * heave
+    turning = _dot(across, moved[0] - moved[1]) / length[:, 0]
+    height: Array = _dot(line, moved.mean(axis=0)) / turning
+    return height
+
+
+def jacking(of: TwistBeamKinematics, side: str) -> Array:
+    """Return the lift of the body by an inboard force at a contact, over that force [1]."""
+    velocity = of.carried_in(side, of.contact(side), side)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        lift: Array = SENSE[side] * velocity[:, 1] / velocity[:, 2]
+    return lift
+
+
+def in_roll(of: TwistBeamKinematics, side: str, rate: Callable[..., Array]) -> Array:
+    """Return what changes by the carrier's motion, by the roll of the body to the wheels' line."""
+    # the left wheel up is the right side of the body down, reversed
+    found: Array = -rate(of.corners[side], of.motion(side, "roll")) / of.inclination_rate
+    return found
+
+
+def _steer_rate(corner: RoadWheel, motion: CarrierMotion) -> Array:
+    return -corner.vehicle.side * wheel.toe_rate(corner, motion)
+
+
+def _dot(one: Array, other: Array) -> Array:
+    product: Array = (one * other).sum(-1)
+    return product
+
+
+def _is(end: str, *, driven: bool = False) -> Callable[[TwistBeamKinematics], bool]:
+    return lambda of: of.end == end and (of.axle.drive is not None or not driven)
+
+
+MEASURES = (
+    of_corner("camber", wheel.camber),
+    of_corner("toe", wheel.toe),
+    of_corner("steer", wheel.steer),
+    of_corner("camber_gradient", wheel.camber_gradient),
+    of_corner("bump_steer", wheel.bump_steer),
+    of_corner("half_track_change", wheel.half_track_change, GROUND),
+    of_corner("wheelbase_change", wheel.wheelbase_change),
+    of_corner("side_view_swing_arm_angle", wheel.side_view_swing_arm_angle, GROUND),
+    of_corner("side_view_hub_angle", wheel.side_view_hub_angle),
+    of_axle("track", rolling.track, GROUND),
+    of_axle("track_change", axle_rolling.track_change, GROUND),
+    of_wheel("inclination", axle_rolling.inclination, GROUND),
+    of_axle(
+        "roll_center_height", roll_center_height, GROUND,
+        definition="point midway between the contacts about which the line through them turns as "
+        "the wheel centres move oppositely",
+    ),
+    Measure(_JACKING, jacking, "wheel", GROUND),
+    of_wheel(
+        "roll_steer", lambda of, side: in_roll(of, side, _steer_rate),
+        definition="derivative of the steer angle by the roll angle, the wheel centres moving "
+        "oppositely",
+    ),
+    of_wheel(
+        "roll_camber", lambda of, side: in_roll(of, side, wheel.camber_rate),
+        definition="derivative of camber, to the body, by the roll angle, the wheel centres moving "
+        "oppositely",
+    ),
+    of_wheel("anti_dive", pitching.braking, (*PITCH, "front_brake_share"), _is("front")),
+    of_wheel("anti_lift_driven", pitching.driving, PITCH, _is("front", driven=True)),
+    of_wheel("anti_lift_braked", pitching.braking, (*PITCH, "front_brake_share"), _is("rear")),
+    of_wheel("anti_squat", pitching.driving, PITCH, _is("rear", driven=True)),
+    of_wheel("spring_length", lambda of, side: of.signal(f"{side}_spring_length")),
+    of_wheel("damper_length", lambda of, side: of.signal(f"{side}_damper_length")),
+    of_wheel(
+        "motion_ratio", lambda of, side: of.compression_in(f"{side}_spring", "heave"),
+        definition="compression of the spring per travel of both wheels",
+    ),
+    of_wheel(
+        "roll_motion_ratio",
+        lambda of, side: SENSE[side] * of.compression_in(f"{side}_spring", "roll"),
+    ),
+    of_wheel(
+        "damper_motion_ratio", lambda of, side: of.compression_in(f"{side}_damper", "heave"),
+        definition="compression of the damper per travel of both wheels",
+    ),
+    of_wheel(
+        "damper_roll_motion_ratio",
+        lambda of, side: SENSE[side] * of.compression_in(f"{side}_damper", "roll"),
+    ),
+    of_wheel("wheel_force", lambda of, side: of.wheel_force(side)),
+    of_wheel(
+        "wheel_rate", lambda of, side: (of.springs + of.bar)[:, SIDES.index(side), :].sum(-1),
+        definition="derivative of the wheel force by the travel of both wheels, without tyres",
+    ),
+    of_wheel(
+        "wheel_rate_alone",
+        lambda of, side: (of.springs + of.bar)[:, SIDES.index(side), SIDES.index(side)],
+    ),
+    of_axle("roll_moment", rolling.moment, GROUND),
+    of_axle("roll_moment_gradient", rolling.moment_gradient, GROUND),
+    of_axle("roll_stiffness", rolling.stiffness, GROUND),
+    of_axle("roll_stiffness_springs", rolling.of_springs, GROUND),
+    of_axle("roll_stiffness_bar", rolling.of_bar, GROUND),
+    of_axle("bar_share", rolling.bar_share, GROUND),
+    of_axle(
+        "roll_stiffness_with_tyres", rolling.with_tyres, (*GROUND, "tyre_rate"), rolling.has_tyres
+    ),
+    of_axle("bar_twist", lambda of: of.beam_twist),
+    of_axle("bar_torque", lambda of: of.beam_torque),
+)  # fmt: skip
+"""All of them, the same over every motion."""

@@ -1,0 +1,488 @@
+"""A twist-beam axle as a file describes it, what holds its parts together, and its equations."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from types import ModuleType
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+from pydantic import Field
+
+from ...core.arguments import Arguments
+from ...core.vectors import Vector, components
+from ...generated import twist_beam as equations
+from ..corner.bushes import Bush, Bushings, bushes_of
+from ..corner.corner import Array
+from ..corner.structure import (
+    FORCES_OF_A_DAMPER,
+    FixedJoint,
+    ForceElement,
+    Joint,
+    Points,
+    SphericalJoint,
+    Structure,
+)
+from ..input.bodies import Bodies, RigidBody
+from ..input.hardpoints import Hardpoints
+from ..input.section import Number, Range, Section, Triple
+from ..input.spring import Spring
+from ..input.stop import Stop
+from ..input.units import in_metres
+from ..input.vehicle import Gravity, Tyre, Wheel
+from .axle.file import Brakes, End
+from .plausibility import (
+    stray_points,
+    unlikely_inertia,
+    unlikely_rates,
+    unlikely_tyre,
+    unlikely_vehicle,
+    unlikely_wheel,
+)
+from .sides import LEFT, RIGHT, SIDES
+from .whole_axle import WholeAxle
+from .whole_axle_file import AxleDamper, AxleDrive, WholeAxleHardpoints, WholeAxleVehicle
+from .whole_axle_model import WholeAxleModel
+
+LIFT, TWIST = "lift", "twist"
+"""The coordinates: angle of both arms about the pivots, and of each about its line to the beam."""
+
+CHASSIS, CENTER, PIVOT, SHEAR_CENTER = "chassis", "wheel_center", "pivot", "shear_center"
+ACROSS = np.array([0.0, 1.0, 0.0])
+"""The direction of the line through both pivots."""
+
+_UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+# Pivots and shear centre are farther from the wheels' line, or from each other, than this [m].
+_SHORTEST = 0.05
+# Newton's method is at the end where it moves nothing by more than this [rad]; it doubles digits.
+_CLOSE, _MOST_STEPS = 1e-14, 20
+_FORCES = {
+    "spring": ("spring_spring_force", "spring_actuator"),
+    "damper": tuple(f"damper_{name}" for name in FORCES_OF_A_DAMPER),
+}
+_ARMS, _BEAM = "#4a525a", "#d55e00"
+
+_Rate = Annotated[
+    Number,
+    Field(ge=0.0, le=1e5),
+    Range("0 {unit} to 100,000 {unit}", "Check the unit of the value."),
+]
+
+
+# -- the file -------------------------------------------------------------------------------------
+
+
+class TwistBeamHardpoints(WholeAxleHardpoints):
+    """The points of the right side at the design position; the left one is its mirror image.
+
+    All points are in chassis axes (ISO 8855: x forward, y left, z up), in the unit that `unit`
+    names.
+    """
+
+    pivot: Triple = Field(description="bush of the arm on the chassis")
+
+
+class BeamSection(Section):
+    """The beam between both arms."""
+
+    shear_center_x_mm: Number = Field(
+        description="shear centre of the beam's section in the vehicle's centre plane, forward"
+    )
+    shear_center_z_mm: Number = Field(description="the same, upward")
+    rate_Nm_per_deg: _Rate = Field(  # noqa: N815 (N is the newton)
+        description="torque of the beam by its twist, warping and a bar inside of it included"
+    )
+
+
+class Arm(RigidBody):
+    """The right arm with hub, brake and half of the beam; the left one is its mirror image."""
+
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return the middle of pivot and wheel centre, in m."""
+        middle: Vector = 0.5 * (points.metres(PIVOT) + points.metres(CENTER))
+        return middle
+
+
+class TwistBeamBodies(Bodies):
+    """The bodies; a half of the beam belongs to each arm."""
+
+    arm: Arm = Field(description="the right arm with hub, brake and half of the beam")
+
+
+class TwistBeamAxle(WholeAxle):
+    """Two trailing arms and a beam between them that twists, at design. Immutable.
+
+    Make one with `load`, `from_dict` or `with_changes`. The attributes are the sections of the
+    file, with the file's keys and units.
+
+    Parameters
+    ----------
+    **data : Any
+        The sections, as in a file.
+
+    Raises
+    ------
+    InputError
+        With all problems, if no axle can be like this.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> axle = kintrafo.load("twist_beam")
+    >>> axle.heading(), axle.beam.rate_Nm_per_deg
+    ('twist-beam rear axle', 25.0)
+    """
+
+    KEY: ClassVar[str] = "twist_beam"
+    NEEDED: ClassVar[str] = 'a twist-beam axle, such as kintrafo.load("twist_beam"), is needed'
+    PAGE: ClassVar[str] = """\
+A file of its own, of two arms and the beam between them; `kintrafo new FILE --suspension
+twist_beam` writes one. See [Twist-beam axles](../suspension/twist-beam.md). The other sections are
+those of every suspension: `[tyre]`, `[gravity]`, the stops, and `[wheel]`, which may be left out;
+and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_center`, of both sides.
+"""
+
+    twist_beam: End = Field(description='where the axle is: "front" or "rear"')
+    vehicle: WholeAxleVehicle = Field(
+        default=WholeAxleVehicle(), description="what the whole vehicle adds"
+    )
+    hardpoints: TwistBeamHardpoints = Field(description="the points of the right side")
+    beam: BeamSection = Field(description="the beam between both arms")
+    wheel: Wheel = Field(
+        default=Wheel(camber_deg=0.0, toe_deg=0.0), description="alignment of the wheels"
+    )
+    spring: Spring = Field(description="the springs, between chassis and arms")
+    damper: AxleDamper = Field(description="the dampers, between chassis and arms")
+    bump_stop: Stop | None = Field(default=None, description="the stops in bump, of the dampers")
+    rebound_stop: Stop | None = Field(
+        default=None, description="the stops in rebound, of the dampers"
+    )
+    tyre: Tyre = Field(description="the tyres")
+    gravity: Gravity = Field(description="gravity")
+    bodies: TwistBeamBodies = Field(description="masses and inertia")
+    brakes: Brakes = Field(default=Brakes(), description="what holds the torque of the brakes")
+    drive: AxleDrive | None = Field(default=None, description="what drives the axle")
+    bushings: Bushings | None = Field(
+        default=None, description="what deflects at hardpoints, for compliance: see Loads"
+    )
+
+    def heading(self) -> str:
+        """Return what the axle is called."""
+        return f"twist-beam {self.twist_beam} axle"
+
+    @property
+    def shear_center(self) -> Array:
+        """The shear centre of the beam in its middle [m]."""
+        x, z = self.beam.shear_center_x_mm, self.beam.shear_center_z_mm
+        return np.array([in_metres(x, "mm"), 0.0, in_metres(z, "mm")])
+
+    @property
+    def pivot(self) -> Array:
+        """The pivot of the right arm [m]."""
+        return np.asarray(self.hardpoints.metres(PIVOT))
+
+    @property
+    def twist_ratio(self) -> float:
+        """The twist of the beam by the turn of an arm about its line to the shear centre [1]."""
+        return (
+            2.0 * abs(float(self.pivot[1])) / float(np.linalg.norm(self.pivot - self.shear_center))
+        )
+
+    def drawn_lines(self) -> Iterator[tuple[str, str, float, Array]]:
+        """Yield arms and beam: label, colour, width and points, (n, 3) [m]."""
+        for side in SIDES:
+            points = self.points(side)
+            root = self.shear_center * [1.0, 0.0, 1.0] + points[PIVOT] * [0.0, 0.8, 0.0]
+            yield "arms", _ARMS, 5.0, np.array([points[PIVOT], points[CENTER]])
+            yield "beam", _BEAM, 2.4, np.array([self.shear_center, root])
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """The seats on the arms, the wheel centres, and the shear centre."""
+        own = ("spring_seat", "damper_seat", CENTER)
+        return (SHEAR_CENTER, *(f"{name}_{side}" for name in own for side in SIDES))
+
+    def structure(self) -> Structure:
+        """Return what holds its parts together."""
+        joints: list[Joint] = []
+        for side in SIDES:
+            arm = f"arm_{side}"
+            joints.append(PivotJoint(CHASSIS, arm, (f"{PIVOT}_{side}",)))
+            joints.append(FixedJoint(arm, f"wheel_{side}", (f"{CENTER}_{side}",)))
+        joints.append(BeamJoint(f"arm_{RIGHT}", f"arm_{LEFT}", (SHEAR_CENTER,)))
+        lines = [
+            ForceElement(
+                f"{name}_{side}",
+                tuple(f"{side}_{force}" for force in forces),
+                CHASSIS,
+                f"arm_{side}",
+                (f"{name}_top_{side}", f"{name}_seat_{side}"),
+            )
+            for name, forces in _FORCES.items()
+            for side in SIDES
+        ]
+        return Structure(joints, lines)
+
+    def bushes(self, given: Arguments, described: Mapping[str, Any]) -> list[Bush]:
+        """Return bushes as they are described by their hardpoints.
+
+        Parameters
+        ----------
+        given : Arguments
+            Gets what is wrong.
+        described : mapping
+            By ``pivot`` and ``wheel_center``, of both sides, and ``shear_center``.
+        """
+        joints = (
+            PivotJoint(CHASSIS, "arm", (PIVOT,)),
+            FixedJoint("arm", "wheel", (CENTER,)),
+            BeamJoint("arm", "arm", (SHEAR_CENTER,)),
+        )
+        points = {name: self.hardpoints.metres(name) for name in (PIVOT, CENTER)}
+        points[SHEAR_CENTER] = self.shear_center
+        spin = -self.wheel.spin_axis(-1.0)
+        found = bushes_of(given, described, Structure(joints, ()), points, spin)
+        return [
+            own
+            for bush in found
+            for own in (
+                [bush]
+                if bush.point == SHEAR_CENTER
+                else [
+                    bush.mirrored(f"{bush.point}_{LEFT}"),
+                    replace(bush, point=f"{bush.point}_{RIGHT}"),
+                ]
+            )
+        ]
+
+    def parameters(self) -> dict[str, float]:
+        """Return everything that the equations of motion need, by their names, in SI units.
+
+        The torque T of the beam by its twist does T times the rate of the twist, which is that of
+        an arm's turn times `twist_ratio`; so the rate by the turn has the square of that.
+        """
+        bodies = self.bodies.parameters(self.hardpoints)
+        rate = float(np.degrees(self.beam.rate_Nm_per_deg)) * self.twist_ratio**2
+        values = {
+            **components(SHEAR_CENTER, self.shear_center),
+            **components(PIVOT, self.pivot),
+            "gravity": self.gravity.acceleration_m_per_s2,
+            "beam_rate": rate,
+            "opposite": -1.0,
+            **{name: value for name, value in bodies.items() if name.startswith("arm_")},
+        }
+        wheel = {name: value for name, value in bodies.items() if name.startswith("wheel_")}
+        own = self._of_wheels(wheel)
+        return values | {n: v for n, v in own.items() if PIVOT not in n}
+
+    # -- its checks -----------------------------------------------------------------------------
+
+    def _own_problems(self) -> list[str]:
+        """Say which points leave no arm: pivots that are no pivots, a beam at the pivots."""
+        problems = []
+        pivot, shear, wheel = self.pivot, self.shear_center, self.hardpoints.metres(CENTER)
+        if float(np.hypot(*(wheel - pivot)[[0, 2]])) < _SHORTEST:
+            problems.append(
+                f"{self.hardpoints.text(PIVOT)}: the wheels are less than {1e3 * _SHORTEST:g} mm "
+                "from the line through the pivots, about which they rise. Move pivot or "
+                "wheel_center."
+            )
+        line = pivot - shear
+        rise = np.cross(line / np.linalg.norm(line), wheel - shear)[2]
+        if abs(float(rise)) < _SHORTEST:
+            problems.append(
+                "[beam] shear_center: the wheel is hardly beside the line from its pivot to the "
+                "shear centre, about which it turns in roll; at least "
+                f"{1e3 * _SHORTEST:g} mm are needed. Move the shear centre, or pivot."
+            )
+        return problems
+
+    def _unlikely(self) -> Iterator[str]:
+        """Say what is almost surely a mistake: units, and points that are swapped."""
+        points, unit = self.hardpoints, self.hardpoints.unit
+        given = {points.text(n): points.metres(n) for n in points.given() if n != CENTER}
+        yield from stray_points(given, unit)
+        yield from unlikely_vehicle(self.vehicle)
+        far = max(float(np.linalg.norm(at - self.center)) for at in given.values())
+        yield from unlikely_tyre(self.tyre)
+        yield from unlikely_inertia({"arm": self.bodies.arm}, far)
+        yield from unlikely_wheel(self.bodies.wheel, self.tyre_radius())
+        mass = self.bodies.arm.mass_kg + self.bodies.wheel.mass_kg
+        yield from unlikely_rates(
+            self.parameters(), self.length("spring", RIGHT), mass, self.rate_key
+        )
+        if self.twist_beam == "rear" and self.pivot[0] < self.center[0]:
+            yield (
+                f"{points.text(PIVOT)}: the pivots are behind the wheels, so that no arm trails. "
+                "Correct the sign of x."
+            )
+
+
+# -- its joints -----------------------------------------------------------------------------------
+
+
+class PivotJoint(SphericalJoint):
+    """The bush of an arm: a force; its own axis is that through both pivots."""
+
+    def axis(self, points: Points) -> Array | None:
+        """Return the direction through both pivots."""
+        return np.broadcast_to(ACROSS, points[self.at[0]].shape)
+
+
+class BeamJoint(Joint):
+    """Where both halves of the beam meet: all but the torque about the direction of the pivots.
+
+    That is what the spring of the beam has. A force along the beam, and with it how the pivots
+    share one across the vehicle, is statically indeterminate: least energy of the bushes decides
+    it, and without bushes least forces.
+    """
+
+    def axis(self, points: Points) -> Array | None:
+        """Return the direction through both pivots."""
+        return np.broadcast_to(ACROSS, points[self.at[0]].shape)
+
+    def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
+        """Return three forces and two moments."""
+        del turned, design
+        loads = np.zeros((*points[self.at[0]].shape[:-1], 1, 6, 5))
+        loads[..., 0, :3, :3] = np.eye(3)
+        loads[..., 0, 3:, 3:] = _UPRIGHT.T
+        return loads
+
+    def right_angles(
+        self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
+    ) -> list[tuple[Array, Array]]:
+        """Return the direction of the pivots with both directions across it."""
+        del turned, design, spin
+        shape = points[self.at[0]].shape
+        return [
+            (np.broadcast_to(ACROSS, shape), np.broadcast_to(across, shape)) for across in _UPRIGHT
+        ]
+
+
+# -- its equations --------------------------------------------------------------------------------
+
+
+class TwistBeamModel(WholeAxleModel):
+    """The compiled equations of a twist-beam axle: arms, wheels, springs, dampers, stops and tyres.
+
+    Parameters
+    ----------
+    axle : TwistBeamAxle, str or Path
+        The data, or the name of a packaged data set or path of a TOML file.
+    wheel_loads : bool, optional
+        Whether what acts on the wheels are inputs, as in `Model`, after ``right_`` and ``left_``.
+        These equations are derived and compiled when they are first needed.
+
+    Attributes
+    ----------
+    axle : TwistBeamAxle
+    parameters, constants, design_state
+        As of `System`. The states are ``lift`` [rad], positive with the wheels up, ``twist`` [rad],
+        positive with the left wheel up, and the angles of the wheels.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> model = kintrafo.model_of(kintrafo.load("twist_beam"))
+    >>> model.state_names[:2]
+    ('lift', 'twist')
+    """
+
+    NEEDED = "the equations of a twist-beam axle are needed"
+    AXLE = TwistBeamAxle
+    EQUATIONS: ClassVar[ModuleType] = equations
+    COORDINATES: ClassVar[tuple[str, str]] = (LIFT, TWIST)
+    ENDS = "a damper is at the end of its length, or an arm has turned by 45 deg"
+
+    axle: TwistBeamAxle
+
+    def placed(self, left: Array, right: Array) -> Array:
+        """Return the states at rest with the wheels at some travels, whether it gets there or not.
+
+        The height of a wheel is ``z cos(lift) - x sin(lift)`` with its place x, z beside the pivots
+        after the turn about the line to the shear centre: Newton's method for both, from those of
+        small angles.
+
+        Parameters
+        ----------
+        left, right : ndarray, shape (...)
+            Heights of the wheel centres above design [m].
+
+        Returns
+        -------
+        ndarray, shape (..., 8)
+            NaN where no angles are found.
+        """
+        states = np.broadcast_to(self.design_state, (*left.shape, self.design_state.size)).copy()
+        wanted = np.stack(np.broadcast_arrays(left, right), axis=-1)
+        with np.errstate(all="ignore"):
+            found = _angles(self.axle, wanted)
+        for name, angle in zip(self.COORDINATES, found, strict=True):
+            states[..., self.state_names.index(name)] = angle
+        return states
+
+    def moved(self, states: Array, left: Array, right: Array) -> Array:
+        """Return states with the rates at which the wheels travel so fast [m/s].
+
+        Parameters
+        ----------
+        states : ndarray, shape (..., 8)
+        left, right : ndarray
+        """
+        found = states.copy()
+        lift, twist = (states[..., self.state_names.index(name)] for name in self.COORDINATES)
+        with np.errstate(all="ignore"):
+            _, slopes = _heights(self.axle, lift, twist)
+            rates = _solved(slopes, np.stack(np.broadcast_arrays(left, right), axis=-1))
+        for name, rate in zip(self.COORDINATES, rates, strict=True):
+            found[..., self.state_names.index(f"{name}_rate")] = rate
+        return found
+
+    def turned(self, states: Array) -> Array:
+        """Return the larger of both angles [rad]; half a turn where there are none."""
+        both = [np.abs(states[..., self.state_names.index(name)]) for name in self.COORDINATES]
+        return np.nan_to_num(np.maximum(*both), nan=np.pi)
+
+
+def _angles(axle: TwistBeamAxle, wanted: Array) -> tuple[Array, Array]:
+    """Return lift and twist at heights of both wheels above design, (..., 2) [m]; NaN for none."""
+    lift, twist = np.zeros(wanted.shape[:-1]), np.zeros(wanted.shape[:-1])
+    change = np.full(wanted.shape[:-1], np.inf)
+    for _ in range(_MOST_STEPS):
+        heights, slopes = _heights(axle, lift, twist)
+        steps = _solved(slopes, wanted - heights)
+        lift, twist = lift + steps[0], twist + steps[1]
+        change = np.maximum(*map(np.abs, steps))
+        if not (change > _CLOSE).any():
+            break
+    lost = ~(change < np.sqrt(_CLOSE))
+    return np.where(lost, np.nan, lift), np.where(lost, np.nan, twist)
+
+
+def _heights(axle: TwistBeamAxle, lift: Array, twist: Array) -> tuple[Array, Array]:
+    """Return the heights of both wheels above design, (..., 2), and their slopes, (..., 2, 2)."""
+    up, down = np.cos(lift), np.sin(lift)
+    values, by_lift, by_twist = [], [], []
+    for side in SIDES:
+        points = axle.points(side)
+        line = points[PIVOT] - axle.shear_center
+        # positive with the left wheel up: about the left line outward, and the right one inward
+        axis = line / np.linalg.norm(line)
+        arm = points[CENTER] - points[PIVOT]
+        along, across = axis * (axis @ arm), np.cross(axis, arm)
+        aside = arm - along
+        angle = twist[..., None]
+        turned = along + np.cos(angle) * aside + np.sin(angle) * across
+        slope = np.cos(angle) * across - np.sin(angle) * aside
+        values.append(up * turned[..., 2] - down * turned[..., 0] - arm[2])
+        by_lift.append(-down * turned[..., 2] - up * turned[..., 0])
+        by_twist.append(up * slope[..., 2] - down * slope[..., 0])
+    return np.stack(values, -1), np.stack([np.stack(by_lift, -1), np.stack(by_twist, -1)], -1)
+
+
+def _solved(slopes: Array, right: Array) -> tuple[Array, Array]:
+    """Return the solution of two linear equations, without raising where there is none."""
+    (a, b), (c, d) = np.moveaxis(slopes, (-2, -1), (0, 1))
+    first, second = np.moveaxis(right, -1, 0)
+    whole = a * d - b * c
+    return (d * first - b * second) / whole, (a * second - c * first) / whole
