@@ -5,7 +5,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import Axle, Model, compliance
+from golden.subjects import BUSHES
+from kintrafo import Axle, Model, compliance, load
+from kintrafo.vehicle.data.starter import whole_axles
 from rigid_axles import AXLE, FIVE
 from soft_suspensions import BAR_OF, BUSHES_OF, LINKED, RACK, STRUT, TRAILING, UNDER, WISHBONES
 
@@ -20,6 +22,8 @@ RODS = {
     }.items()
 }
 OF_FIVE = RODS | {"right_upper_link_chassis": {"axial_N_per_mm": 700.0, "radial_N_per_mm": 700.0}}
+# Axles without sides besides the rigid one, by their data sets.
+OTHERS = [name for name in whole_axles() if name != AXLE.KEY]
 FREE = {"gravity.acceleration_m_per_s2": 0.0, "spring.force_at_design_N": 0.0}
 HEAVY = {"gravity.acceleration_m_per_s2": 9.81}
 
@@ -52,6 +56,10 @@ WITHOUT_LOAD: dict[str, tuple[Any, Any, dict[str, Any]]] = {
     },
     "rigid axle": (AXLE.with_changes(FREE), RODS, {"wheels": (-1.0, 0.6)}),
     "five rods": (FIVE.with_changes(FREE), OF_FIVE, {"wheels": (-1.0, 0.6)}),
+    **{
+        name: (load(name).with_changes(FREE), BUSHES[name], {"wheels": (-1.0, 0.6)})
+        for name in OTHERS
+    },
 }
 
 
@@ -96,6 +104,7 @@ LOADED: dict[str, tuple[Any, Any]] = {
         BUSHES_OF[STRUT] | RACK,
     ),
     "rigid axle": (AXLE, RODS),
+    **{name: (load(name), BUSHES[name]) for name in OTHERS},
 }
 each_loaded = pytest.mark.parametrize(("of", "bushes"), LOADED.values(), ids=LOADED)
 
