@@ -205,7 +205,13 @@ class Stepper:
         inputs: Mapping[str, float] | ArrayLike | None = None,
         t0: float = 0.0,
     ) -> None:
-        """Begin anew from another state; arguments as of the class."""
+        """Begin anew from another state.
+
+        Parameters
+        ----------
+        y0, inputs, t0
+            As of the class.
+        """
         with Arguments("Stepper") as given:
             state = given.array("y0", y0, last=self.state.size)
             held = inputs_of(y0, self.model.names_of_states)

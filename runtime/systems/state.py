@@ -56,7 +56,15 @@ class State(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
 
     @classmethod
     def of(cls, elements: ArrayLike, inputs: ArrayLike, names: StateNames) -> "State":
-        """Return a state with its inputs."""
+        """Return a state with its inputs.
+
+        Parameters
+        ----------
+        elements, inputs : array_like
+            [SI]
+        names : StateNames
+            Of both.
+        """
         state = np.array(elements, dtype=np.float64).view(cls)
         state.inputs = np.array(inputs, dtype=np.float64)
         state.names = names

@@ -199,7 +199,20 @@ class System:
         return {name: values[..., i] for i, name in enumerate(self.signal_names)}
 
     def signal(self, name: str, state: ArrayLike, inputs: ArrayLike | None = None) -> Array:
-        """Return one physical signal."""
+        """Return one physical signal.
+
+        Parameters
+        ----------
+        name : str
+            One of `signal_names`.
+        state, inputs : array_like
+            As of `signals`.
+
+        Returns
+        -------
+        ndarray
+            SI units, of the shape of the leading dimensions.
+        """
         with Arguments("signals") as given:
             given.among("signal", name, self.signal_names)
         return self.signals(state, inputs)[name]

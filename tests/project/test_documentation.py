@@ -70,9 +70,13 @@ def test_every_page_is_in_the_table_of_contents_once():
     assert set(listed.values()) == {1}
 
 
-def test_every_public_name_is_documented():
+def documented_names():
     text = "".join(text_of(page) for page in (DOCS / "reference/api").glob("*.md"))
-    documented = set(re.findall(r"^\.\. auto\w+:: (\S+)$", text, flags=re.MULTILINE))
+    return set(re.findall(r"^\.\. auto\w+:: (\S+)$", text, flags=re.MULTILINE))
+
+
+def test_every_public_name_is_documented():
+    documented = documented_names()
     named = {f"kintrafo.{name}" for name in kintrafo.__all__}
     named |= {f"kintrafo.generator.{name}" for name in generator.__all__}
     for module in kintrafo._INTERFACES:
@@ -82,6 +86,18 @@ def test_every_public_name_is_documented():
     assert named <= documented
     for name in documented:
         assert pydoc.locate(name) is not None, name
+
+
+@pytest.mark.parametrize("name", sorted(documented_names()))
+def test_functions_of_two_arguments_say_what_these_are(name):
+    found = pydoc.locate(name)
+    functions = [found] if inspect.isroutine(found) else []
+    if inspect.isclass(found) and "generator" not in name:  # whose methods are of one kind
+        public = (member for key, member in vars(found).items() if not key.startswith("_"))
+        functions = [each for each in public if inspect.isfunction(each)]
+    for function in functions:
+        arguments = set(inspect.signature(function).parameters) - {"self", "cls"}
+        assert len(arguments) < 2 or "Parameters\n" in (inspect.getdoc(function) or ""), function
 
 
 @pytest.mark.parametrize("name", sorted(kintrafo.__all__))

@@ -338,7 +338,20 @@ def _refuse_other_side(old: Suspension, section: Any, read: Iterable[str], sourc
 def write_merged(
     found: Merged, path: str | Path, *, force: bool = False, inputs: Paths = ()
 ) -> Path:
-    """Write an input file into which a table was read; see `merged`."""
+    """Write an input file into which a table was read, and return its path.
+
+    Parameters
+    ----------
+    found : Merged
+        From `merged`.
+    path, force, inputs
+        As of `write_points`; the name ends in ``.toml``.
+
+    Raises
+    ------
+    InputError
+        If the file must not or cannot be written.
+    """
     with Arguments("write_merged") as given:
         given.kind("found", found, Merged, "what merged returns is needed")
     refuse([path], force=force, inputs=inputs, endings=[".toml"])
@@ -403,7 +416,15 @@ def doubts(found: Merged) -> str:
 
 
 def as_words(found: Merged, table: PointTable | None = None) -> Mapping[str, str]:
-    """Return what was read, kept and left out, in words; of the table, too, how it was read."""
+    """Return what was read, kept and left out, in words, by what it is about.
+
+    Parameters
+    ----------
+    found : Merged
+        From `merged`.
+    table : PointTable, optional
+        From `read_points`; with it, also its unit, its axes, and what of it was not read.
+    """
     with Arguments("as_words") as given:
         given.kind("found", found, Merged, "what merged returns is needed")
         if table is not None:

@@ -167,7 +167,15 @@ def write_overview(
 
 
 def check_formats(paths: Sequence[str | Path] = (), formats: Sequence[str] = ()) -> None:
-    """Refuse names of files, and formats, in which no figure can be written."""
+    """Refuse names of files, and formats, in which no figure can be written.
+
+    Parameters
+    ----------
+    paths : sequence of str or pathlib.Path, optional
+        Pages of curves.
+    formats : sequence of str, optional
+        Of figures: png, svg or pdf.
+    """
     with Arguments("figures") as given:
         for name, listed in (("paths", paths), ("formats", formats)):
             if not isinstance(listed, list | tuple):

@@ -67,6 +67,12 @@ class Subsystem:
     def side(self, name: str, side: Side) -> Point | None:
         """Return a hardpoint of a side in ISO axes (x forward, y left, z up) [mm].
 
+        Parameters
+        ----------
+        name : str
+            As in the file.
+        side : {'left', 'right'}
+
         Returns
         -------
         tuple of float or None
@@ -83,7 +89,13 @@ class Subsystem:
         return -x + 0.0, (y if mirrored else -y) + 0.0, z
 
     def angle(self, name: str, side: Side) -> float | None:
-        """Return an angle of a side [deg]; None if the file does not have it."""
+        """Return an angle of a side [deg]; None if the file does not have it.
+
+        Parameters
+        ----------
+        name, side
+            As of `side`.
+        """
         rows = self.angles.get(name, {})
         return rows.get(side, rows.get("left/right"))
 
