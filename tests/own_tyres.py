@@ -13,10 +13,16 @@ CENTER = g.Point("wheel_center", (0.0, 0.0, 0.31), "wheel centre")
 SPIN = g.Direction("spin_axis", (0.0, 1.0, 0.0), "spin axis of the wheel, pointing left")
 ROAD = g.Input("road_height", "m", "height of the road under the tyre")
 ROAD_VELOCITY = g.Input("road_velocity", "m/s", "rate of the road's height", ROAD)
+DEFLECTIONS = (
+    g.InternalState("tyre_along", "m", "deflection of the contact, forward"),
+    g.InternalState("tyre_across", "m", "deflection of the contact, to the left"),
+)
 COORDINATES = ("ahead", "across", "heave", "steering", "lean", "spin")
 
 
-def rig(law: ContactLaw, name: str, *, damped: bool = False) -> g.Formulation:
+def rig(
+    law: ContactLaw, name: str, *, damped: bool = False, relaxing: bool = False
+) -> g.Formulation:
     """Return a wheel that hangs on three guides and turns about three axes through its centre."""
     ground = g.Ground("rig", 1)
     line = {
@@ -45,6 +51,7 @@ def rig(law: ContactLaw, name: str, *, damped: bool = False) -> g.Formulation:
         road=ROAD,
         damper=g.DamperRate("tyre_damper_rate", 500.0, "damping") if damped else None,
         road_velocity=ROAD_VELOCITY if damped else None,
+        deflections=DEFLECTIONS if relaxing else None,
     )
     mechanism = g.Mechanism(
         name=name,

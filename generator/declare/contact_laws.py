@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
-from ...formulas import linear_contact, magic_formula
+from ...formulas import linear_contact, magic_formula, vertical
 from ...formulas.coefficients import IN_EQUATIONS, NEUTRAL, ODD
 from ...formulas.magic_formula import Contact, Form
 from .declared import Name, declared
@@ -39,6 +39,8 @@ class Rolling:
         Vcx over the speed of the contact, and over its own size; both smoothed near standstill.
     speed
         Vcx [m/s].
+    size
+        Its own size, smoothed [m/s].
     """
 
     load: sp.Expr
@@ -48,6 +50,12 @@ class Rolling:
     direction: sp.Expr
     rolling: sp.Expr
     speed: sp.Expr
+    size: sp.Expr
+
+    def contact(self, **others: sp.Expr) -> Contact:
+        """Return what formulas are handed, some of it replaced."""
+        own = {key: value for key, value in vars(self).items() if key != "size"}
+        return Contact(**(own | others))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,6 +109,12 @@ class AnyContactLaw(Owner):
         """Return forces and moments at the contact."""
 
     @abstractmethod
+    def relaxation(
+        self, a: Arithmetic, load: sp.Expr, inclination: sp.Expr
+    ) -> tuple[sp.Expr, sp.Expr]:
+        """Return the longitudinal and the lateral relaxation length [m]."""
+
+    @abstractmethod
     def told(self) -> str:
         """Return what a report says of it."""
 
@@ -121,6 +135,8 @@ class LinearContact(AnyContactLaw):
         yield "effective_radius", 0.29, "m", "speed over rate of spin of a freely rolling wheel"
         yield "vertical_stiffness", 200e3, "N/m", "vertical stiffness of the tyre"
         yield "vxlow", 1.0, "m/s", "speed below which slips are smoothed"
+        yield "relaxation_x", 0.3, "m", "longitudinal relaxation length"
+        yield "relaxation_y", 0.5, "m", "lateral relaxation length"
         defaults = (9e4, 7e4, 3e3, 0.03, 1.0, 0.0)
         for default, (what, described) in zip(
             defaults, linear_contact.COEFFICIENTS.items(), strict=True
@@ -139,8 +155,15 @@ class LinearContact(AnyContactLaw):
     def forces(self, a: Arithmetic, at: Rolling) -> Forces:
         """Return forces and moments at the contact."""
         p = {what: self.symbol(what) for what in linear_contact.COEFFICIENTS}
-        contact = Contact(**vars(at), pressure=sp.Integer(0))
+        contact = at.contact(pressure=sp.Integer(0))
         return linear_contact.forces(a, p, contact, self.radius)
+
+    def relaxation(
+        self, a: Arithmetic, load: sp.Expr, inclination: sp.Expr
+    ) -> tuple[sp.Expr, sp.Expr]:
+        """Return the longitudinal and the lateral relaxation length [m]."""
+        del a, load, inclination
+        return self.symbol("relaxation_x"), self.symbol("relaxation_y")
 
     def told(self) -> str:
         """Return what a report says of it."""
@@ -172,6 +195,8 @@ class MagicFormulaContact(AnyContactLaw):
         "UNLOADED_RADIUS": (0.316, "m", "radius of the tyre without load"),
         "FNOMIN": (4000.0, "N", "nominal load of the tyre"),
         "LONGVL": (16.7, "m/s", "speed at which the tyre was measured"),
+        "LONGITUDINAL_STIFFNESS": (3.6e5, "N/m", "longitudinal stiffness of the carcass"),
+        "LATERAL_STIFFNESS": (1.3e5, "N/m", "lateral stiffness of the carcass"),
         "VXLOW": (1.0, "m/s", "speed below which slips are smoothed"),
         "INFLPRES": (220e3, "Pa", "inflation pressure of the tyre"),
         "NOMPRES": (220e3, "Pa", "inflation pressure at which the tyre was measured"),
@@ -179,7 +204,8 @@ class MagicFormulaContact(AnyContactLaw):
     _USUAL: ClassVar[Mapping[str, float]] = {
         "PCX1": 1.6, "PDX1": 1.1, "PKX1": 22.0, "PCY1": 1.35, "PDY1": 1.0, "PKY1": -20.0,
         "PKY2": 1.8, "QBZ1": 10.0, "QBZ9": 10.0, "QCZ1": 1.1, "QDZ1": 0.1, "RBX1": 12.0,
-        "RBX2": 10.0, "RBY1": 11.0, "RBY2": 8.0, "Q_FZ1": 15.8,
+        "RBX2": 10.0, "RBY1": 11.0, "RBY2": 8.0, "Q_FZ1": 15.8, "PTX1": 2.0, "PTY1": 2.0,
+        "PTY2": 1.8,
     }  # fmt: skip
 
     def _entries(self) -> Iterator[tuple[str, float, str, str]]:
@@ -232,12 +258,28 @@ class MagicFormulaContact(AnyContactLaw):
 
     def forces(self, a: Arithmetic, at: Rolling) -> Forces:
         """Return forces and moments at the contact."""
-        given = vars(at) | {"speed": at.speed / self.symbol("longvl")}
+        given = {"speed": at.speed / self.symbol("longvl"), "pressure": self._pressure}
         if self.angle:
             given["lateral"] = a.define("slip_as_angle", a.atan(at.lateral))
-        contact = Contact(**given, pressure=self._pressure)
+        contact = at.contact(**given)
         form = Form(newer=self.newer, weighted=self.weighted, angle=self.angle)
         return magic_formula.forces(a, self._coefficients, contact, form)
+
+    def relaxation(
+        self, a: Arithmetic, load: sp.Expr, inclination: sp.Expr
+    ) -> tuple[sp.Expr, sp.Expr]:
+        """Return the longitudinal and the lateral relaxation length [m].
+
+        Stiffness over that of the carcass (A3.9); of PAC2002 by PTX and PTY.
+        """
+        p, zero = self._coefficients, sp.Integer(0)
+        nominal = p["FNOMIN"] * p["LFZO"]
+        dfz = a.define("load_change", (load - nominal) / nominal)
+        if not self.newer:
+            return vertical.relaxation_by_load(a, p, load, dfz, inclination)
+        still = Contact(load, zero, zero, inclination, zero, zero, zero, self._pressure)
+        stiff = magic_formula.stiffnesses(a, p, still)
+        return vertical.relaxation_by_stiffness(p, dfz, self._pressure, *stiff)
 
     def told(self) -> str:
         """Return what a report says of it."""

@@ -42,12 +42,8 @@ NEUTRAL: Mapping[str, float] = {
 }
 """What each of them is where it has no effect."""
 
-IN_EQUATIONS = tuple(
-    key
-    for key in NEUTRAL
-    if key not in {*OF_RELAXATION, *keys("Q_V1-2 Q_FCX Q_FCY Q_FZ3 LSGKP LSGAL")}
-)
-"""Those that forces in equations of motion depend on: neither lengths, nor the load by speed."""
+IN_EQUATIONS = tuple(key for key in NEUTRAL if key not in keys("Q_V1-2 Q_FCX Q_FCY Q_FZ3"))
+"""Those that equations of motion have: not the load by speed and forces."""
 
 ODD = keys("PHY1-2 PVY1-2 PEY3 RBY3 RHX1 RVY1-2 QHZ1-2 QBZ4 QDZ3 QDZ6-7 QEZ4 SSZ1 QSX1")
 """Those that change their signs in the mirror image of a tyre."""

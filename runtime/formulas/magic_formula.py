@@ -152,6 +152,25 @@ def forces(a: Arithmetic, p: Coefficients, c: Contact, form: Form) -> Forces:
     )
 
 
+def stiffnesses(a: Arithmetic, p: Coefficients, c: Contact) -> tuple[Any, Any]:
+    """Return slip stiffness and cornering stiffness [N], which no slip changes.
+
+    Parameters
+    ----------
+    a
+        Functions.
+    p
+        Coefficients.
+    c
+        What the tyre rolls with.
+    """
+    dfz = a.define("load_change", (c.load - _nominal(p)) / _nominal(p))
+    camber = c.inclination * p["LGAY"]
+    along = a.define("x_stiffness", _slip_stiffness(a, p, c, dfz))
+    across = a.define("y_stiffness", _cornering(a, p, c, camber, camber * camber))
+    return c.load * along, c.load * across
+
+
 @dataclass(frozen=True)
 class _Side:
     """A force at pure slip along one axis, all of it per load.
@@ -210,9 +229,7 @@ def _longitudinal(a: Arithmetic, p: Coefficients, c: Contact, dfz: Any, form: Fo
     shape, inclination = p["PCX1"] * p["LCX"], c.inclination * p["LGAX"]
     peak = (p["PDX1"] + p["PDX2"] * dfz) * (1 - p["PDX3"] * inclination * inclination)
     peak = a.define("x_peak", peak * (_of_pressure(p, c, "PPX3", "PPX4") * p["LMUX"]))
-    stiffness = (p["PKX1"] + p["PKX2"] * dfz) * a.exp(p["PKX3"] * dfz)
-    stiffness = stiffness * (_of_pressure(p, c, "PPX1", "PPX2") * p["LKX"])
-    stiffness = a.define("x_stiffness", stiffness)
+    stiffness = a.define("x_stiffness", _slip_stiffness(a, p, c, dfz))
     moving = c.rolling * c.rolling
     shift = (p["PHX1"] + p["PHX2"] * dfz) * p["LHX"] * moving
     vertical = (p["PVX1"] + p["PVX2"] * dfz) * (p["LVX"] * _of_shift(p, "LMUX", form)) * moving
@@ -253,6 +270,12 @@ def _lateral(
     angle = _bent(a, name, bend * slip, curvature, shape)
     friction = a.define(f"{name}_friction", peak * a.sin(angle))
     return _Side(stiffness, peak, bend, slip, shift, friction, vertical)
+
+
+def _slip_stiffness(a: Arithmetic, p: Coefficients, c: Contact, dfz: Any) -> Any:
+    """Return the slip stiffness per load (4.E15)."""
+    stiffness = (p["PKX1"] + p["PKX2"] * dfz) * a.exp(p["PKX3"] * dfz)
+    return stiffness * (_of_pressure(p, c, "PPX1", "PPX2") * p["LKX"])
 
 
 def _cornering(a: Arithmetic, p: Coefficients, c: Contact, inclination: Any, square: Any) -> Any:

@@ -14,6 +14,8 @@ from .tyre import States, Tyre
 _POSITIVE = ("radius", "effective_radius", "vertical_stiffness", "slip_stiffness",
              "cornering_stiffness", "friction", "lowest_speed")  # fmt: skip
 
+_OF_EQUATIONS = ("effective_radius", "vertical_stiffness", "relaxation_x", "relaxation_y")
+
 
 @dataclass(frozen=True, kw_only=True)
 class LinearSlip(Tyre):
@@ -68,6 +70,24 @@ class LinearSlip(Tyre):
     def mirrored(self) -> Self:
         """Return the mirror image, which is the tyre itself."""
         return replace(self)
+
+    def parameters(self, name: str = "tyre") -> dict[str, float]:
+        """Return the parameters of equations of motion that this tyre has.
+
+        Parameters
+        ----------
+        name : str, optional
+            Of the `kintrafo.generator.LinearContact` whose parameters they are.
+
+        Returns
+        -------
+        dict of str to float
+            By name, such as ``"tyre_friction"``, in SI units.
+        """
+        own = asdict(self)
+        found = {key: own[key] for key in (*linear_contact.COEFFICIENTS, *_OF_EQUATIONS)}
+        found |= {"unloaded_radius": self.radius, "vxlow": self.lowest_speed}
+        return {f"{name}_{key}": value for key, value in found.items()}
 
     def _state(self, at: States) -> dict[str, Any]:
         rolling = np.sign(at.speed)

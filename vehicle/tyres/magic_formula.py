@@ -135,28 +135,44 @@ class MagicFormula(Tyre):
             self, coefficients=known.mirrored(self.coefficients), side=_OTHER_SIDE[self.side]
         )
 
-    def parameters(self, name: str = "tyre") -> dict[str, float]:
+    def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
         """Return the parameters of equations of motion that this tyre has.
 
         Parameters
         ----------
         name : str, optional
             Of the `kintrafo.generator.MagicFormulaContact` whose parameters they are.
+        relaxing : bool, optional
+            Whether the equations have deflections as states, so that relaxation lengths are needed.
 
         Returns
         -------
         dict of str to float
             By name, such as ``"tyre_pcx1"``, in SI units.
+
+        Raises
+        ------
+        InputError
+            If relaxation lengths are needed, and the file does not say them.
         """
+        lengths = self.evaluate(self.nominal_load)
+        if relaxing and not np.isfinite([lengths.relaxation_x, lengths.relaxation_y]).all():
+            newer = "LONGITUDINAL_STIFFNESS and LATERAL_STIFFNESS"
+            missing = newer if self.form.newer else "PTX1, PTY1 and PTY2"
+            problem = f"relaxation lengths are not known. Add {missing}, or leave deflections out."
+            raise InputError([problem], self.source or self.name)
         first, second = vertical.rates(ARRAYS, self.coefficients)
         found = {key: self.coefficients[key] for key in IN_EQUATIONS}
         found |= {
             "UNLOADED_RADIUS": self.radius,
             "FNOMIN": self.coefficients["FNOMIN"],
             "LONGVL": self.usual_speed,
+            "LONGITUDINAL_STIFFNESS": self.coefficients.get("LONGITUDINAL_STIFFNESS", 1.0),
+            "LATERAL_STIFFNESS": self.coefficients.get("LATERAL_STIFFNESS", 1.0),
             "VXLOW": self.lowest_speed,
             "INFLPRES": self.usual_pressure or 1.0,
             "NOMPRES": self._nominal_pressure or 1.0,
+            "PTY2": self.coefficients["PTY2"] or 1.0,
             "Q_FZ1": float(first),
             "Q_FZ2": float(second),
         }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import sympy as sp
@@ -13,6 +13,7 @@ from ...program.vectors import Vector
 from ..contact_laws import ContactLaw, Rolling
 from ..declared import DeclarationError, Name, declared
 from ..inputs import Input
+from ..internal_states import InternalState
 from ..joints import Revolute
 from ..parameters import DamperRate
 from ..shown import Event, Shown
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from ..surroundings import Surroundings
     from ..wheel import Upright
 
+_SHORTEST = sp.Rational(1, 20)  # relaxation length [m]
 _TOUCH = 1e-3  # load at which a tyre touches [N]
 
 
@@ -45,6 +47,12 @@ class RollingTyre(Force):
 
     V_low smooths them: at standstill the contact damps, and rolling backward is nothing special.
 
+    With states u and v, in which the contact is deflected along and across, the slips follow with
+    the relaxation lengths s_x and s_y, which are taken to be 50 mm at least::
+
+        u' = r_e Omega - V_cx - |V| u / s_x,  kappa = u / s_x
+        v' = V_cy - |V| v / s_y,              tan(alpha) = v / s_y
+
     Parameters
     ----------
     name
@@ -60,6 +68,8 @@ class RollingTyre(Force):
     damper, road_velocity
         Along the normal [N s/m], and the input that is the derivative of the road [m/s]; both or
         neither.
+    deflections
+        Two states [m], along and across; without them forces are those of the slips at the time.
     """
 
     name: Name
@@ -69,6 +79,7 @@ class RollingTyre(Force):
     road: Input
     damper: DamperRate | None = None
     road_velocity: Input | None = None
+    deflections: tuple[InternalState, InternalState] | None = None
 
     def __post_init__(self) -> None:
         problems = []
@@ -81,6 +92,11 @@ class RollingTyre(Force):
                 f"road_velocity {self.road_velocity.name!r} is not the rate of the road "
                 f"{self.road.name!r}; give it derivative_of=the road"
             )
+        problems += [
+            f"state {state.name!r} is in {state.unit}; m is needed"
+            for state in self.deflections or ()
+            if state.unit != "m"
+        ]
         carrier, spin, hinge = self.wheel.carrier.name, self.wheel.spin, self.bearing
         if hinge.first.name != carrier:
             problems.append(
@@ -128,6 +144,7 @@ class RollingTyre(Force):
         deflection, load = self._load(at, upright, cosine, (velocity, turning, down))
         arm = down * (self.law.radius - deflection / cosine)
         rolling = self._rolling(at, steps, axes, load, (velocity, turning, arm, upright))
+        rolling, rates = self._relaxed(steps, rolling)
         found = self.law.forces(steps, rolling)
         along = self._along(axes, (found.fx, found.fy, sp.Integer(0)))
         upward = upright.up * load
@@ -150,7 +167,8 @@ class RollingTyre(Force):
             "slip_angle": sp.atan2(rolling.lateral, sp.Integer(1)),
             "deflection": deflection,
         }
-        return Action(forces, {f"{self._own}{k}": sp.sympify(v) for k, v in values.items()})
+        shown = {f"{self._own}{k}": sp.sympify(v) for k, v in values.items()}
+        return Action(forces, shown, rates=rates)
 
     @property
     def _own(self) -> str:
@@ -224,7 +242,26 @@ class RollingTyre(Force):
             direction=steps.define("direction", ahead / both),
             rolling=steps.define("rolling", ahead / size),
             speed=ahead,
+            size=size,
         )
+
+    def _relaxed(self, steps: Steps, at: Rolling) -> tuple[Rolling, dict[str, sp.Expr]]:
+        """Return how the tyre rolls with slips that follow, and the rates of the deflections."""
+        if self.deflections is None:
+            return at, {}
+        along, across = self.deflections
+        lengths = self.law.relaxation(steps, at.load, at.inclination)
+        x, y = (
+            steps.define(f"relaxation_{axis}", _SHORTEST + Positive(length - _SHORTEST))
+            for axis, length in zip("xy", lengths, strict=True)
+        )
+        slip = steps.define("relaxed_slip", along.symbol / x)
+        lateral = steps.define("relaxed_lateral_slip", across.symbol / y)
+        rates = {
+            along.name: at.size * (at.longitudinal - slip),
+            across.name: at.size * (at.lateral - lateral),
+        }
+        return replace(at, longitudinal=slip, lateral=lateral), rates
 
     def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
         """Yield those of the wheel, then forces, slips and deflection."""
@@ -234,8 +271,11 @@ class RollingTyre(Force):
             "fy": ("N", "lateral force of the road on the tyre, positive to the left"),
             "fz": ("N", "normal force of the road on the tyre"),
             "mz": ("N m", "aligning moment of the road on the tyre, positive to the left"),
-            "slip": ("1", "longitudinal slip, positive in driving"),
-            "slip_angle": ("rad", "slip angle, positive where the contact moves to the left"),
+            "slip": ("1", "longitudinal slip that acts, positive in driving"),
+            "slip_angle": (
+                "rad",
+                "slip angle that acts, positive moving to the left",
+            ),
             "deflection": ("m", "how far the lowest point of the disc is below the road"),
         }
         for what, (unit, meaning) in described.items():

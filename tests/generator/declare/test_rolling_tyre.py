@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from kintrafo import generator as g
 from own_tyres import COORDINATES, rig
-from tyres import ELLIPSE, NEWER
+from tyres import ELLIPSE, NEWER, OLDER, without
 
 RATES = slice(6, 12)
 UP = np.array([0.0, 0.0, 1.0])
@@ -19,6 +19,7 @@ LAWS = {
     "ellipse": g.MagicFormulaContact(name="tyre", newer=False, angle=True, weighted=False),
 }
 FILES = {"newer": NEWER, "ellipse": ELLIPSE}
+RELAXING = {"newer": NEWER, "older": OLDER}
 
 
 @pytest.fixture(scope="module")
@@ -213,6 +214,84 @@ def test_a_wheel_that_is_let_go_rolls_without_slip(system_of):
     assert lost == pytest.approx(spun, rel=0.04)  # some of it is in steering and leaning
 
 
+@pytest.fixture(scope="module")
+def relaxing(folder):
+    @cache
+    def built(name: str):
+        laws = {
+            "linear": LAWS["linear"],
+            "newer": LAWS["newer"],
+            "older": g.MagicFormulaContact(name="tyre", newer=False, angle=True),
+        }
+        model = rig(laws[name], f"relaxing_{name}", relaxing=True)
+        equations = kintrafo.compile(model, folder=folder, backend="numpy")
+        if name == "linear":
+            return kintrafo.System(equations), None
+        path = folder / f"relaxing_{name}.tir"
+        path.write_text(RELAXING[name], encoding="utf-8")
+        tyre = kintrafo.tyres.load(path)
+        values = tyre.parameters(relaxing=True) | {"tyre_vxlow": 1e-5}
+        return kintrafo.System(equations, values), tyre
+
+    return built
+
+
+@pytest.mark.parametrize("name", RELAXING)
+def test_deflections_follow_the_slip_along_the_relaxation_length(relaxing, name):
+    """u' = -Vsx - |Vx| u / sigma; forces are those of the tyre on arrays at u / sigma."""
+    system, tyre = relaxing(name)
+    slow, inputs = tyre.with_changes({"Q_V1": 0.0}), system.inputs({})
+    for position in states(6):
+        state = np.append(position, [0.008, -0.011])
+        signals, rates = system.signals(state, inputs), system.evaluate("rhs", state, inputs)
+        load = float(signals["tyre_fz"])
+        wheel = Wheel(position, tyre.radius * tyre.coefficients["Q_RE0"])
+        camber = np.arcsin(wheel.axis[2])
+        still = slow.evaluate(load, camber=camber, extrapolate=True)
+        ahead, slip, angle = wheel.slips(float(still.effective_radius), 1e-5)
+        along, across = state[12] / still.relaxation_x, state[13] / still.relaxation_y
+        assert rates[12] == pytest.approx(abs(ahead) * (slip - along), rel=1e-7, abs=1e-9)
+        assert rates[13] == pytest.approx(abs(ahead) * (np.tan(angle) - across), rel=1e-7, abs=1e-9)
+        assert signals["tyre_slip"] == pytest.approx(float(along), rel=1e-8)
+        found = tyre.evaluate(load, np.arctan(across), along, camber, speed=ahead, extrapolate=True)
+        for what in ("fx", "fy"):
+            wanted = float(vars(found)[what])
+            assert signals[f"tyre_{what}"] == pytest.approx(wanted, rel=1e-7, abs=1e-5), what
+
+
+def test_with_relaxation_no_speed_is_stiff(relaxing, system_of):
+    """Spin settles with r^2 C / (I v) without, and about sqrt(r^2 C / (I s)) with it."""
+    plain, (system, _) = system_of("linear"), relaxing("linear")
+    for speed in (0.3, 2.0, 10.0):
+        state = np.zeros(14)
+        state[[2, 6, 11]] = -0.02, speed, speed / 0.29
+        fast, slow = (
+            np.abs(np.linalg.eigvals(one.evaluate("rhs_jacobian", x, one.inputs({})))).max()
+            for one, x in ((plain, state[:12]), (system, state))
+        )
+        settling = 0.29**2 * 9e4 / (1.1 * np.hypot(speed, 1.0))
+        assert fast > 0.9 * settling
+        assert slow < 1.6 * np.sqrt(0.29**2 * 9e4 / (1.1 * 0.3))
+
+
+def test_relaxation_lengths_that_a_file_does_not_say_are_asked_for(folder):
+    path = folder / "without.tir"
+    path.write_text(without(NEWER, "LATERAL_STIFFNESS"), encoding="utf-8")
+    tyre = kintrafo.tyres.load(path)
+    assert tyre.parameters()["tyre_pcx1"] == 1.62
+    with pytest.raises(kintrafo.InputError, match="Add LONGITUDINAL_STIFFNESS and LATERAL"):
+        tyre.parameters(relaxing=True)
+
+
+def test_a_tyre_has_all_parameters_of_its_law(system_of):
+    linear = kintrafo.tyres.LinearSlip(
+        radius=0.3, effective_radius=0.29, vertical_stiffness=2e5, slip_stiffness=9e4,
+        cornering_stiffness=7e4,
+    )  # fmt: skip
+    for name, tyre in (("linear", linear), ("newer", system_of.tyre("newer"))):
+        assert {p.name for p in LAWS[name].numbers} == set(tyre.parameters()), name
+
+
 def test_it_is_refused_by_name():
     law = LAWS["linear"]
     tyre = next(f for f in rig(law, "rig").mechanism.forces if isinstance(f, g.RollingTyre))
@@ -224,6 +303,10 @@ def test_it_is_refused_by_name():
         ({"road": height}, "'height' is in N; m is needed"),
         ({"damper": damper}, "give damper and road_velocity, or neither"),
         ({"bearing": lean}, "hinge 'lean' leads from 'fork'"),
+        (
+            {"deflections": (g.InternalState("u", "N", "no length"),) * 2},
+            "state 'u' is in N; m is needed",
+        ),
         ({"bearing": lean}, "does not turn about the wheel's spin axis 'spin_axis'"),
     ):
         with pytest.raises(g.DeclarationError, match=said):
