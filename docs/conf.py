@@ -20,6 +20,7 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx_copybutton",
     "commands",
+    "gallery",
     "sources",
 ]
 exclude_patterns = ["images", "site"]
