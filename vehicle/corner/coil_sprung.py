@@ -127,6 +127,23 @@ class CoilDamper(Section):
         )
 
 
+class ApartDamper(CoilDamper):
+    """The damper, with ends of its own.
+
+    It has a rate, or a curve through measured points: velocities are positive in bump, forces where
+    they resist bump (see `input.damper.Damper`). Its friction is ``friction v / sqrt(v^2 +
+    friction_velocity^2)``.
+    """
+
+    ENDS: ClassVar[Pair] = ("damper_seat", "damper_top")
+
+    length_min_mm: Positive | None = Field(
+        default=None,
+        description="distance of damper_seat and damper_top with the damper pressed in as far as "
+        "it goes; no position beyond it is returned",
+    )
+
+
 class CoilSprung(Suspension):
     """A suspension with a coil spring and a damper, each between two hardpoints."""
 

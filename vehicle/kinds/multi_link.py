@@ -15,7 +15,7 @@ from ...core.columns import least_singular_value, stacked
 from ...core.errors import InputError
 from ...core.vectors import Vector, components, cross, unit_vector
 from ...generated import multi_link
-from ..corner.coil_sprung import CoilDamper, CoilSprung
+from ..corner.coil_sprung import ApartDamper, CoilSprung
 from ..corner.corner import Array, CarrierMotion, Plane
 from ..corner.drawing import Axis, Drawing
 from ..corner.facts import Names
@@ -30,7 +30,7 @@ from ..corner.structure import (
 )
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.hardpoints import Hardpoints, Pair
-from ..input.section import Positive, Triple
+from ..input.section import Triple
 from ..input.spring import Spring
 
 LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_link")
@@ -146,23 +146,6 @@ class MultiLinkHardpoints(Hardpoints):
         return [problem]
 
 
-class LinkDamper(CoilDamper):
-    """The damper, between the chassis and the knuckle.
-
-    It has a rate, or a curve through measured points: velocities are positive in bump, forces where
-    they resist bump (see `input.damper.Damper`). Its friction is ``friction v / sqrt(v^2 +
-    friction_velocity^2)``.
-    """
-
-    ENDS: ClassVar[Pair] = ("damper_seat", "damper_top")
-
-    length_min_mm: Positive | None = Field(
-        default=None,
-        description="distance of damper_seat and damper_top with the damper pressed in as far as "
-        "it goes; no position beyond it is returned",
-    )
-
-
 class Link(RigidBody):
     """A link; only the rear lower one has mass."""
 
@@ -253,7 +236,7 @@ force at the design position (`force_at_design_N`). The stops are touched by the
     suspension: Literal["multi_link"] = Field(description="the kind of suspension")
     hardpoints: MultiLinkHardpoints = Field(description="the points that define the geometry")
     spring: Spring = Field(description="the spring, between chassis and rear lower link")
-    damper: LinkDamper = Field(description="the damper, between chassis and knuckle")
+    damper: ApartDamper = Field(description="the damper, between chassis and knuckle")
     bodies: MultiLinkBodies = Field(description="masses and inertia")
 
     # -- its equations --------------------------------------------------------------------------

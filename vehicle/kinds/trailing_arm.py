@@ -15,7 +15,7 @@ from ...core.columns import length, number
 from ...core.errors import InputError
 from ...core.vectors import Vector, angle_between_lines, cross, distance_from_line
 from ...generated import trailing_arm
-from ..corner.coil_sprung import CoilDamper, CoilSprung
+from ..corner.coil_sprung import ApartDamper, CoilSprung
 from ..corner.corner import Array, CarrierMotion, Plane
 from ..corner.drawing import Axis, Drawing
 from ..corner.facts import Names
@@ -29,7 +29,7 @@ from ..corner.structure import (
 )
 from ..input.bodies import Bodies, RigidBody
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
-from ..input.section import Positive, Triple
+from ..input.section import Triple
 from ..input.spring import Spring
 
 _BEARINGS = ("arm_inner", "arm_outer")
@@ -111,23 +111,6 @@ class TrailingArmHardpoints(Hardpoints):
         return [problem]
 
 
-class ArmDamper(CoilDamper):
-    """The damper, between the chassis and the arm.
-
-    It has a rate, or a curve through measured points: velocities are positive in bump, forces where
-    they resist bump (see `input.damper.Damper`). Its friction is ``friction v / sqrt(v^2 +
-    friction_velocity^2)``.
-    """
-
-    ENDS: ClassVar[Pair] = ("damper_seat", "damper_top")
-
-    length_min_mm: Positive | None = Field(
-        default=None,
-        description="distance of damper_seat and damper_top with the damper pressed in as far as "
-        "it goes; no position beyond it is returned",
-    )
-
-
 class TrailingArmBody(RigidBody):
     """The arm, which carries the wheel."""
 
@@ -168,7 +151,7 @@ length."""
     # no section of a file, as nothing steers: `steered` is asked before it is
     rack: ClassVar[None] = None  # type: ignore[assignment, misc]
     spring: Spring = Field(description="the spring, between chassis and arm")
-    damper: ArmDamper = Field(description="the damper, between chassis and arm")
+    damper: ApartDamper = Field(description="the damper, between chassis and arm")
     bodies: TrailingArmBodies = Field(description="masses and inertia")
 
     # -- its equations --------------------------------------------------------------------------

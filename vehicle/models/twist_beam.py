@@ -12,6 +12,7 @@ from ...core.arguments import Arguments
 from ...core.vectors import Vector, components
 from ...generated import twist_beam as equations
 from ..corner.bushes import Bush, Bushings, bushes_of
+from ..corner.coil_sprung import ApartDamper
 from ..corner.corner import Array
 from ..corner.structure import (
     FORCES_OF_A_DAMPER,
@@ -40,7 +41,7 @@ from .plausibility import (
 )
 from .sides import LEFT, RIGHT, SIDES
 from .whole_axle import WholeAxle
-from .whole_axle_file import AxleDamper, AxleDrive, WholeAxleHardpoints, WholeAxleVehicle
+from .whole_axle_file import AxleDrive, WholeAxleHardpoints, WholeAxleVehicle
 from .whole_axle_model import WholeAxleModel
 
 LIFT, TWIST = "lift", "twist"
@@ -151,7 +152,7 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
         default=Wheel(camber_deg=0.0, toe_deg=0.0), description="alignment of the wheels"
     )
     spring: Spring = Field(description="the springs, between chassis and arms")
-    damper: AxleDamper = Field(description="the dampers, between chassis and arms")
+    damper: ApartDamper = Field(description="the dampers, between chassis and arms")
     bump_stop: Stop | None = Field(default=None, description="the stops in bump, of the dampers")
     rebound_stop: Stop | None = Field(
         default=None, description="the stops in rebound, of the dampers"

@@ -30,12 +30,13 @@ from .sides import LEFT, RIGHT, SIDES
 
 if TYPE_CHECKING:
     from ..corner.bushes import Bushings
+    from ..corner.coil_sprung import ApartDamper
     from ..input.hardpoints import Hardpoints
     from ..input.spring import Spring
     from ..input.stop import Stop
     from ..input.vehicle import Gravity, Tyre, Wheel
     from .axle.file import Brakes, End
-    from .whole_axle_file import AxleDamper, AxleDrive, WholeAxleVehicle
+    from .whole_axle_file import AxleDrive, WholeAxleVehicle
 
 # A wheel centre nearer to the vehicle's centre plane than this is on neither side [m].
 _SMALLEST_HALF_TRACK = 0.1
@@ -83,7 +84,7 @@ class WholeAxle(DescribedSection):
         hardpoints: Hardpoints
         wheel: Wheel
         spring: Spring
-        damper: AxleDamper
+        damper: ApartDamper
         bump_stop: Stop | None
         rebound_stop: Stop | None
         tyre: Tyre

@@ -5,7 +5,6 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from ..corner.coil_sprung import CoilDamper
 from ..input.hardpoints import Hardpoints, Pair
 from ..input.section import Positive, Section, Triple
 from ..input.vehicle import Share
@@ -51,23 +50,6 @@ class WholeAxleHardpoints(Hardpoints):
                 {name: (f"{name}_seat", f"{name}_top") for name in ("spring", "damper")}
             )
         )
-
-
-class AxleDamper(CoilDamper):
-    """The damper, between the chassis and the axle.
-
-    It has a rate, or a curve through measured points: velocities are positive in bump, forces where
-    they resist bump (see `input.damper.Damper`). Its friction is ``friction v / sqrt(v^2 +
-    friction_velocity^2)``.
-    """
-
-    ENDS: ClassVar[Pair] = ("damper_seat", "damper_top")
-
-    length_min_mm: Positive | None = Field(
-        default=None,
-        description="distance of damper_seat and damper_top with the damper pressed in as far as "
-        "it goes; no position beyond it is returned",
-    )
 
 
 class AxleDrive(Drive):

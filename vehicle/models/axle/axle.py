@@ -154,16 +154,8 @@ class Axle(Described):
     def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
         """Return the sections as nested dictionaries, which `from_dict` takes back unchanged.
 
-        Parameters
-        ----------
-        exclude_defaults : bool, optional
-            Whether values that are as by default are left out.
-
-        Returns
-        -------
-        dict
-            A copy of all values, with the keys and units of the file; the sections of a side are
-            nested in ``side``, or in ``right`` and ``left``, in place of the name of its file.
+        The sections of a side are
+        nested in ``side``, or in ``right`` and ``left``, in place of the name of its file.
         """
         sides = {"side": self.sides[self.bar_side]} if self.symmetric else self._apart()
         sections: dict[str, Any] = sides | {

@@ -120,16 +120,7 @@ class Car(Described):
     def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
         """Return the sections as nested dictionaries, which `from_dict` takes back unchanged.
 
-        Parameters
-        ----------
-        exclude_defaults : bool, optional
-            Whether values that are as by default are left out.
-
-        Returns
-        -------
-        dict
-            A copy of all values, with the keys and units of the file; the sections of its corner
-            and of its axles are nested in the place of the names of their files.
+        The sections of its corner and of its axles are in the place of the names of their files.
         """
         own = self.described.model_dump(
             mode="json", exclude_none=True, exclude_defaults=exclude_defaults, exclude={*_PARTS}

@@ -11,6 +11,7 @@ from pydantic import Field
 from ....core.arguments import Arguments
 from ....core.vectors import components, unit_vector
 from ...corner.bushes import Bush, Bushings, bushes_of
+from ...corner.coil_sprung import ApartDamper
 from ...corner.corner import Array
 from ...corner.structure import Structure
 from ...input.spring import Spring
@@ -28,7 +29,7 @@ from ..plausibility import (
 )
 from ..sides import LEFT, RIGHT, SIDES
 from ..whole_axle import SHORTEST, WholeAxle
-from ..whole_axle_file import AxleDamper, AxleDrive, WholeAxleHardpoints, WholeAxleVehicle
+from ..whole_axle_file import AxleDrive, WholeAxleHardpoints, WholeAxleVehicle
 from .file import LeftHardpoints, RigidAxleBodies, Rod, RollBar
 from .rods import NEEDED, Ends, Hold
 from .structure import CENTER, CHASSIS, of_a_file, structure_of
@@ -100,7 +101,7 @@ are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center
         default=Wheel(camber_deg=0.0, toe_deg=0.0), description="alignment of the wheels"
     )
     spring: Spring = Field(description="the springs, between chassis and axle")
-    damper: AxleDamper = Field(description="the dampers, between chassis and axle")
+    damper: ApartDamper = Field(description="the dampers, between chassis and axle")
     anti_roll_bar: RollBar | None = Field(default=None, description="the anti-roll bar")
     bump_stop: Stop | None = Field(default=None, description="the stops in bump, of the dampers")
     rebound_stop: Stop | None = Field(
