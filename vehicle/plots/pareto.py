@@ -36,15 +36,10 @@ def write_front(
     ----------
     found : Front
         From `kintrafo.variation.pareto`.
-    path : str or pathlib.Path
-        The ending is the format: ``.png``, ``.svg`` or ``.pdf``.
+    path, title, force, inputs
+        As of `panels.write_panels`.
     chosen : int, optional
         A member that is marked besides the compromise.
-    title : str, optional
-    force : bool, optional
-        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
-    inputs : iterable of str or pathlib.Path, optional
-        Files that are never replaced.
 
     Returns
     -------

@@ -36,13 +36,8 @@ def write_tyre(
     Parameters
     ----------
     tyre : Tyre
-    path : str or pathlib.Path
-        The ending is the format: ``.png``, ``.svg`` or ``.pdf``.
-    title : str, optional
-    force : bool, optional
-        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
-    inputs : iterable of str or pathlib.Path, optional
-        Files that are never replaced.
+    path, title, force, inputs
+        As of `panels.write_panels`.
 
     Returns
     -------

@@ -50,17 +50,12 @@ def write_bars(
     ----------
     dataset : xarray.Dataset
         From `kintrafo.vehicle.studies.sensitivity`.
-    path : str or pathlib.Path
-        The ending is the format: ``.png``, ``.svg`` or ``.pdf``.
+    path, title, force, inputs
+        As of `panels.write_panels`.
     names : sequence of str
         Characteristics.
     at : float, optional
         Position [m].
-    title : str, optional
-    force : bool, optional
-        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
-    inputs : iterable of str or pathlib.Path, optional
-        Files that are never replaced.
 
     Returns
     -------

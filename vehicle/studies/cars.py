@@ -57,24 +57,12 @@ def cars(
         ``hardpoints.ball_joint.z``, in the unit of the file for people (mm, deg, N/m). Rows of
         numbers are over the dimension ``car``; of a dataset, all combinations along its dimensions
         are cars.
-    over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
-        What varies along the curves. Of a corner ``travel``, by default, or ``rack``; of axles and
-        rigid axles ``bump`` (both wheels), by default, or one of the last three. Travel counts from
-        each car's own design position.
-    positions : array_like, optional
-        Wheel travel, or displacement of the rack [m], or roll [rad]; by default the
-        usual range of `suspension`.
-    names : sequence of str, optional
-        Characteristics; by default all.
-    held : {'height', 'tyre', 'spring', 'locked'}, optional
-        Instead of characteristics, compliance by the names of `kintrafo.compliance.linear`, over
-        wheel travel, the wheels held like that, see there; bushes of the file may vary, too.
+    over, positions, names, held, progress
+        As of `sensitivity`. Travel counts from each car's own design position.
     reductions : sequence of str, optional
         Keep 'min', 'max', 'mean' or 'range' of the curves instead of them, over the positions.
     threads : int, optional
         By default as many as there are cores.
-    progress : callable, optional
-        Called with the part that is done, up to 1.
 
     Returns
     -------

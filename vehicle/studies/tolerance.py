@@ -73,18 +73,8 @@ def tolerance(
         How many cars.
     seed : int, optional
         Of the generator of random numbers: the same cars for the same seed.
-    over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
-        What varies along the curves. Of a corner ``travel``, by default, or ``rack``; of axles and
-        rigid axles ``bump`` (both wheels), by default, or one of the last three.
-    positions : array_like, optional
-        Wheel travel, or displacement of the rack [m], or roll [rad]; by default the usual range.
-    names : sequence of str, optional
-        Characteristics; by default all.
-    held : {'height', 'tyre', 'spring', 'locked'}, optional
-        Instead of characteristics, compliance by the names of `kintrafo.compliance.linear`, over
-        wheel travel, the wheels held like that, see there; bushes of the file may vary, too.
-    progress : callable, optional
-        Called with the part that is done, up to 1.
+    over, positions, names, held, progress
+        As of `sensitivity`.
 
     Returns
     -------
