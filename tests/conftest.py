@@ -16,7 +16,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import kept
-import messages as messages_of_tests
+import messages
 import pytest
 from hypothesis import HealthCheck, settings
 
@@ -174,15 +174,16 @@ def kintrafo(
 
 
 @pytest.fixture
-def told(request: pytest.FixtureRequest, tmp_path: Path) -> Callable[..., None]:
+def told(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Callable[..., None]]:
     """Compare errors or texts with the messages that are stored for this test."""
-    update = request.config.getoption("--update-messages")
+    so_far = messages.Told(request.node, update=request.config.getoption("--update-messages"))
 
-    def compare(*messages: object) -> None:
-        texts = (str(message).replace(str(tmp_path), "FOLDER") for message in messages)
-        messages_of_tests.check(request.node, *texts, update=update)
+    def compare(*errors: object) -> None:
+        for error in errors:
+            so_far.hear(str(error).replace(str(tmp_path), "FOLDER"))
 
-    return compare
+    yield compare
+    so_far.end()
 
 
 @pytest.fixture

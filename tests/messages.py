@@ -29,19 +29,33 @@ def key_of(item: pytest.Item) -> str:
     return f"{item.path.stem}{item.nodeid.partition('.py')[2]}"
 
 
-def check(item: pytest.Item, *texts: str, update: bool) -> None:
-    """Compare what a test is told with what is stored, or store it.
+class Told:
+    """What one test is told, compared with what is stored, one message after the other.
 
     Parameters
     ----------
-    texts
-        All that the test is told, in order.
+    item
+        The test.
     update
-        Whether it is stored.
+        Whether its messages are stored instead.
     """
-    told = texts[0] if len(texts) == 1 else [*texts]
-    if update:
-        stored()[key_of(item)] = told
-        text = json.dumps(stored(), indent=1, sort_keys=True, ensure_ascii=False)
-        FILE.write_text(f"{text}\n", encoding="utf-8")
-    assert told == stored().get(key_of(item)), "if on purpose: pytest --update-messages"
+
+    def __init__(self, item: pytest.Item, *, update: bool) -> None:
+        self.key, self.update = key_of(item), update
+        known = stored().get(self.key, [])
+        self.known = [known] if isinstance(known, str) else known
+        self.told: list[str] = []
+
+    def hear(self, text: str) -> None:
+        """Compare one more message."""
+        self.told.append(text)
+        if not self.update:
+            so_far = self.known[: len(self.told)]
+            assert self.told == so_far, "if on purpose: pytest --update-messages"
+
+    def end(self) -> None:
+        """Store what was heard, if it is to be stored."""
+        if self.update and self.told:
+            stored()[self.key] = self.told[0] if len(self.told) == 1 else self.told
+            text = json.dumps(stored(), indent=1, sort_keys=True, ensure_ascii=False)
+            FILE.write_text(f"{text}\n", encoding="utf-8")

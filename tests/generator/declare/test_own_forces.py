@@ -280,7 +280,7 @@ def test_an_own_law_is_looked_at_alike():
         compiled(element)
 
 
-def test_a_force_that_cannot_be_told_apart_is_refused():
+def test_a_force_that_cannot_be_told_apart_is_refused(refused):
     @dataclass
     class Changing(Force):
         joint: Any
@@ -289,22 +289,19 @@ def test_a_force_that_cannot_be_told_apart_is_refused():
         def act(self, at):
             return Action({at.coordinate(self.joint.name): q})
 
-    with pytest.raises(g.DeclarationError, match=r"dataclass\(frozen=True\)"):
-        mechanism(Changing(A))
+    refused(g.DeclarationError, lambda: mechanism(Changing(A)))
 
     @dataclass(frozen=True)
     class Nameless(Own):
         identity = "x"
 
-    with pytest.raises(g.DeclarationError, match="two texts are needed"):
-        mechanism(Nameless(lambda _: None))
+    refused(g.DeclarationError, lambda: mechanism(Nameless(lambda _: None)))
 
     @dataclass(frozen=True)
     class Astray(Own):
         along = "A"
 
-    with pytest.raises(g.DeclarationError, match="along of a Astray is 'A'; a joint is needed"):
-        mechanism(Astray(lambda _: None))
+    refused(g.DeclarationError, lambda: mechanism(Astray(lambda _: None)))
 
 
 def test_the_line_of_an_own_file_is_named(tmp_path):

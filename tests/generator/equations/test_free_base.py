@@ -517,7 +517,7 @@ def test_a_strut_from_the_world_is_refused():
         generate(replace(model, mechanism=mechanism, massive=(joint.second,)), derivatives=False)
 
 
-def test_a_force_cannot_act_along_all_its_speeds_at_once():
+def test_a_force_cannot_act_along_all_its_speeds_at_once(refused):
     @dataclass(frozen=True)
     class Push(Force):
         @property
@@ -529,10 +529,7 @@ def test_a_force_cannot_act_along_all_its_speeds_at_once():
 
     model = thrown()
     pushed = replace(model, mechanism=replace(model.mechanism, forces=(Push(),)))
-    with pytest.raises(
-        DeclarationError, match="free, and has no single coordinate: block_u, block_v"
-    ):
-        generate(pushed)
+    refused(DeclarationError, lambda: generate(pushed))
 
 
 def test_names_of_its_states_are_taken():

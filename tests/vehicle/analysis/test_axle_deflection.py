@@ -370,14 +370,13 @@ def test_motions_that_cannot_be_are_refused() -> None:
         compliance.elastokinematics(heavy, weak, "roll", np.deg2rad([1.5]), hardpoints="relaxed")
 
 
-def test_loads_that_nothing_holds_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_loads_that_nothing_holds_are_refused(
+    monkeypatch: pytest.MonkeyPatch, refused: Any
+) -> None:
     module = import_module("kintrafo.vehicle.analysis.compliance.nonlinear")
     monkeypatch.setattr(module, "_LEAST_STEP", 0.3)  # a short search for the greatest one
     weak = {"arm_rear": {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}}
-    with pytest.raises(
-        PositionError, match="no equilibrium that lasts was found under longitudinal"
-    ):
-        compliance.nonlinear(axle_of(STRUT), weak, "braking", [9e5])
+    refused(PositionError, lambda: compliance.nonlinear(axle_of(STRUT), weak, "braking", [9e5]))
 
 
 # -- what is told ---------------------------------------------------------------------------------

@@ -130,7 +130,10 @@ def test_measured_loads_are_driven(kintrafo, tmp_path: Path, of: str) -> None:
     np.testing.assert_allclose(by_road["force"].values[-1, 0, 0], -2000.0, rtol=1e-3)
 
 
-@pytest.mark.parametrize("formulation", MODELS[:8], ids=lambda model: model.name)
+CORNERS = [m for m in MODELS if any(body.name == "wheel" for body in m.mechanism.bodies)]
+
+
+@pytest.mark.parametrize("formulation", CORNERS, ids=lambda model: model.name)
 def test_every_kind_can_have_them(formulation) -> None:
     loaded = with_wheel_loads(formulation)
     assert set(loaded.inputs) - set(formulation.inputs) == set(UNITS)
@@ -150,17 +153,14 @@ def test_what_cannot_be_is_refused() -> None:
         equilibrium(Model(car, wheel_loads=True), inputs={"contact_force_w": 1.0})
 
 
-def test_a_bearing_that_is_not_the_wheels_is_refused() -> None:
+def test_a_bearing_that_is_not_the_wheels_is_refused(refused: Any) -> None:
     loaded = with_wheel_loads(MODELS[0])
     force = loaded.mechanism.forces[-1]
-    with pytest.raises(DeclarationError, match="N m is needed"):
-        replace(force, hub=Input("hub", "N", "torque"))
+    refused(DeclarationError, lambda: replace(force, hub=Input("hub", "N", "torque")))
     other = Direction("other", (0.0, 1.0, 0.0), "another direction")
-    with pytest.raises(DeclarationError, match="does not turn about the wheel's spin axis"):
-        replace(force, wheel=replace(force.wheel, spin=other))
+    refused(DeclarationError, lambda: replace(force, wheel=replace(force.wheel, spin=other)))
     arm = loaded.mechanism.body("control_arm")
-    with pytest.raises(DeclarationError, match="carried by 'control_arm'"):
-        replace(force, wheel=replace(force.wheel, carrier=arm))
+    refused(DeclarationError, lambda: replace(force, wheel=replace(force.wheel, carrier=arm)))
 
 
 def test_a_car_with_friction_and_a_free_rack_is_looked_at() -> None:

@@ -76,20 +76,19 @@ def test_a_run_with_actuators_begins_at_rest(name: str) -> None:
 
 
 @each
-def test_what_cannot_be_is_refused(name: str) -> None:
+def test_what_cannot_be_is_refused(name: str, refused: Any) -> None:
     model = model_of(name)
-    with pytest.raises(InputError, match="both given"):
-        equilibrium(model, wheel_load=3000.0, road_height=0.01)
-    with pytest.raises(InputError, match="wheel 'front' is not known"):
-        equilibrium(model, road_height={"front": 0.01})
-    with pytest.raises(InputError, match="wheel_load of the right wheel = -1 N"):
-        equilibrium(model, wheel_load={"right": -1.0})
-    with pytest.raises(InputError, match=r"no loads on the wheels .*wheel_loads=True"):
-        equilibrium(model, inputs={f"{next(iter(CENTERS[name].values()))[0]}shaft_torque": 1.0})
-    with pytest.raises(InputError, match="'road' is not known"):
-        equilibrium(model, inputs={"road": 1.0})
-    with pytest.raises(InputError, match="wheels 'front' is not known"):
-        run(model, Scenario(), wheels="front")
+    refused(
+        InputError,
+        lambda: equilibrium(model, wheel_load=3000.0, road_height=0.01),
+        lambda: equilibrium(model, road_height={"front": 0.01}),
+        lambda: equilibrium(model, wheel_load={"right": -1.0}),
+        lambda: equilibrium(
+            model, inputs={f"{next(iter(CENTERS[name].values()))[0]}shaft_torque": 1.0}
+        ),
+        lambda: equilibrium(model, inputs={"road": 1.0}),
+        lambda: run(model, Scenario(), wheels="front"),
+    )
 
 
 def test_a_rack_that_is_not_there_is_refused() -> None:

@@ -431,11 +431,8 @@ def test_what_would_make_a_wrong_car_is_refused(text: str, refused: Any, tmp_pat
     refused(InputError, lambda: taken(tmp_path, text))
 
 
-def test_push_or_pull_is_asked(tmp_path: Path) -> None:
-    with pytest.raises(
-        InputError, match=r"may be push_rod or pull_rod. Say which: --kind push_rod"
-    ):
-        taken(tmp_path, subsystem(CARS["push_rod"]))
+def test_push_or_pull_is_asked(tmp_path: Path, refused: Any) -> None:
+    refused(InputError, lambda: taken(tmp_path, subsystem(CARS["push_rod"])))
 
 
 SAID = {

@@ -392,7 +392,7 @@ class TestCurves:
             state = model.state(**{model.names.arm: angle})
             assert float(model.signal("spring_force", state)) == pytest.approx(wanted, rel=1e-9)
 
-    def test_points_of_extension_that_are_too_many_are_listed(self, tmp_path):
+    def test_points_of_extension_that_are_too_many_are_listed(self, tmp_path, refused):
         data = content(WISHBONES)
         del data["Spring"]["Spring Coefficient"]
         curve = [[x / 50, 1e5 * x + 5e3 * x**3] for x in range(-10, 11)]
@@ -404,10 +404,7 @@ class TestCurves:
         assert words.startswith("spring: by 11 points, as many as a curve may have")
         assert "-200 mm: -6e+06 N" in words
         data["Spring"]["Spring Curve Data"] = [[x - 0.3, y - 1e7] for x, y in curve]
-        with pytest.raises(
-            InputError, match=r'compression_mm has 21 values.* In the file: "Spring"'
-        ):
-            chrono.read(written(tmp_path, data))
+        refused(InputError, lambda: chrono.read(written(tmp_path, data)))
 
     @pytest.mark.parametrize("path", [STRUT, WISHBONES])
     def test_a_damper_has_chronos_force_at_every_speed(self, tmp_path, path):

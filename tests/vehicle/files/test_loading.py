@@ -1,6 +1,7 @@
 """`kintrafo.load` returns what a file describes; anything else is refused as a suspension is."""
 
 from pathlib import Path
+from typing import Any
 
 import kintrafo
 import pytest
@@ -26,15 +27,11 @@ def test_a_name_and_its_file_are_the_same(names: tuple[str, ...], kind: type) ->
         assert kintrafo.load(file) == found == kintrafo.load(str(file))
 
 
-def test_what_describes_nothing_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(kintrafo.InputError, match="path of a file"):
-        kintrafo.load(3)
-    with pytest.raises(kintrafo.InputError, match="no_such_car"):
-        kintrafo.load("no_such_car")
+def test_what_describes_nothing_is_refused(tmp_path: Path, refused: Any) -> None:
+    refused(kintrafo.InputError, lambda: kintrafo.load(3), lambda: kintrafo.load("no_such_car"))
     file = tmp_path / "empty.toml"
     file.write_text("", encoding="utf-8")
-    with pytest.raises(kintrafo.InputError, match="hardpoints"):
-        kintrafo.load(file)
+    refused(kintrafo.InputError, lambda: kintrafo.load(file))
 
 
 @pytest.mark.parametrize("name", ["double_wishbone_car", "rear_axle", "rigid_axle", "quarter_car"])

@@ -825,16 +825,12 @@ class TestErrors:
         )
 
 
-def test_what_is_saved_is_loaded_again(tmp_path):
+def test_what_is_saved_is_loaded_again(tmp_path, refused):
     car = Suspension.load("double_wishbone_car").with_changes({"wheel.camber_deg": -1.25})
     path = car.save(tmp_path / "my_car.toml")
     assert Suspension.load(path) == car
     path.write_text("# mine\n", encoding="utf-8")
-    with pytest.raises(InputError, match="is there already"):
-        car.save(path)
+    refused(InputError, lambda: car.save(path))
     assert path.read_text(encoding="utf-8") == "# mine\n"
     assert Suspension.load(car.save(path, force=True)) == car
-    with pytest.raises(InputError, match=r"\.toml"):
-        car.save(tmp_path / "my_car.txt")
-    with pytest.raises(InputError, match="path = 3"):
-        car.save(3)
+    refused(InputError, lambda: car.save(tmp_path / "my_car.txt"), lambda: car.save(3))

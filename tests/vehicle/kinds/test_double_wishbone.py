@@ -7,12 +7,11 @@ gradients by central differences; besides, arrangements that can be computed by 
 import kintrafo
 import numpy as np
 import pytest
-from differences import difference, second_difference
+from benches import Wishbones
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import Model, PositionError, Suspension, characteristics
 from kintrafo.vehicle.models.points import hardpoints
-from oracle.links import Carrier
 
 CAR = Suspension.load("double_wishbone_car")
 MODEL = Model(CAR)
@@ -37,82 +36,9 @@ UP = np.array([0.0, 0.0, 1.0])
 POSE, SLOPE = 1e-13, 1e-9
 
 
-class Bench:
-    """A car on the oracle's test bench."""
-
-    def __init__(self, suspension):
-        self.suspension = suspension
-        names = suspension.hardpoints.names()
-        self.points = {name: suspension.hardpoints.metres(name) for name in names}
-        self.side = np.sign(self.points["wheel_center"][1])
-        self.carrier = Carrier(self.points, np.array(suspension.rack.axis))
-        self.radius = suspension.tyre_radius()
-        camber, toe = (np.radians(getattr(suspension.wheel, f"{a}_deg")) for a in ("camber", "toe"))
-        # outboard, with the angles of docs/reference/conventions.md
-        axis = np.array([np.tan(toe), self.side, -np.tan(camber)])
-        self.design_axis = axis / np.linalg.norm(axis)
-        self._poses = {}
-
-    def pose(self, place):
-        """Solve for a position, once: many quantities are differentiated there."""
-        if place not in self._poses:
-            self._poses[place] = self.carrier.at(*place)
-        return self._poses[place]
-
-    def axis(self, place):
-        return self.pose(place).rotation @ self.design_axis
-
-    def center(self, place):
-        return self.pose(place).center
-
-    def joint(self, name, place):
-        return self.carrier.point(self.pose(place), name)
-
-    def contact(self, place):
-        axis = self.axis(place)
-        down = np.cross(axis, np.cross(axis, UP))
-        return self.center(place) + self.radius * down / np.linalg.norm(down)
-
-    def camber(self, place):
-        axis = self.axis(place)
-        return np.arctan2(-axis[2], self.side * axis[1])
-
-    def toe(self, place):
-        axis = self.axis(place)
-        return np.arctan2(axis[0], self.side * axis[1])
-
-    def caster(self, place):
-        along = self.joint("upper_ball_joint", place) - self.joint("lower_ball_joint", place)
-        return np.arctan2(-along[0], along[2])
-
-    def seat(self, place):
-        return self.carrier.on_arm(self.pose(place), "lower", self.points["spring_seat"])
-
-    def spring(self, place):
-        return np.linalg.norm(self.seat(place) - self.points["spring_top"])
-
-    def by_travel(self, quantity, place):
-        return difference(lambda h: quantity((place[0] + h, place[1])))
-
-    def by_rack(self, quantity, place):
-        return difference(lambda h: quantity((place[0], place[1] + h)))
-
-
 @pytest.fixture(scope="module", params=CARS, ids=str)
 def bench(request):
-    return Bench(CARS[request.param])
-
-
-@pytest.fixture(scope="module")
-def found(bench):
-    """All characteristics at the places, by place."""
-    model = Model(bench.suspension)
-    return {
-        (travel, rack): characteristics.over(model, "travel", [travel], rack_position=rack).isel(
-            wheel_travel=0
-        )
-        for travel, rack in PLACES
-    }
+    return Wishbones(CARS[request.param])
 
 
 # -- positions ------------------------------------------------------------------------------------
@@ -151,121 +77,6 @@ def test_a_height_out_of_reach_is_refused_with_the_range(height):
 # -- characteristics ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("place", PLACES, ids=str)
-def test_angles_and_places(bench, found, place):
-    values, side = found[place], bench.side
-    low, high = (bench.joint(f"{end}_ball_joint", place) for end in ("lower", "upper"))
-    center, contact = bench.center(place), bench.contact(place)
-    expected = {
-        "camber": bench.camber(place),
-        "toe": bench.toe(place),
-        "steer": -side * bench.toe(place),
-        "caster": bench.caster(place),
-        "kingpin_inclination": np.arctan2(-side * (high - low)[1], (high - low)[2]),
-        "half_track_change": side * (contact - bench.contact((0.0, 0.0)))[1],
-        "wheelbase_change": (center - bench.points["wheel_center"])[0],
-        "spring_length": bench.spring(place),
-        "damper_length": bench.spring(place),
-    }
-    forward = np.cross(side * bench.axis(place), UP)
-    forward /= np.linalg.norm(forward)
-    inboard = -side * np.cross(UP, forward)
-
-    def pierced(level):
-        return low + (level - low[2]) / (high - low)[2] * (high - low)
-
-    ground, hub = pierced(contact[2]) - contact, pierced(center[2]) - center
-    expected |= {"trail": ground @ forward, "steering_axis_offset": ground @ inboard}
-    expected |= {"hub_trail": hub @ forward, "spindle_offset": hub @ inboard}
-    expected["scrub_radius"] = np.linalg.norm(ground)
-    for name, value in expected.items():
-        assert float(values[name]) == pytest.approx(value, rel=0.0, abs=POSE), name
-
-
-@pytest.mark.parametrize("place", PLACES, ids=str)
-def test_gradients_and_motion(bench, found, place):
-    values, turned = found[place], bench.pose(place).rotation
-    contact = bench.contact(place)
-    # the contact point as a point of the knuckle
-    arm = turned.T @ (contact - bench.center(place))
-    velocity = bench.by_travel(lambda p: bench.center(p) + bench.pose(p).rotation @ arm, place)
-    turning = bench.by_travel(lambda p: bench.pose(p).rotation @ turned.T, place)
-    roll = 0.5 * (turning[2, 1] - turning[1, 2])
-    hub = bench.by_travel(bench.center, place)
-    vehicle = bench.suspension.vehicle
-    squat = vehicle.front_brake_share * vehicle.wheelbase_mm / vehicle.center_of_gravity_height_mm
-    expected = {
-        "camber_gradient": bench.by_travel(bench.camber, place),
-        "bump_steer": bench.by_travel(bench.toe, place),
-        "caster_gradient": bench.by_travel(bench.caster, place),
-        "motion_ratio": -bench.by_travel(bench.spring, place),
-        "roll_center_height_kinematic": contact[1] * velocity[1] / velocity[2],
-        "side_view_swing_arm_angle": np.arctan(velocity[0] / velocity[2]),
-        "side_view_hub_angle": np.arctan(hub[0] / hub[2]),
-        "anti_dive": squat * velocity[0] / velocity[2],
-    }
-    expected["damper_motion_ratio"] = expected["motion_ratio"]
-    for name, value in expected.items():
-        assert float(values[name]) == pytest.approx(value, rel=SLOPE, abs=SLOPE), name
-    # swing arms of up to 30 m: the curvature has the accuracy, not the radius
-    curvature = bench.side * roll / velocity[2]
-    found_curvature = 1.0 / float(values["swing_arm_length_kinematic"])
-    assert found_curvature == pytest.approx(curvature, abs=SLOPE)
-
-
-@pytest.mark.parametrize("place", PLACES, ids=str)
-def test_wheel_rate_is_the_second_derivative_of_the_potential(bench, found, place):
-    parameters = bench.suspension.parameters()
-    free, rate = parameters["spring_free_length"], parameters["spring_rate"]
-
-    def potential(place):
-        return 0.5 * rate * (free - bench.spring(place)) ** 2
-
-    # a step of 4 mm: rounding of 1e-13 J / (4e-3 m)^2, and the eighth power of the step
-    expected = second_difference(lambda h: potential((place[0] + h, place[1])), 4e-3)
-    assert float(found[place]["wheel_rate"]) == pytest.approx(expected, rel=1e-7)
-    series = 1.0 / (1.0 / expected + 1.0 / parameters["tyre_rate"])
-    assert float(found[place]["ride_rate"]) == pytest.approx(series, rel=1e-7)
-
-
-@pytest.mark.parametrize("place", PLACES, ids=str)
-def test_geometric_instant_centre_is_on_the_axis_of_the_arms(bench, found, place):
-    """About it each ball joint moves across the plane of its arm."""
-    values, contact = found[place], bench.contact(place)
-    y = contact[1] - bench.side * float(values["swing_arm_length_geometric"])
-    # the roll centre is on the line from the contact to the instant centre
-    rise = float(values["roll_center_height_geometric"]) / -contact[1]
-    centre = np.array([bench.center(place)[0], y, contact[2] + rise * (y - contact[1])])
-    balls = {arm: bench.joint(f"{arm}_ball_joint", place) for arm in ("lower", "upper")}
-    planes = {
-        arm: np.cross(
-            bench.points[f"{arm}_arm_front"] - ball, bench.points[f"{arm}_arm_rear"] - ball
-        )
-        for arm, ball in balls.items()
-    }
-    axis = np.cross(planes["lower"], planes["upper"])
-    axis /= np.linalg.norm(axis)
-    for arm, ball in balls.items():
-        motion = np.cross(axis, ball - centre)
-        off = np.cross(motion, planes[arm]) / np.linalg.norm(planes[arm])
-        # arms of up to 30 m
-        assert np.abs(off).max() < 1e-11 * max(1.0, np.linalg.norm(ball - centre))
-
-
-@pytest.mark.parametrize("place", PLACES, ids=str)
-def test_steering(bench, place):
-    travel, rack = place
-    mirrored = Bench(bench.suspension.mirrored())
-    found = characteristics.over(Model(bench.suspension), "rack", [rack], travel=travel)
-    own, other = (b.by_rack(lambda p, b=b: -b.side * b.toe(p), place) for b in (bench, mirrored))
-    assert float(found["steer_gradient"][0]) == pytest.approx(own, rel=SLOPE)
-    ratio = 2.0 * np.pi / 0.05 / abs(0.5 * (own + other))
-    assert float(found["steering_ratio"][0]) == pytest.approx(ratio, rel=SLOPE)
-    left, right = (bench, mirrored) if bench.side > 0.0 else (mirrored, bench)
-    for name, one in (("steer_left", left), ("steer_right", right)):
-        assert float(found[name][0]) == pytest.approx(-one.side * one.toe(place), abs=POSE)
-
-
 shift = st.floats(-25.0, 25.0).map(lambda x: round(x, 1))
 
 
@@ -278,7 +89,7 @@ def test_any_car_stands_as_its_rods_say(shifts, side):
     moved = {f"hardpoints.{name}": (getattr(points, name) + by[name]).tolist() for name in by}
     car = CAR.with_changes(moved)
     car = car if side == "right" else car.mirrored()
-    bench, place = Bench(car), (0.03, 0.01)
+    bench, place = Wishbones(car), (0.03, 0.01)
     at = characteristics.over(Model(car), "travel", [place[0]], rack_position=place[1])
     assert float(at["camber"][0]) == pytest.approx(bench.camber(place), abs=1e-12)
     assert float(at["toe"][0]) == pytest.approx(bench.toe(place), abs=1e-12)
@@ -375,7 +186,7 @@ def test_steering_axis_goes_through_the_ball_joints():
 @pytest.mark.parametrize("name", CARS)
 def test_at_rest_the_forces_do_no_work(name):
     car = CARS[name]
-    bench, model, p = Bench(car), Model(car), car.parameters()
+    bench, model, p = Wishbones(car), Model(car), car.parameters()
     rest = kintrafo.equilibrium(model)
     travel = float(model.signal("wheel_center_z", rest)) - bench.points["wheel_center"][2]
     place = travel, 0.0

@@ -1,0 +1,169 @@
+"""Corners on test benches of the oracles: a strut, and wishbones as a carrier on five rods.
+
+A place is a travel of the wheel and a displacement of the rack [m].
+"""
+
+from typing import Any
+
+import numpy as np
+from differences import difference
+from kintrafo import Suspension
+from oracle.constraints import KNUCKLE
+from oracle.links import Carrier
+from oracle.newton import Mechanism, observe, solve_pose_at_height
+
+UP = np.array([0.0, 0.0, 1.0])
+Place = tuple[float, float]
+
+
+class Bench:
+    """A corner of which everything is measured anew, gradients by central differences."""
+
+    def __init__(self, suspension: Suspension) -> None:
+        self.suspension: Any = suspension
+        names = self.suspension.hardpoints.names()
+        self.points = {name: self.suspension.hardpoints.metres(name) for name in names}
+        self.side = np.sign(self.points["wheel_center"][1])
+        self.radius = suspension.tyre_radius()
+        self._poses: dict[Place, Any] = {}
+
+    def pose(self, place: Place) -> Any:
+        """Solve for a position, once: many quantities are differentiated there."""
+        if place not in self._poses:
+            self._poses[place] = self.solved(*place)
+        return self._poses[place]
+
+    def solved(self, travel: float, rack: float) -> Any:
+        raise NotImplementedError
+
+    def axis(self, place: Place) -> np.ndarray:
+        """Return the spin axis, outboard."""
+        raise NotImplementedError
+
+    def rotation(self, place: Place) -> np.ndarray:
+        """Return the rotation of the knuckle from design."""
+        raise NotImplementedError
+
+    def center(self, place: Place) -> np.ndarray:
+        raise NotImplementedError
+
+    def steering_axis(self, place: Place) -> tuple[np.ndarray, np.ndarray]:
+        """Return its lower and its upper point."""
+        raise NotImplementedError
+
+    def guided(self, place: Place) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Return two points of the knuckle, and which way they move."""
+        raise NotImplementedError
+
+    def spring(self, place: Place) -> float:
+        """Return the length of the spring."""
+        raise NotImplementedError
+
+    def contact(self, place: Place) -> np.ndarray:
+        # down in the wheel's plane: minus the part of e_z across the axis
+        axis = self.axis(place)
+        down = np.cross(axis, np.cross(axis, UP))
+        return self.center(place) + self.radius * down / np.linalg.norm(down)
+
+    def camber(self, place: Place) -> float:
+        axis = self.axis(place)
+        return np.arctan2(-axis[2], self.side * axis[1])
+
+    def toe(self, place: Place) -> float:
+        axis = self.axis(place)
+        return np.arctan2(axis[0], self.side * axis[1])
+
+    def caster(self, place: Place) -> float:
+        low, high = self.steering_axis(place)
+        return np.arctan2((low - high)[0], (high - low)[2])
+
+    def by_travel(self, quantity: Any, place: Place) -> Any:
+        return difference(lambda h: quantity((place[0] + h, place[1])))
+
+    def by_rack(self, quantity: Any, place: Place) -> Any:
+        return difference(lambda h: quantity((place[0], place[1] + h)))
+
+
+class Strut(Bench):
+    """Bodies in maximal coordinates, by Newton's method."""
+
+    def __init__(self, suspension: Suspension) -> None:
+        super().__init__(suspension)
+        self.mechanism = Mechanism(suspension.parameters())
+        given = suspension.parameters()
+        self.free = given["strut_length_max"] - given["spring_free_slide"]
+
+    def solved(self, travel: float, rack: float) -> Any:
+        height = float(self.mechanism.points["wheel_center"][2]) + travel
+        pose = solve_pose_at_height(self.mechanism, height, rack)
+        return pose, observe(self.mechanism, pose)
+
+    def axis(self, place: Place) -> np.ndarray:
+        spin = self.pose(place)[1].spin_axis
+        return spin * np.sign(spin[1]) * self.side
+
+    def rotation(self, place: Place) -> np.ndarray:
+        return self.pose(place)[0].rotation[KNUCKLE - 1]
+
+    def center(self, place: Place) -> np.ndarray:
+        return self.pose(place)[1].wheel_center
+
+    def steering_axis(self, place: Place) -> tuple[np.ndarray, np.ndarray]:
+        ball = self.mechanism.point(self.pose(place)[0], "ball_joint", KNUCKLE)
+        return ball, self.mechanism.points["strut_top"]
+
+    def guided(self, place: Place) -> list[tuple[np.ndarray, np.ndarray]]:
+        """The ball joint moves across the arm's plane, and the strut along itself."""
+        (ball, top), points = self.steering_axis(place), self.mechanism.points
+        plane = np.cross(points["arm_front"] - ball, points["arm_rear"] - ball)
+        return [(ball, plane), (top, top - ball)]
+
+    def spring(self, place: Place) -> float:
+        return self.pose(place)[1].strut_length
+
+
+class Wishbones(Bench):
+    """A carrier on five rods."""
+
+    def __init__(self, suspension: Suspension) -> None:
+        super().__init__(suspension)
+        self.carrier = Carrier(self.points, np.array(self.suspension.rack.axis))
+        wheel = self.suspension.wheel
+        camber, toe = (np.radians(getattr(wheel, f"{a}_deg")) for a in ("camber", "toe"))
+        # outboard, with the angles of docs/reference/conventions.md
+        axis = np.array([np.tan(toe), self.side, -np.tan(camber)])
+        self.design_axis = axis / np.linalg.norm(axis)
+        self.free = suspension.parameters()["spring_free_length"]
+
+    def solved(self, travel: float, rack: float) -> Any:
+        return self.carrier.at(travel, rack)
+
+    def axis(self, place: Place) -> np.ndarray:
+        return self.rotation(place) @ self.design_axis
+
+    def rotation(self, place: Place) -> np.ndarray:
+        return self.pose(place).rotation
+
+    def center(self, place: Place) -> np.ndarray:
+        return self.pose(place).center
+
+    def joint(self, name: str, place: Place) -> np.ndarray:
+        return self.carrier.point(self.pose(place), name)
+
+    def steering_axis(self, place: Place) -> tuple[np.ndarray, np.ndarray]:
+        return self.joint("lower_ball_joint", place), self.joint("upper_ball_joint", place)
+
+    def guided(self, place: Place) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Each ball joint moves across the plane of its arm."""
+        ends = zip(("lower", "upper"), self.steering_axis(place), strict=True)
+        bearings = (
+            (ball, *(self.points[f"{arm}_arm_{end}"] - ball for end in ("front", "rear")))
+            for arm, ball in ends
+        )
+        return [(ball, np.cross(front, rear)) for ball, front, rear in bearings]
+
+    def seat(self, place: Place) -> np.ndarray:
+        return self.carrier.on_arm(self.pose(place), "lower", self.points["spring_seat"])
+
+    def spring(self, place: Place) -> float:
+        return float(np.linalg.norm(self.seat(place) - self.points["spring_top"]))
