@@ -63,7 +63,7 @@ def measure(
     ranges : dict
         Key of a curve to the values between which it is plotted, in SI units; what lies beyond,
         near a pole for example, is not shown and not compared.
-    tell : callable, optional
+    report : callable, optional
         Takes a word on what is being done.
 
     Returns

@@ -103,7 +103,7 @@ def curves(
         Wheel travel [m].
     rack : ndarray, shape (m,)
         Rack displacement [m].
-    tell : callable, optional
+    report : callable, optional
         Takes a word on what is being done.
 
     Returns

@@ -1,7 +1,7 @@
 """The tables of the page: characteristics at design, and the input data."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ..corner.bushes import BUSH_SCHEMA
@@ -98,13 +98,8 @@ def _row(curve: Curve, value: float, decimals: int, usual: dict[str, Any] | None
     if usual is None or usual["unit"] != curve.unit:
         return plain
     within = usual["low"] <= round(shown, decimals) <= usual["high"]
-    return Row(
-        curve.key,
-        curve.group,
-        curve.label,
-        curve.unit,
-        shown,
-        decimals,
+    return replace(
+        plain,
         typical=f"{usual['low']:g} to {usual['high']:g}".replace("-", "\u2212"),
         source=usual["source"],
         verdict="within" if within else "outside",

@@ -100,7 +100,6 @@ def positions_of(assembly: Assembly, over: str, goals: Iterable[Goal]) -> NDArra
     Beyond the usual ones they are as near to each other: curves are no straight lines there.
     """
     usual = usual_positions(assembly, over)
-    """Return usual positions, with those of goals and what is between."""
     wanted = [goal.at for goal in goals if goal.over == over]
     if not wanted:
         return usual
