@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _POINTS = 1201
-_GREATEST = {"slip_angle": 0.5, "slip": 1.0}  # where the file has no range
+_GREATEST = {"slip_angle": 0.5, "slip": 1.0}  # farther nobody looks for it
 _SMALL = 1e-4  # inclination of the camber stiffness [rad]
 _SHARES = (0.5, 1.0, 1.5)
 _PER_DEGREE = np.pi / 180.0
@@ -99,7 +99,8 @@ def key_figures(tyre: Tyre, loads: Any = None) -> "xr.Dataset":
 
 def _friction(tyre: Tyre, loads: Array, over: str, way: int) -> tuple[Array, Array]:
     """Return the greatest force over the load, and where it is; of the lateral one both ways."""
-    low, high = tyre.ranges.get(over, (-_GREATEST[over], _GREATEST[over]))
+    most = _GREATEST[over]
+    low, high = np.clip(tyre.ranges.get(over, (-most, most)), -most, most)
     start, end = (low, high) if way == 0 else (0.0, high if way > 0 else low)
     along = np.linspace(start, end, _POINTS)
     if over == "slip_angle":

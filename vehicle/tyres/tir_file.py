@@ -40,7 +40,7 @@ _UNITS: Mapping[str, Mapping[str, float]] = {
 }
 _COMMENTS = ("$", "!")
 _OPTIONAL = "PRESSURE"  # in pascal where the file does not say
-_OLDER, _NEWER = (6, 21), (61, 62)
+_OLDER, _NEWER = (5, 6, 21), (61, 62)
 _OF_TEXT = frozenset(("UNITS", "MODEL", "MDI_HEADER"))
 _OF_TABLES = frozenset(("SHAPE", "DEFLECTION_LOAD_CURVE", "BOTTOMING_CURVE"))
 _SIMILAR = 0.9  # of two keys of which one is a slip of the hand, as `difflib` has it
@@ -106,11 +106,14 @@ class _Reader:
         numbers = {key: value * scales(key) for key, value in numbers.items()}
         if self._problems:
             raise InputError(self._problems, self._source)
-        weighted = any(numbers.get(key) for key in known.OF_COMBINED_SLIP)
+        asked = self._text("MODEL", "FE_METHOD").upper() == "YES"
+        weighted = not asked and any(numbers.get(key) for key in known.OF_COMBINED_SLIP)
         form = Form(newer=newer, weighted=weighted, angle=not newer)
         assumed = tuple(self._assumed(numbers, form))
         if numbers.get("QSY7") == 0.0:
             del numbers["QSY7"]
+        if _is_turned(numbers, form):
+            numbers |= {key: -numbers.get(key, 0.0) for key in ("PDY1", "PDY2")}
         return TirFile(numbers, form, name, self._side(), tuple(_listed(unused)), assumed)
 
     # -- what it is --
@@ -130,18 +133,20 @@ class _Reader:
         version = number(fit) if fit else math.nan
         if kind.upper() == "PAC2002" and (not fit or version in _OLDER):
             return False, "PAC2002"
+        if kind.upper() == "MF_05" and version in _OLDER:
+            return False, "MF 5"
         of_formula = kind.upper().replace("_", "-") in {"", "MF-TYRE", "MF-TIRE", "MF-SWIFT", "MF"}
         if of_formula and version in _NEWER:
             return True, f"MF 6.{int(version) % 10}"
         if of_formula and version in _OLDER:
-            return False, "MF 5.2"
+            return False, "MF 5"
         if not (kind or fit):
             problem = "[MODEL] has neither PROPERTY_FILE_FORMAT nor FITTYP"
         else:
             text = f"PROPERTY_FILE_FORMAT = '{_shown(kind)}'" if kind else ""
             text += " and " if kind and fit else ""
             problem = f"[MODEL] {text}{f'FITTYP = {_shown(fit)}' if fit else ''} cannot be read"
-        readable = "PROPERTY_FILE_FORMAT = 'PAC2002', or FITTYP = 6, 21 (MF 5.2), 61 or 62"
+        readable = "PROPERTY_FILE_FORMAT = 'PAC2002', or FITTYP = 5, 6, 21 (MF 5), 61 or 62"
         raise InputError([f"{problem}; {readable} can. Convert the tyre."], self._source)
 
     def _side(self) -> str:
@@ -201,6 +206,7 @@ class _Reader:
             ("MODEL", "FITTYP"),
             ("MODEL", "PROPERTY_FILE_FORMAT"),
             ("MODEL", "TYRESIDE"),
+            ("MODEL", "FE_METHOD"),
         }:
             unused.setdefault(section, {})[key] = text
 
@@ -255,7 +261,8 @@ class _Reader:
         """Yield what the file leaves open."""
         if not form.weighted:
             yield (
-                "combined slip: by the friction ellipse, since RBX1 and RBY1 are missing or zero"
+                "combined slip: by the friction ellipse, since RBX1 and RBY1 are missing or zero, "
+                "or FE_METHOD asks for it"
             )
         for what, start in (
             ("the overturning moment", "QSX"),
@@ -265,9 +272,20 @@ class _Reader:
                 yield f"{what} is zero, since its coefficients are missing or zero"
         if numbers.get("QSY7") == 0.0:
             yield "QSY7: 1 and not 0, since rolling resistance vanishes with the load"
+        if _is_turned(numbers, form):
+            yield "PDY1 and PDY2: with the other sign, which changes no force"
         for key, usual in (("LONGVL", "16.7 m/s"), ("VXLOW", "1 m/s")):
             if key not in numbers:
                 yield f"{key}: {usual}, since it is missing"
+
+
+def _is_turned(numbers: Mapping[str, float], form: Form) -> bool:
+    """Return whether the lateral peak is negative where no force depends on its sign.
+
+    D sin(C arctan(K x / (C D) ...)) does not; what slip induces does.
+    """
+    induces = form.weighted and any(numbers.get(f"RVY{i}") for i in (1, 2, 3))
+    return numbers.get("PDY1", 1.0) < 0.0 and not induces
 
 
 @dataclass(frozen=True)

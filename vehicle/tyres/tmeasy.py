@@ -51,6 +51,16 @@ _PAIRS = {
     "rolling": ("Parameters", "Dynamic Radius Weighting Coefficients"),
     "resistance": ("Rolling Resistance Coefficients",),
 }  # fmt: skip
+_NEWER = tuple(
+    ("Parameters", "Vertical", key)
+    for key in (
+        "Nominal Vertical Force [N]",
+        "Maximum Vertical Force [N]",
+        "Vertical Tire Stiffness [N/m]",
+        "Tire Spring Curve Data",
+    )
+)
+_UNKNOWN = 1e-30  # stiffness of a carcass of which the file says nothing [N/m]
 _FORMAL = {("Name",), ("Type",), ("Template",)}
 _SMALLEST = 1e-6  # beside the square of the speed of the tread over that of the wheel
 
@@ -87,13 +97,20 @@ class TMeasy(Tyre):
             told = short(legible(repr(data.get("Template"))))
             problem = f'"Template" is {told}; of JSON files "TMeasyTire" can be read.'
             raise InputError([problem], str(path))
-        reader = _Reader(data)
+        if not isinstance(data.get("Parameters"), dict):
+            problem = (
+                '"Parameters" are missing. Those of a load index or a bearing capacity are not '
+                "estimated here: add them."
+            )
+            raise InputError([problem], str(path))
+        older, used = _as_older(data)
+        reader = _Reader(older)
         values = dict(reader.values())
         problems = reader.problems or [*_impossible(values)]
         if problems:
             raise InputError(problems, str(path))
         values["friction_measured"] = values["friction"]
-        return cls(values, left_out=tuple(reader.unread(data)))
+        return cls(values, left_out=tuple(_unread(data, used)))
 
     @property
     def nominal_load(self) -> float:  # type: ignore[override]
@@ -159,12 +176,17 @@ class TMeasy(Tyre):
             "slip_stiffness": found.slip_stiffness,
             "cornering_stiffness": -found.cornering_stiffness,
             "trail": found.trail,
-            "relaxation_x": found.slip_stiffness / p["stiffness_x"],
-            "relaxation_y": -found.cornering_stiffness / p["stiffness_y"],
+            "relaxation_x": _length(found.slip_stiffness, p["stiffness_x"]),
+            "relaxation_y": _length(-found.cornering_stiffness, p["stiffness_y"]),
             "loaded_radius": static,
             "effective_radius": static + np.minimum(weight, 1.0) * deflection,
             "vertical_stiffness": root,
         }
+
+
+def _length(stiffness: Any, carcass: float) -> Any:
+    """Return a relaxation length [m]; NaN where the stiffness of the carcass is not known."""
+    return stiffness / carcass if carcass > _UNKNOWN else np.full_like(stiffness, np.nan)
 
 
 def _polynomial(p: Mapping[str, float]) -> tuple[float, float]:
@@ -213,17 +235,71 @@ class _Reader:
         if problem not in self.problems:
             self.problems.append(problem)
 
-    def unread(self, data: Mapping[str, Any], above: tuple[str, ...] = ()) -> Iterator[str]:
-        """Yield the places of keys that are not used."""
-        used = {*_FORMAL, *_DESIGN.values(), *_PAIRS.values()}
-        for key, value in data.items():
-            place = (*above, key)
-            if place in used:
-                continue
-            if isinstance(value, dict) and any(one[: len(place)] == place for one in used):
-                yield from self.unread(value, place)
-            else:
-                yield legible(short(" > ".join(place)))
+
+def _unread(
+    data: Mapping[str, Any], used: frozenset[tuple[str, ...]], above: tuple[str, ...] = ()
+) -> Iterator[str]:
+    """Yield the places of keys that are not used."""
+    for key, value in data.items():
+        place = (*above, key)
+        if place in used:
+            continue
+        if isinstance(value, dict) and any(one[: len(place)] == place for one in used):
+            yield from _unread(value, used, place)
+        else:
+            yield legible(short(" > ".join(place)))
+
+
+def _as_older(data: Mapping[str, Any]) -> tuple[dict[str, Any], frozenset[tuple[str, ...]]]:
+    """Return a file in the older form of the template, and the places of what is used of it.
+
+    The newer one has its vertical stiffness as one number or as a curve, one coefficient of
+    rolling resistance, and no carcass; a third of the deflection is in its rolling radius.
+    """
+    used = frozenset((*_FORMAL, *_DESIGN.values(), *_PAIRS.values()))
+    given = data["Parameters"].get("Vertical")
+    if not isinstance(given, dict):
+        return dict(data), used
+    nominal: Any = given.get("Nominal Vertical Force [N]")
+    usable = isinstance(nominal, int | float) and not isinstance(nominal, bool)
+    most = given.get("Maximum Vertical Force [N]", 3.5 * nominal if usable else None)
+    stiffness = given.get("Vertical Tire Stiffness [N/m]")
+    pair = None if stiffness is None else [stiffness, stiffness]
+    if pair is None and usable:
+        pair = _of_curve(given.get("Tire Spring Curve Data"), float(nominal))
+    resistance = data.get("Rolling Resistance Coefficient")
+    parameters = {
+        **data["Parameters"],
+        "Tire Load": {
+            "Nominal Vertical Force [N]": nominal,
+            "Maximum Vertical Force [N]": most,
+        },
+        "Tire Stiffness": {
+            "Longitudinal [N/m]": _UNKNOWN,
+            "Lateral [N/m]": _UNKNOWN,
+            "Vertical [N/m]": pair,
+        },
+        "Dynamic Radius Weighting Coefficients": [2.0 / 3.0, 2.0 / 3.0],
+    }
+    older = {**data, "Parameters": parameters}
+    if resistance is not None:
+        older["Rolling Resistance Coefficients"] = [resistance, resistance]
+    return older, used | {("Rolling Resistance Coefficient",), *_NEWER}
+
+
+def _of_curve(curve: Any, nominal: float) -> list[float] | None:
+    """Return the stiffness at both loads of the parabola nearest to a curve of force [N/m]."""
+    try:
+        points = np.asarray(curve, dtype=np.float64)
+    except (TypeError, ValueError):
+        return None
+    if points.ndim != 2 or points.shape[1] != 2 or len(points) < 3:
+        return None
+    deflection, force = points.T
+    both = np.column_stack([deflection, deflection * deflection])
+    (first, second), *_ = np.linalg.lstsq(both, force, rcond=None)
+    loads = nominal * np.array([1.0, 2.0])
+    return [float(x) for x in np.sqrt(np.maximum(first * first + 4.0 * second * loads, 0.0))]
 
 
 def _impossible(p: Mapping[str, float]) -> Iterator[str]:

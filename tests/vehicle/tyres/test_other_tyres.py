@@ -75,6 +75,34 @@ def test_tmeasy_figures():
     assert "load" in tyre.evaluate(9500.0).outside
 
 
+@pytest.mark.parametrize("by_curve", [False, True])
+def test_the_newer_form_of_the_template(load, by_curve):
+    """One stiffness or a curve, one resistance, no carcass; R_eff = (2 R0 + static) / 3."""
+    older = load(changed(("Parameters", "Tire Load", "Maximum Vertical Force [N]"), 3.5 * 3500.0))
+    data = changed(("Parameters", "Tire Stiffness"), None)
+    for key in ("Tire Load", "Dynamic Radius Weighting Coefficients", "Tire Damping"):
+        del data["Parameters"][key]
+    del data["Rolling Resistance Coefficients"]
+    data["Rolling Resistance Coefficient"] = 0.012
+    first, second = np.sqrt(2 * 190e3**2 - 206e3**2), (206e3**2 - 190e3**2) / (4 * 3500.0)
+    curve = [[x, first * x + second * x * x] for x in (0.0, 0.01, 0.02, 0.04)]
+    stiff = (
+        {"Tire Spring Curve Data": curve} if by_curve else {"Vertical Tire Stiffness [N/m]": 2e5}
+    )
+    data["Parameters"]["Vertical"] = {"Nominal Vertical Force [N]": 3500.0} | stiff
+    tyre = load(data)
+    found, wanted = tyre.evaluate(4000.0, 0.05, 0.1), older.evaluate(4000.0, 0.05, 0.1)
+    assert found.fx == pytest.approx(float(wanted.fx), rel=1e-12)
+    assert found.fy == pytest.approx(float(wanted.fy), rel=1e-12)
+    assert np.isnan(found.relaxation_x)
+    if by_curve:
+        assert found.loaded_radius == pytest.approx(float(wanted.loaded_radius), rel=1e-12)
+    else:
+        assert found.loaded_radius == pytest.approx(0.316 - 4000.0 / 2e5)
+    assert 3.0 * found.effective_radius == pytest.approx(2 * 0.316 + float(found.loaded_radius))
+    assert not [key for key in tyre.left_out if "Vertical" in key or "Resistance" in key]
+
+
 @pytest.mark.parametrize("tyre", [kintrafo.tyres.load(FILE), kintrafo.tyres.LinearSlip(**LINEAR)])
 def test_they_oppose_the_slip_and_are_symmetric(tyre):
     angles, slips = np.meshgrid(np.linspace(-0.6, 0.6, 13), np.linspace(-1.0, 1.0, 13))
@@ -106,7 +134,8 @@ def test_the_linear_tyre_is_linear_and_ends_at_the_friction():
     [
         (("Template",), "FialaTire", 'of JSON files "TMeasyTire" can be read'),
         (("Design", "Width [m]"), None, '"Design > Width .m." is missing'),
-        (("Parameters",), None, 'Nominal Vertical Force .N." is missing'),
+        (("Parameters",), None, '"Parameters" are missing'),
+        (("Parameters", "Tire Load"), None, 'Nominal Vertical Force .N." is missing'),
         (("Coefficient of Friction",), "much", "a finite number is needed"),
         (("Coefficient of Friction",), 0.0, "more than zero is needed"),
         (("Parameters", "Aligning", "Normalized Trail at Zero Slip sy"), [0.1], "two numbers"),

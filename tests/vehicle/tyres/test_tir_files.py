@@ -100,12 +100,30 @@ def test_other_ways_to_write_the_same(load):
 def test_what_it_is_called(load):
     assert load(NEWER).name == "MF 6.1"
     assert load(NEWER.replace("= 61", "= 62")).name == "MF 6.2"
-    assert load(NEWER.replace("= 61", "= 6")).name == "MF 5.2"
+    assert load(NEWER.replace("= 61", "= 6")).name == "MF 5"
+    named = "= 5\nPROPERTY_FILE_FORMAT = 'MF_05'"
+    assert load(NEWER.replace("= 61", named)).name == "MF 5"
     older = load(OLDER)
     assert (older.name, older.form.newer, older.form.angle) == ("PAC2002", False, True)
     assert load(ELLIPSE).form.weighted is False
     assert "friction ellipse" in load(ELLIPSE).assumed[0]
     assert load(NEWER).side == "left"
+
+
+def test_a_negative_peak_is_the_same_tyre(load):
+    """As in files of MF-Tyre 5.0 by some; what slip induces has the sign of the peak."""
+    turned = with_values(ELLIPSE, PDY1=-0.98, PDY2=0.12, FITTYP=5)
+    same(load(ELLIPSE), load(turned))
+    assert "PDY1 and PDY2" in " ".join(load(turned).assumed)
+    with pytest.raises(kintrafo.InputError, match="the friction PDY1"):
+        load(with_values(NEWER, PDY1=-0.98, PDY2=0.12))
+
+
+def test_the_friction_ellipse_may_be_asked_for(load):
+    """By a key of Project Chrono's files."""
+    asked = OLDER.replace("[DIMENSION]", "FE_METHOD = 'YES'\n[DIMENSION]")
+    assert load(asked).form == load(ELLIPSE).form
+    assert load(OLDER).form.weighted
 
 
 def test_what_is_left_open_is_told(load):
