@@ -23,6 +23,7 @@ from ..core.arguments import Arguments
 from ..core.quantities import bracketed, display_of, displayed, long_name
 from .figures import BLUE, GREEN, ORANGE, written_plainly
 from .labels import label_lines
+from .turned import turn
 
 Array = NDArray[np.float64]
 
@@ -32,6 +33,12 @@ _DASHES = ("-", "--", "-.", ":")
 # More lines than this are a carpet: some of them are drawn.
 _MOST_LINES = 7
 COLUMNS = 3
+# Width and height of a panel, its position along the horizontal or the vertical axis [in].
+_LEVEL, _UPRIGHT = (3.7, 2.5), (3.0, 3.1)
+# So many narrow panels fill rows of four.
+_FOUR_IN_A_ROW = (4, 7, 8)
+# Letters of a title above a narrow panel, and ticks below it.
+_NARROW_TITLE, _NARROW_TICKS = 34, 4
 # What labels and ticks take of a panel [in].
 _AROUND = np.array([0.9, 0.7])
 # What the names of targets and limits take below the panels, which keep their size [in].
@@ -83,6 +90,7 @@ def draw(
     alone: bool = True,
     columns: int = COLUMNS,
     positions: Collection[str] = (),
+    upright: Collection[str] = (),
     mark: Mark = unmarked,
 ) -> Figure:
     """Draw curves of some variables, each in its own axes.
@@ -99,6 +107,8 @@ def draw(
         Largest number of panels in a row.
     positions : collection of str, optional
         Dimensions whose zero is the design position.
+    upright : collection of str, optional
+        Dimensions that are on the vertical axis.
     mark : callable, optional
         Marks what else is to be seen in a panel.
 
@@ -115,24 +125,51 @@ def draw(
             names = given.names("names", names, map(str, drawable(dataset)))
             if not names:
                 given.refuse("names is empty: at least one variable is needed.")
-    columns = min(columns, len(names))
-    rows = -(-len(names) // columns)
-    size = (7.2, 4.6) if alone else (max(3.7 * columns, 5.0), 1.0 + 2.5 * rows)
+    vertical = {dimension_along(dataset[name]) in upright for name in names} == {True}
+    columns, rows, size = _grid(len(names), columns, vertical=vertical, alone=alone)
     result = Figure(figsize=size, layout="constrained")
     panels = result.subplots(rows, columns, squeeze=False).ravel()
     for index, (axes, name) in enumerate(zip(panels, names, strict=False)):
         along = _draw(axes, dataset[name], positions, mark)
         (_describe_alone if alone else _describe_panel)(axes, dataset[name])
-        if index + columns >= len(names):
+        at_edge = index % columns == 0 if along in upright else index + columns >= len(names)
+        if at_edge:
             axes.set_xlabel(_with_sign(dataset[along]), fontsize=10 if alone else 9)
+        if along in upright:
+            turn(axes)
+            if not alone:
+                _narrow(axes)
     for axes in panels[len(names) :]:
         axes.remove()
     if _marks_of_goals(panels[: len(names)]):
         result.set_size_inches(size[0], size[1] + _BELOW)
     shape = np.array(size) / (columns, rows) - _AROUND
-    _name_lines(result, panels, [dataset[name] for name in names], shape, alone=alone)
+    curves = [dataset[name] for name in names]
+    if vertical and _named_inside(panels, curves):
+        _legend_below(result, _Named(), _marks_of_goals(panels[: len(names)]))
+    else:
+        _name_lines(result, panels, curves, shape, alone=alone)
     result.suptitle("\n".join(line for line in (title, _held(dataset)) if line), fontsize=11)
     return written_plainly(result)
+
+
+def _grid(
+    count: int, columns: int, *, vertical: bool, alone: bool
+) -> tuple[int, int, tuple[float, float]]:
+    """Return columns and rows of panels, and the size of their figure [in]."""
+    if vertical and columns == COLUMNS and count in _FOUR_IN_A_ROW:
+        columns = 4
+    columns = min(columns, count)
+    rows = -(-count // columns)
+    panel = _UPRIGHT if vertical else _LEVEL
+    size = (7.2, 4.6) if alone else (max(panel[0] * columns, 5.0), 1.0 + panel[1] * rows)
+    return columns, rows, size
+
+
+def _narrow(axes: Axes) -> None:
+    """Let ticks and title of an upright panel have room."""
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=_NARROW_TICKS, steps=_TICK_STEPS))
+    axes.set_title(fill(axes.get_title(), _NARROW_TITLE), fontsize=8, color="#555555")
 
 
 def varying(dataset: xr.Dataset) -> tuple[Hashable, ...]:
@@ -160,10 +197,13 @@ def _draw(axes: Axes, data: xr.DataArray, positions: Collection[str], mark: Mark
     along, lines = _lines(data)
     position = displayed(data[along])
     styles = _styles(data, len(lines))
+    measured = _measured(data)
     curves = [
         axes.plot(position, values, dashes, color=colour, linewidth=_width(values))[0]
         for (_, values), (colour, dashes) in zip(lines, styles, strict=True)
     ]
+    for curve in curves[:measured]:
+        curve.set(marker="o", markersize=4, linewidth=_THIN)
     for (_, values), (colour, _) in zip(lines, styles, strict=True):
         alone = _alone(values)
         axes.plot(position[alone], values[alone], "o", color=colour, markersize=3.5)
@@ -191,6 +231,12 @@ def _draw(axes: Axes, data: xr.DataArray, positions: Collection[str], mark: Mark
         axis.set_major_locator(MaxNLocator(nbins=7, steps=_TICK_STEPS))
         axis.set_major_formatter(ScalarFormatter(useOffset=False))
     return along
+
+
+def _measured(data: xr.DataArray) -> int:
+    """Return how many of the first lines were measured: their samples are marked."""
+    family = _family(data)
+    return 0 if family is None else int(data[family].attrs.get("measured", 0))
 
 
 def _alone(values: Array) -> NDArray[np.bool_]:
@@ -341,6 +387,23 @@ def _name_lines(
         _legend_below(result, lines, marks)
 
 
+def _named_inside(panels: Array, curves: Sequence[xr.DataArray]) -> bool:
+    """Name few lines in a legend of each panel that has several; return whether they are few."""
+    families = {id(data): _family(data) for data in curves}
+    sizes = [data.sizes[name] for data in curves if (name := families[id(data)]) is not None]
+    if (
+        not sizes
+        or max(sizes) > _FEW_NAMES
+        or any(data.ndim > 1 and families[id(data)] is None for data in curves)
+    ):
+        return False
+    for axes, data in zip(panels, curves, strict=False):
+        if families[id(data)] is not None:
+            named = _named_lines(axes, data)
+            axes.legend(named.handles, named.labels, loc="best", fontsize=8, framealpha=0.7)
+    return True
+
+
 def _drawn_lines(axes: Axes, count: int) -> list[Line2D]:
     return [line for line in axes.get_lines() if line.get_linestyle() != "None"][:count]
 
@@ -370,6 +433,8 @@ def _legend_in(axes: Axes, lines: _Named) -> None:
 
 def _legend_below(result: Figure, lines: _Named, marks: Mapping[str, Any]) -> None:
     """Name lines, and marks of targets and limits, where they cover nothing."""
+    if not (lines.handles or marks):
+        return
     result.legend(
         [*lines.handles, *marks.values()],
         [*lines.labels, *marks],

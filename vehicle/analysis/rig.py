@@ -182,7 +182,8 @@ def beside(
     for assembly in assemblies.values():
         whole = flat(_curves(assembly, measured, held))
         found.append(whole[[n for n in map(str, measured) if n in whole]])
-    names = xr.Variable(DATA_SET, [name, *assemblies], {"long_name": "data set"})
+    attributes = {"long_name": "data set", "measured": 1}  # the first of them
+    names = xr.Variable(DATA_SET, [name, *assemblies], attributes)
     # positions are the same and may repeat: nothing is to be aligned
     return xr.concat(
         found, names, join="override", coords="minimal", compat="override",

@@ -86,6 +86,12 @@ def command(
     travel: Annotated[float, option("Wheel travel, where the rack varies.", "MM")] = 0.0,
     rack: Annotated[float, option("Rack displacement, where the travel varies.", "MM")] = 0.0,
     of: Of = None,
+    every: Annotated[
+        bool,
+        option(
+            "Draw all curves in groups, not only those that are looked at first.", None, "--all"
+        ),
+    ] = False,
     goals: wanted.Goals = None,
     positions: Annotated[
         bool,
@@ -125,7 +131,16 @@ def command(
         _positions(assembly, file, chosen, extent, held, outputs, json=output.json)
     else:
         _characteristics(
-            assembly, file, chosen, extent, held, outputs, of=of, goals=goals, json=output.json
+            assembly,
+            file,
+            chosen,
+            extent,
+            held,
+            outputs,
+            of=of,
+            every=every,
+            goals=goals,
+            json=output.json,
         )
 
 
@@ -138,6 +153,7 @@ def _characteristics(
     outputs: Outputs,
     *,
     of: list[str] | None,
+    every: bool,
     goals: "Path | None",
     json: bool,
 ) -> None:
@@ -154,6 +170,10 @@ def _characteristics(
     assembly.refuse_of_steering(of or ())
     # both wheels of an axle are drawn together
     drawn = named(of_both(of) if len(assembly.wheels) > 1 else of, curves)
+    if outputs.pages and not (of or every or aims):
+        from ..plots import first_curves
+
+        drawn = {name: list(first_curves(dataset)) for name, dataset in curves.items()}
     judged = wanted.judged({file: assembly.subject}, aims) if aims else []
     if aims and outputs.drawn:
         wanted.refuse_beyond(aims, curves)

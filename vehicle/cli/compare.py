@@ -22,6 +22,9 @@ if TYPE_CHECKING:
     from ..assembly.assembly import Assembly
     from ..studies.evaluation import Subject
 
+# Curves of two data sets are equal if they differ by less than this part of their size.
+_ROUNDING = 1e-9
+
 EXAMPLES = (
     "kintrafo compare reference_car my_car.toml",
     "kintrafo compare before.toml after.toml --over rack --plot difference.png -o both.csv",
@@ -88,10 +91,12 @@ def command(
     shown = among(of, map(str, table.data_vars)) if of else [str(n) for n in table.data_vars]
     found = [difference for difference in compare.differences(dataset) if difference.name in shown]
     first, *others = (str(name) for name in dataset["data_set"].values)
-    drawn = table.assign_coords(data_set=_titles(dataset["data_set"].values))
+    drawn = table.assign_coords(
+        data_set=("data_set", _titles(dataset["data_set"].values), dataset["data_set"].attrs)
+    )
     title = " and ".join(map(str, drawn["data_set"].values))
     written = outputs.write(
-        dataset, title=title, names=shown if of else (), drawn=drawn, goals=aims
+        dataset, title=title, names=shown if of else _differing(table), drawn=drawn, goals=aims
     )
     if output.json:
         rows = [vars(difference) | {"units": _units(table, difference)} for difference in found]
@@ -105,6 +110,16 @@ def command(
     if dataset.attrs.get("left_out"):
         say(f"columns that were not read: {dataset.attrs['left_out']}.")
     name_files(written)
+
+
+def _differing(table: "Dataset") -> list[str]:
+    """Return the curves in which two data sets differ by more than rounding."""
+    found = []
+    for name, data in table.data_vars.items():
+        between = data.max("data_set") - data.min("data_set")
+        if float(between.max()) > _ROUNDING * float(abs(data).max()):
+            found.append(str(name))
+    return found or [str(name) for name in table.data_vars]
 
 
 class _Compared(NamedTuple):

@@ -6,6 +6,14 @@
 `variation` effects of values of the input file, and bands of tolerances
 """
 
-from .curves import FORMATS, check_formats, figure, grouped, write, write_overview
+from .curves import FORMATS, check_formats, figure, first_curves, grouped, write, write_overview
 
-__all__ = ["FORMATS", "check_formats", "figure", "grouped", "write", "write_overview"]
+__all__ = [
+    "FORMATS",
+    "check_formats",
+    "figure",
+    "first_curves",
+    "grouped",
+    "write",
+    "write_overview",
+]

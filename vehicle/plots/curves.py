@@ -4,7 +4,7 @@ Targets and limits are drawn into the curves that they are about. How a curve is
 `kintrafo.pictures.curves`.
 """
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from io import BytesIO
 from pathlib import Path
@@ -30,8 +30,36 @@ from .goals import about, mark_sides
 Array = NDArray[np.float64]
 
 FORMATS = ("png", "svg", "pdf")
+# Over travel and roll, and over the rack: the curves that engineers look at first.
+_FIRST = (
+    "camber",
+    "toe",
+    "caster",
+    "kingpin_inclination",
+    "half_track_change",
+    "track_change",
+    "motion_ratio",
+    "wheel_rate",
+    "roll_center_height_kinematic",
+    "roll_center_height",
+)
+_FIRST_STEERED = (
+    "steer",
+    "camber",
+    "caster",
+    "kingpin_inclination",
+    "trail",
+    "ackermann",
+    "turning_circle",
+    "steering_ratio",
+)
+_FEWEST_FIRST = 4
+# Curves are alike up to rounding, in SI units.
+_ROUNDING = {"rtol": 1e-9, "atol": 1e-12}
 # Positions have a design value at zero; time has not.
 _WITH_DESIGN = ("wheel_travel", "rack_position", "roll_angle", "steering_wheel_angle")
+# As suspension engineers draw them.
+_UPRIGHT = ("wheel_travel",)
 
 
 def write(
@@ -219,10 +247,44 @@ def grouped(dataset: xr.Dataset, goals: Sequence[Goal] = ()) -> dict[str, tuple[
         for name in names
         if not is_constant(displayed(dataset[name])) or _is_wanted(dataset[name], goals)
     )
-    for name in varying or names:
+    for name in _without_copies(dataset, varying or names):
         group = group_of(name)
         groups[group] = (*groups.get(group, ()), name)
     return {group: groups[group] for group in ORDER if group in groups}
+
+
+def first_curves(dataset: xr.Dataset) -> tuple[str, ...]:
+    """Return the curves that are looked at first; none where few of them are there.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Characteristics over a motion.
+
+    Returns
+    -------
+    tuple of str
+        In the order of a page.
+    """
+    over_rack = any(name in dataset.dims for name in ("rack_position", "steering_wheel_angle"))
+    there = [name for name in (_FIRST_STEERED if over_rack else _FIRST) if name in dataset]
+    shown = [name for name in there if not is_constant(displayed(dataset[name]))]
+    return tuple(shown) if len(shown) >= _FEWEST_FIRST else ()
+
+
+def _without_copies(dataset: xr.Dataset, names: Iterable[Hashable]) -> Iterator[Hashable]:
+    """Yield the names of curves without those that equal an earlier one or its negative."""
+    seen: list[xr.DataArray] = []
+    for name in names:
+        data = dataset[name]
+        alike = (
+            one.dims == data.dims
+            and any(np.allclose(data, sign * one, equal_nan=True, **_ROUNDING) for sign in (1, -1))
+            for one in seen
+        )
+        if not any(alike):
+            seen.append(data)
+            yield name
 
 
 def _is_wanted(data: xr.DataArray, goals: Sequence[Goal]) -> bool:
@@ -270,6 +332,7 @@ def figure(
         alone=alone,
         columns=columns,
         positions=_WITH_DESIGN,
+        upright=_UPRIGHT,
         mark=partial(_mark, goals),
     )
 

@@ -13,6 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from ...core.files import Paths
 from ...core.quantities import bracketed, display_of, displayed, long_name
 from ...pictures.figures import BLUE, ORANGE
+from ...pictures.turned import turn
 from ..assembly.of import assembly_of
 from ..studies.curves import Curves
 from ..studies.evaluation import common_positions
@@ -87,7 +88,7 @@ def write_bands(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write the bands of characteristics over the positions, each in its own axes.
+    """Write the bands of characteristics over the positions, and their deviations from nominal.
 
     Parameters
     ----------
@@ -102,11 +103,12 @@ def write_bands(
     -------
     pathlib.Path
     """
+    panels = {key: name for name in names for key in (name, f"{name}, deviation")}
     return write_panels(
-        lambda axes, name: _bands(axes, dataset, name, limits),
-        names,
+        lambda axes, key: _bands(axes, dataset, panels[key], limits, deviation=key != panels[key]),
+        [*panels],
         path,
-        height=2.5,
+        height=3.0,
         title=title,
         force=force,
         inputs=inputs,
@@ -178,17 +180,25 @@ def _bars(axes: Axes, dataset: xr.Dataset, name: str, found: Sequence[Effect]) -
     axes.set_title(long_name(dataset[name]).removeprefix("sensitivity of "), fontsize=10)
 
 
-def _bands(axes: Axes, dataset: xr.Dataset, name: str, limits: Sequence[Limit]) -> None:
+def _bands(
+    axes: Axes, dataset: xr.Dataset, name: str, limits: Sequence[Limit], *, deviation: bool
+) -> None:
+    """Draw the bands of a characteristic, or of its deviation from that of the nominal car."""
     data = dataset[name]
     along = next(str(d) for d in data.dims if d != QUANTILE)
     position = displayed(dataset[along])
-    least, low, _, high, most = displayed(data.transpose(QUANTILE, along))
+    nominal = displayed(dataset[f"{name}_nominal"])
+    shift = nominal if deviation else np.zeros_like(nominal)
+    least, low, _, high, most = displayed(data.transpose(QUANTILE, along)) - shift
     axes.fill_between(position, least, most, color=BLUE, alpha=0.15, label="all", linewidth=0)
     axes.fill_between(position, low, high, color=BLUE, alpha=0.35, label="nine in ten", linewidth=0)
-    nominal = displayed(dataset[f"{name}_nominal"])
-    axes.plot(position, nominal, color="black", linewidth=1.4, label="as drawn")
-    mark(axes, of_curve(limits, name, str(dataset.attrs["over"])))
-    _around(axes, dataset[along].attrs, data.attrs)
+    axes.plot(position, nominal - shift, color="black", linewidth=1.4, label="nominal")
+    words = dict(data.attrs)
+    if deviation:
+        words["long_name"] = f"{words['long_name']}, deviation"
+    else:
+        mark(axes, of_curve(limits, name, str(dataset.attrs["over"])))
+    _around(axes, dataset[along].attrs, words)
 
 
 def _around(axes: Axes, along: Mapping[str, Any], values: Mapping[str, Any]) -> None:
@@ -197,3 +207,6 @@ def _around(axes: Axes, along: Mapping[str, Any], values: Mapping[str, Any]) -> 
     axes.margins(x=0.02)
     axes.set_xlabel(bracketed(str(along["long_name"]), along), fontsize=9)
     axes.set_ylabel(fill(bracketed(str(values["long_name"]), values), _LETTERS), fontsize=9.5)
+    if str(along["long_name"]) == "wheel travel":
+        turn(axes)
+        axes.xaxis.set_major_locator(MaxNLocator(nbins=5))

@@ -6,7 +6,7 @@ import xarray as xr
 from kintrafo.core.quantities import variable
 from kintrafo.pictures.curves import LEAST_SPANS
 from kintrafo.vehicle.cli.outputs import title_of
-from kintrafo.vehicle.plots.curves import figure
+from kintrafo.vehicle.plots.curves import figure, grouped
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 TRAVEL = np.linspace(-0.08, 0.08, 33)
@@ -26,7 +26,7 @@ def curves(*lines, names=None, meaning="half-track change", units="m"):
 def test_little_is_drawn_as_little(amount, widened):
     """0.15 mm takes 15 hundredths of an axis of 1 mm and is in its middle; 3 mm fill theirs."""
     axes = figure(curves(0.07 + amount * TRAVEL / 0.16), ["one"]).axes[0]
-    low, high = axes.get_ylim()
+    low, high = axes.get_xlim()
     if widened:
         assert high - low == pytest.approx(LEAST_SPANS["mm"])
         assert 0.5 * (low + high) == pytest.approx(70.0, abs=1e-9)
@@ -37,7 +37,8 @@ def test_little_is_drawn_as_little(amount, widened):
 def test_names_stand_beside_their_curves():
     """What is drawn, measured: in the colour of a line, nearest to it, and crossed by none."""
     lines = 0.02 + TRAVEL**2, -0.02 - TRAVEL**2, 0.001 * np.sin(40.0 * TRAVEL)
-    drawn = figure(curves(*lines, names=("upper", "lower", "middle")), ["one"])
+    shown = curves(*lines, names=("upper", "lower", "middle")).rename(wheel_travel="rack_position")
+    drawn = figure(shown, ["one"])
     canvas = FigureCanvasAgg(drawn)
     canvas.draw()
     (axes,) = drawn.axes
@@ -60,10 +61,31 @@ def test_names_stand_beside_their_curves():
 
 def test_names_without_room_are_in_a_legend():
     lines = 0.02 + TRAVEL, 0.02001 + TRAVEL
-    drawn = figure(curves(*lines, names=("one", "other")), ["one"])
+    shown = curves(*lines, names=("one", "other")).rename(wheel_travel="rack_position")
+    drawn = figure(shown, ["one"])
     assert [t.get_text() for t in drawn.legends[0].get_texts()] == ["one", "other"]
 
 
 def test_a_figure_calls_a_file_by_its_name():
     assert title_of("/somewhere/deep/my_car.toml") == "my_car"
     assert title_of("reference_car") == "reference_car"
+
+
+def test_wheel_travel_is_on_the_vertical_axis():
+    """With its design position, its names in the panel, and the samples of a measurement marked."""
+    shown = curves(0.02 + TRAVEL, 0.03 + TRAVEL, names=("rig", "car"))
+    shown["data_set"].attrs["measured"] = 1
+    (axes,) = figure(shown, ["one"], alone=False).axes
+    measured, car, *_ = axes.get_lines()
+    np.testing.assert_allclose(measured.get_ydata(), 1e3 * TRAVEL)
+    np.testing.assert_allclose(car.get_xdata(), 1e3 * (0.03 + TRAVEL))
+    assert (measured.get_marker(), car.get_marker()) == ("o", "None")
+    assert axes.get_ylabel().startswith("wheel travel [mm]")
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["rig", "car"]
+
+
+def test_no_curve_is_drawn_twice():
+    shown = curves(TRAVEL)
+    shown["opposite"] = -shown["one"].assign_attrs(shown["one"].attrs)
+    names = [name for group in grouped(shown).values() for name in group]
+    assert names == ["one"]
