@@ -24,8 +24,9 @@ _VIEWS = {"from behind": (1, 2, -1.0), "from the right": (0, 2, 1.0)}
 _LONGEST, _LEAST_EXTENT = 0.6, 0.15
 # Forces below this part of the greatest on a part are not drawn.
 _SMALL = 0.03
-# More loads than this on a part are labelled at the sides of its drawing, with room for that.
-_MANY, _ASIDE = 10, 0.3
+# A part with more loads than this has a row for each view. Labels are at both sides of a drawing,
+# in room that is this part of its width.
+_MANY, _ASIDE, _ASIDE_NARROW = 4, 0.35, 0.7
 # Couples below this have no label [N m].
 _SMALL_MOMENT = 1.0
 
@@ -87,22 +88,18 @@ def free_bodies(
     rows = sum(len(_VIEWS) if _crowded(loads) else 1 for loads in chosen.values())
     figure = Figure(figsize=(7.4, 0.6 + 2.5 * rows), layout="constrained")
     grid, row = figure.add_gridspec(rows, len(_VIEWS)), 0
-    crowded = {}
+    labels = {}
     for part, loads in chosen.items():
         for column, view in enumerate(_VIEWS):
-            alone = _crowded(loads)
-            place = grid[row + column, :] if alone else grid[row, column]
+            place = grid[row + column, :] if _crowded(loads) else grid[row, column]
             axes = figure.add_subplot(place)
-            labels = _draw(axes, loads, view)
+            labels[axes] = _draw(axes, loads, view)
             axes.set_title(f"{part.replace('_', ' ')}, {view}", fontsize=9.5)
-            if alone:
-                crowded[axes] = labels
         row += len(_VIEWS) if _crowded(loads) else 1
     figure.suptitle(title, fontsize=11)
-    if crowded:  # labels stand where they are drawn
-        figure.draw_without_rendering()
-    for axes, labels in crowded.items():
-        in_columns(axes, labels)
+    figure.draw_without_rendering()  # labels are placed by what is drawn
+    for axes, of_view in labels.items():
+        in_columns(axes, of_view)
     return written_plainly(figure)
 
 
@@ -135,8 +132,9 @@ def _draw(axes: Axes, loads: xr.Dataset, view: str) -> list[Annotation]:
         axes.annotate("", xy=(place[0], place[1]), xytext=(tail[0], tail[1]), arrowprops=style)
         amounts = [f"{sizes[i]:.0f} N"] if strong[i] else []
         amounts += [f"{couples[i]:.0f} N m"] if couples[i] > _SMALL_MOMENT else []
-        words = f"{by.replace('_', ' ')}\n" if _crowded(loads) else ""
-        words += ", ".join(amounts)
+        point = str(loads["point"].values[i])
+        where = "" if point == "mass" else f"\nat {point.replace('_', ' ')}"
+        words = f"{by.replace('_', ' ')}{where}\n" + ", ".join(amounts)
         label = axes.annotate(
             words, (tail[0], tail[1]), (0.0, 0.0), textcoords="offset points", fontsize=7.5,
             color=colour, ha="center", path_effects=halo,
@@ -145,7 +143,7 @@ def _draw(axes: Axes, loads: xr.Dataset, view: str) -> list[Annotation]:
         labels.append(label)
         axes.plot(*tail, alpha=0.0)  # so that arrows are within the axes
     axes.set_aspect("equal", adjustable="datalim")
-    axes.margins(_ASIDE if _crowded(loads) else 0.15, 0.15)
+    axes.margins(_ASIDE if _crowded(loads) else _ASIDE_NARROW, 0.15)
     axes.tick_params(labelsize=7)
     sides = {1: "y [mm], to the left" if sense > 0 else "-y [mm], to the right", 0: "x [mm]"}
     axes.set_xlabel(sides[across], fontsize=8)

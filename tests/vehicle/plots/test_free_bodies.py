@@ -1,0 +1,27 @@
+"""Pictures of free bodies: labels name their neighbours and points, and none is on another."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import pytest
+from kintrafo import Model, loads
+from kintrafo.vehicle.plots.loads import free_bodies
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+
+@pytest.mark.parametrize("name", ["reference_car", "push_rod_car"])
+def test_labels_do_not_overlap(name: str) -> None:
+    figure = free_bodies(loads.static(Model(name)), "brake")
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()  # type: ignore[no-untyped-call]
+    count = 0
+    for axes in figure.axes:
+        shown = [text for text in axes.texts if text.get_text()]
+        boxes = [text.get_window_extent(canvas.get_renderer()) for text in shown]
+        for (one, first), (other, second) in combinations(zip(shown, boxes, strict=True), 2):
+            assert not first.overlaps(second), (one.get_text(), other.get_text())
+        count += len(shown)
+        words = {text.get_text().splitlines()[1] for text in shown if "N" in text.get_text()}
+        assert all(word.startswith("at ") or word.endswith(" N") for word in words)
+    assert count > 20
