@@ -113,6 +113,11 @@ class Assembly(ABC):
         return ()
 
     @property
+    def held_parts(self) -> "Mapping[str, Assembly]":
+        """The assemblies whose body is held that make it, by name: itself, without one."""
+        return {"": self}
+
+    @property
     def body_moves(self) -> bool:
         """Whether the vehicle's body moves in its equations, or is held."""
         return False

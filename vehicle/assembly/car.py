@@ -15,7 +15,7 @@ from ..corner.corner import Array
 from ..input.units import in_metres
 from ..input.vehicle import Tyre
 from ..models.axle.axle import Axle
-from ..models.car.car import Car
+from ..models.car.car import Car, center_of_gravity, masses
 from ..models.car.equations import CarModel
 from ..models.model import Model
 from ..models.reach import PositionError
@@ -36,9 +36,9 @@ from .wheel_names import WheelNames
 from .whole_axle import WholeAxleAssembly, whole_axle_assembly
 
 NOT_A_CAR = (
-    "this is a whole car, and a suspension or an axle is needed. The commands characteristics, "
-    "simulate and ride take a car; for others name the file of its axle or corner. In Python: "
-    'car.axles["front"], car.axles["rear"], car.corner.'
+    "this is a whole car, and a suspension or an axle is needed. The commands check, "
+    "characteristics, simulate and ride take a car; for others name the file of its axle or "
+    'corner. In Python: car.axles["front"], car.axles["rear"], car.corner.'
 )
 """Said where something else is needed than a car."""
 
@@ -83,6 +83,25 @@ class CarAssembly(Assembly):
     def axles(self) -> tuple[str, ...]:
         """The ends at which there are axles."""
         return tuple(self.car.axles)
+
+    @property
+    def held_parts(self) -> Mapping[str, Assembly]:
+        """Its axles, or the corner of a quarter car, on a body that is held."""
+        return {end or "corner": part for end, part in self.held.items()}
+
+    def described(self) -> dict[str, str]:
+        """Return its masses in words, and what of its files it does not take."""
+        total = sum(mass for mass, _ in masses(self.car))
+        found = {"motions of the body": ", ".join(self.car.coordinates)}
+        if self.axles:
+            x, y, z = 1e3 * center_of_gravity(self.car)
+            found |= {
+                "mass": f"{total:.1f} kg",
+                "centre of gravity": f"x = {x:.1f} mm, y = {y:.1f} mm, z = {z:.1f} mm",
+            }
+        if self.car.unused:
+            found["not used"] = "; ".join(self.car.unused)
+        return found
 
     @property
     def body_moves(self) -> bool:

@@ -23,41 +23,49 @@ EXAMPLES = (
     "kintrafo check my_car.toml --json",
     "kintrafo check reference_axle",
     "kintrafo check rigid_axle",
+    "kintrafo check reference_vehicle",
 )
 
 
 def command(file: File, *, json: Json = False) -> None:
     """Say what is wrong with a hardpoint file, or sum the suspension up.
 
-    Geometry at design, reachable travel and what limits it, static equilibrium, wheel-hop mode.
-    The exit code is 1 if there is a problem.
+    Geometry at design, reachable travel and what limits it, static equilibrium, wheel-hop mode. Of
+    a car its axles one by one, on a body that is held, and its centre of gravity. The exit code is
+    1 if there is a problem.
     """
     from ...core.errors import InputError
     from ..analysis.checkup import as_dict, checkup
 
     _refuse_missing(file)
     try:
-        found = checkup(assembly_of_file(file))
+        assembly = assembly_of_file(file)
+        found = {part: checkup(one) for part, one in assembly.held_parts.items()}
     except InputError as error:
         if json:
             print_json({"problems": list(error.problems)})
         else:
             say(str(error))
         raise typer.Exit(Exit.REFUSED) from None
+    more = assembly.described() if assembly.body_moves else {}
     if json:
-        print_json(as_dict(found))
+        written = {part: as_dict(one) for part, one in found.items()}
+        print_json(written | more if more else written[""])
     else:
-        _print(found, file)
-    if found.problems:
+        for part, one in found.items():
+            _print(one, f"{file}, {part}" if part else file)
+        if more:
+            console.print(_table(f"{file}: {assembly.heading}", more))
+    if any(one.problems for one in found.values()):
         raise typer.Exit(Exit.REFUSED)
 
 
 def _refuse_missing(file: str) -> None:
     """Refuse a file that is not there, so that what a check says is about its content."""
-    from ..data.starter import packaged, packaged_axles, whole_axles
+    from ..data.starter import packaged, packaged_axles, packaged_cars, whole_axles
     from ..kinds import Suspension
 
-    names = {*packaged(), *packaged_axles(), *whole_axles()}
+    names = {*packaged(), *packaged_axles(), *whole_axles(), *packaged_cars()}
     if file not in names and not Path(file).is_file():
         Suspension.load(file)  # says so, and what was probably meant
 

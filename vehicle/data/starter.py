@@ -68,6 +68,17 @@ def packaged_axles() -> tuple[str, ...]:
     return tuple(data_sets(AXLES))
 
 
+def packaged_cars() -> tuple[str, ...]:
+    """Return the names of the cars that come with kintrafo.
+
+    Examples
+    --------
+    >>> packaged_cars()
+    ('quarter_car', 'reference_vehicle')
+    """
+    return tuple(data_sets(CARS))
+
+
 def whole_axles() -> tuple[str, ...]:
     """Return what axles there are that one file describes with both wheels, such as a rigid axle.
 

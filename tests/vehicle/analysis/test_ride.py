@@ -17,7 +17,7 @@ def car() -> kintrafo.Car:
     return kintrafo.load("quarter_car")
 
 
-# -- roads -----------------------------------------------------------------------------------------
+# -- roads ----------------------------------------------------------------------------------------
 
 
 def test_a_rough_road_has_the_spectrum_and_the_coherence_of_its_class() -> None:
@@ -73,7 +73,7 @@ def test_roads_that_cannot_be_are_refused(made, words) -> None:
         made()
 
 
-# -- weighting -------------------------------------------------------------------------------------
+# -- weighting ------------------------------------------------------------------------------------
 
 
 def test_the_weighting_is_that_of_the_standard() -> None:
@@ -94,7 +94,7 @@ def test_a_weighted_sine_has_the_size_of_the_weighting() -> None:
     assert found.max() == pytest.approx(abs(kintrafo.ride.weighting(5.0)), rel=2e-4)
 
 
-# -- a quarter car against two masses --------------------------------------------------------------
+# -- a quarter car against two masses -------------------------------------------------------------
 
 
 def test_a_quarter_car_is_that_of_two_masses_in_the_limit(car: kintrafo.Car) -> None:
@@ -208,3 +208,98 @@ def test_upward_is_the_second_derivative_of_the_height() -> None:
 def test_a_held_body_does_not_ride() -> None:
     with pytest.raises(kintrafo.InputError, match="by itself is held"):
         kintrafo.ride.modes(kintrafo.load("reference_axle"))
+
+
+# -- four wheels ----------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def whole() -> kintrafo.CarModel:
+    """Return a car on four trailing arms, with the shortest equations."""
+    arm = kintrafo.load("trailing_arm_car")
+    axles = {
+        end: kintrafo.Axle.from_dict(
+            {
+                "axle": end,
+                "side": arm.with_changes(
+                    {"vehicle.end": end, "vehicle.center_of_gravity_height_mm": None}
+                ),
+            }
+        )
+        for end in ("front", "rear")
+    }
+    body = {
+        "mass_kg": 1200.0,
+        "com_mm": [-1200.0, 20.0, 600.0],
+        "inertia_xx_kg_m2": 450.0,
+        "inertia_yy_kg_m2": 1800.0,
+        "inertia_zz_kg_m2": 1900.0,
+    }
+    seats = {"driver": {"place_mm": [-1500.0, 400.0, 500.0]}}
+    data = {"car": "roll", "wheelbase_mm": 2600.0, "rear_origin_mm": -2600.0, "body": body}
+    return kintrafo.CarModel(kintrafo.Car.from_dict(data | axles | {"seats": seats}))
+
+
+def test_corner_weights_carry_the_car(whole: kintrafo.CarModel) -> None:
+    found = kintrafo.ride.at_rest(whole)
+    loads = found["load"].values
+    weight = 9.81 * (1200.0 + 4 * 38.0)
+    assert loads.sum() == pytest.approx(weight, rel=1e-9)
+    left, right = loads[[0, 2]].sum(), loads[[1, 3]].sum()
+    # moments about the middle and about the rear wheel centres; the car leans, which moves them
+    assert (left - right) * 0.74 == pytest.approx(9.81 * 1200.0 * 0.02, rel=0.05)
+    arms = 4 * 18.0 * 0.130 * 9.81
+    front = (9.81 * 1200.0 * 1.4 + arms + 9.81 * 2 * 38.0 * 2.6) / 2.6
+    assert loads[:2].sum() == pytest.approx(front, rel=5e-3)
+    assert float(found["roll"]) < 0.0 < float(found["pitch"])  # left side down, nose down
+
+
+def test_a_slow_road_lifts_pitches_and_rolls_the_car(whole: kintrafo.CarModel) -> None:
+    """At 0.01 Hz the body follows the plane of the road, whose twist the springs share."""
+    linear = linear_at_rest(assembly_of(whole))
+    frequency = np.array([0.01])
+    by_wheel = {
+        wheel: dict(zip(linear.state_names, found[0].real, strict=True))
+        for wheel in whole.car.wheels
+        for found in [linear.state_response(frequency, f"{wheel}_road_height")]
+    }
+
+    def motion(coordinate: str, **heights: float) -> float:
+        return sum(h * by_wheel[wheel][coordinate] for wheel, h in heights.items())
+
+    wheels = whole.car.wheels
+    # the height is that of the centre of mass of the body, 1.2 m behind the front wheels
+    assert motion("heave", **dict.fromkeys(wheels, 1.0)) == pytest.approx(1.0, abs=1e-3)
+    front = {wheel: float(wheel.startswith("front")) for wheel in wheels}
+    assert motion("heave", **front) == pytest.approx(1.4 / 2.6, abs=2e-2)
+    # the weight of the body, 0.3 m above the wheel centres, goes on pitching it: 2.7 % of the
+    # stiffness of the springs. In roll tyres lean with the body, and so do their forces
+    assert 1.0 < motion("pitch", **front) * -2.6 < 1.03
+    left = {wheel: 0.74 * (1.0 if wheel.endswith("left") else -1.0) for wheel in wheels}
+    assert motion("roll", **left) == pytest.approx(1.0, abs=2e-2)
+
+
+def test_modes_have_names(whole: kintrafo.CarModel) -> None:
+    found = kintrafo.ride.modes(whole)
+    names = ["heave", "pitch", "roll", "front_hop", "front_tramp", "rear_hop", "rear_tramp"]
+    assert found["mode"].values.tolist() == names
+    frequencies = found["frequency"].values
+    assert len(set(frequencies.round(6))) == len(names)
+    assert frequencies[:3].max() < 3.0
+    assert frequencies[3:].min() > 8.0
+
+
+def test_four_wheels_ride_as_the_linear_equations_say(whole: kintrafo.CarModel) -> None:
+    speed = 20.0
+    road = iso8608("A", length=1200.0, seed=4, track=assembly_of(whole).track)
+    motion = kintrafo.ride.over(whole, road, speed, settle=4.0)
+    linear = kintrafo.ride.response(whole, speed, "A")
+    assert motion["load"].dims == ("wheel", "time")
+    for name in ("body_acceleration", "driver_acceleration"):
+        # 56 s of some 1.3 Hz: 150 periods, of which the spectrum is known to 8 %
+        simulated, expected = motion[name].attrs, linear[f"{name}_psd"].attrs
+        assert simulated["rms"] == pytest.approx(expected["rms"], rel=0.15)
+        assert simulated["weighted_rms"] == pytest.approx(expected["weighted_rms"], rel=0.15)
+    np.testing.assert_allclose(
+        motion["travel"].attrs["rms"], linear["travel_psd"].attrs["rms"], rtol=0.15
+    )
