@@ -1,6 +1,5 @@
 """Loads of whole axles: against those of their sides, balances of the whole, work, and formulas."""
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,7 +9,6 @@ from axles import AXLE, BENT, placed
 from kintrafo import (
     Axle,
     AxleModel,
-    InputError,
     Suspension,
     System,
     equilibrium,
@@ -197,22 +195,6 @@ def test_a_motion_needs_nothing_else() -> None:
     moment = motion.signals["bar_spring_moment"]
     np.testing.assert_allclose(found["bar_torque"], -moment, atol=1e-8)
     assert float(abs(found["bar_torque"]).max()) > 10.0
-    with pytest.raises(InputError, match="not a motion of this model"):
-        loads.along(AxleModel(BENT), motion)
-
-
-def test_the_command_tells_both_sides(kintrafo: Any, tmp_path: Path) -> None:
-    forces = {"left": "[0, 0.5, 0.7]", "right": "[0, 1, 1.3]"}
-    text = "".join(f"[cases.turn.{side}]\ncontact_g = {g}\n" for side, g in forces.items())
-    (tmp_path / "cases.toml").write_text(text, encoding="utf-8")
-    line = "loads reference_axle --cases cases.toml --case turn --part rack --part knuckle_left"
-    code, out, _ = kintrafo(*f"{line} -o loads.csv --plot bodies.png".split())
-    assert code == 0
-    assert "steering" in out
-    assert "knuckle_left" in out
-    table = (tmp_path / "loads.csv").read_text(encoding="utf-8")
-    assert "anti_roll_bar at bar_bush_left by chassis,turn" in table
-    assert (tmp_path / "bodies_turn.png").stat().st_size > 1000
 
 
 def test_a_search_that_leads_out_of_reach_ends_no_other_case() -> None:

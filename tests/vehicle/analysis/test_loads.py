@@ -400,14 +400,6 @@ def test_a_spring_without_leverage_is_no_dead_point() -> None:
     assert "it is not carried" in str(found["reason"].values[1])
 
 
-def test_a_motion_of_another_car_is_none_of_this() -> None:
-    model = Model(CAR)
-    motion = simulate(model, (0.0, 0.05), equilibrium(model))
-    for other in (CAR.with_changes({"strut.spring_rate_N_per_m": 60e3}), CAR.mirrored()):
-        with pytest.raises(InputError, match="not a motion of this model"):
-            loads.along(Model(other), motion)
-
-
 def test_couples_are_shown_without_a_force(kintrafo: Any, tmp_path: Path) -> None:
     (tmp_path / "c.toml").write_text(
         "[cases.couple]\ntravel_mm = 0\ncenter_Nm = [0, 400, 0]\n[cases.far]\n"

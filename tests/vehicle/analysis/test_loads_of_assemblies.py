@@ -191,6 +191,7 @@ BEYOND: list[tuple[str, Any, str]] = [
     ("axle", {"rack_mm": 900.0}, "the rack cannot be at 900 mm"),
     ("rigid", FAR, "the axle cannot be with its left wheel at"),
     ("rigid", {"travel_mm": 1e8}, "the axle cannot be with its left wheel at"),
+    ("level", {"center_N": [0.0, 0.0, -90e3]}, "at the end of its reach"),
     *(
         (name, {"contact_N": [0.0, 0.0, 9e5]}, "N too much for spring and stops")
         for name in SHORT
@@ -210,11 +211,16 @@ def test_cases_that_cannot_be_used(name: str, cases: Any, words: str) -> None:
         loads.static(SHORT[name], cases, static_load=6000.0)
 
 
+LEVEL = {"level": next(iter(RIGID.values()))}
+
+
 @pytest.mark.parametrize(("name", "case", "words"), BEYOND)
 def test_a_case_that_is_not_carried_ends_no_other(name: str, case: Any, words: str) -> None:
     with pytest.raises(PositionError, match=rf"none of the cases can be carried\s+- a: .*{words}"):
-        loads.static(SHORT[name], {"a": case})
-    found = loads.static(SHORT[name], {"still": {"contact_g": [0.0, 0.0, 1.0]}, "a": case})
+        loads.static((SHORT | LEVEL)[name], {"a": case})
+    found = loads.static(
+        (SHORT | LEVEL)[name], {"still": {"contact_g": [0.0, 0.0, 1.0]}, "a": case}
+    )
     assert str(found["reason"].sel(case="still").values) == ""
     assert words in str(found["reason"].sel(case="a").values)
     assert found.attrs["message"] == "1 of 2 cases are carried"
@@ -254,3 +260,46 @@ def test_dead_points_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
             where = "left and right: " if name == "axle" else ""
             with pytest.raises(PositionError, match=f"a: {where}the linkage is at a dead point"):
                 loads.static(subject, {"a": case})
+
+
+STIFFER = {"strut.spring_rate_N_per_m": 60e3}
+OTHERS = {
+    "stiffer corner": ("corner", Model(CORNERS["reference_car"].suspension.with_changes(STIFFER))),
+    "other side": ("corner", Model(CORNERS["reference_car"].suspension.mirrored())),
+    "axle": ("axle", BENT),
+    "rigid": ("rigid", RIGID["triangulated"]),
+}
+
+
+@pytest.mark.parametrize(("name", "other"), OTHERS.values(), ids=OTHERS)
+def test_a_motion_of_another_is_refused(name: str, other: Any) -> None:
+    model, another = (
+        of if isinstance(of, Model) else kintrafo.model_of(of) for of in (SHORT[name], other)
+    )
+    motion = kintrafo.simulate(model, (0.0, 0.01), kintrafo.equilibrium(model))
+    with pytest.raises(InputError, match="not a motion of this model"):
+        loads.along(another, motion)
+
+
+@pytest.mark.parametrize(
+    ("file", "part", "told", "load"),
+    [
+        ("reference_axle", "rack,knuckle_left", "steering",
+         "anti_roll_bar at bar_bush_left by chassis"),
+        ("rigid_axle", "beam", "panhard_rod", "beam at panhard_rod_axle by panhard_rod"),
+    ],
+)  # fmt: skip
+def test_the_command_tells_both_sides(
+    request: pytest.FixtureRequest, tmp_path: Any, file: str, part: str, told: str, load: str
+) -> None:
+    forces = {"left": "[0, 0.5, 0.7]", "right": "[0, 1, 1.3]"}
+    text = "".join(f"[cases.turn.{side}]\ncontact_g = {g}\n" for side, g in forces.items())
+    (tmp_path / "cases.toml").write_text(text, encoding="utf-8")
+    line = f"loads {file} --cases cases.toml --case turn --part {part}"
+    # a fixture has the name of the package
+    command = request.getfixturevalue("kintrafo")
+    code, out, err = command(*f"{line} -o loads.csv --plot bodies.png".split())
+    assert code == 0, err
+    assert all(word in out for word in (told, *part.split(",")[1:]))
+    assert f"{load},turn" in (tmp_path / "loads.csv").read_text(encoding="utf-8")
+    assert (tmp_path / "bodies_turn.png").stat().st_size > 1000

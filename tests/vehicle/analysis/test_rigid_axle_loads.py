@@ -5,7 +5,6 @@ The root finder of `test_rigid_axle` shares nothing with the equations or the ba
 
 import itertools
 import math
-import re
 from pathlib import Path
 from typing import Any
 
@@ -374,34 +373,7 @@ def test_a_motion_needs_nothing_else(motion: Any) -> None:
     np.testing.assert_allclose(np.linalg.norm(friction[:, 0], axis=-1), abs(pushes), atol=1e-9)
 
 
-def test_a_motion_of_another_axle_is_refused(motion: Any, refused: Any) -> None:
-    _, moving, _ = motion
-    refused(InputError, lambda: loads.along(MODEL, moving), lambda: loads.along(MODEL, 3))  # type: ignore[arg-type]
-
-
 # -- what is not carried, and what is refused -----------------------------------------------------
-
-
-def test_a_case_that_cannot_be_carried_ends_no_other() -> None:
-    cases = {
-        "still": {"contact_g": [0.0, 0.0, 1.0]},
-        "too_much": {"contact_g": [0.0, 0.0, 9.0]},
-        "lifted": {"center_N": [0.0, 0.0, -90e3]},
-        "pulled": {"travel_mm": 0.0, "right": {"center_N": [0.0, 0.0, 9e3]}},
-        "far": {"left": {"travel_mm": 900.0}, "right": {"contact_g": [0.0, 0.0, 1.0]}},
-    }
-    found = loads.static(AXLE, cases)
-    reasons = {str(case): str(found["reason"].sel(case=case).values) for case in cases}
-    assert reasons["still"] == ""
-    assert re.search(r"N too much for spring and stops.*\[bump_stop\]", reasons["too_much"])
-    assert re.search(r"at the end of its reach.*\[rebound_stop\]", reasons["lifted"])
-    assert re.search(r"^right: the road would have to pull the wheel there", reasons["pulled"])
-    assert "the axle cannot be with its left wheel at +900 mm" in reasons["far"]
-    assert found.attrs["message"] == "1 of 5 cases are carried"
-    lost = found.sel(case="far")
-    assert not np.isfinite(lost["force"]).any()
-    assert not np.isfinite(lost["rod_force"]).any()
-    assert np.isfinite(found["rod_force"].sel(case="still")).all()
 
 
 def test_no_spring_is_turned_upside_down() -> None:
@@ -483,16 +455,6 @@ def test_labels_of_free_bodies_do_not_overlap(axle: RigidAxle, case: str) -> Non
 
 
 def test_commands_tell_the_loads(kintrafo: Any, tmp_path: Path) -> None:
-    forces = {"left": "[0, 0.5, 0.7]", "right": "[0, 1, 1.3]"}
-    text = "".join(f"[cases.turn.{side}]\ncontact_g = {g}\n" for side, g in forces.items())
-    (tmp_path / "cases.toml").write_text(text, encoding="utf-8")
-    line = "loads rigid_axle --cases cases.toml --case turn --part beam"
-    code, out, _ = kintrafo(*f"{line} -o loads.csv --plot bodies.png".split())
-    assert code == 0
-    assert "panhard_rod" in out
-    table = (tmp_path / "loads.csv").read_text(encoding="utf-8")
-    assert "beam at panhard_rod_axle by panhard_rod,turn" in table
-    assert (tmp_path / "bodies_turn.png").stat().st_size > 1000
     code, out, err = kintrafo("loads", "rigid_axle")
     assert code == 0, err
     assert "panhard_rod, pull" in out
