@@ -145,9 +145,17 @@ def isotropic_coherence(n: ArrayLike, track: float) -> Array:
         Spatial frequencies [1/m].
     track : float
         Distance of the tracks [m].
+
+    Raises
+    ------
+    InputError
+        If an argument is not a finite number, or the distance is negative.
     """
     from scipy.special import k1  # noqa: PLC0415 (slow to import)
 
-    x = 2.0 * np.pi * np.asarray(n, float) * track
+    with Arguments("isotropic_coherence") as given:
+        frequencies = given.array("n", n, "1/m")
+        track = given.number("track", track, "m", least=0.0)
+    x = 2.0 * np.pi * frequencies * track
     with np.errstate(invalid="ignore"):
         return np.where(x > 0.0, x * k1(np.where(x > 0.0, x, 1.0)), 1.0)
