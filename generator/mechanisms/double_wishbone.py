@@ -11,7 +11,17 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .. import declare as d
-from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT, further_laws, of_rubber, spring_table
+from .suspension import (
+    RACK_FORCE,
+    RACK_MOTION,
+    ROAD_HEIGHT,
+    actuator,
+    damper,
+    further_laws,
+    of_rubber,
+    spring,
+    spring_table,
+)
 
 if TYPE_CHECKING:
     from ..declare.laws import Law
@@ -32,15 +42,8 @@ WHEEL_CENTER = d.Point("wheel_center", (0.0, -0.76, 0.3), "wheel centre")
 RACK_AXIS = d.Direction("rack_axis", (0.0, 1.0, 0.0), "direction of the rack")
 SPIN_AXIS = d.Direction("spin_axis", (0.0, 1.0, 0.0), "spin axis of the wheel, pointing left")
 
-SPRING = d.LinearSpring(
-    rate=d.SpringRate("spring_rate", 60000.0, "rate of the spring"),
-    free_length=d.Length(
-        "spring_free_length", 0.53, "distance of the seats with the spring force-free"
-    ),
-)
-DAMPER = d.LinearDamper(
-    rate=d.DamperRate("damper_rate", 4000.0, "rate of the damper along the spring")
-)
+SPRING = spring(60000.0, 0.53)
+DAMPER = damper(4000.0, along="the spring")
 TYRE_RATE = d.SpringRate("tyre_rate", 200000.0, "radial rate of the tyre")
 TYRE_HEIGHT = d.Displacement(
     "tyre_free_height", 0.319, "height of the wheel centre at which the tyre is free of force"
@@ -72,12 +75,7 @@ ROD_CROSS = d.Universal(
 RACK_GUIDE = d.Prismatic("rack_guide", CHASSIS, RACK, direction=RACK_AXIS)
 BEARING = d.Revolute("bearing", KNUCKLE, WHEEL, axis=d.Line(WHEEL_CENTER, SPIN_AXIS))
 
-ACTUATOR = d.Actuator(
-    input=d.Input(
-        "spring_actuator", "N", "actuator force, positive when it pushes the spring's seats apart"
-    )
-)
-
+ACTUATOR = actuator()
 TYRE = d.LinearTyre(
     name="front",
     wheel=d.Wheel(KNUCKLE, WHEEL_CENTER, SPIN_AXIS),

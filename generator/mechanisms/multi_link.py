@@ -11,7 +11,17 @@ at z = 0.
 from __future__ import annotations
 
 from .. import declare as d
-from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT, further_laws, of_rubber, spring_table
+from .suspension import (
+    RACK_FORCE,
+    RACK_MOTION,
+    actuator,
+    damper,
+    further_laws,
+    of_rubber,
+    spring,
+    spring_table,
+    tyre,
+)
 
 Place = tuple[float, float, float]
 
@@ -90,20 +100,9 @@ SENSOR_CROSS = d.Universal(
 )
 SENSOR_BALL = d.Spherical("sensor_ball", KNUCKLE, SENSOR_ROD, at=WHEEL_CENTER)
 
-SPRING = d.LinearSpring(
-    rate=d.SpringRate("spring_rate", 90000.0, "rate of the spring"),
-    free_length=d.Length(
-        "spring_free_length", 0.359, "distance of the seats with the spring force-free"
-    ),
-)
-DAMPER = d.LinearDamper(
-    rate=d.DamperRate("damper_rate", 2500.0, "rate of the damper along its axis")
-)
-ACTUATOR = d.Actuator(
-    input=d.Input(
-        "spring_actuator", "N", "actuator force, positive when it pushes the spring's seats apart"
-    )
-)
+SPRING = spring(90000.0, 0.359)
+DAMPER = damper(2500.0)
+ACTUATOR = actuator()
 COIL = d.ForceElement(
     "spring",
     d.AlongLine((CHASSIS, SPRING_TOP), (REAR_LOWER, SPRING_SEAT)),
@@ -114,15 +113,7 @@ SHOCK = d.ForceElement(
     d.AlongLine((CHASSIS, DAMPER_TOP), (KNUCKLE, DAMPER_SEAT)),
     (DAMPER, *further_laws("damper", 1.0)),
 )
-TYRE = d.LinearTyre(
-    name="rear",
-    wheel=d.Wheel(KNUCKLE, WHEEL_CENTER, SPIN_AXIS),
-    rate=d.SpringRate("tyre_rate", 200000.0, "radial rate of the tyre"),
-    free_height=d.Displacement(
-        "tyre_free_height", 0.329, "height of the wheel centre at which the tyre is free of force"
-    ),
-    road=ROAD_HEIGHT,
-)
+TYRE = tyre("rear", d.Wheel(KNUCKLE, WHEEL_CENTER, SPIN_AXIS), 0.329)
 
 MULTI_LINK = d.Mechanism(
     name="multi_link",

@@ -18,7 +18,15 @@ from .. import declare as d
 from ..declare.declared import parts
 from ..declare.parameters import Owner
 from ..program.vectors import UNIT_Y
-from .suspension import ROAD_HEIGHT, further_laws, of_rubber, spring_table
+from .suspension import (
+    actuator,
+    damper,
+    further_laws,
+    of_rubber,
+    spring,
+    spring_table,
+    tyre,
+)
 
 Place = tuple[float, float, float]
 
@@ -76,29 +84,10 @@ DAMPER_SEAT = d.Point("damper_seat", (-0.09, -0.56, 0.30), "lower end of the dam
 WHEEL = d.Rotor("wheel", 26.0, WHEEL_CENTER, axis=SPIN_AXIS, spin=1.6, diametral=0.85)
 BEARING = d.Revolute("bearing", BEAM, WHEEL, axis=d.Line(WHEEL_CENTER, SPIN_AXIS))
 
-SPRING = d.LinearSpring(
-    rate=d.SpringRate("spring_rate", 48000.0, "rate of the spring"),
-    free_length=d.Length(
-        "spring_free_length", 0.355, "distance of the seats with the spring force-free"
-    ),
-)
-DAMPER = d.LinearDamper(
-    rate=d.DamperRate("damper_rate", 3200.0, "rate of the damper along its axis")
-)
-ACTUATOR = d.Actuator(
-    input=d.Input(
-        "spring_actuator", "N", "actuator force, positive when it pushes the spring's seats apart"
-    )
-)
-TYRE = d.LinearTyre(
-    name="axle",
-    wheel=d.Wheel(BEAM, WHEEL_CENTER, SPIN_AXIS),
-    rate=d.SpringRate("tyre_rate", 230000.0, "radial rate of the tyre"),
-    free_height=d.Displacement(
-        "tyre_free_height", 0.382, "height of the wheel centre at which the tyre is free of force"
-    ),
-    road=ROAD_HEIGHT,
-)
+SPRING = spring(48000.0, 0.355)
+DAMPER = damper(3200.0)
+ACTUATOR = actuator()
+TYRE = tyre("axle", d.Wheel(BEAM, WHEEL_CENTER, SPIN_AXIS), 0.382, rate=230000.0)
 OF_A_SIDE = (
     d.ForceElement(
         "spring",

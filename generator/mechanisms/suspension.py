@@ -30,6 +30,55 @@ ROAD_VELOCITY = d.Input("road_velocity", "m/s", "rate of the road's height", ROA
 _SEGMENTS = 10
 
 
+def spring(rate: float, free_length: float, *, ends: str = "the seats") -> d.LinearSpring:
+    """Return a coil spring between two points.
+
+    Parameters
+    ----------
+    rate, free_length
+        [N/m] and [m].
+    ends
+        What the points are called.
+    """
+    return d.LinearSpring(
+        rate=d.SpringRate("spring_rate", rate, "rate of the spring"),
+        free_length=d.Length(
+            "spring_free_length", free_length, f"distance of {ends} with the spring force-free"
+        ),
+    )
+
+
+def damper(rate: float, *, along: str = "its axis") -> d.LinearDamper:
+    """Return a damper of a rate [N s/m] along an axis, with what that is called."""
+    return d.LinearDamper(d.DamperRate("damper_rate", rate, f"rate of the damper along {along}"))
+
+
+def actuator() -> d.Actuator:
+    """Return a force between the ends of the spring, which is an input."""
+    meaning = "actuator force, positive when it pushes the spring's seats apart"
+    return d.Actuator(d.Input("spring_actuator", "N", meaning))
+
+
+def tyre(name: str, wheel: d.Wheel, free_height: float, *, rate: float = 200000.0) -> d.LinearTyre:
+    """Return a tyre on a road whose height is an input.
+
+    Parameters
+    ----------
+    name, wheel
+        What it is called, and its wheel.
+    free_height, rate
+        [m] and [N/m].
+    """
+    meaning = "height of the wheel centre at which the tyre is free of force"
+    return d.LinearTyre(
+        name=name,
+        wheel=wheel,
+        rate=d.SpringRate("tyre_rate", rate, "radial rate of the tyre"),
+        free_height=d.Displacement("tyre_free_height", free_height, meaning),
+        road=ROAD_HEIGHT,
+    )
+
+
 def spring_table() -> d.SpringTable:
     """Return what acts along a spring besides its linear part: a curve."""
     return d.SpringTable(name="spring_table", segments=_SEGMENTS)

@@ -9,7 +9,15 @@ ground at z = 0.
 from __future__ import annotations
 
 from .. import declare as d
-from .suspension import ROAD_HEIGHT, further_laws, of_rubber, spring_table
+from .suspension import (
+    actuator,
+    damper,
+    further_laws,
+    of_rubber,
+    spring,
+    spring_table,
+    tyre,
+)
 
 ARM_INNER = d.Point("arm_inner", (0.40, -0.27, 0.28), "inner bearing of the arm on the chassis")
 ARM_OUTER = d.Point("arm_outer", (0.52, -0.63, 0.28), "outer bearing of the arm on the chassis")
@@ -29,20 +37,9 @@ HINGE = d.Revolute(
 )
 BEARING = d.Revolute("bearing", ARM, WHEEL, axis=d.Line(WHEEL_CENTER, SPIN_AXIS))
 
-SPRING = d.LinearSpring(
-    rate=d.SpringRate("spring_rate", 55000.0, "rate of the spring"),
-    free_length=d.Length(
-        "spring_free_length", 0.36, "distance of the seats with the spring force-free"
-    ),
-)
-ACTUATOR = d.Actuator(
-    input=d.Input(
-        "spring_actuator", "N", "actuator force, positive when it pushes the spring's seats apart"
-    )
-)
-DAMPER = d.LinearDamper(
-    rate=d.DamperRate("damper_rate", 2000.0, "rate of the damper along its axis")
-)
+SPRING = spring(55000.0, 0.36)
+ACTUATOR = actuator()
+DAMPER = damper(2000.0)
 COIL = d.ForceElement(
     "spring",
     d.AlongLine((CHASSIS, SPRING_TOP), (ARM, SPRING_SEAT)),
@@ -53,15 +50,7 @@ SHOCK = d.ForceElement(
     d.AlongLine((CHASSIS, DAMPER_TOP), (ARM, DAMPER_SEAT)),
     (DAMPER, *further_laws("damper", 1.0)),
 )
-TYRE = d.LinearTyre(
-    name="rear",
-    wheel=d.Wheel(ARM, WHEEL_CENTER, SPIN_AXIS),
-    rate=d.SpringRate("tyre_rate", 200000.0, "radial rate of the tyre"),
-    free_height=d.Displacement(
-        "tyre_free_height", 0.318, "height of the wheel centre at which the tyre is free of force"
-    ),
-    road=ROAD_HEIGHT,
-)
+TYRE = tyre("rear", d.Wheel(ARM, WHEEL_CENTER, SPIN_AXIS), 0.318)
 
 TRAILING_ARM = d.Mechanism(
     name="trailing_arm",
