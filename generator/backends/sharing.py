@@ -141,7 +141,17 @@ def _behind(names: Iterable[str], reading: Mapping[str, Iterable[str]]) -> set[s
 
 
 def alive_in(function: Function | Stage, part: Part, steps: Iterable[Assignment]) -> set[str]:
-    """Return the names that a function of several needs for its results and guards."""
+    """Return the names that a function of several needs for its results and guards.
+
+    Parameters
+    ----------
+    function
+        One of several functions.
+    part
+        Its results and guards, in the names of all steps.
+    steps
+        All steps by their names.
+    """
     guarded = (part.names.get(g.quantity.name, g.quantity.name) for g in function.guards)
     reading = {step.name: {*symbols_in(step.value)} for step in steps}
     return _behind([*chain(*map(symbols_in, part.results)), *guarded], reading)

@@ -91,7 +91,17 @@ def written(
 def written_steps(
     steps: Sequence[Assignment], dialect: Dialect, names: Mapping[str, str] | None = None
 ) -> list[Written]:
-    """Write some steps, with other names for what is called otherwise than it is."""
+    """Write some steps, with other names for what is called otherwise than it is.
+
+    Parameters
+    ----------
+    steps
+        In their order.
+    dialect
+        How operations are spelt.
+    names
+        Other names for some symbols.
+    """
     texts = written_values((step.value for step in steps), dialect, names)
     return [
         Written((names or {}).get(s.name, s.name), text, s.section, s.value.kind, s.value.of)
@@ -102,13 +112,31 @@ def written_steps(
 def written_values(
     values: Iterable[Operation], dialect: Dialect, names: Mapping[str, str] | None = None
 ) -> list[str]:
-    """Write some values, with other names for what is called otherwise than it is."""
+    """Write some values, with other names for what is called otherwise than it is.
+
+    Parameters
+    ----------
+    values
+        What is written.
+    dialect
+        How operations are spelt.
+    names
+        Other names for some symbols.
+    """
     others = names or {}
     return [text_of(value, dialect, lambda s: others.get(s.name, s.name)) for value in values]
 
 
 def formula(expression: sp.Expr, dialect: Dialect) -> str:
-    """Write an expression on its own, where it does not matter what is there first."""
+    """Write an expression on its own, where it does not matter what is there first.
+
+    Parameters
+    ----------
+    expression
+        What is written.
+    dialect
+        How operations are spelt.
+    """
     return text_of(schedule(expression), dialect)
 
 

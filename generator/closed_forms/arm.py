@@ -72,7 +72,19 @@ class Arm:
         end: Point,
         extent: sp.Expr,
     ) -> Arm:
-        """Return the arm of a body from a base on its line, whose design direction is given."""
+        """Return the arm of a body from a base on its line, whose design direction is given.
+
+        Parameters
+        ----------
+        kin, body
+            The kinematics so far, and the body.
+        line
+            Unit vector along the line, at the design position.
+        base, end
+            The point of the line from which the arm is seen, and D.
+        extent
+            The square of the extent of the loop.
+        """
         way = kin.program.vector(f"{body}_arm_design", kin.design(end) - kin.design(base))
         axes, local = axes_about(kin, f"{body}_arm", line, way)
         require(
@@ -117,7 +129,19 @@ class Fit:
 
 
 def fit_rod(kin: Kinematics, step: Spanning, leg: Leg, arm: Arm, line: Vector, reach: Reach) -> Fit:
-    """Turn an arm about a line until a leg fits, in the loop that a step closes."""
+    """Turn an arm about a line until a leg fits, in the loop that a step closes.
+
+    Parameters
+    ----------
+    kin, step
+        The kinematics so far, and the step.
+    leg
+        The rod.
+    arm, line
+        What turns, and the unit vector about which it does.
+    reach
+        Where the anchor of the rod is.
+    """
     program, body, rho = kin.program, leg.body, arm.radius
     rod = leg.rod_of(kin, step)
     loop, extent = kin.loop_of(step), extent_squared(kin, step)
@@ -161,7 +185,19 @@ def fit_rod(kin: Kinematics, step: Spanning, leg: Leg, arm: Arm, line: Vector, r
 def add_turn_of_rod(
     kin: Kinematics, unsolved: Unsolved, fit: Fit, arm: Arm, anchor: PointMotion
 ) -> None:
-    """Record velocities and bias of a body that a rod from an anchor holds by an arm."""
+    """Record velocities and bias of a body that a rod from an anchor holds by an arm.
+
+    Parameters
+    ----------
+    kin
+        The kinematics so far.
+    unsolved
+        The body.
+    fit, arm
+        The solution for its position.
+    anchor
+        Motion of the anchor.
+    """
     end, rod = arm.local, fit.rod
     length = Distance(fit.rod_vector, end - fit.rod_vector, end, rod.squared)
     target = TargetPoint(kin, unsolved.placed, anchor)

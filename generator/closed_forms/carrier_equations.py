@@ -101,7 +101,15 @@ _UNITS = (UNIT_X, UNIT_Y, UNIT_Z)
 
 
 def rotation(program: Program, name: str, u: Vector) -> Axes:
-    """Append the body axes of Rodrigues' parameters."""
+    """Append the body axes of Rodrigues' parameters.
+
+    Parameters
+    ----------
+    program, name
+        Receives the steps, and what begins their names.
+    u
+        The parameters.
+    """
     half = program.define(f"{name}_half", 2 / (1 + u.dot(u)))
     v = program.vector(f"{name}_scaled", u * half, "123")
     columns = (
@@ -112,7 +120,15 @@ def rotation(program: Program, name: str, u: Vector) -> Axes:
 
 
 def turned(axes: Axes, turn: Vector) -> Axes:
-    """Return axes after a turn so small that its square vanishes; it is given along the axes."""
+    """Return axes after a turn so small that its square vanishes; it is given along the axes.
+
+    Parameters
+    ----------
+    axes
+        Before the turn.
+    turn
+        The rotation vector [rad].
+    """
     x, y, z = axes
     return (
         x + y * turn.z - z * turn.y,

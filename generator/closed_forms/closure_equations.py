@@ -288,7 +288,17 @@ def block(
     geometry: Geometry,
     driven: Iterable[DrivenCoordinate],
 ) -> Block:
-    """Return the iteration that finds the unknowns (`Derivation`)."""
+    """Return the iteration that finds the unknowns (`Derivation`).
+
+    Parameters
+    ----------
+    program
+        From which the iteration is called.
+    tree, geometry
+        The loops, and what their equations read.
+    driven
+        The coordinates along which the solution is followed.
+    """
     name = f"loops_through_{tree.body}"
     if name in program.constants.blocks:
         return program.constants.blocks[name]

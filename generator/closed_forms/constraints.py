@@ -65,11 +65,23 @@ class Constraint(ABC):
 
     @abstractmethod
     def rate(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return how fast the residual changes with the motions of both bodies."""
+        """Return how fast the residual changes with the motions of both bodies.
+
+        Parameters
+        ----------
+        one, two
+            Velocities of the first and the second body.
+        """
 
     @abstractmethod
     def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return the second derivative of the residual, where residual and rate are zero."""
+        """Return the second derivative of the residual, where residual and rate are zero.
+
+        Parameters
+        ----------
+        one, two
+            Velocities and accelerations of the first and the second body.
+        """
 
 
 @dataclass(frozen=True)

@@ -138,7 +138,15 @@ class CoupledLoops(Tree, Iteration):
 
 
 def obstacle(step: CoupledLoops, mobility: Mobility) -> str:
-    """Say why an iteration would not help."""
+    """Say why an iteration would not help.
+
+    Parameters
+    ----------
+    step
+        The loops.
+    mobility
+        How the mechanism can move from its design position.
+    """
     unknowns, joints = len(step.unknowns), [branch.joint for branch in step.unknowns]
     if unknowns > MOST_UNKNOWNS:
         return f"{unknowns} unknowns are more than the {MOST_UNKNOWNS} of an iteration"

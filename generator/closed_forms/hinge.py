@@ -50,7 +50,19 @@ class Hinge:
         point: Point,
         extent: sp.Expr,
     ) -> Hinge:
-        """Describe a hinge, from the design position."""
+        """Describe a hinge, from the design position.
+
+        Parameters
+        ----------
+        kin, body
+            The kinematics so far, and the body.
+        joint, parent_name
+            Its hinge, and the placed body at the other side.
+        point
+            The point that defines the angle.
+        extent
+            The square of the extent of the loop.
+        """
         parent, through = kin.placed[parent_name], joint.axis.through
         n = kin.unit(f"{body}_hinge_design", kin.to_work(joint.axis.vector))
         on_parent = kin.program.vector(
@@ -76,7 +88,15 @@ class Hinge:
 
 
 def place_on_hinge(kin: Kinematics, hinge: Hinge, axes: Axes) -> TurnOnHinge:
-    """Record the pose of a body on a hinge; return it, with its motion yet to be added."""
+    """Record the pose of a body on a hinge; return it, with its motion yet to be added.
+
+    Parameters
+    ----------
+    kin, hinge
+        The kinematics so far, and the hinge.
+    axes
+        Of the body: the hinge is along the first one.
+    """
     arm, at = hinge.arm, (hinge.parent.body, hinge.through)
     local, first = {hinge.point: arm.local}, hinge.first_axis_of
     placed = place_at(kin, hinge.body, at, axes, arm.design_axes, local=local, hinge=first)
@@ -84,7 +104,15 @@ def place_on_hinge(kin: Kinematics, hinge: Hinge, axes: Axes) -> TurnOnHinge:
 
 
 def report_angle(kin: Kinematics, hinge: Hinge, axes: Axes) -> None:
-    """Give the angle of a solved hinge: zero at design, positive as its second body turns."""
+    """Give the angle of a solved hinge: zero at design, positive as its second body turns.
+
+    Parameters
+    ----------
+    kin, hinge
+        The kinematics so far, and the hinge.
+    axes
+        Of the body.
+    """
     joint, parent, program, name = hinge.joint, hinge.parent, kin.program, hinge.body
     start = program.vector(
         f"{name}_arm_on_parent", to_axes(parent.design_axes, hinge.arm.design_axes[1]), "123"

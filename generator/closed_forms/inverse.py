@@ -89,7 +89,15 @@ class Inverse:
     def solve(
         self, kin: Kinematics, name: str, rows: Matrix, b: Sequence[sp.Expr]
     ) -> list[sp.Expr]:
-        """Append the solution of ``rows x = b``, with its exact derivative."""
+        """Append the solution of ``rows x = b``, with its exact derivative.
+
+        Parameters
+        ----------
+        kin, name
+            The kinematics so far, and what begins the names of the steps.
+        rows, b
+            J, and the right side.
+        """
         program = kin.program
         b = [program.define(f"{name}_given_{i}", value) for i, value in enumerate(b, 1)]
         first = [

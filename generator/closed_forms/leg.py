@@ -108,7 +108,15 @@ class Leg(ABC):
     @classmethod
     @abstractmethod
     def match(cls, known: Known, cut: CutLoop) -> Self | None:
-        """Return the leg that the first arc of a cut loop is, if it is of this kind."""
+        """Return the leg that the first arc of a cut loop is, if it is of this kind.
+
+        Parameters
+        ----------
+        known
+            What is known.
+        cut
+            The loop as two arcs.
+        """
 
     @property
     @abstractmethod
@@ -126,7 +134,13 @@ class Leg(ABC):
         return self.placing is not None
 
     def record(self, known: Known, joint: Joint) -> set[Coordinate]:
-        """Record that it holds a body on a joint; return the coordinates that were not known."""
+        """Record that it holds a body on a joint; return the coordinates that were not known.
+
+        Parameters
+        ----------
+        known, joint
+            What is known, and the joint whose coordinate it determines.
+        """
         assert self.placing is not None
         known.steps.append(self.placing)
         return known.add_all([joint]) | self.placing.accept(known)
@@ -177,7 +191,13 @@ class Leg(ABC):
         """
 
     def rod_of(self, kin: Kinematics, step: Spanning) -> Rod:
-        """Append the leg as a rod, in the loop that a step closes."""
+        """Append the leg as a rod, in the loop that a step closes.
+
+        Parameters
+        ----------
+        kin, step
+            The kinematics so far, and the step.
+        """
         design = kin.design(self.end) - kin.design(self.anchor)
         design = kin.program.vector(f"{self.rod}_design", design)
         rod = self.stretched(kin, design, extent_squared(kin, step))
@@ -190,7 +210,13 @@ class Leg(ABC):
 
 
 def leg_of(known: Known, cut: CutLoop) -> Leg | None:
-    """Return the leg that the first arc of a cut loop is."""
+    """Return the leg that the first arc of a cut loop is.
+
+    Parameters
+    ----------
+    known, cut
+        What is known, and the loop.
+    """
     tried = (kind.match(known, cut) for kind in Leg.kinds)
     return next((leg for leg in tried if leg), None)
 
@@ -200,6 +226,11 @@ def held_on(known: Known, cut: CutLoop) -> tuple[Joint, str, Leg] | None:
 
     The other arc of the loop ends with that body; none if it is placed already, or if there is no
     such leg.
+
+    Parameters
+    ----------
+    known, cut
+        What is known, and the loop.
     """
     leg = leg_of(known, cut)
     if leg is None or not cut.other_joints:

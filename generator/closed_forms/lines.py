@@ -35,6 +35,17 @@ def line_between(
 
     Given the square of the length, the reciprocals come from that: a division that need not wait
     for the root.
+
+    Parameters
+    ----------
+    kin, name
+        The kinematics so far, and what ends the names of the steps.
+    points, motions, bodies
+        Both points, their motions, and the bodies that they are of.
+    span, length, squared
+        The way between them, its length, and the square of that.
+    rigid
+        Whether the length is constant.
     """
     if squared is None:
         inverse = kin.program.define(f"inverse_length_{name}", 1 / length)
@@ -112,7 +123,17 @@ def line_of_ends(
 def require_length(
     kin: Kinematics, name: str, ends: tuple[Point, Point], what: str, extent: sp.Expr
 ) -> None:
-    """Have `prepare` see that two points are apart at the design position."""
+    """Have `prepare` see that two points are apart at the design position.
+
+    Parameters
+    ----------
+    kin, name
+        The kinematics so far, and what begins the names of the constants.
+    ends, what
+        The points, and what has these ends, for the message.
+    extent
+        The square of the extent of the loop.
+    """
     first, second = ends
     span = kin.program.vector(f"{name}_span_design", kin.design(second) - kin.design(first))
     require(
@@ -127,7 +148,15 @@ def require_length(
 
 
 def place_rod(kin: Kinematics, leg: Leg, rod_anchor: PointMotion, length: sp.Expr) -> None:
-    """Record the line of a leg from its anchor to the body that it holds."""
+    """Record the line of a leg from its anchor to the body that it holds.
+
+    Parameters
+    ----------
+    kin, leg
+        The kinematics so far, and the leg.
+    rod_anchor, length
+        Motion of its anchor, and its length.
+    """
     end = kin.point_motion(leg.body, leg.end)
     span = kin.program.vector(f"span_{leg.rod}", end.position - rod_anchor.position)
     kin.on_line[leg.rod] = line_between(

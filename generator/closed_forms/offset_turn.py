@@ -50,6 +50,13 @@ def solve_offset_turn(kin: Kinematics, step: Spanning, leg: Leg) -> None:
 
     and the turn omega1 follows from ``(D - E) . (v_D - v_E) = 0``, whose factor is c |N|^2 / h.
     With offset zero this is `turn`, at a higher price.
+
+    Parameters
+    ----------
+    kin, step
+        The kinematics so far, and the step.
+    leg
+        The rod that holds the body.
     """
     record = kin.off_line[leg.body]
     rod_anchor = leg.anchor_motion(kin)

@@ -139,7 +139,15 @@ class Unsolved(ABC):
         """Return its bias without accelerations of the unknowns, at the rates that they have."""
 
     def with_unknowns(self, twist: Twist, values: Sequence[sp.Expr]) -> Twist:
-        """Return a twist, or a bias, with what the unknowns add."""
+        """Return a twist, or a bias, with what the unknowns add.
+
+        Parameters
+        ----------
+        twist
+            That with the unknowns at rest.
+        values
+            Rates, or accelerations, of the unknowns.
+        """
         for screw, value in zip(self.screws, values, strict=True):
             twist += screw * value
         return twist
@@ -345,6 +353,13 @@ class Condition:
         """Return how fast the residual changes per unit rate of a coordinate.
 
         Both bodies are seen from axes that move along with the target.
+
+        Parameters
+        ----------
+        k
+            The coordinate.
+        rest
+            Twist of the body for a unit rate of it, with the unknowns at rest.
         """
         target = self.target.rates(k)
         velocity = rest.linear - target.velocity + rest.angular.cross(self.at)
@@ -492,7 +507,13 @@ def place_at(
 
 
 def projector(kin: Kinematics, placed: BodyMotion) -> Callable[[str, Vector], Vector]:
-    """Return a function that appends the body components of a work vector."""
+    """Return a function that appends the body components of a work vector.
+
+    Parameters
+    ----------
+    kin, placed
+        The kinematics so far, and the body.
+    """
 
     def to_body(label: str, v: Vector) -> Vector:
         return kin.program.vector(f"{placed.body}_{label}", to_axes(placed.axes, v), "123")

@@ -109,7 +109,13 @@ def turn_on_cross(
 
 
 def line_from_own_end(kin: Kinematics, body: str) -> OnLine:
-    """Return the line of a link, from a point of the link on."""
+    """Return the line of a link, from a point of the link on.
+
+    Parameters
+    ----------
+    kin, body
+        The kinematics so far, and the link.
+    """
     record = kin.on_line[body]
     own = [joint.center for joint in kin.mechanism.joints_of(body)]
     return record if record.anchor in own else record.reversed()

@@ -174,7 +174,15 @@ class Strut(Leg):
 
 
 def is_strut(pair: GuidedPair, cross: Joint, ball: Joint) -> bool:
-    """Return whether two links are a strut: a cross holds the first one, a ball joint the other."""
+    """Return whether two links are a strut: a cross holds the first one, a ball joint the other.
+
+    Parameters
+    ----------
+    pair
+        The two links.
+    cross, ball
+        What holds the first one, and the second one.
+    """
     crossed = isinstance(cross, Universal) and cross.second.name == pair.near
     return crossed and isinstance(ball, Spherical) and pair.along_ends
 

@@ -69,7 +69,15 @@ class DrivenYoke:
 
 
 def through_center(hinge: Revolute, cross: Universal, scale: sp.Expr) -> Iterator[Assumption]:
-    """Yield what keeps a hinge in the centre of a cross."""
+    """Yield what keeps a hinge in the centre of a cross.
+
+    Parameters
+    ----------
+    hinge, cross
+        The two joints.
+    scale
+        A length of the mechanism.
+    """
     center, axis = cross.at, hinge.axis
     if not axis.contains(center):
         beside = (center.position - axis.through.position).cross(axis.vector)
@@ -93,7 +101,15 @@ class GivenAxis:
 
 
 def second_axis(kin: Kinematics, cross: Universal, line: Vector) -> Vector:
-    """Return the axis of a cross in its second body at the design position, across its line."""
+    """Return the axis of a cross in its second body at the design position, across its line.
+
+    Parameters
+    ----------
+    kin, cross
+        The kinematics so far, and the joint.
+    line
+        That of the second body, at the design position.
+    """
     body, first = cross.second.name, kin.design_direction(cross.first_axis)
     meaning = f"the shaft {body} lies along the first axis of universal joint {cross.name}"
     return second_of_cross(kin, body, first, line, meaning)

@@ -158,7 +158,13 @@ class Assembly:
         )
 
     def universal_at(self, body: str, center: Point) -> Universal | None:
-        """Return the universal joint that holds a shaft at a point, if there is one."""
+        """Return the universal joint that holds a shaft at a point, if there is one.
+
+        Parameters
+        ----------
+        body, center
+            The shaft, and the point.
+        """
         for joint in self.joints_of(body):
             if isinstance(joint, Universal) and joint.at == center and joint.second.name == body:
                 return joint

@@ -175,7 +175,17 @@ def _is_across(joint: Joint, normal: Direction) -> bool:
 def check_symbols(
     name: str, used: Iterable[str], declared: Collection[str], mechanism: Assembly
 ) -> None:
-    """Raise `DeclarationError` if equations read what nobody declares."""
+    """Raise `DeclarationError` if equations read what nobody declares.
+
+    Parameters
+    ----------
+    name
+        What is derived, for the message.
+    used, declared
+        Symbols of the equations, and those that something declares.
+    mechanism
+        Whose equations they are.
+    """
     unknown = [n for n in sorted(used) if n not in declared]
     problems = list(_leaving_problems(mechanism, unknown))
     problems = problems or [f"the equations read {n!r}, which is not declared" for n in unknown]

@@ -231,7 +231,15 @@ class AnyTable(AnyLaw, Owner):
 
     @abstractmethod
     def beyond(self, at: Stretch, knot: sp.Symbol) -> sp.Expr:
-        """Return how far the element is pressed beyond a knot."""
+        """Return how far the element is pressed beyond a knot.
+
+        Parameters
+        ----------
+        at
+            Length or velocity of the element.
+        knot
+            A point of the curve.
+        """
 
     @cached_property
     def numbers(self) -> tuple[Parameter, ...]:

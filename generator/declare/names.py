@@ -111,7 +111,13 @@ def name_problems(mechanism: Assembly) -> list[str]:
 
 
 def input_name_problems(mechanism: Assembly, inputs: Iterable[Input]) -> list[str]:
-    """Find names that inputs cannot have beside those of a mechanism."""
+    """Find names that inputs cannot have beside those of a mechanism.
+
+    Parameters
+    ----------
+    mechanism, inputs
+        Whose names are taken, and the inputs.
+    """
     taken = {p.name: "parameter" for p in mechanism.parameters}
     taken |= {c.name: "coordinate" for c in mechanism.coordinates}
     problems = []
@@ -159,7 +165,13 @@ def _texts(output: Output) -> Iterator[str]:
 
 
 def unwritable(what: str, text: str) -> list[str]:
-    """Find out whether a text would end the comment or the docstring that it is in."""
+    """Find out whether a text would end the comment or the docstring that it is in.
+
+    Parameters
+    ----------
+    what, text
+        What the text is, for the message, and the text.
+    """
     if any(end in text for end in _ENDS_OF_COMMENTS):
         allowed = 'write one line without */, """ and backslashes'
         return [f"{what}: the text {text!r} cannot be in a comment of the code; {allowed}"]

@@ -107,7 +107,15 @@ class AnyPath(ABC):
 
     @abstractmethod
     def course(self, at: Surroundings, name: str) -> Course:
-        """Append its length and the rate of that; `name` begins the names of the steps."""
+        """Append its length and the rate of that; `name` begins the names of the steps.
+
+        Parameters
+        ----------
+        at
+            What surrounds the element.
+        name
+            Begins the names of the steps.
+        """
 
 
 @declared

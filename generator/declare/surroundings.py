@@ -71,13 +71,33 @@ class Surroundings(Protocol):
     # -- bodies --
 
     def local(self, body: str, point: Point) -> Vector:
-        """Return the constant coordinates of a point, in body axes."""
+        """Return the constant coordinates of a point, in body axes.
+
+        Parameters
+        ----------
+        body, point
+            The body, and the point by its place at the design position.
+        """
 
     def direction(self, body: str, direction: Direction) -> Vector:
-        """Return the constant components of a direction fixed in a body, in body axes."""
+        """Return the constant components of a direction fixed in a body, in body axes.
+
+        Parameters
+        ----------
+        body, direction
+            The body, and the direction at the design position.
+        """
 
     def line(self, body: str, direction: Direction, follows: bool) -> Vector:
-        """Return a unit vector in body axes, fixed in the body if it follows, or in the world."""
+        """Return a unit vector in body axes, fixed in the body if it follows, or in the world.
+
+        Parameters
+        ----------
+        body, direction
+            The body, and the direction at the design position.
+        follows
+            Whether it is fixed in the body, else in the world.
+        """
 
     def up(self, body: str) -> Vector:
         """Return the upward unit vector of the world, in body axes."""
@@ -89,16 +109,40 @@ class Surroundings(Protocol):
         """Yield body, coordinate and linear momentum per unit rate, in body axes, where mass is."""
 
     def height(self, body: str, local: Vector) -> sp.Expr:
-        """Return the height of a point of a body in the world."""
+        """Return the height of a point of a body in the world.
+
+        Parameters
+        ----------
+        body, local
+            The body, and the point in its axes.
+        """
 
     def place(self, body: str, local: Vector) -> Vector:
-        """Return the position of a point of a body in the world."""
+        """Return the position of a point of a body in the world.
+
+        Parameters
+        ----------
+        body, local
+            The body, and the point in its axes.
+        """
 
     def in_world(self, body: str, vector: Vector) -> Vector:
-        """Return the components in the world of a vector in body axes."""
+        """Return the components in the world of a vector in body axes.
+
+        Parameters
+        ----------
+        body, vector
+            The body, and a vector in its axes.
+        """
 
     def rising(self, body: str, local: Vector) -> sp.Expr:
-        """Return the upward acceleration of a point that the coordinates' own leave over."""
+        """Return the upward acceleration of a point that the coordinates' own leave over.
+
+        Parameters
+        ----------
+        body, local
+            The body, and the point in its axes.
+        """
 
     # -- paths --
 
@@ -114,7 +158,19 @@ class Surroundings(Protocol):
     def between(
         self, first: tuple[str, Point], second: tuple[str, Point]
     ) -> tuple[Vector, Mapping[str, Vector]]:
-        """Return the way from one point to another, and its rate per unit rate, in equal axes."""
+        """Return the way from one point to another, and its rate per unit rate, in equal axes.
+
+        Parameters
+        ----------
+        first, second
+            Body and point at either end.
+        """
 
     def extent(self, body: str, point: Point) -> Vector:
-        """Return where a point is at the design position: a measure of size."""
+        """Return where a point is at the design position: a measure of size.
+
+        Parameters
+        ----------
+        body, point
+            The body, and the point by its place at the design position.
+        """

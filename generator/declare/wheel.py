@@ -68,7 +68,15 @@ class Wheel:
         return self.carrier.name
 
     def velocity(self, at: Surroundings, coordinate: str) -> Vector:
-        """Return the velocity of the centre per unit rate, in the carrier's axes."""
+        """Return the velocity of the centre per unit rate, in the carrier's axes.
+
+        Parameters
+        ----------
+        at
+            What surrounds the wheel.
+        coordinate
+            The coordinate.
+        """
         twist, center = at.twists(self._body)[coordinate], at.local(self._body, self.center)
         return at.program.vector(
             f"{self._body}_wheel_velocity_{coordinate}",
@@ -77,7 +85,15 @@ class Wheel:
         )
 
     def upright(self, at: Surroundings, prefix: str) -> Upright:
-        """Append position and attitude of the wheel; names of steps begin with the prefix."""
+        """Append position and attitude of the wheel; names of steps begin with the prefix.
+
+        Parameters
+        ----------
+        at
+            What surrounds the wheel.
+        prefix
+            Begins the names of the steps.
+        """
         program, up = at.program, at.up(self._body)
         axis = at.direction(self._body, self.spin)
         lean = program.define(f"{prefix}wheel_axis_up", axis.dot(up))
@@ -93,7 +109,15 @@ class Wheel:
         return Upright(up, axis, pull, squared)
 
     def signals(self, at: Surroundings, prefix: str) -> Iterator[Shown]:
-        """Yield the signals of position, attitude and motion of the wheel, with a prefix."""
+        """Yield the signals of position, attitude and motion of the wheel, with a prefix.
+
+        Parameters
+        ----------
+        at
+            What surrounds the wheel.
+        prefix
+            Begins the names of the signals.
+        """
         yield from self._motion(at, prefix)
         yield from self._angles(at, prefix)
 

@@ -34,6 +34,11 @@ def acted(force: Force, at: Seen) -> Action:
     ------
     DeclarationError
         If its `act` fails, or returns what is no action on the coordinates.
+
+    Parameters
+    ----------
+    force, at
+        The force, and what surrounds it.
     """
     if not _has_own_code(force):
         return force.act(at)
@@ -56,6 +61,13 @@ def shown_by(force: Force, at: Seen, action: Action) -> Iterator[Shown]:
     ------
     DeclarationError
         If its `signals` fails, or yields what is no signal.
+
+    Parameters
+    ----------
+    force, at
+        The force, and what surrounds it.
+    action
+        What it does.
     """
     if not _has_own_code(force):
         yield from force.signals(at, action)

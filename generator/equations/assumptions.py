@@ -46,7 +46,15 @@ def find_assumptions(plan: Plan) -> list[Assumption]:
 
 
 def define_assumptions(program: Program, assumed: Iterable[Assumption]) -> tuple[Assumption, ...]:
-    """Append what must be zero as constants, and return it in their names."""
+    """Append what must be zero as constants, and return it in their names.
+
+    Parameters
+    ----------
+    program
+        Receives the constants.
+    assumed
+        What must be zero.
+    """
     program.section("what must be zero")
     named: dict[sp.Expr, Assumption] = {}
     for assumption in assumed:

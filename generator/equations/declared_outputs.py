@@ -32,7 +32,13 @@ NONE = sp.Integer(0)
 
 
 def signals_of(dynamics: Dynamics, output: Output) -> Iterator[Shown]:
-    """Yield the signals of an output."""
+    """Yield the signals of an output.
+
+    Parameters
+    ----------
+    dynamics, output
+        The equations of motion, and the output.
+    """
     if isinstance(output, PositionOf):
         yield from _components(output, _position(dynamics, output), "m", "position of the ")
     elif isinstance(output, VelocityOf):

@@ -57,19 +57,37 @@ class _Screw:
 
 
 def rotate_x(angle: sp.Expr, v: Vector) -> Vector:
-    """Return a vector turned about x."""
+    """Return a vector turned about x.
+
+    Parameters
+    ----------
+    angle, v
+        The angle [rad], right-handed, and the vector.
+    """
     c, s = sp.cos(angle), sp.sin(angle)
     return Vector(v.x, c * v.y - s * v.z, s * v.y + c * v.z)
 
 
 def rotate_y(angle: sp.Expr, v: Vector) -> Vector:
-    """Return a vector turned about y."""
+    """Return a vector turned about y.
+
+    Parameters
+    ----------
+    angle, v
+        The angle [rad], right-handed, and the vector.
+    """
     c, s = sp.cos(angle), sp.sin(angle)
     return Vector(c * v.x + s * v.z, v.y, c * v.z - s * v.x)
 
 
 def rotate_z(angle: sp.Expr, v: Vector) -> Vector:
-    """Return a vector turned about z."""
+    """Return a vector turned about z.
+
+    Parameters
+    ----------
+    angle, v
+        The angle [rad], right-handed, and the vector.
+    """
     c, s = sp.cos(angle), sp.sin(angle)
     return Vector(c * v.x - s * v.y, s * v.x + c * v.y, v.z)
 
@@ -182,7 +200,15 @@ class RelativeCoordinates:
         )
 
     def from_axis(self, placed: BodyMotion, joint: Cylindrical, point: Point) -> Vector:
-        """Return a point of a telescope's second body from where the axis passes through it."""
+        """Return a point of a telescope's second body from where the axis passes through it.
+
+        Parameters
+        ----------
+        placed, joint
+            The second body, and the telescope.
+        point
+            A point of that body.
+        """
         assert isinstance(joint.axis.through, Point)
         return self.kin.local(placed, point) - self.kin.local(placed, joint.axis.through)
 
@@ -250,7 +276,13 @@ class RelativeCoordinates:
         return screws
 
     def reported(self, joint: str, kind: str) -> str | None:
-        """Return the first name under which a joint's coordinate is reported."""
+        """Return the first name under which a joint's coordinate is reported.
+
+        Parameters
+        ----------
+        joint, kind
+            Name of the joint, and which of its coordinates.
+        """
         return reported(self.mechanism, joint, kind)
 
     def _screws(self, joint: Joint) -> list[_Screw]:

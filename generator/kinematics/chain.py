@@ -17,7 +17,15 @@ if TYPE_CHECKING:
 
 
 def reported(mechanism: Mechanism, joint: str, kind: str) -> str | None:
-    """Return the first name under which a joint's coordinate is reported."""
+    """Return the first name under which a joint's coordinate is reported.
+
+    Parameters
+    ----------
+    mechanism
+        Whose report it is.
+    joint, kind
+        Name of the joint, and which of its coordinates.
+    """
     entries = mechanism.coordinates
     return next((c.name for c in entries if (c.joint.name, c.kind) == (joint, kind)), None)
 
@@ -26,6 +34,11 @@ def chain_to(mechanism: Mechanism, body: str) -> list[Joint] | None:
     """Return the joints from the ground to a body, as few as can be; None if none lead there.
 
     None leads to what moves freely in the world, or hangs on it.
+
+    Parameters
+    ----------
+    mechanism, body
+        Whose joints, and which body.
     """
     graph = nx.DiGraph()
     for joint in mechanism.joints:
@@ -41,6 +54,12 @@ def chain_to(mechanism: Mechanism, body: str) -> list[Joint] | None:
 
 
 def before_telescope(chain: Sequence[Joint], joint: Joint) -> bool:
-    """Return whether a telescope is next behind a joint of a chain."""
+    """Return whether a telescope is next behind a joint of a chain.
+
+    Parameters
+    ----------
+    chain, joint
+        The joints from the ground on, and one of them.
+    """
     behind = chain[chain.index(joint) + 1 :]
     return bool(behind) and isinstance(behind[0], Cylindrical)

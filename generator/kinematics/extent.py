@@ -27,6 +27,11 @@ def extent_squared(kin: Kinematics, step: Spanning) -> sp.Expr:
     """Append the square of the extent of the loop that a step closes, a constant [m^2].
 
     Of a step that closes none, it is that of all joints.
+
+    Parameters
+    ----------
+    kin, step
+        The kinematics so far, and the step.
     """
     loop = kin.closed_by(step)
     joints = loop.joints if loop else kin.mechanism.joints
@@ -48,7 +53,19 @@ def require(
     meaning: str,
     remedy: str,
 ) -> None:
-    """Have `prepare` refuse parameters for which a constant vanishes."""
+    """Have `prepare` refuse parameters for which a constant vanishes.
+
+    Parameters
+    ----------
+    kin
+        The kinematics so far.
+    name, quantity
+        The constant.
+    least, unit
+        What its size must be over, and their unit.
+    meaning, remedy
+        What it means that it is not, and what to do then.
+    """
     program = kin.program
     value = program.define(name, quantity)
     if not value.is_number:

@@ -14,7 +14,13 @@ if TYPE_CHECKING:
 
 
 def slide_of(kin: Kinematics, joint: Prismatic) -> sp.Expr:
-    """Return the slide of a guide [m]: given or solved."""
+    """Return the slide of a guide [m]: given or solved.
+
+    Parameters
+    ----------
+    kin, joint
+        The kinematics so far, and the guide.
+    """
     if kin.coordinates.is_given(joint):
         return kin.given(joint)
     return kin.program.define(f"slide_{joint.name}", kin.slides[joint.name])
@@ -25,6 +31,11 @@ def sliding_rates(kin: Kinematics, joint: Prismatic) -> dict[str, sp.Expr]:
 
     The guide's direction d turns with the first body, and both bodies turn alike: ``d . v`` of the
     second body's origin, less that of what the first has there.
+
+    Parameters
+    ----------
+    kin, joint
+        The kinematics so far, and the guide.
     """
     if kin.coordinates.is_given(joint):
         own = kin.coordinates.of(joint), kin.coordinates.ratio(joint)

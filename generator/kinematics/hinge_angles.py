@@ -41,7 +41,13 @@ class HingeDesign:
 
     @classmethod
     def of(cls, kin: Kinematics, joint: Revolute) -> HingeDesign:
-        """Describe a hinge that has an ``angle_to``."""
+        """Describe a hinge that has an ``angle_to``.
+
+        Parameters
+        ----------
+        kin, joint
+            The kinematics so far, and the hinge.
+        """
         assert joint.angle_to is not None
         program, name = kin.program, joint.name
         n = axis_at_design(kin, joint)
@@ -58,23 +64,47 @@ class HingeDesign:
         return cls(axis, zero, mark, along, radius)
 
     def angle(self, program: Program, name: str) -> sp.Expr:
-        """Append the angle [rad], from 0 to pi."""
+        """Append the angle [rad], from 0 to pi.
+
+        Parameters
+        ----------
+        program, name
+            Receives the step, and what begins its name.
+        """
         sine, cosine = self.axis.dot(self.zero.cross(self.mark)), self.zero.dot(self.mark)
         return program.define(f"{name}_angle_design", sp.atan2(sine, cosine))
 
 
 def axis_at_design(kin: Kinematics, joint: Revolute) -> Vector:
-    """Return the unit vector along a hinge as declared, at design, in work axes."""
+    """Return the unit vector along a hinge as declared, at design, in work axes.
+
+    Parameters
+    ----------
+    kin, joint
+        The kinematics so far, and the hinge.
+    """
     return kin.unit(f"{joint.name}_axis_design", kin.to_work(joint.axis.vector))
 
 
 def positive_axis_at_design(kin: Kinematics, joint: Revolute) -> Vector:
-    """Return the unit vector about which the angle of a hinge is positive, at design."""
+    """Return the unit vector about which the angle of a hinge is positive, at design.
+
+    Parameters
+    ----------
+    kin, joint
+        The kinematics so far, and the hinge.
+    """
     return axis_at_design(kin, joint) if joint.angle_to is None else HingeDesign.of(kin, joint).axis
 
 
 def angle_of(kin: Kinematics, joint: Revolute) -> sp.Expr:
-    """Return the angle of a hinge [rad]: given, solved, or from the poses of its two bodies."""
+    """Return the angle of a hinge [rad]: given, solved, or from the poses of its two bodies.
+
+    Parameters
+    ----------
+    kin, joint
+        The kinematics so far, and the hinge.
+    """
     if kin.coordinates.is_given(joint):
         return kin.given(joint)
     if joint.name in kin.angles and joint.angle_to is None:
@@ -87,6 +117,11 @@ def turning_rates(kin: Kinematics, joint: Revolute) -> dict[str, sp.Expr]:
     """Return the rate of a hinge's angle per unit rate of each coordinate that turns it.
 
     The axis is fixed in both bodies: ``n . omega`` of the second less that of the first.
+
+    Parameters
+    ----------
+    kin, joint
+        The kinematics so far, and the hinge.
     """
     rates: dict[str, sp.Expr] = {}
     for sense, name in ((1, joint.second.name), (-1, joint.first.name)):
@@ -99,7 +134,13 @@ def turning_rates(kin: Kinematics, joint: Revolute) -> dict[str, sp.Expr]:
 
 
 def is_first_axis(kin: Kinematics, joint: Revolute) -> bool:
-    """Return whether a hinge placed its second body, so that it is the first of the body's axes."""
+    """Return whether a hinge placed its second body, so that it is the first of the body's axes.
+
+    Parameters
+    ----------
+    kin, joint
+        The kinematics so far, and the hinge.
+    """
     return kin.placed[joint.second.name].hinge == joint.name
 
 
@@ -165,6 +206,11 @@ def turn_between(kin: Kinematics, joint: Revolute) -> tuple[sp.Expr, sp.Expr]:
     With ``angle_to``, from the two directions that the angle is declared between. Without, it is
     the turn from the design position: with a the axes of the second body as the first carries them
     on from there, and b as they are, ``2 sin = n . sum(a x b)`` and ``1 + 2 cos = sum(a . b)``.
+
+    Parameters
+    ----------
+    kin, joint
+        The kinematics so far, and the hinge.
     """
     first, second = kin.placed[joint.first.name], kin.placed[joint.second.name]
     n = _carried(kin, first, f"{joint.name}_axis", positive_axis_at_design(kin, joint))

@@ -148,7 +148,13 @@ class Kinematics:
         return f"the loop {' - '.join(self._loops[step].bodies)}"
 
     def unit(self, name: str, vector: Vector) -> Vector:
-        """Append the unit vector along a constant vector."""
+        """Append the unit vector along a constant vector.
+
+        Parameters
+        ----------
+        name, vector
+            What begins the names of the steps, and the vector.
+        """
         v = self.program.vector(f"{name}_vector", vector)
         length = self.program.define(f"{name}_norm", sp.sqrt(v.dot(v)))
         return self.program.vector(name, v * (1 / length))
@@ -157,6 +163,11 @@ class Kinematics:
         """Append two unit vectors across a constant one, without a case for any direction.
 
         Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.
+
+        Parameters
+        ----------
+        name, n
+            What begins the names of the steps, and the unit vector.
         """
         s = self.program.define(f"{name}_half_space", SignOf(n.z))
         a = self.program.define(f"{name}_slope", -1 / (s + n.z))
@@ -215,7 +226,13 @@ class Kinematics:
         return self.program.vector(f"work_{direction.name}", self.to_work(vector))
 
     def local(self, placed: BodyMotion, point: Point) -> Vector:
-        """Return the constant body coordinates of a point."""
+        """Return the constant body coordinates of a point.
+
+        Parameters
+        ----------
+        placed, point
+            The body, and the point by its place at the design position.
+        """
         if point not in placed.local:
             arm = self.program.vector(
                 f"{placed.body}_arm_{point.name}", self.design(point) - placed.design_origin
@@ -226,7 +243,13 @@ class Kinematics:
         return placed.local[point]
 
     def local_direction(self, placed: BodyMotion, direction: Direction) -> Vector:
-        """Return the constant body components of a direction fixed in a body."""
+        """Return the constant body components of a direction fixed in a body.
+
+        Parameters
+        ----------
+        placed, direction
+            The body, and the direction at the design position.
+        """
         return self.program.vector(
             f"{placed.body}_{direction.name}",
             to_axes(placed.design_axes, self.design_direction(direction)),
@@ -246,7 +269,13 @@ class Kinematics:
         )
 
     def position(self, placed: BodyMotion, point: Point) -> Vector:
-        """Return where a point of a placed body is, in work axes."""
+        """Return where a point of a placed body is, in work axes.
+
+        Parameters
+        ----------
+        placed, point
+            The body, and the point by its place at the design position.
+        """
         offset = from_axes(placed.axes, self.local(placed, point))
         return self.program.vector(f"at_{self._label(placed.body, point)}", placed.origin + offset)
 
@@ -265,26 +294,52 @@ class Kinematics:
         return self.define_twist(placed.body, "now", twist)
 
     def define_twist(self, body: str, label: str, twist: Twist) -> Twist:
-        """Append the components of a twist."""
+        """Append the components of a twist.
+
+        Parameters
+        ----------
+        body, label
+            What begins the names of the steps: body, and coordinate or ``now``.
+        twist
+            The twist.
+        """
         return Twist(
             self.program.vector(f"{body}_omega_{label}", twist.angular, "123"),
             self.program.vector(f"{body}_velocity_{label}", twist.linear, "123"),
         )
 
     def define_bias(self, body: str, twist: Twist) -> Twist:
-        """Append the components of a bias acceleration."""
+        """Append the components of a bias acceleration.
+
+        Parameters
+        ----------
+        body, twist
+            The body, and its accelerations.
+        """
         return Twist(
             self.program.vector(f"{body}_alpha", twist.angular, "123"),
             self.program.vector(f"{body}_acceleration", twist.linear, "123"),
         )
 
     def point_bias(self, placed: BodyMotion, local: Vector) -> Vector:
-        """Return the bias acceleration of a point of a body, in body axes."""
+        """Return the bias acceleration of a point of a body, in body axes.
+
+        Parameters
+        ----------
+        placed, local
+            The body, and the point in its axes.
+        """
         bias, omega = placed.bias(), self.total(placed).angular
         return bias.linear + bias.angular.cross(local) + omega.cross(omega.cross(local))
 
     def point_motion(self, body: str, point: Point) -> PointMotion:
-        """Return position, velocities and bias acceleration of a point, in work axes."""
+        """Return position, velocities and bias acceleration of a point, in work axes.
+
+        Parameters
+        ----------
+        body, point
+            Name of the body, and the point by its place at the design position.
+        """
         if (body, point) in self._points:
             return self._points[body, point]
         self._points[body, point] = self.motion_of(self.placed[body], point)

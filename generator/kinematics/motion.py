@@ -25,12 +25,28 @@ IDENTITY: Axes = (UNIT_X, UNIT_Y, UNIT_Z)
 
 
 def to_axes(axes: Axes, v: Vector) -> Vector:
-    """Return the components of a work vector along some axes."""
+    """Return the components of a work vector along some axes.
+
+    Parameters
+    ----------
+    axes
+        Three unit vectors.
+    v
+        The vector.
+    """
     return Vector(*(v.dot(axis) for axis in axes))
 
 
 def from_axes(axes: Axes, v: Vector) -> Vector:
-    """Return the work components of a vector given along some axes."""
+    """Return the work components of a vector given along some axes.
+
+    Parameters
+    ----------
+    axes
+        Three unit vectors.
+    v
+        The components along them.
+    """
     x, y, z = axes
     work: Vector = x * v.x + y * v.y + z * v.z
     return work

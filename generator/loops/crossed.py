@@ -17,7 +17,13 @@ if TYPE_CHECKING:
 
 
 def between_crosses(mechanism: Mechanism, cycle: Cycle) -> str:
-    """Return a sentence on a body of a loop that two crosses alone hold; empty: there is none."""
+    """Return a sentence on a body of a loop that two crosses alone hold; empty: there is none.
+
+    Parameters
+    ----------
+    mechanism, cycle
+        The mechanism, and the loop.
+    """
     for body in cycle.bodies:
         crosses = mechanism.joints_of(body)
         if body == mechanism.ground or not all(isinstance(j, Universal) for j in crosses):
@@ -34,7 +40,13 @@ def between_crosses(mechanism: Mechanism, cycle: Cycle) -> str:
 
 
 def crosses_turned(mechanism: Mechanism, cycle: Cycle) -> str:
-    """Return a sentence on a cross whose first body is a link on a guide; empty: there is none."""
+    """Return a sentence on a cross whose first body is a link on a guide; empty: there is none.
+
+    Parameters
+    ----------
+    mechanism, cycle
+        The mechanism, and the loop.
+    """
     for joint in cycle.joints:
         if isinstance(joint, Universal):
             link, other = joint.bodies

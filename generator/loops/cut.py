@@ -58,7 +58,13 @@ def _common_point(joint: Joint, cycle: Cycle) -> Point | None:
 
 
 def views(cycle: Cycle, pair: PairCandidate) -> list[CutLoop]:
-    """Return the four ways to look at a cut loop: either arc first, either direction."""
+    """Return the four ways to look at a cut loop: either arc first, either direction.
+
+    Parameters
+    ----------
+    cycle, pair
+        The loop, and the joints at which it is cut.
+    """
     i, j = sorted(cycle.joints.index(joint) for joint in pair.joints)
     anchor, end = (_common_point(cycle.joints[k], cycle) for k in (i, j))
     if anchor is None or end is None:
@@ -78,7 +84,13 @@ def views(cycle: Cycle, pair: PairCandidate) -> list[CutLoop]:
 
 
 def pair_candidates(known: Known, cycle: Cycle) -> list[PairCandidate]:
-    """Return the pairs of joints that both keep a point in common, most eliminated first."""
+    """Return the pairs of joints that both keep a point in common, most eliminated first.
+
+    Parameters
+    ----------
+    known, cycle
+        What is known, and the loop.
+    """
     pairs = [
         _pair(known, cycle, a, b)
         for a, b in combinations(cycle.joints, 2)

@@ -105,7 +105,15 @@ class Follower(Placement):
     @classmethod
     @abstractmethod
     def follow(cls, known: Known, joint: Joint, parent: str, child: str) -> Self | None:
-        """Return the step that places a body by a joint of a placed one, if it can."""
+        """Return the step that places a body by a joint of a placed one, if it can.
+
+        Parameters
+        ----------
+        known
+            What is known.
+        joint, parent, child
+            The joint, the placed body, and the one to place.
+        """
 
 
 class Leftover(Placement):
@@ -114,7 +122,15 @@ class Leftover(Placement):
     @classmethod
     @abstractmethod
     def left(cls, known: Known, massive: Collection[str]) -> Iterator[Self]:
-        """Yield the steps that place what is left."""
+        """Yield the steps that place what is left.
+
+        Parameters
+        ----------
+        known
+            What is known.
+        massive
+            The bodies with mass.
+        """
 
 
 class Iteration(Solution):
@@ -132,7 +148,17 @@ class Iteration(Solution):
     def attempt(
         cls, known: Known, driven: Collection[str], waiting: Sequence[Cycle]
     ) -> Attempt | None:
-        """Return how some of the loops that wait can be solved, if they can or nearly can."""
+        """Return how some of the loops that wait can be solved, if they can or nearly can.
+
+        Parameters
+        ----------
+        known
+            What is known.
+        driven
+            The joints whose coordinates are given, by their names.
+        waiting
+            The loops that nothing else closes.
+        """
 
 
 @dataclass(frozen=True)

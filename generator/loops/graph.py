@@ -90,7 +90,13 @@ class Topology:
         return graph
 
     def joint_between(self, first: str, second: str) -> Joint:
-        """Return the joint that connects two bodies."""
+        """Return the joint that connects two bodies.
+
+        Parameters
+        ----------
+        first, second
+            Names of the bodies.
+        """
         joint: Joint = self.graph.edges[first, second]["joint"]
         return joint
 
@@ -148,6 +154,11 @@ class Topology:
         """Return all shortest paths between two bodies, as sequences of bodies, in a fixed order.
 
         The paper's Table 2 shows one of them where several have the same length.
+
+        Parameters
+        ----------
+        start, end
+            Names of the bodies.
         """
         return self._paths_from(start).to(end)
 

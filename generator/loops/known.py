@@ -52,7 +52,13 @@ class Known:
         return self.placed | self.on_line
 
     def knows(self, joint: Joint, coordinate: str) -> bool:
-        """Return whether a relative coordinate is given or already solved."""
+        """Return whether a relative coordinate is given or already solved.
+
+        Parameters
+        ----------
+        joint, coordinate
+            The joint, and which of its coordinates.
+        """
         return (joint.name, coordinate) in self.coordinates
 
     def unknowns_of(self, joint: Joint) -> int:

@@ -57,14 +57,30 @@ def families(
 
 
 def ends_of(mechanism: Mechanism, link: str, pair: Collection[str]) -> _Ends | None:
-    """Return the hinges of a body on two others, by these; None: it has not one on either."""
+    """Return the hinges of a body on two others, by these; None: it has not one on either.
+
+    Parameters
+    ----------
+    mechanism, link
+        The mechanism, and the body.
+    pair
+        The two others.
+    """
     joints = [(joint.other(link), joint) for joint in mechanism.joints_of(link)]
     hinges = {o: joint for o, joint in joints if o in pair and isinstance(joint, Revolute)}
     return hinges if len(hinges) == ENOUGH else None
 
 
 def is_along(mechanism: Mechanism, hinge: Revolute, off: Vector, length: Vector) -> bool:
-    """Return whether a way is along a hinge by default, but for rounding of another."""
+    """Return whether a way is along a hinge by default, but for rounding of another.
+
+    Parameters
+    ----------
+    mechanism, hinge
+        The mechanism, and the hinge.
+    off, length
+        The way, and the one whose rounding counts.
+    """
     value = AtDefaults(mechanism)
     n, off_at, beside = (np.array([value(c) for c in v]) for v in (hinge.axis.vector, off, length))
     least = float(ROUNDING) * np.linalg.norm(n) * np.linalg.norm(beside)

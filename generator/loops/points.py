@@ -21,7 +21,15 @@ if TYPE_CHECKING:
 
 
 def common_center(joints: Sequence[Joint], at_defaults: AtDefaults) -> Point | None:
-    """Return the centre of the one cross of a loop, if all else are hinges that go through it."""
+    """Return the centre of the one cross of a loop, if all else are hinges that go through it.
+
+    Parameters
+    ----------
+    joints
+        Those of the loop.
+    at_defaults
+        Evaluates expressions with the default parameters.
+    """
     crosses = [joint for joint in joints if isinstance(joint, Universal)]
     hinges = [joint for joint in joints if isinstance(joint, Revolute)]
     if len(crosses) != 1 or len(hinges) + 1 < len(joints):

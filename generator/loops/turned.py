@@ -24,6 +24,13 @@ def turn_alike(known: Known, one: str, other: str) -> bool:
     """Return whether two bodies do not turn against each other: guides or parallel links see to it.
 
     Not asked is whether they do so by their dimensions, as in a parallelogram of four hinges.
+
+    Parameters
+    ----------
+    known
+        What is known.
+    one, other
+        The bodies.
     """
     graph = nx.Graph([tuple(pair) for pair in known.alike])
     graph.add_nodes_from((one, other))

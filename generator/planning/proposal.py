@@ -76,6 +76,13 @@ def proposals(
 
     Those from which every loop closes in closed form come first. Of a model, what it prescribes
     stays prescribed. Each of the two searches ends after some time, if it is given.
+
+    Parameters
+    ----------
+    declared
+        The model.
+    seconds
+        How long to search.
     """
     search = Search(declared if isinstance(declared, Formulation) else _bare(declared))
     closed = set()
@@ -167,7 +174,15 @@ class Search:
             yield Proposal(independent, iterates=True)
 
     def model(self, independent: tuple[str, ...], *, allow_iteration: bool = False) -> Formulation:
-        """Return the model with some independent joints, by their names."""
+        """Return the model with some independent joints, by their names.
+
+        Parameters
+        ----------
+        independent
+            Names of the joints.
+        allow_iteration
+            Whether loops may be closed by iteration.
+        """
         joints = map(self._model.mechanism.joint, independent)
         every = (*self._free, *joints)
         return replace(self._model, independent=every, allow_iteration=allow_iteration)

@@ -80,6 +80,13 @@ class ConstantStage:
         """Append a step and return its symbol, or that of the same step defined before.
 
         The symbol has a number behind its name where something else has that name already.
+
+        Parameters
+        ----------
+        name, expression
+            The step.
+        section
+            The part of the derivation.
         """
         form = self._form(expression)
         if form in self._known:
@@ -119,6 +126,13 @@ class ConstantStage:
 
         What must be zero, or must not, is computed like any constant, so that an error can say by
         how much it is off.
+
+        Parameters
+        ----------
+        functions
+            What reads the constants.
+        assumptions
+            What is checked beside the conditions.
         """
         used = set().union(*(f.free_symbols for f in functions))
         used = used.union(*(symbols_of(a.quantity) | symbols_of(a.scale) for a in assumptions))

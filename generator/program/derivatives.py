@@ -16,7 +16,17 @@ if TYPE_CHECKING:
 def chain_rule(
     expression: sp.Expr, tangent: Mapping[sp.Symbol, sp.Expr], symbol: sp.Symbol | None = None
 ) -> sp.Expr:
-    """Return the sum of partial derivatives times tangents; see `partials`."""
+    """Return the sum of partial derivatives times tangents; see `partials`.
+
+    Parameters
+    ----------
+    expression
+        What is differentiated.
+    tangent
+        The derivative of each symbol that moves.
+    symbol
+        What stands for the expression.
+    """
     return sp.Add(*(partial * tangent[s] for s, partial in partials(expression, tangent, symbol)))
 
 
@@ -27,6 +37,15 @@ def partials(
 
     A root or a reciprocal that is a step of its own is differentiated in terms of its own symbol,
     so that it is not computed again.
+
+    Parameters
+    ----------
+    expression
+        What is differentiated.
+    moving
+        The symbols that move.
+    symbol
+        What stands for the expression.
     """
     own = expression.is_Pow and expression.exp in (sp.Rational(1, 2), -1)
     if symbol is None or not own:

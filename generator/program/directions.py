@@ -117,7 +117,15 @@ class _Names:
 
 
 def written(function: Function, steps: list[Step], results: tuple[sp.Expr, ...]) -> Function:
-    """Return a function of those of some steps that it needs, which guards what it did before."""
+    """Return a function of those of some steps that it needs, which guards what it did before.
+
+    Parameters
+    ----------
+    function
+        The function before.
+    steps, results
+        All steps, and the results.
+    """
     kept = (*results, *(guard.quantity for guard in function.guards))
     alive, _ = drop_dead(steps, list(kept))
     called = {s.expression.args[0].name for s in alive if isinstance(s.expression, Iterated)}

@@ -28,7 +28,19 @@ def function_of(
     shape: Sequence[int] | None = None,
     part: str = "",
 ) -> Function:
-    """Return a function of results, which have labels; steps, guards and blocks may be too many."""
+    """Return a function of results, which have labels; steps, guards and blocks may be too many.
+
+    Parameters
+    ----------
+    name, doc
+        Of the function.
+    results
+        By their labels.
+    steps, guards, blocks
+        Of which those are taken that the results need.
+    shape, part
+        As in `Function`.
+    """
     alive, expressions = drop_dead([*steps], [*results.values()])
     read = [*(step.expression for step in alive), *expressions]
     guarded = {g.args[0] for expression in read for g in expression.atoms(Guarded)}
@@ -47,7 +59,17 @@ def function_of(
 
 
 def narrowed(function: Function, name: str, doc: str, labels: Sequence[str]) -> Function:
-    """Return a function of those results of another that have some labels."""
+    """Return a function of those results of another that have some labels.
+
+    Parameters
+    ----------
+    function
+        The function.
+    name, doc
+        Of the new one.
+    labels
+        Those of the results.
+    """
     of_label = dict(zip(function.labels, function.results, strict=True))
     results = {label: of_label[label] for label in labels}
     return function_of(

@@ -228,7 +228,13 @@ def _margins(expressions: Iterable[sp.Expr]) -> list[sp.Expr]:
 
 
 def inverted(program: Program, rows: Matrix) -> tuple[Matrix, sp.Expr]:
-    """Append the adjugate and the determinant of J, or those of J^T J, the former times J^T."""
+    """Append the adjugate and the determinant of J, or those of J^T J, the former times J^T.
+
+    Parameters
+    ----------
+    program, rows
+        Receives the steps, and J.
+    """
     if len(rows) == len(rows[0]):
         return adjugate(program, rows)
     columns = [list(column) for column in zip(*rows, strict=True)]
@@ -248,6 +254,11 @@ def adjugate(program: Program, matrix: Matrix) -> tuple[Matrix, sp.Expr]:
     With the adjugate, a singular matrix needs no case of its own. A cofactor is a sum over products
     of a minor of the rows above and one of the rows below (Laplace): a thousand operations for six
     rows, some thirty for three.
+
+    Parameters
+    ----------
+    program, matrix
+        Receives the steps, and the matrix.
     """
     size = len(matrix)
     columns = tuple(range(size))
@@ -270,7 +281,15 @@ def adjugate(program: Program, matrix: Matrix) -> tuple[Matrix, sp.Expr]:
 
 
 def named(program: Program, name: str, matrix: Matrix) -> Matrix:
-    """Append the elements of a matrix."""
+    """Append the elements of a matrix.
+
+    Parameters
+    ----------
+    program, name
+        Receives the steps, and what begins their names.
+    matrix
+        The matrix.
+    """
     return [
         [program.define(f"{name}_{i}{j}", entry) for j, entry in enumerate(row, 1)]
         for i, row in enumerate(matrix, 1)
@@ -307,5 +326,11 @@ def _reversal(count: int) -> int:
 
 
 def times(matrix: Matrix, vector: Sequence[sp.Expr]) -> list[sp.Expr]:
-    """Return the product of a matrix and a vector."""
+    """Return the product of a matrix and a vector.
+
+    Parameters
+    ----------
+    matrix, vector
+        Rows of the one, and elements of the other.
+    """
     return [sum((a * b for a, b in zip(row, vector, strict=True)), sp.Integer(0)) for row in matrix]

@@ -62,6 +62,13 @@ class Program:
         Numbers, symbols and their negatives are returned as they are, and an expression that is
         already a step is not repeated, so that zeros and shared values disappear on the way. The
         symbol has a number behind its name where something else has that name already.
+
+        Parameters
+        ----------
+        name
+            Of the step.
+        expression
+            In names of the program.
         """
         if self._spells:
             expression = self._spelled(name, expression)
@@ -105,7 +112,15 @@ class Program:
         return sp.Symbol(name) in self.steps or self.constants.has(name)
 
     def vector(self, name: str, vector: Vector, suffixes: str = "xyz") -> Vector:
-        """Append a step for each component of a vector."""
+        """Append a step for each component of a vector.
+
+        Parameters
+        ----------
+        name, vector
+            What begins the names of the steps, and the vector.
+        suffixes
+            What ends them.
+        """
         return Vector(
             *(self.define(f"{name}_{s}", c) for s, c in zip(suffixes, vector, strict=True))
         )
@@ -113,7 +128,15 @@ class Program:
     def axes(
         self, names: tuple[str, str, str], vectors: Iterable[Vector], suffixes: str = "xyz"
     ) -> tuple[Vector, Vector, Vector]:
-        """Append a step for each component of three vectors."""
+        """Append a step for each component of three vectors.
+
+        Parameters
+        ----------
+        names, vectors
+            What begins the names of the steps, and the vectors.
+        suffixes
+            What ends them.
+        """
         x, y, z = (self.vector(n, v, suffixes) for n, v in zip(names, vectors, strict=True))
         return x, y, z
 
@@ -142,7 +165,13 @@ class Program:
         return Guarded(symbol, self.guards[symbol].floor)
 
     def iterated(self, name: str, block: Block) -> dict[str, sp.Expr]:
-        """Append the call of a block that iterates, and return its results by name."""
+        """Append the call of a block that iterates, and return its results by name.
+
+        Parameters
+        ----------
+        name, block
+            What begins the names of the steps, and the block.
+        """
         results = self.define(name, Iterated(block.symbol, *block.given))
         return {
             label: self.define(f"{name}_{label}", Component(results, place))
@@ -244,7 +273,17 @@ class Program:
         results: Mapping[str, sp.Expr],
         shape: Sequence[int] | None = None,
     ) -> Function:
-        """Prune the program to some results and share their common subexpressions."""
+        """Prune the program to some results and share their common subexpressions.
+
+        Parameters
+        ----------
+        name, doc
+            Of the function.
+        results
+            By their labels.
+        shape
+            Of the array; none: a row.
+        """
         pruned = self.pruned(name, doc, results, shape)
         (function,), _ = share_together({"": [pruned]}, self.steps, self.constants.has)
         return function
@@ -256,7 +295,17 @@ class Program:
         results: Mapping[str, sp.Expr],
         shape: Sequence[int] | None = None,
     ) -> Function:
-        """Prune the program to some results; `share_together` makes a function of it."""
+        """Prune the program to some results; `share_together` makes a function of it.
+
+        Parameters
+        ----------
+        name, doc
+            Of the function.
+        results
+            By their labels.
+        shape
+            Of the array; none: a row.
+        """
         written = (self.constants.insert_derived(sp.sympify(e)) for e in results.values())
         expressions = [self._hoist(e) for e in written]
         needed = ancestors(self.steps, expressions)

@@ -16,7 +16,13 @@ if TYPE_CHECKING:
 
 
 def drop_dead(steps: list[Step], results: list[sp.Expr]) -> tuple[list[Step], list[sp.Expr]]:
-    """Remove the steps that no result depends on."""
+    """Remove the steps that no result depends on.
+
+    Parameters
+    ----------
+    steps, results
+        The steps in their order, and the results.
+    """
     wanted = set().union(*map(symbols_of, results))
     alive = []
     for step in reversed(steps):
@@ -29,7 +35,15 @@ def drop_dead(steps: list[Step], results: list[sp.Expr]) -> tuple[list[Step], li
 def share(
     steps: list[Step], results: list[sp.Expr], names: Iterator[sp.Symbol]
 ) -> tuple[list[Step], list[sp.Expr]]:
-    """Name the common subexpressions of the whole program."""
+    """Name the common subexpressions of the whole program.
+
+    Parameters
+    ----------
+    steps, results
+        The steps in their order, and the results.
+    names
+        Of what is shared.
+    """
     expressions = [*(s.expression for s in steps), *results]
     common = _Common(expressions, names)
     reduced = [common.named(e) for e in expressions]

@@ -43,13 +43,29 @@ class Guard:
 
 
 def first_free(name: str, taken: Callable[[str], bool]) -> sp.Symbol:
-    """Return the symbol of a name, with a number behind it if the name is taken."""
+    """Return the symbol of a name, with a number behind it if the name is taken.
+
+    Parameters
+    ----------
+    name
+        The name.
+    taken
+        Returns whether a name is taken.
+    """
     names = chain([name], (f"{name}_{i}" for i in count(2)))
     return sp.Symbol(next(n for n in names if not taken(n)))
 
 
 def ancestors(steps: Mapping[sp.Symbol, Step], expressions: Iterable[sp.Expr]) -> set[sp.Symbol]:
-    """Return the steps that some expressions depend on."""
+    """Return the steps that some expressions depend on.
+
+    Parameters
+    ----------
+    steps
+        By their symbols.
+    expressions
+        In these symbols.
+    """
     waiting = [s for e in expressions for s in symbols_of(e) if s in steps]
     found: set[sp.Symbol] = set()
     while waiting:

@@ -25,7 +25,13 @@ class Vector:
 
     @classmethod
     def of(cls, x: Any, y: Any, z: Any) -> Vector:
-        """Build a vector from numbers or expressions."""
+        """Build a vector from numbers or expressions.
+
+        Parameters
+        ----------
+        x, y, z
+            The components.
+        """
         return cls(sp.sympify(x), sp.sympify(y), sp.sympify(z))
 
     def __iter__(self) -> Iterator[sp.Expr]:
@@ -115,7 +121,13 @@ class SymmetricTensor:
 
     @classmethod
     def of_point_mass(cls, mass: sp.Expr, at: Vector) -> SymmetricTensor:
-        """Return ``mass (|at|^2 1 - at at^T)``, the inertia of a point mass about the origin."""
+        """Return ``mass (|at|^2 1 - at at^T)``, the inertia of a point mass about the origin.
+
+        Parameters
+        ----------
+        mass, at
+            The mass [kg], and where it is from the origin.
+        """
         x, y, z = at
         return cls(
             mass * (y * y + z * z),
@@ -128,7 +140,13 @@ class SymmetricTensor:
 
     @classmethod
     def transverse(cls, moment: sp.Expr, axis: Vector) -> SymmetricTensor:
-        """Return ``moment (1 - axis axis^T)`` for a unit axis."""
+        """Return ``moment (1 - axis axis^T)`` for a unit axis.
+
+        Parameters
+        ----------
+        moment, axis
+            Across the axis, and the axis.
+        """
         return cls.of_point_mass(moment, axis)
 
     def __iter__(self) -> Iterator[sp.Expr]:

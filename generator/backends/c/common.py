@@ -18,7 +18,17 @@ ARGUMENTS = "const double *restrict constants, const double *restrict state,"
 def unbroken(
     text: str, *, width: int = WIDTH, initial_indent: str = "", subsequent_indent: str = ""
 ) -> list[str]:
-    """Break code into lines: between words only, however long they are."""
+    """Break code into lines: between words only, however long they are.
+
+    Parameters
+    ----------
+    text
+        The code.
+    width
+        The most characters of a line.
+    initial_indent, subsequent_indent
+        What the first line, and the others, begin with.
+    """
     return textwrap.wrap(
         text,
         width,
@@ -39,7 +49,15 @@ class CText:
         self.upper = self.prefix.upper()
 
     def enumerator(self, kind: str, name: str) -> str:
-        """Return the C name of an index."""
+        """Return the C name of an index.
+
+        Parameters
+        ----------
+        kind
+            What is counted, as in ``"status"``.
+        name
+            Which of these.
+        """
         return f"{self.upper}_{kind.upper()}_{name.upper()}"
 
     def banner(self, extra: str = "") -> str:
@@ -53,12 +71,28 @@ class CText:
         return "/*\n" + "\n".join(f" * {line}".rstrip() for line in text.split("\n")) + "\n */"
 
     def from_parameters(self, name: str, out: str, returns: str = "int") -> str:
-        """Return the start of a function that reads parameters."""
+        """Return the start of a function that reads parameters.
+
+        Parameters
+        ----------
+        name, out
+            Of the function, and of what it writes.
+        returns
+            Its type.
+        """
         arguments = f"const double *restrict parameters, double *restrict {out}"
         return f"{returns} {self.prefix}_{name}({arguments})"
 
     def signature(self, function: Function | Stage, returns: str = "int") -> str:
-        """Return the start of a function that reads constants, state and inputs."""
+        """Return the start of a function that reads constants, state and inputs.
+
+        Parameters
+        ----------
+        function
+            The function.
+        returns
+            Its type.
+        """
         name = f"{returns} {self.prefix}_{function.name}("
         given = "const double *restrict given, " if reads_given(function) else ""
         indent = " " * len(name)

@@ -83,7 +83,17 @@ def _weight(step: Assignment) -> int:
 
 
 def steps_of(function: Function | Stage, part: Part, whole: Together) -> list[Assignment]:
-    """Return the steps that the results and the guards of a function need, in their order."""
+    """Return the steps that the results and the guards of a function need, in their order.
+
+    Parameters
+    ----------
+    function
+        One of several functions.
+    part
+        Its results and guards, in the names of all steps.
+    whole
+        The steps of all of them.
+    """
     steps = [*whole.steps, *part.steps]
     alive = alive_in(function, part, steps)
     return [step for step in steps if step.name in alive]

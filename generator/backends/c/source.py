@@ -360,7 +360,15 @@ class Source(CText):
         return {name: i for i, name in enumerate(names)} | behind
 
     def pointer(self, c: str, read: Collection[str]) -> list[str]:
-        """Return the declaration of the constants; mark what is not read."""
+        """Return the declaration of the constants; mark what is not read.
+
+        Parameters
+        ----------
+        c
+            What the pointer is called.
+        read
+            Whether anything reads it.
+        """
         lines = [
             f"    (void){array};"
             for array, places in self._arrays().items()

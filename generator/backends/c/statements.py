@@ -26,7 +26,15 @@ _LETTERS = frozenset(string.ascii_letters) - {"e"}
 
 
 def printed(steps: Sequence[Assignment], names: Mapping[str, str]) -> list[str]:
-    """Return assignments, with the parts of the derivation in between."""
+    """Return assignments, with the parts of the derivation in between.
+
+    Parameters
+    ----------
+    steps
+        In their order.
+    names
+        Other names for some symbols.
+    """
     lines: list[str] = []
     for section, group in groupby(written_steps(steps, STATEMENT, names), key=_section):
         lines += ["", f"    /* {section} */"]
@@ -56,7 +64,13 @@ def _each(kind: str, assignments: Sequence[str]) -> list[str]:
 
 
 def wrapped(text: str, indent: int) -> list[str]:
-    """Break a statement into lines."""
+    """Break a statement into lines.
+
+    Parameters
+    ----------
+    text, indent
+        The statement, and what each line begins with.
+    """
     return unbroken(text, initial_indent=" " * indent, subsequent_indent=" " * (indent + 4))
 
 

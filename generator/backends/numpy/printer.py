@@ -105,7 +105,19 @@ class ArraysPrinter:
 def definition(
     function: Function | Stage, arguments: str, loads: Sequence[str], holds: Sequence[str] = ()
 ) -> str:
-    """Return a function: what it reads, its steps, its results and what its guards say."""
+    """Return a function: what it reads, its steps, its results and what its guards say.
+
+    Parameters
+    ----------
+    function
+        The function.
+    arguments
+        As they are declared.
+    loads
+        The lines that read elements of arrays.
+    holds
+        What the guards say, each after its place.
+    """
     steps, results = _written(function)
     lines = [
         f"def {function.name}({arguments}):",

@@ -22,7 +22,15 @@ def module(derivation: Derivation) -> str:
 
 
 def addresses_in(derivation: Derivation, library: str) -> str:
-    """Return the text of a ``.py`` file that finds the functions in a library beside it."""
+    """Return the text of a ``.py`` file that finds the functions in a library beside it.
+
+    Parameters
+    ----------
+    derivation
+        The model.
+    library
+        The file's name.
+    """
     return template("python", "addresses.py").substitute(
         name=derivation.formulation.name,
         library=library,

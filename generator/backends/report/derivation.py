@@ -23,7 +23,15 @@ if TYPE_CHECKING:
 
 
 def bodies_of(topology: Topology, cycle: Cycle) -> str:
-    """Return a cycle as the numbers and names of its bodies."""
+    """Return a cycle as the numbers and names of its bodies.
+
+    Parameters
+    ----------
+    topology
+        That of the mechanism.
+    cycle
+        The loop.
+    """
     return " - ".join(_numbered(topology.mechanism, body) for body in cycle.bodies)
 
 
@@ -97,7 +105,15 @@ def _cut(transformer: Transformer) -> str:
 
 
 def transformation(topology: Topology, transformer: Transformer) -> Transformation:
-    """Return a transformer as a block with its inputs and outputs."""
+    """Return a transformer as a block with its inputs and outputs.
+
+    Parameters
+    ----------
+    topology
+        That of the mechanism.
+    transformer
+        The transformer.
+    """
     closure, solution = transformer.step.words(transformer.closing)
     cycle = transformer.cycle
     inside = {
@@ -121,7 +137,15 @@ def mermaid(topology: Topology) -> str:
 
 
 def preference(topology: Topology, transformer: Transformer) -> str:
-    """Say why a loop was taken before others of the same length."""
+    """Say why a loop was taken before others of the same length.
+
+    Parameters
+    ----------
+    topology
+        That of the mechanism.
+    transformer
+        The transformer of the loop.
+    """
     if not transformer.rivals:
         return "It is the only shortest cycle that extends the basis."
     others = "; ".join(

@@ -252,7 +252,15 @@ _SHOWN = {
 
 
 def graph(plan: Plan, shown: tuple[bool, ...] = (False, True)) -> Figure:
-    """Draw the joint graph (False), that of the elementary joints (True), or both of them."""
+    """Draw the joint graph (False), that of the elementary joints (True), or both of them.
+
+    Parameters
+    ----------
+    plan
+        The analysed mechanism.
+    shown
+        Which graphs, beside each other.
+    """
     alone = min(2.0 + 0.5 * len(plan.formulation.mechanism.numbers), 7.5)
     side = alone if len(shown) == 1 else 7.2
     figure = Figure(figsize=(1.04 * side * len(shown), side), layout="constrained")

@@ -342,7 +342,15 @@ _SHAFTS = (
 
 
 def motion_sections(derivation: Derivation, number: Equations) -> list[Block]:
-    """Return the sections from the relative coordinates to M, B and Q."""
+    """Return the sections from the relative coordinates to M, B and Q.
+
+    Parameters
+    ----------
+    derivation
+        The model.
+    number
+        Numbers the equations.
+    """
     motion = Motion(derivation)
     return [
         *_coordinates(motion),

@@ -17,7 +17,15 @@ if TYPE_CHECKING:
 
 
 def check_files(path: Path, *, force: bool = False, inputs: Iterable[Path] = ()) -> None:
-    """Refuse what `write_report` would have to refuse, before anything is derived."""
+    """Refuse what `write_report` would have to refuse, before anything is derived.
+
+    Parameters
+    ----------
+    path, force
+        As in `write_report`.
+    inputs
+        Files that are read, and must not be written.
+    """
     refuse([path], force=force, inputs=inputs, endings=(".tex", ".md"))
     if path.suffix.lower() == ".tex":
         names = (f"{path.stem}_{name}.pdf" for name in FIGURES)

@@ -95,13 +95,29 @@ class Force(ABC):
         """Append what it does."""
 
     def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
-        """Yield its signals, which may read the accelerations."""
+        """Yield its signals, which may read the accelerations.
+
+        Parameters
+        ----------
+        at
+            What surrounds the force.
+        action
+            What it does.
+        """
         del at, action
         yield from ()
 
 
 def check_applied(kind: str, body: Body, given: Input, unit: str) -> None:
-    """See that what acts from outside is in its unit, and on something that moves."""
+    """See that what acts from outside is in its unit, and on something that moves.
+
+    Parameters
+    ----------
+    kind, body
+        What acts, and on which body.
+    given, unit
+        The inputs, and the unit that they must have.
+    """
     problems = []
     if given.unit != unit:
         problems.append(f"input {given.name!r} is in {given.unit}; {unit} is needed")

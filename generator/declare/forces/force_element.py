@@ -91,6 +91,11 @@ class ForceElement(Force):
         """Return the name of a law's signal, with the element's where others have it too.
 
         That of a moment always has it: it is rarely the only thing that springs.
+
+        Parameters
+        ----------
+        law, mechanism
+            One of its laws, and where it acts.
         """
         signal = self.signal(law)
         having = [
