@@ -25,7 +25,7 @@ def chain_rule(
     tangent
         The derivative of each symbol that moves.
     symbol
-        What stands for the expression.
+        The name of the expression.
     """
     return sp.Add(*(partial * tangent[s] for s, partial in partials(expression, tangent, symbol)))
 
@@ -45,7 +45,7 @@ def partials(
     moving
         The symbols that move.
     symbol
-        What stands for the expression.
+        The name of the expression.
     """
     own = expression.is_Pow and expression.exp in (sp.Rational(1, 2), -1)
     if symbol is None or not own:

@@ -567,7 +567,7 @@ def _dynamics(motion: Motion, number: Equations) -> list[Block]:
             Paragraph(
                 f"Body {numbers[body]}, `{body}`, moves freely. Its rates are no derivatives of "
                 f"coordinates: {names} are velocity and angular velocity in its own axes, and "
-                r"stand in the place of elements of $`\dot{\mathbf{q}}`$. Positions change by "
+                r"take the place of elements of $`\dot{\mathbf{q}}`$. Positions change by "
                 r"$`\dot{\mathbf{q}} = \mathbf{N}(\mathbf{q})\,\mathbf{v}`$, in which the "
                 r"quaternion e follows $`\dot{e} = \tfrac12\,e\circ(0, p, q, r)`$ and is kept at "
                 "length one."
