@@ -42,32 +42,28 @@ def test_paths_count_from_the_file(tmp_path: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("changes", "words"),
+    "changes",
     [
-        ({"wheelbase_mm": 2610.0}, "wheelbase_mm = 2610 mm, and the wheel centres of the axles"),
-        ({"rear_origin_mm": 0.0}, "rear_origin_mm = -2600 mm would agree"),
-        ({"body.mass_kg": 0.0}, r"\[body\] mass_kg = 0.0 kg is out of range"),
-        ({"body.com_mm.x": 100.0}, "would tip over"),
-        ({"body.com_mm": None}, "com_mm is missing"),
-        ({"body.inertia_yy_kg_m2": 0.0, "body.inertia_xx_kg_m2": 0.0}, "inertia_yy_kg_m2 = 0"),
-        ({"body.colour": 1.0}, r"\[body\] colour is not a known key"),
-        ({"corner": "reference_car"}, "corner is given, which is of a quarter car"),
-        ({"car": "heave"}, "corner is missing"),
-        ({"car": "fly"}, "car = 'fly' must be"),
-        ({"front": "rear_axle"}, "front: its file says that it is the rear axle"),
-        ({"front": "reference_car.toml"}, "front = 'reference_car.toml': There is no such file"),
-        ({"front.side.vehicle.wheelbase_mm": 2700.0}, "front: .* wheelbase_mm = 2700 mm, and"),
-        (
-            {"rear.side.vehicle.center_of_gravity_height_mm": 500.0},
-            "rear: .* = 500 mm, and that of the whole car is 546.7 mm",
-        ),
-        ({"rear.side.gravity.acceleration_m_per_s2": 1.62}, "is 1.62 m/s.2 and 9.81 m/s.2"),
-        ({"front.side.vehicle.front_brake_share": 0.6}, "front_brake_share is 0.6 and 0.7"),
+        {"wheelbase_mm": 2610.0},
+        {"rear_origin_mm": 0.0},
+        {"body.mass_kg": 0.0},
+        {"body.com_mm.x": 100.0},
+        {"body.com_mm": None},
+        {"body.inertia_yy_kg_m2": 0.0, "body.inertia_xx_kg_m2": 0.0},
+        {"body.colour": 1.0},
+        {"corner": "reference_car"},
+        {"car": "heave"},
+        {"car": "fly"},
+        {"front": "rear_axle"},
+        {"front": "reference_car.toml"},
+        {"front.side.vehicle.wheelbase_mm": 2700.0},
+        {"rear.side.vehicle.center_of_gravity_height_mm": 500.0},
+        {"rear.side.gravity.acceleration_m_per_s2": 1.62},
+        {"front.side.vehicle.front_brake_share": 0.6},
     ],
 )
-def test_what_contradicts_itself_is_refused(changes: dict[str, Any], words: str) -> None:
-    with pytest.raises(kintrafo.InputError, match=words):
-        Car.load("reference_vehicle").with_changes(changes)
+def test_what_contradicts_itself_is_refused(changes: dict[str, Any], refused: Any) -> None:
+    refused(kintrafo.InputError, lambda: Car.load("reference_vehicle").with_changes(changes))
 
 
 def test_what_is_not_taken_is_named() -> None:

@@ -56,21 +56,20 @@ def test_rear_wheels_meet_a_road_later() -> None:
 
 
 @pytest.mark.parametrize(
-    ("made", "words"),
+    "made",
     [
-        (lambda: Road(0.1, [0.0, np.nan, 0.0, 0.0], [0.0] * 4), "left"),
-        (lambda: Road(0.1, [0.0] * 5, [0.0] * 4), "as many are needed"),
-        (lambda: iso8608("Z", length=200.0, seed=1), "roughness"),
-        (lambda: iso8608("A", length=10.0, seed=1), "one of the longest waves"),
-        (lambda: iso8608("A", length=200.0, seed=1, spacing=0.2), "at most 0.05 m"),
-        (lambda: bump(0.05, 0.0), "length"),
-        (lambda: bump(0.05, 60.0), "beyond the end"),
-        (lambda: bump(0.05, 1.0).over_time("left", 0.0, 0.0, 1.0), "speed"),
+        lambda: Road(0.1, [0.0, np.nan, 0.0, 0.0], [0.0] * 4),
+        lambda: Road(0.1, [0.0] * 5, [0.0] * 4),
+        lambda: iso8608("Z", length=200.0, seed=1),
+        lambda: iso8608("A", length=10.0, seed=1),
+        lambda: iso8608("A", length=200.0, seed=1, spacing=0.2),
+        lambda: bump(0.05, 0.0),
+        lambda: bump(0.05, 60.0),
+        lambda: bump(0.05, 1.0).over_time("left", 0.0, 0.0, 1.0),
     ],
 )
-def test_roads_that_cannot_be_are_refused(made, words) -> None:
-    with pytest.raises(kintrafo.InputError, match=words):
-        made()
+def test_roads_that_cannot_be_are_refused(made, refused) -> None:
+    refused(kintrafo.InputError, made)
 
 
 # -- weighting ------------------------------------------------------------------------------------

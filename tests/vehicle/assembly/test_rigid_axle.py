@@ -558,36 +558,25 @@ def test_commands_that_have_nothing_for_it_say_so(kintrafo: Any, line: str) -> N
 
 
 @pytest.mark.parametrize(
-    ("changes", "words"),
+    "changes",
     [
-        ({"tyre.rate_N_per_m": 230.0}, "Is the rate in N/mm"),
-        ({"bodies.beam.mass_kg": 80000.0, "bodies.wheel.mass_kg": 26000.0}, "a mass in grams"),
-        ({"spring.rate_N_per_m": 48.0, "spring.force_at_design_N": 1.0}, "Is it in N/mm"),
-        ({"damper.rate_N_s_per_m": 3.2}, "Is it in N s/mm"),
-        (
-            {"rods.upper_link": {"chassis": [-20.0, 60.0, 525.0], "axle": [500.0, 60.0, 480.0]}},
-            r"\[rods.upper_link\]: the end on the axle is 514 mm",
-        ),
-        (
-            {"rods.upper_link.chassis": [0.5, -0.06, 0.525]},
-            r"\[rods.upper_link\] chassis .* metres",
-        ),
-        ({"hardpoints.spring_seat": [0.0, -0.5, 0.35]}, "spring_seat .* Is it in metres"),
-        ({"vehicle.wheelbase_mm": 3.0}, "wheelbase_mm = 3 mm: .* Is it in metres"),
-        (
-            {f"bodies.beam.inertia_{axis}_kg_m2": 2e7 for axis in ("xx", "yy", "zz")},
-            r"\[bodies.beam\] .* Is the inertia in kg mm\^2",
-        ),
-        (
-            {"bodies.wheel.inertia_spin_kg_m2": 2e6, "bodies.wheel.inertia_diametral_kg_m2": 1e6},
-            "no wheel has more",
-        ),
+        {"tyre.rate_N_per_m": 230.0},
+        {"bodies.beam.mass_kg": 80000.0, "bodies.wheel.mass_kg": 26000.0},
+        {"spring.rate_N_per_m": 48.0, "spring.force_at_design_N": 1.0},
+        {"damper.rate_N_s_per_m": 3.2},
+        {"rods.upper_link": {"chassis": [-20.0, 60.0, 525.0], "axle": [500.0, 60.0, 480.0]}},
+        {"rods.upper_link.chassis": [0.5, -0.06, 0.525]},
+        {"hardpoints.spring_seat": [0.0, -0.5, 0.35]},
+        {"vehicle.wheelbase_mm": 3.0},
+        {f"bodies.beam.inertia_{axis}_kg_m2": 2e7 for axis in ("xx", "yy", "zz")},
+        {"bodies.wheel.inertia_spin_kg_m2": 2e6, "bodies.wheel.inertia_diametral_kg_m2": 1e6},
     ],
 )
-def test_mistakes_that_can_move_are_told(changes: dict[str, Any], words: str) -> None:
+def test_mistakes_that_can_move_are_told(changes: dict[str, Any], told: Any) -> None:
     assert checkup(AXLE).problems == ()
     problems = checkup(AXLE.with_changes(changes)).problems
-    assert any(re.search(words, problem) for problem in problems), problems
+    assert problems
+    told(*problems)
 
 
 def test_an_unusual_camber_is_noted() -> None:

@@ -387,18 +387,17 @@ def test_stiff_bushes_leave_the_motion_of_rigid_joints() -> None:
 
 
 @pytest.mark.parametrize(
-    ("changes", "said"),
+    "changes",
     [
-        ({"beam.rate_Nm_per_deg": -1.0}, "rate_Nm_per_deg"),
-        ({"hardpoints.pivot": [420.0, 560.0, 315.0]}, "pivot"),
-        ({"hardpoints.pivot": [0.0, -560.0, 300.0]}, "line through the pivots"),
-        ({"beam.shear_center_x_mm": 1500.0, "beam.shear_center_z_mm": 330.0}, "shear_center"),
-        ({"beam.colour": 1.0}, "not a known key"),
+        {"beam.rate_Nm_per_deg": -1.0},
+        {"hardpoints.pivot": [420.0, 560.0, 315.0]},
+        {"hardpoints.pivot": [0.0, -560.0, 300.0]},
+        {"beam.shear_center_x_mm": 1500.0, "beam.shear_center_z_mm": 330.0},
+        {"beam.colour": 1.0},
     ],
 )
-def test_axles_that_cannot_be_are_refused(changes: dict[str, Any], said: str) -> None:
-    with pytest.raises(InputError, match=said):
-        AXLE.with_changes(changes)
+def test_axles_that_cannot_be_are_refused(changes: dict[str, Any], refused: Any) -> None:
+    refused(InputError, lambda: AXLE.with_changes(changes))
 
 
 def test_without_a_rate_nothing_couples_the_wheels() -> None:

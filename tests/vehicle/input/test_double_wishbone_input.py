@@ -131,67 +131,39 @@ def test_metres():
 
 
 @pytest.mark.parametrize(
-    ("changes", "words"),
+    "changes",
     [
-        ({"spring.rate_N_per_m": -1.0}, "[spring] rate_N_per_m = -1.0 N/m is out of range"),
-        ({"damper.rate_N_s_per_m": -1.0}, "[damper] rate_N_s_per_m = -1.0 N s/m is out of range"),
-        ({"damper.velocity_m_per_s": [0.0]}, "and velocity_m_per_s both describe the damper"),
-        (
-            {"damper.rate_N_s_per_m": None, "damper.velocity_m_per_s": [-1.0, 1.0]},
-            "rate_N_s_per_m is missing: rate of the damper, unless velocity_m_per_s and force_N",
-        ),
-        ({"damper.rate_N_s_per_m": None}, "Add a line `rate_N_s_per_m = ...`, in N s/m."),
-        (
-            {
-                "damper.rate_N_s_per_m": None,
-                "damper.velocity_m_per_s": [1.0, 0.0],
-                "damper.force_N": [9.0, 0.0],
-            },
-            "the values must rise",
-        ),
-        ({"damper.friction_velocity_m_per_s": 0.0}, "more than 0 m/s"),
-        ({"spring.free_length_mm": 530.0}, "both are given. Keep one."),
-        ({"spring.force_at_design_N": None}, "neither is given. Keep one."),
-        ({"spring.rate_N_per_m": 0.0}, "needs a spring, but rate_N_per_m = 0.0 N/m"),
-        ({"tyre.lifts_off": 1}, "[tyre] lifts_off"),
-        ({"bodies.tie_rod.mass_kg": 1.0}, "tie_rod.mass_kg = 1.0 kg"),
-        ({"bodies.rack.mass_kg": 2.0}, "leave this body without mass; allowed is 0 kg"),
-        ({"vehicle.side": "left"}, "a left wheel must have y above 1 mm"),
-        ({"hardpoints.unit": "m"}, "out of range, allowed is -20 m to 20 m"),
-        (
-            {"hardpoints.upper_ball_joint.z": 180.0},
-            "the upper ball joint is -5.000 mm above the lower one",
-        ),
-        (
-            {"hardpoints.lower_ball_joint.y": -360.5, "hardpoints.lower_ball_joint.z": 195.0},
-            "the arm needs at least 1 mm to move the wheel. Move lower_ball_joint outboard",
-        ),
-        ({"hardpoints.upper_arm_front.x": -150.0}, "the front bearing must have the greater x"),
-        (
-            {"hardpoints.spring_top": [-10.0, -600.0, 200.0]},
-            "two points of the spring must be at least 1 mm apart",
-        ),
-        (
-            {"hardpoints.tie_rod_outer": [5.0, -720.0, 185.5]},
-            "two points of the knuckle must be at least 1 mm apart",
-        ),
-        (
-            {"hardpoints.tie_rod_outer": [-10.0, -695.0, 345.0]},
-            "from the steering axis through lower_ball_joint and upper_ball_joint",
-        ),
-        (
-            {"hardpoints.tie_rod_inner": [-130.0, -700.0, 100.0]},
-            "the tie rod is 0.000 deg from the vertical",
-        ),
-        (
-            {"hardpoints.tie_rod_inner": [-257.97, -691.72, 260.0]},
-            "the tie rod pulls with a lever of",
-        ),
+        {"spring.rate_N_per_m": -1.0},
+        {"damper.rate_N_s_per_m": -1.0},
+        {"damper.velocity_m_per_s": [0.0]},
+        {"damper.rate_N_s_per_m": None, "damper.velocity_m_per_s": [-1.0, 1.0]},
+        {"damper.rate_N_s_per_m": None},
+        {
+            "damper.rate_N_s_per_m": None,
+            "damper.velocity_m_per_s": [1.0, 0.0],
+            "damper.force_N": [9.0, 0.0],
+        },
+        {"damper.friction_velocity_m_per_s": 0.0},
+        {"spring.free_length_mm": 530.0},
+        {"spring.force_at_design_N": None},
+        {"spring.rate_N_per_m": 0.0},
+        {"tyre.lifts_off": 1},
+        {"bodies.tie_rod.mass_kg": 1.0},
+        {"bodies.rack.mass_kg": 2.0},
+        {"vehicle.side": "left"},
+        {"hardpoints.unit": "m"},
+        {"hardpoints.upper_ball_joint.z": 180.0},
+        {"hardpoints.lower_ball_joint.y": -360.5, "hardpoints.lower_ball_joint.z": 195.0},
+        {"hardpoints.upper_arm_front.x": -150.0},
+        {"hardpoints.spring_top": [-10.0, -600.0, 200.0]},
+        {"hardpoints.tie_rod_outer": [5.0, -720.0, 185.5]},
+        {"hardpoints.tie_rod_outer": [-10.0, -695.0, 345.0]},
+        {"hardpoints.tie_rod_inner": [-130.0, -700.0, 100.0]},
+        {"hardpoints.tie_rod_inner": [-257.97, -691.72, 260.0]},
     ],
 )
-def test_refused(changes, words):
-    found = problems(changes)
-    assert any(words in problem for problem in found), found
+def test_refused(changes, told):
+    told(*problems(changes))
 
 
 def test_upper_arm_at_its_dead_centre():

@@ -130,21 +130,20 @@ def test_the_linear_tyre_is_linear_and_ends_at_the_friction():
 
 
 @pytest.mark.parametrize(
-    ("place", "value", "said"),
+    ("place", "value"),
     [
-        (("Template",), "FialaTire", 'of JSON files "TMeasyTire" can be read'),
-        (("Design", "Width [m]"), None, '"Design > Width .m." is missing'),
-        (("Parameters",), None, '"Parameters" are missing'),
-        (("Parameters", "Tire Load"), None, 'Nominal Vertical Force .N." is missing'),
-        (("Coefficient of Friction",), "much", "a finite number is needed"),
-        (("Coefficient of Friction",), 0.0, "more than zero is needed"),
-        (("Parameters", "Aligning", "Normalized Trail at Zero Slip sy"), [0.1], "two numbers"),
-        (("Parameters", "Lateral", "Slip sy at Maximum Fy"), [0.8, 0.9], "must be greater than"),
-        (("Parameters", "Lateral", "Sliding Fy Load [N]"), [4e3, 5e3], "force of sliding is"),
-        (("Parameters", "Lateral", "Initial Slopes dFy/dsy [N]"), [6e4, 2e4], "makes it vanish"),
-        (("Parameters", "Tire Stiffness", "Vertical [N/m]"), [1e5, 2e5], "more than 1.41 times"),
+        (("Template",), "FialaTire"),
+        (("Design", "Width [m]"), None),
+        (("Parameters",), None),
+        (("Parameters", "Tire Load"), None),
+        (("Coefficient of Friction",), "much"),
+        (("Coefficient of Friction",), 0.0),
+        (("Parameters", "Aligning", "Normalized Trail at Zero Slip sy"), [0.1]),
+        (("Parameters", "Lateral", "Slip sy at Maximum Fy"), [0.8, 0.9]),
+        (("Parameters", "Lateral", "Sliding Fy Load [N]"), [4e3, 5e3]),
+        (("Parameters", "Lateral", "Initial Slopes dFy/dsy [N]"), [6e4, 2e4]),
+        (("Parameters", "Tire Stiffness", "Vertical [N/m]"), [1e5, 2e5]),
     ],
 )  # fmt: skip
-def test_mistakes_are_refused_by_name(load, place, value, said):
-    with pytest.raises(kintrafo.InputError, match=said):
-        load(changed(place, value))
+def test_mistakes_are_refused_by_name(load, place, value, refused):
+    refused(kintrafo.InputError, lambda: load(changed(place, value)))

@@ -99,24 +99,21 @@ def test_a_file_in_other_units(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("states", "names", "said"),
+    ("states", "names"),
     [
-        (lateral(cambers=(0.0,)), ["PDY1", "PDY3"], "do not determine PDY3. Leave"),
-        (lateral(), ["PKX1"], "do not determine PKX1"),
-        (
-            lateral(loads=(4000.0,)),
-            ["PKY1", "PKY2", "PDY1"],
-            r"PKY1 \(cannot be told from PKY2\); PKY2 \(cannot be told from PKY1\)",
-        ),
-        (lateral(), ["PDY1", "PCY1", "LCY"], r"PCY1 \(cannot be told from LCY\); LCY"),
-        (lateral(), ["PDY1", "PDY1"], "a name is there twice"),
-        (lateral(), [], "there is none"),
-        (lateral(), ["PDY9"], "'PDY9' is not known"),
+        (lateral(cambers=(0.0,)), ["PDY1", "PDY3"]),
+        (lateral(), ["PKX1"]),
+        (lateral(loads=(4000.0,)), ["PKY1", "PKY2", "PDY1"]),
+        (lateral(), ["PDY1", "PCY1", "LCY"]),
+        (lateral(), ["PDY1", "PDY1"]),
+        (lateral(), []),
+        (lateral(), ["PDY9"]),
     ],
 )
-def test_what_data_do_not_determine_is_refused_by_name(states, names, said):
-    with pytest.raises(kintrafo.InputError, match=said):
-        kintrafo.tyres.fit(with_forces(states, "fy"), TRUTH, names)
+def test_what_data_do_not_determine_is_refused_by_name(states, names, refused):
+    refused(
+        kintrafo.InputError, lambda: kintrafo.tyres.fit(with_forces(states, "fy"), TRUTH, names)
+    )
 
 
 def test_what_they_do_not_determine_is_left_out():
@@ -136,23 +133,22 @@ def test_bounds_hold_and_are_named():
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    "arguments",
     [
-        ({"bounds": {"PDY1": (1.1, 1.5)}}, "start: PDY1 = 0.98 is outside its bounds, 1.1 and 1.5"),
-        ({"bounds": {"PDY1": (1.5, 0.1)}}, "the second must be greater"),
-        ({"bounds": {"PKY1": (-50.0, -1.0)}}, "bounds 'PKY1' is not known"),
-        ({"accuracy": {"fy": 0.0}}, "accuracy.'fy'. = 0: a finite number above 0"),
-        ({"accuracy": {"fx": 1.0}}, "accuracy 'fx' is not known"),
-        ({"start": "passenger_205_55"}, "a tyre of the Magic Formula is needed"),
-        ({"data": {"load": [1.0], "fy": [1.0, 2.0]}}, "equal numbers are needed"),
-        ({"data": {"load": [-1.0], "fy": [1.0]}}, "load = -1 N: more than zero"),
-        ({"data": {"load": [1.0], "fq": [1.0]}}, "data 'fq' is not known"),
+        {"bounds": {"PDY1": (1.1, 1.5)}},
+        {"bounds": {"PDY1": (1.5, 0.1)}},
+        {"bounds": {"PKY1": (-50.0, -1.0)}},
+        {"accuracy": {"fy": 0.0}},
+        {"accuracy": {"fx": 1.0}},
+        {"start": "passenger_205_55"},
+        {"data": {"load": [1.0], "fy": [1.0, 2.0]}},
+        {"data": {"load": [-1.0], "fy": [1.0]}},
+        {"data": {"load": [1.0], "fq": [1.0]}},
     ],
 )
-def test_arguments_are_refused_by_name(arguments, said):
+def test_arguments_are_refused_by_name(arguments, refused):
     usual = {"data": with_forces(lateral(), "fy"), "start": TRUTH, "coefficients": ["PDY1"]}
-    with pytest.raises(kintrafo.InputError, match=said):
-        kintrafo.tyres.fit(**(usual | arguments))
+    refused(kintrafo.InputError, lambda: kintrafo.tyres.fit(**(usual | arguments)))
 
 
 @pytest.mark.parametrize("text", [None, OLDER], ids=["newer", "older"])

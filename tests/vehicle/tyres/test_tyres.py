@@ -158,20 +158,19 @@ def test_relaxation_lengths(tyre_of):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    "arguments",
     [
-        ({"load": -1.0}, "load = -1 N: zero or more"),
-        ({"load": float("nan")}, "load = nan N: a finite number"),
-        ({"load": "much"}, "load = 'much': numbers, in N, are needed"),
-        ({"load": 4000.0, "slip_angle": 1.6}, "less than a right angle"),
-        ({"load": [1.0, 2.0], "slip": [0.1, 0.2, 0.3]}, "do not broadcast"),
-        ({"load": 4000.0, "pressure": 0.0}, "pressure = 0 Pa: more than zero"),
-        ({"load": 4000.0, "extrapolate": 1}, "True or False"),
+        {"load": -1.0},
+        {"load": float("nan")},
+        {"load": "much"},
+        {"load": 4000.0, "slip_angle": 1.6},
+        {"load": [1.0, 2.0], "slip": [0.1, 0.2, 0.3]},
+        {"load": 4000.0, "pressure": 0.0},
+        {"load": 4000.0, "extrapolate": 1},
     ],
 )
-def test_arguments_are_refused_by_name(tyre_of, arguments, said):
-    with pytest.raises(kintrafo.InputError, match=said):
-        tyre_of(NEWER).evaluate(**arguments)
+def test_arguments_are_refused_by_name(tyre_of, arguments, refused):
+    refused(kintrafo.InputError, lambda: tyre_of(NEWER).evaluate(**arguments))
     if "pressure" in arguments:
         with pytest.raises(kintrafo.InputError, match="does not depend on it"):
             tyre_of(FILES["PAC2002"]).evaluate(**arguments)
