@@ -3,17 +3,16 @@
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.markup import escape
-from rich.table import Table
 
 from ...core.tabulated import significant
-from ...terminal.console import console, note, print_json, problems
+from ...terminal.console import console, note, print_json, problems, table
 from ...terminal.exits import Exit
 from .loading import car_of
 from .options import argument, option
 from .outputs import PlotOptions, name_files, title_of
 
 if TYPE_CHECKING:
+    from rich.table import Table
     from xarray import Dataset
 
     from ..assembly.car import CarAssembly
@@ -100,45 +99,39 @@ def _road(
     return roads.bump(bump / 1e3, bump_length, at=at, end=max(way, at + bump_length), sides=under)
 
 
-def _rest(found: "Dataset", file: str) -> Table:
+def _rest(found: "Dataset", file: str) -> "Table":
+    from ...core.quantities import displayed, heading_of
     from ..assembly.by_wheel import WHEEL
 
-    table = Table(title=escape(f"{file}: at rest"))
-    wheels = [str(name) for name in found[WHEEL].values.ravel()]
-    for name in ("", *wheels):
-        table.add_column(name.replace("_", " "), justify="left" if not name else "right")
-    for data in found.data_vars.values():
-        values = _displayed(data).ravel().tolist()
-        cells = [significant(float(value)) for value in values]
-        table.add_row(_label(data), *cells[: len(wheels)])
-    return table
+    wheels = [str(name).replace("_", " ") for name in found[WHEEL].values.ravel()]
+    rows = [
+        (heading_of(data), *map(significant, displayed(data).ravel().tolist()[: len(wheels)]))
+        for data in found.data_vars.values()
+    ]
+    return table(f"{file}: at rest", ("", *wheels), rows)
 
 
-def _modes(found: "Dataset", file: str) -> Table:
-    table = Table(title=escape(f"{file}: modes at rest"))
-    table.add_column("mode")
-    table.add_column("frequency [Hz]", justify="right")
-    table.add_column("damping ratio", justify="right")
-    for name in found["mode"].values:
-        own = found.sel(mode=name)
-        cells = f"{float(own['frequency']):.2f}", f"{float(own['damping_ratio']):.3f}"
-        table.add_row(str(name).replace("_", " "), *cells)
-    return table
+def _modes(found: "Dataset", file: str) -> "Table":
+    rows = [
+        (str(name).replace("_", " "), f"{float(own['frequency']):.2f}",
+         f"{float(own['damping_ratio']):.3f}")
+        for name in found["mode"].values
+        for own in [found.sel(mode=name)]
+    ]  # fmt: skip
+    return table(f"{file}: modes at rest", ("mode", "frequency [Hz]", "damping ratio"), rows)
 
 
-def _ride(motion: "Dataset", linear: "Dataset | None", title: str) -> Table:
+def _ride(motion: "Dataset", linear: "Dataset | None", title: str) -> "Table":
     """Return what the ride is judged by, beside the linear prediction."""
     import numpy as np
 
-    table = Table(title=escape(title))
-    table.add_column("output")
-    heads = ("rms", "weighted rms", "smallest", "largest", "rms, linear", "weighted, linear")
-    for head in heads:
-        table.add_column(head, justify="right")
+    from ...core.quantities import display_of, heading_of
+
+    rows = []
     wheels = np.atleast_1d(motion["wheel"].values)
     for name, data in motion.data_vars.items():
         predicted = {} if linear is None else linear.get(f"{name}_psd", motion[name]).attrs
-        factor = _factor(data)
+        factor = display_of(data.attrs).factor
         keys = ("rms", "weighted_rms", "smallest", "largest")
         columns = [np.atleast_1d(data.attrs.get(key, np.nan)) for key in keys]
         columns += [
@@ -147,10 +140,11 @@ def _ride(motion: "Dataset", linear: "Dataset | None", title: str) -> Table:
         ]
         several = len(columns[0]) > 1
         for i in range(len(columns[0])):
-            label = _label(data) + (f", {str(wheels[i]).replace('_', ' ')}" if several else "")
+            wheel = f", {str(wheels[i]).replace('_', ' ')}" if several else ""
             cells = [_cell(column[min(i, len(column) - 1)] * factor) for column in columns]
-            table.add_row(label, *cells)
-    return table
+            rows.append((heading_of(data) + wheel, *cells))
+    heads = ("rms", "weighted rms", "smallest", "largest", "rms, linear", "weighted, linear")
+    return table(title, ("output", *heads), rows)
 
 
 def _cell(value: float) -> str:
@@ -160,19 +154,3 @@ def _cell(value: float) -> str:
 def _judged(data: Any) -> dict[str, Any]:
     keys = ("rms", "weighted_rms", "smallest", "largest", "off_the_road", "units")
     return {key: data.attrs[key] for key in keys if key in data.attrs}
-
-
-def _factor(data: Any) -> float:
-    from ...core.quantities import display_of
-
-    return float(display_of(data.attrs).factor)
-
-
-def _displayed(data: Any) -> Any:
-    return data.values * _factor(data)
-
-
-def _label(data: Any) -> str:
-    from ...core.quantities import bracketed, long_name
-
-    return escape(bracketed(long_name(data), data.attrs))
