@@ -17,6 +17,7 @@ from ...core.tabulated import Tabulated, significant
 from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import flat
 from ..assembly.of import given_assembly
+from ..models.sides import SIDES
 from .characteristics.datasets import dataset
 from .compliance.flexibility import HELD, WheelSupport
 from .compliance.linear import linear
@@ -117,7 +118,7 @@ def tabulated(found: xr.Dataset, title: str) -> list[Tabulated]:
         given.text("title", title)
     parts = dict.fromkeys(map(str, found["part"].values))
     on_axle = any(str(name).endswith(_SIDES) for name in found[QUANTITY].values)
-    values = ("left", "right", "axle") if on_axle else ("value",)
+    values = (*SIDES, "axle") if on_axle else ("value",)
     heads = ("", *values, "unit", "in ISO 8855", "in SAE J670, z down")
     words = frozenset({0, *range(len(values) + 1, len(heads))})
     tables = []

@@ -8,7 +8,7 @@ from ...terminal.console import console, note, print_json, progress_bar, table
 from .loading import variable_subject
 from .options import File, option
 from .outputs import BarOptions, name_files, title_of
-from .variation_options import Look, StudyOptions
+from .variation_options import StudyCurves, StudyOptions
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -50,7 +50,7 @@ def command(
 
     outputs = output.files(file)
     subject = variable_subject(file)
-    look = Look.of(subject, asked)
+    look = StudyCurves.of(subject, asked)
     with progress_bar("sensitivity") as progress:
         dataset = variation.sensitivity(
             subject,
@@ -74,7 +74,7 @@ def command(
     name_files(written)
 
 
-def _table(dataset: "Dataset", look: Look, file: str) -> "Table":
+def _table(dataset: "Dataset", look: StudyCurves, file: str) -> "Table":
     """Return the effects: of one characteristic all of them, of several the greatest of each."""
     from ..studies import effects
 

@@ -8,7 +8,7 @@ from ...terminal.console import console, print_json, progress_bar, say, table
 from .loading import variable_subject
 from .options import File, argument, option
 from .outputs import BarOptions, name_files, title_of
-from .variation_options import Look, StudyOptions
+from .variation_options import StudyCurves, StudyOptions
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -50,7 +50,7 @@ def command(
     outputs = output.files(file, tolerances)
     subject = variable_subject(file)
     given = variation.read(tolerances)
-    look = Look.of(subject, asked)
+    look = StudyCurves.of(subject, asked)
     with progress_bar("cars") as progress:
         dataset = variation.tolerance(
             subject,

@@ -69,7 +69,7 @@ _USUAL_OF_AXLES = (
 
 
 @dataclass(frozen=True)
-class Look:
+class StudyCurves:
     """The curves that a study is about.
 
     Attributes
@@ -93,7 +93,7 @@ class Look:
     how: dict[str, Any]
 
     @classmethod
-    def of(cls, subject: "Subject", asked: StudyOptions) -> "Look":
+    def of(cls, subject: "Subject", asked: StudyOptions) -> "StudyCurves":
         """Return what is looked at; what there is not is refused."""
         from ..assembly.of import assembly_of
         from ..studies.evaluation import usual_positions

@@ -17,10 +17,10 @@ from ...core.reading import MOST_OF_DATA, text_of
 from ...core.suggestions import suggestion
 from ...core.tables import Heading, Row, Table, csv_rows, key
 from ...core.units import LENGTHS, unit_of
+from ..models.sides import SIDES
 from .vehicle_axes import ISO, REARWARD
 
 AXES = ("x", "y", "z")
-SIDES = ("left", "right")
 
 _NAMES = (
     "point", "name", "hardpoint", "point name", "hardpoint name", "feature", "feature name",

@@ -22,8 +22,9 @@ from ...core.tables import key
 from ...core.units import LENGTHS, in_si, length_in, unit_of
 from ..data import find
 from ..kinds import Suspension
+from ..models.sides import SIDES
 from .point_names import known, listed, matched
-from .point_rows import AXES, SIDES, Found, found_in
+from .point_rows import AXES, Found, found_in
 from .vehicle_axes import axes_of
 
 ENDINGS = (".csv", ".tsv", ".txt", ".xlsx")

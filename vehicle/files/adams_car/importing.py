@@ -12,6 +12,7 @@ from ....core.errors import InputError
 from ....core.legible import legible
 from ...input.teim_values import shown
 from ...kinds import KINDS, Suspension
+from ...models.sides import SIDES
 from ..fitting import Point, Side, differences, fresh, ground, move_along, put, to_side
 from ..point_names import assumed_of, known, listed, matched, points_of
 from ..point_table import Merged, put_points
@@ -97,7 +98,7 @@ def imported(
     with Arguments("imported") as arguments:
         arguments.kind("subsystem", subsystem, Subsystem, "what read returns is needed")
         if side is not None:
-            arguments.among("side", side, ("left", "right"))
+            arguments.among("side", side, SIDES)
         given = arguments.mapping("names", names or {}, "hardpoints and what they are called there")
     rest = rest_of(subsystem, kind, base, given)
     wanted: Side = side or ("left" if rest.packaged else rest.suspension.vehicle.side)
