@@ -10,11 +10,10 @@ steers a car is none of this.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .. import declare as d
 from ..declare.composition import replaced
-from ..declare.declared import parts
 from ..declare.parameters import Owner
 from ..program.vectors import Vector
 from . import axle, macpherson
@@ -65,35 +64,47 @@ def car(
     freedoms
         Coordinates of the body, the first ones of `FREEDOMS`.
     """
-    carried = tuple(_on_the_body(one, freedoms) for one in axles)
-    copies = tuple(_copied(one, f"{end}_") for end, one in zip(ENDS, carried, strict=True))
-    mechanism = d.combined(name, title, copies)
-    mechanism = replace(mechanism, forces=tuple(map(_with_a_short_name, mechanism.forces)))
-    pairs = tuple(zip(carried, copies, strict=True))
-    motions = {
-        copy.of(guide): motion for one, copy in pairs for guide, motion in one.prescribed.items()
-    }
-    every = [joint.name for one, copy in pairs for joint in copy.of(one.independent)]
-    massive = [body.name for one, copy in pairs for body in copy.of(one.massive)]
+    joints, coordinates = _body_joints(freedoms)
+    parts = [_on_the_car(one, f"{end}_") for end, one in zip(ENDS, axles, strict=True)]
+
+    def of_all(what: str) -> tuple[Any, ...]:
+        return tuple(dict.fromkeys(each for part in parts for each in part[what]))
+
+    motions = {guide: motion for part in parts for guide, motion in part["prescribed"]}
     return d.Formulation(
         name=name,
         title=title,
-        mechanism=mechanism,
-        independent=tuple(map(mechanism.joint, dict.fromkeys(every))),
+        mechanism=d.Mechanism(
+            name=name,
+            title=title,
+            joints=(*joints, *of_all("joints")),
+            forces=tuple(map(_with_a_short_name, of_all("forces"))),
+            coordinates=(*coordinates, *of_all("coordinates")),
+        ),
+        independent=(*joints, *of_all("independent")),
         prescribed=motions,
-        massive=tuple(map(mechanism.body, dict.fromkeys(massive))),
+        massive=(BODY, *of_all("massive")),
         held={"rack_held": tuple(motions)} if motions else {},
         allow_iteration=any(one.allow_iteration for one in axles),
     )
 
 
-def _copied(axle_on_body: d.Formulation, prefix: str) -> d.Copy:
-    """Return an axle whose parts have names and parameters of their own, but for the body."""
-    source = axle_on_body.mechanism
-    moved = [joint for joint in source.joints if joint.name.startswith("body_")]
-    shared = tuple(joint.second for joint in moved)
-    own = [part for part in source.every(Owner) if part not in {*parts((tuple(moved), shared))}]
-    return d.Copy(source, prefix, shared=shared, own=own)
+def _on_the_car(axle_on_ground: d.Formulation, prefix: str) -> dict[str, tuple[Any, ...]]:
+    """Return what an axle is made of, under names of its own, on the body of a car."""
+    source = axle_on_ground.mechanism
+    copy = d.Copy(source, prefix, own=source.every(Owner))
+    on = {source.body(source.ground): BODY}
+    parts = {
+        "joints": source.joints,
+        "forces": source.forces,
+        "coordinates": source.coordinates,
+        "independent": axle_on_ground.independent,
+        "massive": axle_on_ground.massive,
+        "prescribed": tuple(axle_on_ground.prescribed),
+    }
+    found = {name: replaced(copy.of(each), on) for name, each in parts.items()}
+    guided = zip(found["prescribed"], axle_on_ground.prescribed.values(), strict=True)
+    return found | {"prescribed": tuple(guided)}
 
 
 def of_corners(corner: d.Formulation, *, pulls: str = "", steered: bool = True) -> d.Formulation:

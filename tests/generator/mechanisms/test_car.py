@@ -25,10 +25,19 @@ def front_and_rear() -> tuple[Formulation, Formulation]:
     return struts, car.of_corners(WISHBONES, steered=False)
 
 
+def axles_without_sides() -> tuple[Formulation, Formulation]:
+    """Return a rigid axle and a twist-beam axle, which have coordinates named as a body's."""
+    rigid, twisted = (car.of_whole_axle(model_named(n)) for n in ("rigid_axle", "twist_beam"))
+    return rigid, twisted
+
+
 @pytest.mark.parametrize(
     "model",
     [
         pytest.param(car.quarter(model_named("macpherson")), id="quarter"),
+        pytest.param(
+            car.car("on_beams", "A car", axles_without_sides(), car.FREEDOMS[:1]), id="on beams"
+        ),
         pytest.param(
             car.car("rolling", "A car", front_and_rear(), car.FREEDOMS), id="car that rolls"
         ),
