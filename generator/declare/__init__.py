@@ -2,7 +2,7 @@
 
 from .bodies import Body, Ground, Rotor
 from .composition import Copy, combined
-from .contact_laws import LinearContact, MagicFormulaContact
+from .contact_laws import LinearContact, MagicFormulaContact, TMeasyContact
 from .declared import DeclarationError
 from .forces.applied_force import AppliedForce
 from .forces.applied_moment import AppliedMoment
@@ -148,6 +148,7 @@ __all__ = [
     "SpringTable",
     "Stop",
     "Surroundings",
+    "TMeasyContact",
     "TimeConstant",
     "TorsionDamperRate",
     "TorsionProgression",

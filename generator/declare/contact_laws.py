@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
-from ...formulas import linear_contact, magic_formula, vertical
+from ...formulas import linear_contact, magic_formula, tmeasy, vertical
+from ...formulas.arithmetic import at_most
 from ...formulas.coefficients import IN_EQUATIONS, NEUTRAL, ODD
 from ...formulas.magic_formula import Contact, Form
 from .declared import Name, declared
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 
     from ...formulas.arithmetic import Arithmetic
     from ...formulas.magic_formula import Forces
+
+
+_SMALL_DEFLECTION = sp.Rational(1, 10**9)  # added to that whose root is taken [m]
 
 
 @dataclass(frozen=True)
@@ -286,4 +290,77 @@ class MagicFormulaContact(AnyContactLaw):
         return "the Magic Formula" + ("" if self.newer else " of PAC2002")
 
 
-ContactLaw = LinearContact | MagicFormulaContact
+@declared
+@dataclass(frozen=True, kw_only=True)
+class TMeasyContact(AnyContactLaw):
+    """TMeasy: curves by slope, maximum and sliding at two loads.
+
+    Parameters
+    ----------
+    name
+        Begins the names of its parameters: ``<name>_x_slope_1``, ``<name>_friction``.
+    """
+
+    def _entries(self) -> Iterator[tuple[str, float, str, str]]:
+        yield "vxlow", 1.0, "m/s", "speed below which slips are smoothed"
+        for what, described in tmeasy.COEFFICIENTS.items():
+            yield what, *described
+
+    @cached_property
+    def _coefficients(self) -> dict[str, sp.Expr]:
+        return {what: self.symbol(what) for what in tmeasy.COEFFICIENTS}
+
+    @property
+    def radius(self) -> sp.Expr:
+        """Radius of the disc, without load [m]."""
+        return self.symbol("radius")
+
+    def load(self, deflection: sp.Expr) -> sp.Expr:
+        """Return the load of a deflection [N]."""
+        return tmeasy.load_of(self._coefficients, deflection)
+
+    def rolling_radius(self, a: Arithmetic, load: sp.Expr) -> sp.Expr:
+        """Return the speed of a freely rolling wheel over its rate of spin [m]."""
+        p = self._coefficients
+        deflection = self._deflection(a, load)
+        once, twice = p["rolling_1"], p["rolling_2"]
+        weight = tmeasy.by_load(load, p["nominal_load"], once, twice, quadratic=False)
+        return p["radius"] - deflection * (1 - at_most(a, weight, sp.Integer(1)))
+
+    def _deflection(self, a: Arithmetic, load: sp.Expr) -> sp.Expr:
+        found, _ = tmeasy.deflection_of(a, self._coefficients, load)
+        return a.define("pressed_by_load", found)
+
+    def forces(self, a: Arithmetic, at: Rolling) -> Forces:
+        """Return forces and moments at the contact."""
+        pressed = self._deflection(a, at.load) + _SMALL_DEFLECTION
+        length = a.define("contact_length", 2 * a.sqrt(self.radius * pressed))
+        contact = at.contact(pressure=sp.Integer(0))
+        return tmeasy.forces(a, self._coefficients, contact, length)
+
+    def relaxation(
+        self, a: Arithmetic, load: sp.Expr, inclination: sp.Expr
+    ) -> tuple[sp.Expr, sp.Expr]:
+        """Return the longitudinal and the lateral relaxation length [m]."""
+        del inclination
+        p = self._coefficients
+        load = at_most(a, load, p["greatest_load"])
+        x, y = (
+            tmeasy.by_load(
+                load,
+                p["nominal_load"],
+                p[f"{axis}_slope_1"],
+                p[f"{axis}_slope_2"],
+                quadratic=True,
+            )
+            / p[f"stiffness_{axis}"]
+            for axis in "xy"
+        )
+        return x, y
+
+    def told(self) -> str:
+        """Return what a report says of it."""
+        return "TMeasy"
+
+
+ContactLaw = LinearContact | MagicFormulaContact | TMeasyContact

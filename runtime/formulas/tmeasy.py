@@ -6,16 +6,19 @@ described by their slope at zero slip, their greatest force and the force of sli
 of both, at the nominal load and at twice that. Steady state, without the bore torque of a wheel
 that turns on the spot.
 
+The slope at zero slip depends on the direction of the slip; without any it is a mean.
+
 All of it is without branches: pieces of a curve are functions of the parts of the slip in them.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from .arithmetic import Arithmetic, at_most, magnitude
 from .magic_formula import Contact, Forces
 
+_SLOWEST = 1e-6  # added to the square of the speed of the tread over that of the wheel
 _SMALL_SQUARE = 1e-18  # added to the square of a slip under a root
 
 CURVES = ("slope", "maximum", "sliding", "slip_of_maximum", "slip_of_sliding")
@@ -23,6 +26,42 @@ CURVES = ("slope", "maximum", "sliding", "slip_of_maximum", "slip_of_sliding")
 _QUADRATIC = frozenset(CURVES[:3])
 TRAIL = ("trail", "slip_of_zero_trail", "slip_of_no_trail")
 """What describes the trail over the lateral slip."""
+
+
+COEFFICIENTS: Mapping[str, tuple[float, str, str]] = {
+    "radius": (0.316, "m", "radius of the tyre without load"),
+    "width": (0.205, "m", "width of the tyre"),
+    "friction": (0.9, "1", "friction of the road"),
+    "friction_measured": (0.9, "1", "friction at which the tyre was measured"),
+    "nominal_load": (3500.0, "N", "load of the first of each two values"),
+    "greatest_load": (9000.0, "N", "load above which curves do not grow"),
+    "load_1": (1.7e5, "N/m", "load over deflection without load"),
+    "load_2": (4.0e5, "N/m^2", "load over the square of the deflection"),
+    "stiffness_x": (2.6e5, "N/m", "longitudinal stiffness of the carcass"),
+    "stiffness_y": (1.5e5, "N/m", "lateral stiffness of the carcass"),
+    **{
+        f"{name}_{i}": (value, unit, f"{name.replace('_', ' ')} at {load} the nominal load")
+        for name, unit, values in (
+            ("x_slope", "N", (8.5e4, 1.55e5)),
+            ("x_maximum", "N", (3900.0, 7100.0)),
+            ("x_sliding", "N", (3000.0, 5800.0)),
+            ("x_slip_of_maximum", "1", (0.11, 0.12)),
+            ("x_slip_of_sliding", "1", (0.5, 0.6)),
+            ("y_slope", "N", (6.2e4, 1.0e5)),
+            ("y_maximum", "N", (3500.0, 6300.0)),
+            ("y_sliding", "N", (3300.0, 6000.0)),
+            ("y_slip_of_maximum", "1", (0.2, 0.22)),
+            ("y_slip_of_sliding", "1", (0.7, 0.8)),
+            ("trail", "1", (0.17, 0.15)),
+            ("slip_of_zero_trail", "1", (0.25, 0.27)),
+            ("slip_of_no_trail", "1", (0.5, 0.55)),
+            ("rolling", "1", (0.375, 0.75)),
+            ("resistance", "1", (0.011, 0.013)),
+        )
+        for i, value, load in zip((1, 2), values, ("", "twice"), strict=True)
+    },
+}
+"""What equations of motion need: usual values, units and meanings."""
 
 
 def by_load(load: Any, nominal: Any, once: Any, twice: Any, *, quadratic: bool) -> Any:
@@ -74,31 +113,41 @@ def forces(a: Arithmetic, p: Mapping[str, Any], c: Contact, length: Any) -> Forc
     p
         Coefficients.
     c
-        What the tyre rolls with; slips are those of TMeasy, over the speed of the tread.
+        What the tyre rolls with; the lateral slip is a tangent.
     length
         Of the contact [m].
     """
+    c = _over_tread(a, c)
     # curves are known up to a load, above which they do not grow
     load = a.define("curve_load", at_most(a, c.load, p["greatest_load"]) + 1e-6)
     x, y = _curve(a, p, load, "x"), _curve(a, p, load, "y")
-    slips = x.slip_of_maximum + y.slip_of_maximum
-    steepness = x.maximum / x.slope + y.maximum / y.slope
-    norm_x = a.define("norm_x", x.slip_of_maximum / slips + x.maximum / x.slope / steepness)
-    norm_y = a.define("norm_y", y.slip_of_maximum / slips + y.maximum / y.slope / steepness)
-    along, across = c.longitudinal / norm_x, -c.lateral / norm_y
+    slips = a.define("slips", x.slip_of_maximum + y.slip_of_maximum)
+    steep_x, steep_y = (
+        a.define(f"{axis}_steepness", each.maximum / each.slope)
+        for axis, each in (("x", x), ("y", y))
+    )
+    steepness = a.define("steepness", steep_x + steep_y)
+    norm_x = a.define("norm_x", x.slip_of_maximum / slips + steep_x / steepness)
+    norm_y = a.define("norm_y", y.slip_of_maximum / slips + steep_y / steepness)
+    along = a.define("norm_slip_x", c.longitudinal / norm_x)
+    across = a.define("norm_slip_y", -c.lateral / norm_y)
     # without slip the direction is that of both axes alike
     square_x, square_y = along * along + _SMALL_SQUARE, across * across + _SMALL_SQUARE
     size = a.define("combined_slip", a.sqrt(square_x + square_y))
-    share_x, share_y = square_x / (size * size), square_y / (size * size)
+    share_x = a.define("share_x", square_x / (size * size))
+    share_y = a.define("share_y", square_y / (size * size))
 
-    def both(one: Any, other: Any) -> Any:
-        return a.sqrt(one * one * share_x + other * other * share_y)
+    def both(name: str, one: Any, other: Any) -> Any:
+        one, other = a.define(f"{name}_x", one), a.define(f"{name}_y", other)
+        return a.define(name, a.sqrt(one * one * share_x + other * other * share_y))
 
-    slope = both(x.slope * norm_x, y.slope * norm_y)
-    most, least = both(x.maximum, y.maximum), both(x.sliding, y.sliding)
-    first = both(x.slip_of_maximum / norm_x, y.slip_of_maximum / norm_y)
-    last = both(x.slip_of_sliding / norm_x, y.slip_of_sliding / norm_y)
-    curve = _Curve(slope, most, least, first, last)
+    curve = _Curve(
+        both("slope", x.slope * norm_x, y.slope * norm_y),
+        both("maximum", x.maximum, y.maximum),
+        both("sliding", x.sliding, y.sliding),
+        both("slip_of_maximum", x.slip_of_maximum / norm_x, y.slip_of_maximum / norm_y),
+        both("slip_of_sliding", x.slip_of_sliding / norm_x, y.slip_of_sliding / norm_y),
+    )
     per_slip = a.define("force_over_slip", _force_over_slip(a, curve, size))
     # the inclination turns the contact, which slips to both sides
     induced = -length / 2 * c.inclination * c.rolling
@@ -110,7 +159,7 @@ def forces(a: Arithmetic, p: Mapping[str, Any], c: Contact, length: Any) -> Forc
     resistance = by_load(
         load, p["nominal_load"], p["resistance_1"], p["resistance_2"], quadratic=False
     )
-    lean = p["width"] * p["width"] * p["vertical_stiffness"] / 12
+    lean = p["width"] * p["width"] * p["load_1"] / 12
     return Forces(
         fx,
         fy,
@@ -123,37 +172,60 @@ def forces(a: Arithmetic, p: Mapping[str, Any], c: Contact, length: Any) -> Forc
     )
 
 
+def _over_tread(a: Arithmetic, c: Contact) -> Contact:
+    """Return the contact with slips over the speed of the tread, not over that of the wheel.
+
+    Near standstill, where `rolling` is between -1 and 1, its speed is smoothed as the other.
+    """
+    tread = c.longitudinal + c.rolling
+    tread = a.sqrt(tread * tread + 1 - c.rolling * c.rolling + _SLOWEST)
+    tread = a.define("tread", tread)
+    along, across = c.longitudinal / tread, c.lateral / tread
+    return replace(c, longitudinal=a.define("slip_x", along), lateral=a.define("slip_y", across))
+
+
+def load_of(p: Mapping[str, Any], deflection: Any) -> Any:
+    """Return the load of a deflection [N], by the coefficients `load_1` and `load_2`."""
+    return deflection * (p["load_1"] + p["load_2"] * deflection)
+
+
+def deflection_of(a: Arithmetic, p: Mapping[str, Any], load: Any) -> tuple[Any, Any]:
+    """Return the deflection of a load [m], and the vertical stiffness there [N/m]."""
+    root = a.sqrt(p["load_1"] * p["load_1"] + 4 * p["load_2"] * load)
+    return 2 * load / (p["load_1"] + root), root
+
+
 def _force_over_slip(a: Arithmetic, curve: _Curve, slip: Any) -> Any:
     """Return the force over the slip: adhesion, two parabolas or a cubic, sliding."""
-    slope = curve.slope + a.positive(2 * curve.maximum / curve.slip_of_maximum - curve.slope)
-    part = a.define("adhering", at_most(a, slip, curve.slip_of_maximum) / curve.slip_of_maximum)
-    bend = slope * curve.slip_of_maximum / curve.maximum - 2
-    adhesion = slope * curve.slip_of_maximum * part / (1 + part * (part + bend))
-    width = curve.slip_of_sliding - curve.slip_of_maximum
-    beyond = a.positive(slip - curve.slip_of_maximum)
-    fallen = _fallen(a, curve, slope, width, at_most(a, beyond, width))
-    return (adhesion - fallen) / slip
+    first = curve.slip_of_maximum
+    steep = a.define("secant", curve.maximum / first)
+    slope = a.define("adhesion_slope", curve.slope + a.positive(2 * steep - curve.slope))
+    part = a.define("adhering", at_most(a, slip, first) / first)
+    bent = a.define("adhesion_bent", 1 + part * (part + slope / steep - 2))
+    adhesion = slope * first * part / bent
+    width = a.define("width", curve.slip_of_sliding - first)
+    beyond = a.define("beyond", at_most(a, a.positive(slip - first), width))
+    curvature = a.define("curvature", steep * steep / (slope * first))
+    fallen = _fallen(a, curve.maximum - curve.sliding, curvature, width, beyond)
+    return (adhesion - a.define("fallen", fallen)) / slip
 
 
-def _fallen(a: Arithmetic, curve: _Curve, slope: Any, width: Any, beyond: Any) -> Any:
+def _fallen(a: Arithmetic, fall: Any, curvature: Any, width: Any, beyond: Any) -> Any:
     """Return by how much the force is below its maximum, at a slip beyond that of the maximum.
 
     Two parabolas, the first with the curvature of adhesion at the maximum; where they do not meet
     before sliding, a cubic.
     """
-    fall = curve.maximum - curve.sliding
-    steep = curve.maximum / curve.slip_of_maximum
-    curvature = steep * steep / (slope * curve.slip_of_maximum)
-    meeting = fall / (curvature * width)
+    meeting = a.define("meeting", fall / (curvature * width))
     meet = (1 + a.sign(width - meeting)) / 2  # one where they meet, zero where not
     before = at_most(a, beyond, meeting)
-    rest = a.positive(width - meeting) + (1 - meet) * width
-    left = a.positive(width - beyond) / rest
+    rest = a.define("rest", a.positive(width - meeting) + (1 - meet) * width)
+    left = a.define("left", a.positive(width - beyond) / rest)
     behind = curvature * meeting * rest * left * left
     first = curvature * before * before
     passed = (1 + a.sign(beyond - meeting)) / 2
     parabolas = (1 - passed) * first + passed * (fall - behind)
-    share = beyond / width
+    share = a.define("share", beyond / width)
     return meet * parabolas + (1 - meet) * fall * share * share * (3 - 2 * share)
 
 
@@ -166,10 +238,11 @@ def _trail(a: Arithmetic, p: Mapping[str, Any], load: Any, lateral: Any) -> Any:
     ]
     most, zero, none = values[0], values[1] * friction, values[2] * friction
     none = none + a.positive(zero - none)
-    weight = zero / none
+    zero, none = a.define("trail_zero", zero), a.define("trail_none", none)
+    weight = a.define("trail_weight", zero / none)
     slip = magnitude(a, lateral)
-    part = at_most(a, slip, zero) / zero
+    part = a.define("trail_part", at_most(a, slip, zero) / zero)
     low = most * ((1 - weight) * (1 - part) + weight * (1 - (3 - 2 * part) * part * part))
     beyond = at_most(a, a.positive(slip - zero), none - zero)
-    left = (none - zero - beyond) / (none - zero + 1e-12)
+    left = a.define("trail_left", (none - zero - beyond) / (none - zero + 1e-12))
     return low - most * (1 - weight) * beyond / zero * left * left

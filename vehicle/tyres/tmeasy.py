@@ -62,7 +62,6 @@ _NEWER = tuple(
 )
 _UNKNOWN = 1e-30  # stiffness of a carcass of which the file says nothing [N/m]
 _FORMAL = {("Name",), ("Type",), ("Template",)}
-_SMALLEST = 1e-6  # beside the square of the speed of the tread over that of the wheel
 
 
 @dataclass(frozen=True)
@@ -110,6 +109,7 @@ class TMeasy(Tyre):
         if problems:
             raise InputError(problems, str(path))
         values["friction_measured"] = values["friction"]
+        values["load_1"], values["load_2"] = _polynomial(values)
         return cls(values, left_out=tuple(_unread(data, used)))
 
     @property
@@ -131,6 +131,23 @@ class TMeasy(Tyre):
         """Return the mirror image, which is the tyre itself."""
         return replace(self)
 
+    def parameters(self, name: str = "tyre") -> dict[str, float]:
+        """Return the parameters of equations of motion that this tyre has.
+
+        Parameters
+        ----------
+        name : str, optional
+            Of the `kintrafo.generator.TMeasyContact` whose parameters they are.
+
+        Returns
+        -------
+        dict of str to float
+            By name, such as ``"tyre_x_slope_1"``, in SI units.
+        """
+        found = {key: self.values[key] for key in tmeasy.COEFFICIENTS}
+        found |= {"vxlow": self.lowest_speed}
+        return {f"{name}_{key}": value for key, value in found.items()}
+
     def with_friction(self, friction: float) -> Self:
         """Return the tyre on a road of another friction.
 
@@ -145,24 +162,19 @@ class TMeasy(Tyre):
 
     def _state(self, at: States) -> dict[str, Any]:
         p, rolling = self.values, np.sign(at.speed)
-        first, second = _polynomial(p)
-        root = np.sqrt(first * first + 4.0 * second * at.load)
-        deflection = 2.0 * at.load / (first + root)
+        deflection, stiffness = tmeasy.deflection_of(ARRAYS, p, at.load)
         length = 2.0 * np.sqrt(self.radius * deflection)
-        # slips of TMeasy are over the speed of the tread, and not over that of the wheel
-        tread = np.sqrt((1.0 + at.slip) ** 2 + _SMALLEST)
         contact = Contact(
             load=at.load,
-            longitudinal=at.slip / tread,
-            lateral=np.tan(at.slip_angle) / tread,
+            longitudinal=at.slip,
+            lateral=np.tan(at.slip_angle),
             inclination=np.sin(at.camber),
             direction=np.cos(at.slip_angle) * rolling,
             rolling=rolling,
             speed=at.speed,
             pressure=0.0,
         )
-        given = {**p, "vertical_stiffness": first}
-        found = tmeasy.forces(ARRAYS, given, contact, length)
+        found = tmeasy.forces(ARRAYS, p, contact, length)
         weight = tmeasy.by_load(
             at.load, self.nominal_load, p["rolling_1"], p["rolling_2"], quadratic=False
         )
@@ -180,7 +192,7 @@ class TMeasy(Tyre):
             "relaxation_y": _length(-found.cornering_stiffness, p["stiffness_y"]),
             "loaded_radius": static,
             "effective_radius": static + np.minimum(weight, 1.0) * deflection,
-            "vertical_stiffness": root,
+            "vertical_stiffness": stiffness,
         }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from pathlib import Path
 
 import kintrafo
 import numpy as np
@@ -11,6 +12,7 @@ from kintrafo import generator as g
 from own_tyres import COORDINATES, rig
 from tyres import ELLIPSE, NEWER, OLDER, without
 
+TMEASY = Path(__file__).parents[2] / "data/chrono/TMeasyTire.json"
 RATES = slice(6, 12)
 UP = np.array([0.0, 0.0, 1.0])
 LAWS = {
@@ -104,6 +106,21 @@ class Wheel:
         return force @ at_contact + fz * UP @ at_lowest + moment @ wheel
 
 
+def _see_jacobian(system, places) -> None:
+    """Compare the Jacobian with differences of the right-hand side."""
+    inputs = system.inputs({})
+    for state in places:
+        jacobian = system.evaluate("rhs_jacobian", state, inputs)
+        assert np.isfinite(jacobian).all()
+        columns = [
+            system.evaluate("rhs", state + h, inputs) - system.evaluate("rhs", state - h, inputs)
+            for h in 1e-6 * np.eye(len(state))
+        ]
+        scale = np.abs(jacobian).max()
+        differences = np.transpose(columns) / 2e-6
+        np.testing.assert_allclose(jacobian, differences, rtol=2e-5, atol=2e-6 * scale)
+
+
 @pytest.mark.parametrize("name", FILES)
 def test_forces_are_those_of_the_tyre_on_arrays(system_of, name):
     """With slips smoothed at 1e-5 m/s, which is 1e-12 of them here."""
@@ -161,25 +178,9 @@ def test_their_power_is_that_of_forces_at_the_contact(system_of, damping):
 def test_the_jacobian_is_exact(system_of, name):
     """Against differences of the right-hand side, also at standstill."""
     system = system_of(name)
-    inputs = system.inputs({})
     rest = np.zeros(12)
     rest[2] = -0.02
-    for state in (*states(3), rest):
-        jacobian = system.evaluate("rhs_jacobian", state, inputs)
-        assert np.isfinite(jacobian).all()
-        steps = 1e-6 * np.eye(12)
-        differences = (
-            np.transpose(
-                [
-                    system.evaluate("rhs", state + h, inputs)
-                    - system.evaluate("rhs", state - h, inputs)
-                    for h in steps
-                ]
-            )
-            / 2e-6
-        )
-        scale = np.abs(jacobian).max()
-        np.testing.assert_allclose(jacobian, differences, rtol=2e-5, atol=2e-6 * scale)
+    _see_jacobian(system, (*states(3), rest))
 
 
 @pytest.mark.parametrize("name", LAWS)
@@ -259,6 +260,37 @@ def test_deflections_follow_the_slip_along_the_relaxation_length(relaxing, name)
             assert signals[f"tyre_{what}"] == pytest.approx(wanted, rel=1e-7, abs=1e-5), what
 
 
+def test_tmeasy_is_that_on_arrays(folder):
+    """In its deflection as well, which has 1e-9 m more under a root."""
+    tyre, law = kintrafo.tyres.load(TMEASY), g.TMeasyContact(name="tyre")
+    model = rig(law, "rig_tmeasy", relaxing=True)
+    equations = kintrafo.compile(model, folder=folder, backend="numpy")
+    system = kintrafo.System(equations, tyre.parameters() | {"tyre_vxlow": 1e-5})
+    inputs = system.inputs({})
+    for position in states(6):
+        state = np.append(position, [0.03, -0.02])
+        signals, rates = system.signals(state, inputs), system.evaluate("rhs", state, inputs)
+        wheel = Wheel(position, tyre.radius)
+        load = wheel.deflection * (1.0 * tyre.values["load_1"]
+                                   + tyre.values["load_2"] * wheel.deflection)  # fmt: skip
+        assert signals["tyre_fz"] == pytest.approx(load, rel=1e-12)
+        still = tyre.evaluate(load, extrapolate=True)
+        ahead, slip, _ = wheel.slips(float(still.effective_radius), 1e-5)
+        along, across = state[12] / still.relaxation_x, state[13] / still.relaxation_y
+        assert rates[12] == pytest.approx(abs(ahead) * (slip - along), rel=1e-7, abs=1e-9)
+        camber = np.arcsin(wheel.axis[2])
+        found = tyre.evaluate(load, np.arctan(across), along, camber, speed=ahead, extrapolate=True)
+        for what in ("fx", "fy", "mz"):
+            wanted = float(vars(found)[what])
+            assert signals[f"tyre_{what}"] == pytest.approx(wanted, rel=1e-6, abs=1e-5), what
+    system = kintrafo.System(equations, tyre.parameters())
+    _see_jacobian(system, (state,))
+    # where both slips vanish, slopes of TMeasy depend on the direction: there it is their mean
+    rest = np.zeros(14)
+    rest[2] = -0.02
+    assert np.isfinite(system.evaluate("rhs_jacobian", rest, inputs)).all()
+
+
 def test_with_relaxation_no_speed_is_stiff(relaxing, system_of):
     """Spin settles with r^2 C / (I v) without, and about sqrt(r^2 C / (I s)) with it."""
     plain, (system, _) = system_of("linear"), relaxing("linear")
@@ -288,6 +320,8 @@ def test_a_tyre_has_all_parameters_of_its_law(system_of):
         radius=0.3, effective_radius=0.29, vertical_stiffness=2e5, slip_stiffness=9e4,
         cornering_stiffness=7e4,
     )  # fmt: skip
+    tmeasy = kintrafo.tyres.load(TMEASY)
+    assert {p.name for p in g.TMeasyContact(name="tyre").numbers} == set(tmeasy.parameters())
     for name, tyre in (("linear", linear), ("newer", system_of.tyre("newer"))):
         assert {p.name for p in LAWS[name].numbers} == set(tyre.parameters()), name
 

@@ -60,6 +60,15 @@ def test_tmeasy_is_what_its_pieces_say(load, sliding):
         np.testing.assert_allclose(got, wanted, rtol=1e-7, atol=1e-6 * state[0], err_msg=str(state))
 
 
+def test_tmeasy_rolls_backward():
+    """The same slip velocities of tread and wheel, seen from behind."""
+    tyre = kintrafo.tyres.load(FILE)
+    ahead, back = tyre.evaluate(3000.0, 0.05, 0.1), tyre.evaluate(3000.0, 0.05, -0.1, speed=-10.0)
+    assert back.fx == pytest.approx(-float(ahead.fx), rel=1e-12)
+    assert back.fy == pytest.approx(float(ahead.fy), rel=1e-12)
+    assert back.mz == pytest.approx(-float(ahead.mz), rel=1e-12)
+
+
 def test_tmeasy_figures():
     tyre = kintrafo.tyres.load(FILE)
     found = tyre.evaluate([3500.0, 7000.0])
