@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 EXAMPLES = (
     "kintrafo ride quarter_car",
-    "kintrafo ride reference_vehicle --road C --speed 60 --seed 7",
-    "kintrafo ride my_vehicle.toml --bump 50 --bump-length 0.5 --speed 30 -o bump.csv",
+    "kintrafo ride quarter_car --road C --speed 60 --seed 7 -o ride.csv",
+    "kintrafo ride quarter_car --bump 20 --bump-length 1 --speed 30 -o bump.csv",
 )
 
 
@@ -46,12 +46,15 @@ def command(
 
     The acceleration is that of the body, unweighted and weighted for comfort (W_k of ISO 2631-1).
     On a rough road the linear prediction, from the exact linearisation at rest, is beside the
-    simulation. Rear wheels meet the road later by the wheelbase. Data files have the motion.
+    simulation. Rear wheels meet the road later by the wheelbase. Data files have the motion; on a
+    rough road others, with _response behind their names, the spectra and the responses to the
+    road under each wheel.
     """
     from ...datasets import export
     from ..analysis import ride
 
-    outputs = output.files(file)
+    suffixes = ["", "_response"] if bump is None else [""]
+    outputs = output.files(file, suffixes=suffixes, drawn=[""])
     assembly = car_of(file)
     v = speed / 3.6
     chosen = _road(assembly, road, seed, bump, bump_length, under, v * duration)
@@ -63,6 +66,8 @@ def command(
         assembly, chosen, v, duration=duration, settle=settle, output_step=output_step / 1e3
     )
     written = outputs.write(motion, title=title_of(file))
+    if "linear" in found:
+        written += outputs.write_data(found["linear"], "_response")
     if output.json:
         judged = {str(n): _judged(d) for n, d in motion.items()}
         print_json({n: export.as_dict(d) for n, d in found.items() if n != "linear"} | judged)

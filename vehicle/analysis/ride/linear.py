@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ....core.arguments import Arguments
 from ....core.quantities import variable
+from ....datasets.columns import AS_COLUMNS
 from ....systems.linearisation import Linearisation, linearise
 from ....systems.modes import mode_of_states
 from ...assembly.by_wheel import WHEEL, wheel_coordinate
@@ -161,7 +162,11 @@ def response(
         variables[f"{name}_by_road"] = variable(("road_wheel", *dims), sizes, by_road, unit_by_road)
     coordinates = {
         "frequency": ("frequency", frequencies, {"units": "Hz", "long_name": "frequency"}),
-        "road_wheel": ("road_wheel", list(assembly.wheels), {"long_name": "wheel on the road"}),
+        "road_wheel": (
+            "road_wheel",
+            list(assembly.wheels),
+            {"long_name": "wheel on the road"} | AS_COLUMNS,
+        ),
         WHEEL: wheel_coordinate(assembly.wheels),
     }
     return xr.Dataset(variables, coordinates, {"title": "response to a rough road, linear"})
