@@ -48,10 +48,12 @@ golden: build ## Which numbers of any analysis differ from those stored (ARGS=st
 fuzz: build ## Try every door for long; a table of what came of it (ARGS="--rounds 100")
 	@PYTHONPATH=tests $(PYTHON) -m fuzz $(ARGS)
 
-lint: .venv/.ready tree ## Check style, and that every file imports only from lower floors
+lint: .venv/.ready tree ## Check style, words and spelling, and that every file imports only from lower floors
 	@.venv/bin/ruff check .
 	@.venv/bin/ruff format --check .
 	@PYTHONPATH=build/types .venv/bin/lint-imports --no-logo
+	@.venv/bin/codespell README.md CHANGELOG.md docs generator runtime vehicle
+	@$(PYTHON) .ci/words.py
 
 format: .venv/.ready ## Rewrite the sources in the project's style
 	@.venv/bin/ruff check --fix-only --quiet .

@@ -8,7 +8,7 @@ its own axes:
     r_O' = R (u, v, w),    e' = 1/2 e o (0, p, q, r) + k (1 - |e|^2) e.
 
 The unit quaternion e = (e0, e1, e2, e3), scalar first, turns the body from design. R is that of
-e / |e|, so that its columns are orthonormal whatever the norm is, and the motion does not depend on
+e / |e|, so that its columns are orthonormal for any norm, and the motion does not depend on
 the norm. The second term is along e: it moves the norm towards one, which the steps of an
 integration would carry away in the long run, and leaves the rotation as it is.
 """

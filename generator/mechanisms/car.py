@@ -1,4 +1,4 @@
-"""A car: suspensions on a body that moves, by as many freedoms as are asked for.
+"""A car: suspensions on a body that moves, with one, two, three or six degrees of freedom.
 
 The suspensions are those of one side, or whole axles, as they are declared on a ground: here the
 ground that they hang on is the body of the car, and the road takes its place. The body moves along

@@ -119,7 +119,7 @@ def long_name(data: "xr.DataArray") -> str:
 
 
 def heading_of(data: "xr.DataArray") -> str:
-    """Return what a variable is called in words, with its unit for people."""
+    """Return what a variable is called in words, with its display unit."""
     return bracketed(long_name(data), data.attrs)
 
 

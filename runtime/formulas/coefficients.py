@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 
 def keys(text: str) -> tuple[str, ...]:
-    """Return the names in a text, of which ``PDX1-3`` stands for three."""
+    """Return the names in a text, of which ``PDX1-3`` means three."""
     names: list[str] = []
     for word in text.split():
         stem, _, last = word.partition("-")

@@ -82,7 +82,7 @@ def rest(
 class _Search:
     """Newton's method on the accelerations of a system under some inputs, at rest.
 
-    Unknown are the positions and the internal states of forces, whose rates vanish as well.
+    Unknown are the positions and the internal states of forces, whose rates vanish, too.
     """
 
     def __init__(self, system: System, inputs: Array) -> None:
@@ -91,7 +91,7 @@ class _Search:
         self._speeds = slice(positions, positions + self._layout.speeds)
 
     def from_state(self, state: Array) -> Array:
-        """Return the state of rest that is found from one near it, whatever its speeds are."""
+        """Return the state of rest that is found from one near it, with any speeds."""
         state = self._layout.normalised(state)
         state[self._speeds] = 0.0
         left = self._accelerations(state)

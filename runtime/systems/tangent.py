@@ -1,10 +1,10 @@
 """Motions near a state, counted in as many coordinates as there are speeds.
 
-A quaternion has four elements and three freedoms: linear equations of all elements of a state have
-an eigenvalue that belongs to the norm and to no motion. Motions near a state are these instead: of
-coordinates whose rate is a speed, the coordinate; of a free body, a displacement s and a small turn
-t in its own axes. With V its velocity and W its angular velocity there, by ``r' = R V`` and
-``R' = R [W]x``,
+A quaternion has four elements and three degrees of freedom: linear equations of all elements of a
+state have an eigenvalue that belongs to the norm and to no motion. Motions near a state are these
+instead: of coordinates whose rate is a speed, the coordinate; of a free body, a displacement s and
+a small turn t in its own axes. With V its velocity and W its angular velocity there, by ``r' = R
+V`` and ``R' = R [W]x``,
 
     s' = -W x s + t x V + v,    t' = -W x t + w,
 

@@ -172,7 +172,7 @@ class TwistBeamAssembly(WholeAxleAssembly):
         return TwistBeamKinematics(self.model, self.model.states_at(left, right))
 
     def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
-        """Return how springs and stops give way."""
+        """Return how springs and stops deflect."""
         return {"": lines_of_beam(TwistBeamKinematics(self.model, poses[""].states))}
 
     def described(self) -> dict[str, str]:

@@ -28,7 +28,7 @@ def option(
     words : str
         Its help.
     value : str, optional
-        What stands for its value there: a unit in capitals; ``NAME,...`` for a list, which is
+        Placeholder of its value: a unit in capitals; ``NAME,...`` for a list, which is
         repeated or has commas.
     *names : str
         Its names, where they are not that of the parameter.
@@ -50,7 +50,7 @@ def argument(words: str, value: str | None = None, **how: Any) -> Any:
     words : str
         Its help.
     value : str, optional
-        What stands for it there; FILE for one whose names are completed.
+        Placeholder of it; FILE for one whose names are completed.
     **how
         As of `typer.Argument`.
     """

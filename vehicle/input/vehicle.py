@@ -28,7 +28,7 @@ Share = Annotated[
 
 
 class Vehicle(Section):
-    """The side that the suspension is on, and what the whole vehicle adds to its characteristics.
+    """The side that the suspension is on, and data of the whole vehicle to its characteristics.
 
     Only the side enters the equations of motion.
     """

@@ -144,7 +144,7 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
 
     twist_beam: End = Field(description='where the axle is: "front" or "rear"')
     vehicle: WholeAxleVehicle = Field(
-        default=WholeAxleVehicle(), description="what the whole vehicle adds"
+        default=WholeAxleVehicle(), description="data of the whole vehicle"
     )
     hardpoints: TwistBeamHardpoints = Field(description="the points of the right side")
     beam: BeamSection = Field(description="the beam between both arms")
@@ -160,8 +160,8 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
     tyre: Tyre = Field(description="the tyres")
     gravity: Gravity = Field(description="gravity")
     bodies: TwistBeamBodies = Field(description="masses and inertia")
-    brakes: Brakes = Field(default=Brakes(), description="what holds the torque of the brakes")
-    drive: AxleDrive | None = Field(default=None, description="what drives the axle")
+    brakes: Brakes = Field(default=Brakes(), description="reaction of the brake torque")
+    drive: AxleDrive | None = Field(default=None, description="the drive of the axle")
     bushings: Bushings | None = Field(
         default=None, description="what deflects at hardpoints, for compliance: see Loads"
     )

@@ -12,7 +12,7 @@ from .axle.file import Drive, TorqueReaction
 
 
 class WholeAxleVehicle(Section):
-    """What the whole vehicle adds to the characteristics of the axle."""
+    """Data of the whole vehicle to the characteristics of the axle."""
 
     wheelbase_mm: Positive | None = Field(
         default=None, description="distance of front and rear wheel centres along x"
@@ -53,7 +53,7 @@ class WholeAxleHardpoints(Hardpoints):
 
 
 class AxleDrive(Drive):
-    """What drives the axle."""
+    """The drive of the axle."""
 
     torque_on: TorqueReaction = Field(
         default="carrier",

@@ -26,7 +26,7 @@ from .road import Road
 Array = NDArray[np.float64]
 
 REFERENCE = 0.1
-"""The spatial frequency n0 at which a class is told apart [1/m]."""
+"""The spatial frequency n0 at which a class is defined [1/m]."""
 
 CLASSES = {name: 4.0**k * 1e-6 for k, name in enumerate("ABCDEFGH", start=2)}
 """G(n0) of the classes [m^3]: geometric means."""

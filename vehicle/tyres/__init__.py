@@ -8,7 +8,7 @@
                   `tir_writer` writes them
 `figures`         key figures over load
 `fitting`         coefficients from what was measured (`measured`)
-`loading`         whatever file a tyre is in
+`loading`         tyres from any file
 """
 
 from .figures import key_figures, tabulated

@@ -123,7 +123,7 @@ def fit(
     ------
     InputError
         If the data cannot be read, or do not determine coefficients that were asked for: with
-        their names, and those that they cannot be told from.
+        their names, and those that they cannot be distinguished from.
 
     Examples
     --------
@@ -238,7 +238,7 @@ def _see_determined(problem: _Problem, names: tuple[str, ...]) -> None:
     doubtful = _doubtful(problem, names)
     if doubtful:
         words = "; ".join(
-            f"{name}{f' (cannot be told from {others})' if (others := ', '.join(rest)) else ''}"
+            f"{name}{f' (not distinguished from {others})' if (others := ', '.join(rest)) else ''}"
             for name, rest in doubtful.items()
         )
         told = (

@@ -1,4 +1,4 @@
-"""Reading a tyre, whatever file it is in."""
+"""Reading a tyre from any file."""
 
 from pathlib import Path
 

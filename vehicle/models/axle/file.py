@@ -20,7 +20,7 @@ _SIDE = "hardpoint file beside this one, or the name of a packaged data set: "
 
 
 class Torque(Section):
-    """What holds the torque of brakes or drive."""
+    """The part that reacts the torque of brakes or drive."""
 
     torque_on: TorqueReaction = Field(
         description='"carrier": what turns against the torque is on the wheel carrier, as with '
@@ -38,7 +38,7 @@ class Brakes(Torque):
 
 
 class Drive(Torque):
-    """What drives the axle."""
+    """The drive of the axle."""
 
     torque_on: TorqueReaction = Field(
         default="body",
@@ -64,8 +64,8 @@ class AxleFile(Section):
         default=None,
         description="the rack over the angle of the steering wheel, instead of travel_per_turn_mm",
     )
-    brakes: Brakes = Field(default=Brakes(), description="what holds the torque of the brakes")
-    drive: Drive | None = Field(default=None, description="what drives the axle")
+    brakes: Brakes = Field(default=Brakes(), description="reaction of the brake torque")
+    drive: Drive | None = Field(default=None, description="the drive of the axle")
 
     def problems(self) -> list[str]:
         """See that there are two sides."""

@@ -87,11 +87,11 @@ are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center
 
     rigid_axle: End = Field(description='where the axle is: "front" or "rear"')
     vehicle: WholeAxleVehicle = Field(
-        default=WholeAxleVehicle(), description="what the whole vehicle adds"
+        default=WholeAxleVehicle(), description="data of the whole vehicle"
     )
     hardpoints: WholeAxleHardpoints = Field(description="the points of the right side")
     left_hardpoints: LeftHardpoints = Field(
-        default=LeftHardpoints(), description="what of the left side is not the mirror image"
+        default=LeftHardpoints(), description="points of the left side that are not mirror images"
     )
     rods: dict[str, Rod] = Field(
         description="four rods between chassis and axle, by names of any choice; or five, with "
@@ -110,8 +110,8 @@ are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center
     tyre: Tyre = Field(description="the tyres")
     gravity: Gravity = Field(description="gravity")
     bodies: RigidAxleBodies = Field(description="masses and inertia")
-    brakes: Brakes = Field(default=Brakes(), description="what holds the torque of the brakes")
-    drive: AxleDrive | None = Field(default=None, description="what drives the axle")
+    brakes: Brakes = Field(default=Brakes(), description="reaction of the brake torque")
+    drive: AxleDrive | None = Field(default=None, description="the drive of the axle")
     bushings: Bushings | None = Field(
         default=None, description="what deflects at hardpoints, for compliance: see Loads"
     )

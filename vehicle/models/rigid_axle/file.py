@@ -17,7 +17,7 @@ _Rate = Annotated[
 
 
 class LeftHardpoints(Section):
-    """What of the left side is not the mirror image of the right one, such as staggered dampers.
+    """Points of the left side without a mirror image on the right, such as staggered dampers.
 
     In the unit of ``[hardpoints]``, with the y of the left side.
     """
