@@ -157,9 +157,9 @@ def state_near(
 ) -> np.ndarray:
     """Return a state of a compiled model with free bodies anywhere, and joints near design."""
     layout, state = built.module.LAYOUT, built.module.design_state(built.parameters)
-    for place, _ in layout.own:
+    for place in layout.joints:
         state[place] += random.uniform(-reach, reach)
-    for place, _ in layout.free:
+    for place in layout.free:
         state[place : place + 3] += random.normal(size=3) * reach
         state[place + 3 : place + 7] = unit_quaternion(random)
     state[layout.positions :] = random.uniform(-speed, speed, layout.speeds)

@@ -2,6 +2,7 @@
 
 from .bodies import Body, Ground, Rotor
 from .composition import Copy, combined
+from .constraints import NoSlip, Rolling
 from .contact_laws import LinearContact, MagicFormulaContact, TMeasyContact
 from .declared import DeclarationError
 from .forces.applied_force import AppliedForce
@@ -130,6 +131,7 @@ __all__ = [
     "Mechanism",
     "MomentLevel",
     "Motion",
+    "NoSlip",
     "Parameter",
     "Point",
     "PositionOf",
@@ -138,6 +140,7 @@ __all__ = [
     "Ratio",
     "RelativeCoordinate",
     "Revolute",
+    "Rolling",
     "RollingTyre",
     "Rotor",
     "Share",

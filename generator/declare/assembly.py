@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ...core.suggestions import suggestion
 from .bodies import Body, Ground
+from .constraints import SpeedConstraint
 from .declared import DeclarationError, Name, declared, parts
 from .forces import Force
 from .forces.force_element import ForceElement
@@ -34,7 +35,7 @@ Named = TypeVar("Named", Body, Joint, Input)
 class Assembly:
     """The parts of a mechanism, before anything is checked that several of them must fulfil.
 
-    Bodies, inputs and parameters are those that joints, forces, coordinates and outputs refer to,
+    Bodies, inputs and parameters are those that joints, forces and all else refer to,
     in the order in which they were written; the ground is the first body. `derived` are names that
     equations read like parameters, and that are expressions in parameters.
     """
@@ -45,6 +46,7 @@ class Assembly:
     forces: tuple[Force, ...] = ()
     coordinates: tuple[RelativeCoordinate, ...] = ()
     outputs: tuple[Output, ...] = ()
+    constraints: tuple[SpeedConstraint, ...] = ()
     bodies: tuple[Body, ...] = field(init=False)
     inputs: tuple[Input, ...] = field(init=False)
     parameters: tuple[Parameter, ...] = field(init=False)
@@ -75,7 +77,9 @@ class Assembly:
 
     @cached_property
     def _parts(self) -> tuple[Any, ...]:
-        found = tuple(parts((self.joints, self.forces, self.coordinates, self.outputs)))
+        found = tuple(
+            parts((self.joints, self.forces, self.coordinates, self.outputs, self.constraints))
+        )
         problems = [
             f"a {type(part).__name__} cannot be compared with others ({error}): make its class a "
             "dataclass(frozen=True), with tuples in the place of lists"

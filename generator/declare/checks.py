@@ -106,6 +106,7 @@ def _repeated_problems(mechanism: Assembly) -> list[str]:
         ("joint", [j.name for j in mechanism.joints if mechanism.joints.count(j) > 1]),
         ("coordinate", [c.name for c in mechanism.coordinates]),
         ("output", [o.name for o in mechanism.outputs]),
+        ("constraint", [c.name for c in mechanism.constraints]),
         *((kind, [name for k, name in identities if k == kind]) for kind in kinds),
     ):
         problems += repeated(kind, listed)

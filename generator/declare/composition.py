@@ -83,6 +83,7 @@ class Copy:
             forces=self.of(source.forces),
             coordinates=self.of(source.coordinates),
             outputs=self.of(source.outputs),
+            constraints=self.of(source.constraints),
         )
 
     def _check(self) -> None:
@@ -284,4 +285,5 @@ def combined(
             *coordinates,
         ),
         outputs=(*dict.fromkeys(o for whole in wholes for o in whole.outputs), *outputs),
+        constraints=tuple(dict.fromkeys(c for whole in wholes for c in whole.constraints)),
     )

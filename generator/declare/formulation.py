@@ -43,6 +43,10 @@ class Formulation:
         The joints whose coordinates are given, with their motion.
     massive
         Bodies whose inertia enters the equations; all that move, if nothing is said.
+    eliminated
+        Names of the speeds that the constraints of the mechanism give, as many as they are: of a
+        hinge or guide the rate of its coordinate, of a free body u, v, w, p, q and r. They are no
+        states.
     held
         Variants of the right-hand side: name to the prescribed joints that do not move in it.
     allow_iteration
@@ -60,6 +64,7 @@ class Formulation:
     massive: tuple[Body, ...] = _ALL_THAT_MOVE
     prescribed: Mapping[Joint, Motion] = field(default_factory=dict)
     held: Mapping[Name, tuple[Joint, ...]] = field(default_factory=dict)
+    eliminated: tuple[str, ...] = ()
     allow_iteration: bool = False
     cites: Mapping[str, str] = field(default_factory=dict)
 
@@ -82,7 +87,12 @@ class Formulation:
     def states(self) -> StateLayout:
         """The layout of the state."""
         mechanism = self.mechanism
-        return StateLayout.of(self.independent, mechanism.coordinates, mechanism.internal_states)
+        return StateLayout.of(
+            self.independent,
+            mechanism.coordinates,
+            mechanism.internal_states,
+            self.eliminated,
+        )
 
     @property
     def motions(self) -> dict[str, Motion]:
@@ -117,6 +127,7 @@ def _check(formulation: Formulation) -> None:
     problems += _mass_problems(formulation)
     problems += _force_problems(formulation)
     problems += _passive_problems(formulation)
+    problems += [] if problems else _eliminated_problems(formulation)
     if problems:
         raise DeclarationError(formulation.name, problems)
 
@@ -192,6 +203,25 @@ def _input_problems(formulation: Formulation) -> list[str]:
         problems += [f"{i.name!r} is an input of a force and of a motion; rename one" for i in same]
     problems += input_problems(dict.fromkeys((*entries, *formulation.mechanism.inputs)))
     return problems + input_name_problems(formulation.mechanism, entries)
+
+
+def _eliminated_problems(formulation: Formulation) -> list[str]:
+    """See that as many speeds are eliminated as there are constraints on speeds."""
+    speeds = [entry.name for part in formulation.states.joints for entry in part.speeds]
+    known, needed = ", ".join(speeds), sum(c.count for c in formulation.mechanism.constraints)
+    problems = repeated("eliminated speed", formulation.eliminated)
+    problems += [
+        f"eliminated {name!r} is no speed of the independent joints; these are {known}"
+        for name in formulation.eliminated
+        if name not in speeds
+    ]
+    if not problems and len(formulation.eliminated) != needed:
+        given = len(formulation.eliminated)
+        problems.append(
+            f"the constraints make {needed} velocities vanish, and {given} speeds are "
+            f"eliminated; name {needed} of {known} that follow from the others"
+        )
+    return problems
 
 
 def _has_many(joint: Joint) -> bool:

@@ -47,12 +47,16 @@ class JointStates:
     coordinates
         What the speeds are the rates of, as velocities per unit rate are called: the coordinate of
         a hinge or a guide; of a free body, which has no such coordinates, the speeds themselves.
+    partners
+        Of each position the place of the speed that changes it most directly: none of the scalar
+        part of a quaternion.
     """
 
     joint: Joint
     positions: tuple[Entry, ...]
     speeds: tuple[Entry, ...]
     coordinates: tuple[str, ...]
+    partners: tuple[int | None, ...]
 
     @property
     def entries(self) -> tuple[Entry, ...]:
@@ -70,10 +74,13 @@ class StateLayout:
         The part of each independent joint, in their order.
     internal
         Those of forces.
+    eliminated
+        Names of speeds that constraints give, and that are no states.
     """
 
     joints: tuple[JointStates, ...]
     internal: tuple[Entry, ...] = ()
+    eliminated: tuple[str, ...] = ()
 
     @classmethod
     def of(
@@ -81,10 +88,11 @@ class StateLayout:
         independent: Iterable[Joint],
         coordinates: Sequence[RelativeCoordinate],
         internal: Iterable[InternalState],
+        eliminated: tuple[str, ...],
     ) -> StateLayout:
         """Return the layout for independent joints, with the names of reported coordinates."""
         joints = tuple(_states_of(joint, coordinates) for joint in independent)
-        return cls(joints, tuple(Entry(s.name, s.unit, s.meaning) for s in internal))
+        return cls(joints, tuple(Entry(s.name, s.unit, s.meaning) for s in internal), eliminated)
 
     @property
     def positions(self) -> tuple[Entry, ...]:
@@ -94,7 +102,8 @@ class StateLayout:
     @property
     def speeds(self) -> tuple[Entry, ...]:
         """The elements of v."""
-        return tuple(entry for part in self.joints for entry in part.speeds)
+        speeds = (entry for part in self.joints for entry in part.speeds)
+        return tuple(entry for entry in speeds if entry.name not in self.eliminated)
 
     @property
     def entries(self) -> tuple[Entry, ...]:
@@ -104,12 +113,31 @@ class StateLayout:
     @property
     def coordinates(self) -> tuple[str, ...]:
         """What the speeds are the rates of, in their order."""
-        return tuple(name for part in self.joints for name in part.coordinates)
+        return tuple(k for k, name in self.speed_of.items() if name not in self.eliminated)
+
+    @property
+    def eliminated_coordinates(self) -> tuple[str, ...]:
+        """What the eliminated speeds are the rates of."""
+        return tuple(k for k, name in self.speed_of.items() if name in self.eliminated)
+
+    @property
+    def partners(self) -> list[int | None]:
+        """Of each position the place among the speeds of that which changes it most directly."""
+        places = {entry.name: place for place, entry in enumerate(self.speeds)}
+        return [
+            None if speed is None else places.get(part.speeds[speed].name)
+            for part in self.joints
+            for speed in part.partners
+        ]
 
     @property
     def speed_of(self) -> dict[str, str]:
-        """The name of the speed of each coordinate."""
-        return dict(zip(self.coordinates, (entry.name for entry in self.speeds), strict=True))
+        """The name of the speed of each coordinate, also of those that are eliminated."""
+        return {
+            k: entry.name
+            for part in self.joints
+            for k, entry in zip(part.coordinates, part.speeds, strict=True)
+        }
 
     @property
     def free(self) -> tuple[JointStates, ...]:
@@ -128,7 +156,7 @@ def _states_of(joint: Joint, coordinates: Sequence[RelativeCoordinate]) -> Joint
     c = next(c for c in coordinates if c.joint == joint)
     position = Entry(c.name, c.unit, c.meaning)
     rate = Entry(f"{c.name}_rate", f"{c.unit}/s", f"rate of {c.name}")
-    return JointStates(joint, (position,), (rate,), (c.name,))
+    return JointStates(joint, (position,), (rate,), (c.name,), (0,))
 
 
 def free_states(joint: Free) -> JointStates:
@@ -152,4 +180,5 @@ def free_states(joint: Free) -> JointStates:
             for s, a in zip("pqr", "xyz", strict=True)
         ),
     )
-    return JointStates(joint, positions, speeds, tuple(entry.name for entry in speeds))
+    names = tuple(entry.name for entry in speeds)
+    return JointStates(joint, positions, speeds, names, (0, 1, 2, None, 3, 4, 5))

@@ -33,6 +33,7 @@ from ..program.floors import POSITIVE, SINGULAR
 from ..program.functions import Frozen
 from ..program.vectors import ELEMENTS, NO_TWIST, ZERO, SymmetricTensor, Twist, Vector
 from .acting import acted, shown_by
+from .admissible import Admissible
 from .surroundings import Seen
 
 if TYPE_CHECKING:
@@ -149,7 +150,8 @@ class Dynamics:
     def __init__(self, moving: InMotion) -> None:
         self.program, self.mechanism = moving.program, moving.mechanism
         self.moving, self.placed, self.part_of = moving, moving.placed, moving.part_of
-        self.coordinates, self.names = moving.coordinates, moving.coordinates.independent
+        self.coordinates, self.names = moving.coordinates, moving.coordinates.unconstrained
+        self.admissible = Admissible.of(moving)  # speeds that are not free have theirs by this
         self._of_base = {k: base.body for base in moving.bases for k in base.coordinates}
         self.inertia: dict[str, Inertia] = {}
         self.rotors: list[Rotor] = []
@@ -436,10 +438,12 @@ class Dynamics:
         return {name: self.program.define(f"{name}_rate", rates[name]) for name in names}
 
     def signals(self) -> Iterator[Shown]:
-        """Yield what the forces show, force by force."""
+        """Yield what the forces show, force by force, and then the constraints."""
         at = Seen(self.moving, self._momentum, self.accelerations)
         for force, action in zip(self.mechanism.forces, self._actions, strict=True):
             yield from shown_by(force, at, action)
+        for constraint in self.mechanism.constraints:
+            yield from constraint.signals(at)
 
     def total(self, force: Force) -> sp.Expr:
         """Return with how much a force pushes two ends apart."""
@@ -463,6 +467,8 @@ class Dynamics:
         eliminated.
         """
         program = self.program
+        if self.admissible is not None:
+            return self._solve_admissible(self.admissible)
         program.section("equations of motion")
         rest = self._rest
         for k in rest:
@@ -476,6 +482,36 @@ class Dynamics:
         bias = {k: self._bias[k] * self.coordinates.rate_scale(k) ** 2 for k in rest}
         right = {k: program.define(f"net_{k}", self._net(k, bias[k])) for k in rest}
         return self._with_spins(self._cholesky(rest, matrix, right), "acceleration")
+
+    def _solve_admissible(self, admissible: Admissible) -> dict[str, sp.Expr]:
+        """Forward dynamics of what constraints leave free, rotors as everything else."""
+        program = self.program
+        matrix = {
+            (k, other): program.define(f"mass_{k}_{other}", element)
+            for k, row in zip(self.names, self.full_mass_matrix(), strict=True)
+            for other, element in zip(self.names, row, strict=True)
+        }
+        program.section("equations of motion")
+        bias, force = (
+            {
+                k: program.define(f"{what}_of_{k}", v)
+                for k, v in zip(self.names, values, strict=True)
+            }
+            for what, values in (("bias", self.full_bias()), ("force", self.full_forces()))
+        )
+        carried = admissible.carried_along(matrix)
+        self._admissible_mass = {
+            (k, other): program.define(f"admissible_mass_{k}_{other}", v)
+            for (k, other), v in admissible.reduced(matrix).items()
+        }
+        self._admissible_bias = admissible.projected({k: bias[k] + carried[k] for k in self.names})
+        self._admissible_force = admissible.projected(force)
+        independent = self.coordinates.independent
+        right = {
+            k: program.define(f"net_{k}", self._admissible_force[k] - self._admissible_bias[k])
+            for k in independent
+        }
+        return admissible.completed(self._cholesky(independent, self._admissible_mass, right))
 
     @property
     def _rest(self) -> list[str]:
@@ -576,8 +612,8 @@ class Dynamics:
         """
         rest = self._rest
         most = max((len(placed.motion.keys() & rest) for placed, *_ in self._wrenches), default=0)
-        if most < MANY or self.coordinates.single_coordinate:
-            return self.accelerations
+        if self.admissible or most < MANY or self.coordinates.single_coordinate:
+            return {k: self.accelerations[k] for k in self.coordinates.independent}
         values = {k: self.program.define(f"{k}_value", Frozen(self.accelerations[k])) for k in rest}
         inertial = self._inertial(values)
         left = {k: self.program.define(f"{k}_imbalance", self._net(k, inertial[k])) for k in rest}
@@ -622,8 +658,45 @@ class Dynamics:
 
     # -- M, B and Q as the paper writes them ----------------------------------------------------
 
+    def mass_matrix(self) -> list[list[sp.Expr]]:
+        """Return M of the independent coordinates."""
+        if self.admissible is None:
+            return self.full_mass_matrix()
+        names, left = self.coordinates.independent, self._admissible_mass
+        return [[left.get((a, b), left.get((b, a), NONE)) for b in names] for a in names]
+
+    def bias(self) -> list[sp.Expr]:
+        """Return B of the independent coordinates."""
+        return self.full_bias() if self.admissible is None else list(self._admissible_bias.values())
+
+    def applied(self) -> list[sp.Expr]:
+        """Return Q of the independent coordinates."""
+        return (
+            self.full_forces() if self.admissible is None else list(self._admissible_force.values())
+        )
+
+    def directions(self) -> dict[str, dict[sp.Symbol, sp.Expr]]:
+        """Return how positions change per unit of each independent speed."""
+        columns = self.moving.directions()
+        if self.admissible is None:
+            return columns
+        found = {}
+        for k in self.coordinates.independent:
+            column = dict(columns[k])
+            for d, shares in self.admissible.shares.items():
+                for symbol, change in columns[d].items():
+                    column[symbol] = column.get(symbol, NONE) + shares[k] * change
+            found[k] = column
+        return found
+
+    def along(self, k: str) -> dict[str, sp.Expr]:
+        """Return by how much each coordinate moves for a unit of an independent one."""
+        if self.admissible is None:
+            return {k: sp.Integer(1)}
+        return {k: sp.Integer(1)} | {d: p[k] for d, p in self.admissible.shares.items()}
+
     def full_mass_matrix(self) -> list[list[sp.Expr]]:
-        """Return M of all independent coordinates, rotors included."""
+        """Return M of all coordinates, rotors included, as if no constraint gave any speed."""
         self.program.section("mass matrix")
         matrix = [[self._carried_matrix(k, other) for other in self.names] for k in self.names]
         for rotor in self.rotors:
@@ -639,7 +712,7 @@ class Dynamics:
         return {k: share.get(k, NONE) for k in self.names}
 
     def full_bias(self) -> list[sp.Expr]:
-        """Return B of all independent coordinates, rotors included."""
+        """Return B of all coordinates, rotors included."""
         bias = {k: self._bias[k] * self.coordinates.rate_scale(k) ** 2 for k in self.names}
         for rotor in self.rotors:
             rate = self._spin_bias(rotor, {})
@@ -648,5 +721,5 @@ class Dynamics:
         return [bias[k] for k in self.names]
 
     def full_forces(self) -> list[sp.Expr]:
-        """Return Q of all independent coordinates."""
+        """Return Q of all coordinates."""
         return [self._force[k] for k in self.names]

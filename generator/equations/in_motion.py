@@ -76,7 +76,9 @@ class InMotion:
         coordinates = Coordinates(plan.formulation, held)
         joints = (part.joint for part in coordinates.states.free)
         bases: dict[str, Base] = {
-            j.second.name: FreeBase.of(program, j) for j in joints if isinstance(j, Free)
+            j.second.name: FreeBase.of(program, j, coordinates.true_rate)
+            for j in joints
+            if isinstance(j, Free)
         }
         roots = []
         if jointed := jointed_base(plan.formulation):
@@ -127,14 +129,14 @@ class InMotion:
 
     def directions(self) -> dict[str, dict[sp.Symbol, sp.Expr]]:
         """Return the columns of N(q) in q' = N(q) v, by the coordinates in their order."""
-        found = {k: {sp.Symbol(k): sp.Integer(1)} for k in self.coordinates.independent}
+        found = {k: {sp.Symbol(k): sp.Integer(1)} for k in self.coordinates.unconstrained}
         for base in self.free:
             found |= base.directions()
         return found
 
     def rates(self) -> dict[str, sp.Expr]:
         """Return the rates of all positions of the state, by their names."""
-        found = {k: self.coordinates.true_rate(k) for k in self.coordinates.independent}
+        found = {k: self.coordinates.true_rate(k) for k in self.coordinates.unconstrained}
         for base in self.free:
             found |= base.rates()
         return {entry.name: found[entry.name] for entry in self.coordinates.states.positions}

@@ -371,7 +371,7 @@ class _Builder:
         self._add_right_hand_side(dynamics)
         names = self.motion.coordinates.independent
         n = len(names)
-        matrix = dynamics.full_mass_matrix()
+        matrix = dynamics.mass_matrix()
         self._add(
             "mass_matrix",
             "Mass matrix M(q), row-major.",
@@ -386,18 +386,19 @@ class _Builder:
         self._add(
             "bias",
             "Vector B(q, q'): inertia terms without accelerations.",
-            dict(zip((f"B[{k}]" for k in names), dynamics.full_bias(), strict=True)),
+            dict(zip((f"B[{k}]" for k in names), dynamics.bias(), strict=True)),
         )
         self._add(
             "forces",
             "Generalised applied forces Q(q, q').",
-            dict(zip((f"Q[{k}]" for k in names), dynamics.full_forces(), strict=True)),
+            dict(zip((f"Q[{k}]" for k in names), dynamics.applied(), strict=True)),
         )
 
     def _add_right_hand_side(self, dynamics: Dynamics, variant: str = "") -> None:
         program, speed_of = dynamics.program, self.states.speed_of
         rates = {f"d({name})/dt": rate for name, rate in dynamics.moving.rates().items()}
-        rates |= {f"d({speed_of[k]})/dt": a for k, a in dynamics.accelerations.items()}
+        accelerations = ((k, dynamics.accelerations[k]) for k in dynamics.coordinates.independent)
+        rates |= {f"d({speed_of[k]})/dt": a for k, a in accelerations}
         rates |= {f"d({name})/dt": rate for name, rate in dynamics.internal_rates.items()}
         what = f" with {variant.replace('_', ' ')}" if variant else ""
         rhs, jacobian = ("_".join(filter(None, (n, variant))) for n in ("rhs", "rhs_jacobian"))
@@ -460,7 +461,7 @@ class _Builder:
         self._add("relative_coordinates", "Relative joint coordinates beta.", values)
         columns = [
             self.program.along(direction, values.values(), f"by_{k}")
-            for k, direction in self.motion.directions().items()
+            for k, direction in self.dynamics.directions().items()
         ]
         self._add(
             "relative_jacobian",
@@ -527,7 +528,7 @@ class _Builder:
         names = self.motion.coordinates.independent
         results = {}
         for body in self.massive:
-            columns = {k: self._ground_twist(body, k) for k in names}
+            columns = {k: self._twist_along(body, k) for k in names}
             for row, label in enumerate(self._twist_labels(body)):
                 for k in names:
                     results[f"{label} by {k}"] = columns[k][row]
@@ -538,6 +539,14 @@ class _Builder:
             6 * len(self.massive),
             len(names),
         )
+
+    def _twist_along(self, body: str, independent: str) -> list[sp.Expr]:
+        """Return the same with all that moves where one independent coordinate does."""
+        total: list[sp.Expr] = [sp.Integer(0)] * 6
+        for coordinate, share in self.dynamics.along(independent).items():
+            column = self._ground_twist(body, coordinate)
+            total = [t + share * c for t, c in zip(total, column, strict=True)]
+        return total
 
     def _ground_twist(self, body: str, coordinate: str) -> list[sp.Expr]:
         """Return (omega, velocity of the centre of mass) per unit rate, in ground axes."""

@@ -28,7 +28,7 @@ from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vec
 from .motion import Axes, from_axes, to_axes
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from ..declare.geometry import Point
     from ..declare.joints import Free
@@ -136,14 +136,17 @@ class FreeBase(Base):
         Whose second body it is.
     axes
         Its axes.
+    speed_of
+        From one of its coordinates to its speed.
     """
 
     program: Program
     joint: Free
     axes: Axes
+    speed_of: Callable[[str], sp.Expr]
 
     @classmethod
-    def of(cls, program: Program, joint: Free) -> FreeBase:
+    def of(cls, program: Program, joint: Free, speed_of: Callable[[str], sp.Expr]) -> FreeBase:
         """Append the axes of a body from its quaternion."""
         body = joint.second.name
         program.section(f"{body}: free in the world")
@@ -172,7 +175,7 @@ class FreeBase(Base):
             Vector(xz + wy, yz - wx, 1 - xx - yy),
         )
         axes = program.axes((f"{body}_forward", f"{body}_left", f"{body}_up"), columns)
-        return cls(program, joint, axes)
+        return cls(program, joint, axes, speed_of)
 
     @property
     def body(self) -> str:
@@ -180,12 +183,12 @@ class FreeBase(Base):
         return self.joint.second.name
 
     @cached_property
-    def _symbols(self) -> tuple[list[sp.Symbol], list[sp.Symbol]]:
-        states = free_states(self.joint)
-        return (
-            [sp.Symbol(entry.name) for entry in states.positions],
-            [sp.Symbol(entry.name) for entry in states.speeds],
-        )
+    def _positions(self) -> list[sp.Symbol]:
+        return [sp.Symbol(entry.name) for entry in free_states(self.joint).positions]
+
+    @property
+    def _speeds(self) -> dict[str, sp.Expr]:
+        return {k: self.speed_of(k) for k in self.coordinates}
 
     @property
     def point(self) -> Point:
@@ -207,25 +210,25 @@ class FreeBase(Base):
     @property
     def position(self) -> Vector:
         """Where its centre of mass is, in the world."""
-        x, y, z = self._symbols[0][:3]
+        x, y, z = self._positions[:3]
         place: Vector = self.center + Vector(x, y, z)
         return place
 
     @property
     def velocity(self) -> Vector:
         """That of its centre of mass, in its own axes."""
-        return Vector(*self._symbols[1][:3])
+        return Vector(*list(self._speeds.values())[:3])
 
     @property
     def omega(self) -> Vector:
         """Its angular velocity, in its own axes."""
-        return Vector(*self._symbols[1][3:])
+        return Vector(*list(self._speeds.values())[3:])
 
     # -- positions and speeds ---------------------------------------------------------------------
 
     def directions(self) -> dict[str, dict[sp.Symbol, sp.Expr]]:
         """Return the columns of N(q): how positions change per unit of each speed."""
-        (x, y, z, e0, e1, e2, e3), _ = self._symbols
+        x, y, z, e0, e1, e2, e3 = self._positions
         half = sp.Rational(1, 2)
         moved = ({x: a.x, y: a.y, z: a.z} for a in self.axes)
         turned = (
@@ -237,21 +240,20 @@ class FreeBase(Base):
 
     def rates(self) -> dict[str, sp.Expr]:
         """Return the rates of its positions, by their names."""
-        positions, speeds = self._symbols
-        columns = self.directions()
-        body, quaternion = self.body, positions[3:]
+        columns, speeds = self.directions(), self._speeds
+        body, quaternion = self.body, self._positions[3:]
         squared = sum((e * e for e in quaternion), NONE)
         norm = self.program.define(f"{body}_norm_rate", KEEPS_NORM * (1 - squared))
         found = {}
-        for s in positions:
-            rate = sum((columns[v.name].get(s, NONE) * v for v in speeds), NONE)
+        for s in self._positions:
+            rate = sum((columns[k].get(s, NONE) * v for k, v in speeds.items()), NONE)
             back = norm * s if s in quaternion else NONE
             found[s.name] = self.program.define(f"{s}_rate", rate + back)
         return found
 
     def reported(self, kind: str) -> sp.Expr:
         """Return a coordinate of its joint as reports have it: a displacement or an angle."""
-        (x, y, z, *_), (forward, left, up) = self._symbols[0], self.axes
+        (x, y, z, *_), (forward, left, up) = self._positions, self.axes
         return {
             "x": lambda: x,
             "y": lambda: y,

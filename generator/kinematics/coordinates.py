@@ -40,6 +40,10 @@ class Coordinates:
         The names of those that move.
     independent
         The names of the independent ones, in the order of the speeds of the state.
+    eliminated
+        The names of those whose speeds constraints give.
+    solved
+        The speeds of the latter, once they are found.
 
     Notes
     -----
@@ -63,6 +67,8 @@ class Coordinates:
         self.symbols = {k: sp.Symbol(self._symbol(k)) for j in self.driven for k in self.all_of(j)}
         self.moving = [k for j in self.driven if j.name not in self._held for k in self.all_of(j)]
         self.independent = list(self.states.coordinates)
+        self.eliminated = list(self.states.eliminated_coordinates)
+        self.solved: dict[str, sp.Expr] = {}
 
     def of(self, joint: Joint) -> str:
         """Return the name of the coordinate that moves a driven joint, or what follows it."""
@@ -96,8 +102,15 @@ class Coordinates:
 
     # -- rates ------------------------------------------------------------------------------------
 
-    def true_rate(self, coordinate: str) -> sp.Symbol:
-        """Return the symbol of the rate of a coordinate."""
+    @property
+    def unconstrained(self) -> list[str]:
+        """The names of the independent and the eliminated ones, joint by joint."""
+        return list(self._speeds)
+
+    def true_rate(self, coordinate: str) -> sp.Expr:
+        """Return the rate of a coordinate: a symbol, but where constraints give it."""
+        if coordinate in self.solved:
+            return self.solved[coordinate]
         motion = self._motions.get(coordinate)
         return sp.Symbol(self._speeds[coordinate] if motion is None else motion.rates[0])
 

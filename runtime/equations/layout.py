@@ -1,6 +1,6 @@
 """The state of a mechanism: positions q, then speeds v, with q' = N(q) v, then internal states."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-# Of a free body: its displacement and its unit quaternion; velocity and angular velocity.
-_POSITIONS, _QUATERNION, _SPEEDS, _AXES = 7, slice(3, 7), 6, 3
+# Of a free body: its displacement, and then its unit quaternion.
+_AXES, _POSITIONS = 3, 7
 
 
 @dataclass(frozen=True)
@@ -25,50 +25,125 @@ class StateLayout:
     ----------
     positions, speeds : int
         How many there are; they come in this order.
-    free : tuple of tuple of int
-        Of each free body, the places of its first position and of its first speed among the speeds.
+    speed_of : tuple of int or None
+        Of each position, the place among the speeds of the one that changes it most directly: the
+        rate of a coordinate, the velocity along the same axis of a free body, its angular velocity
+        about it for a component of the quaternion. None where there is none: of the scalar part,
+        and where constraints give the speed.
+    free : tuple of int
+        Where the seven positions of each free body begin.
     """
 
     positions: int
     speeds: int
-    free: tuple[tuple[int, int], ...]
+    speed_of: tuple[int | None, ...]
+    free: tuple[int, ...]
 
     @classmethod
     def of(cls, described: Mapping[str, Any]) -> "StateLayout":
         """Return the layout that a manifest describes."""
-        free = tuple((body["position"], body["speed"]) for body in described["free"])
-        return cls(described["positions"], described["speeds"], free)
+        return cls(
+            described["positions"],
+            described["speeds"],
+            tuple(described["speed_of"]),
+            tuple(described["free"]),
+        )
 
     @property
-    def own(self) -> tuple[tuple[int, int], ...]:
-        """Places of the positions whose rate is a speed, and of that speed among the speeds."""
-        positions = set(range(self.positions)) - {
-            at + i for at, _ in self.free for i in range(_POSITIONS)
-        }
-        speeds = set(range(self.speeds)) - {at + i for _, at in self.free for i in range(_SPEEDS)}
-        return tuple(zip(sorted(positions), sorted(speeds), strict=True))
+    def rates_are_speeds(self) -> bool:
+        """Whether each speed is the rate of the position in its place."""
+        return self.speed_of == tuple(range(self.speeds)) and not self.free
 
     @property
-    def partners(self) -> tuple[int, ...]:
-        """Of each speed, the place of the position that it changes most directly.
+    def joints(self) -> tuple[int, ...]:
+        """Places of the positions that belong to no free body."""
+        of_free = {at + i for at in self.free for i in range(_POSITIONS)}
+        return tuple(i for i in range(self.positions) if i not in of_free)
 
-        The coordinate whose rate it is; of u, v and w of a free body the displacements x, y and z,
-        and of p, q and r the components e1, e2 and e3 of its quaternion.
-        """
-        found = {speed: position for position, speed in self.own}
-        for position, speed in self.free:
-            found |= {speed + i: position + i + (i >= _AXES) for i in range(_SPEEDS)}
-        return tuple(found[speed] for speed in range(self.speeds))
+    @property
+    def freedoms(self) -> dict[int, int]:
+        """Of each position, its place among the directions of `basis`; the scalar part has none."""
+        scalar = {at + _AXES for at in self.free}
+        found = (i for i in range(self.positions) if i not in scalar)
+        return {position: place for place, position in enumerate(found)}
 
-    def normalised(self, positions: Array) -> Array:
-        """Return positions with quaternions of length one.
+    def normalised(self, state: Array) -> Array:
+        """Return a state, or positions, with quaternions of length one.
 
         Parameters
         ----------
-        positions : ndarray, shape (..., positions)
+        state : ndarray, shape (..., positions or more)
         """
-        found = positions.copy()
-        for at, _ in self.free:
-            quaternion = found[..., at : at + _POSITIONS][..., _QUATERNION]
+        found = state.copy()
+        for at in self.free:
+            quaternion = found[..., at + _AXES : at + _POSITIONS]
             quaternion /= np.linalg.norm(quaternion, axis=-1, keepdims=True)
         return found
+
+    def basis(self, state: Array) -> Array:
+        """Return in which directions positions can change.
+
+        Displacements and small turns of free bodies are in their own axes.
+
+        Parameters
+        ----------
+        state : ndarray, shape (states,)
+            With quaternions of length one.
+
+        Returns
+        -------
+        ndarray, shape (positions, freedoms)
+        """
+        found = self._of_free(
+            (at, rotation(e), turning(e)) for at in self.free for e in [self._quaternion(state, at)]
+        )
+        for position in self.joints:
+            found[position, self.freedoms[position]] = 1.0
+        return found
+
+    def turned(self, state: Array, rate: Array) -> Array:
+        """Return how fast `basis` changes, given the rate of the state."""
+
+        def blocks(at: int) -> tuple[int, Array, Array]:
+            e, change = self._quaternion(state, at), self._quaternion(rate, at)
+            omega = 4.0 * turning(e).T @ change
+            return at, rotation(e) @ _cross(omega), turning(change)
+
+        return self._of_free(map(blocks, self.free))
+
+    @staticmethod
+    def _quaternion(state: Array, at: int) -> Array:
+        return state[at + _AXES : at + _POSITIONS]
+
+    def _of_free(self, blocks: Iterable[tuple[int, Array, Array]]) -> Array:
+        places = self.freedoms
+        found = np.zeros((self.positions, len(places)))
+        for at, moved, turned in blocks:
+            first = places[at]
+            found[at : at + _AXES, first : first + _AXES] = moved
+            found[at + _AXES : at + _POSITIONS, first + _AXES : first + 2 * _AXES] = turned
+        return found
+
+
+def rotation(quaternion: Array) -> Array:
+    """Return the matrix of a unit quaternion, scalar first."""
+    e0, e1, e2, e3 = quaternion
+    return np.array(
+        [
+            [1 - 2 * (e2 * e2 + e3 * e3), 2 * (e1 * e2 - e0 * e3), 2 * (e1 * e3 + e0 * e2)],
+            [2 * (e1 * e2 + e0 * e3), 1 - 2 * (e1 * e1 + e3 * e3), 2 * (e2 * e3 - e0 * e1)],
+            [2 * (e1 * e3 - e0 * e2), 2 * (e2 * e3 + e0 * e1), 1 - 2 * (e1 * e1 + e2 * e2)],
+        ]
+    )
+
+
+def turning(quaternion: Array) -> Array:
+    """Return how a quaternion changes with small turns about the axes that it turns, 4 x 3."""
+    e0, e1, e2, e3 = 0.5 * quaternion
+    return np.array([[-e1, -e2, -e3], [e0, -e3, e2], [e3, e0, -e1], [-e2, e1, e0]])
+
+
+def _cross(v: Array) -> Array:
+    """Return the matrix of the vector product with v from the left."""
+    x, y, z = v
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

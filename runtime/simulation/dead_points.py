@@ -109,7 +109,7 @@ class Approach:
     def _rates(self, time: float, state: Array) -> Array:
         """Return the rates of the positions of a state that the model takes."""
         positions = self._layout.positions
-        if not self._layout.free:
+        if self._layout.rates_are_speeds:
             return state[positions : 2 * positions]
         return self._model.evaluate("rhs", state, self._inputs_at(time))[:positions]
 

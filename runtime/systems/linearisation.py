@@ -37,6 +37,8 @@ Complex = NDArray[np.complex128]
 
 # A rate, relative to the forces' own accelerations, below which a state counts as steady.
 _STEADY = 1e-6
+# How far a state goes on to see whether its equations stay: the element that changes most.
+_MOMENT = 1e-2
 # Its square must not overflow [Hz].
 _GREATEST_FREQUENCY = 1e100
 
@@ -58,6 +60,9 @@ class Linearisation:
         Derivatives of rate and outputs by state and inputs, exact; SI units.
     layout : StateLayout
         Which elements of the state are positions, and which are speeds.
+    constant : bool
+        Whether the motions near the point have the same equations a moment later. So it is but for
+        free bodies: of one that spins, its axes turn against all that rests in the world.
     state_names, input_names, output_names : tuple of str
     state_units, input_units, output_units : tuple of str
     input_rates : mapping
@@ -73,6 +78,7 @@ class Linearisation:
     C: Array
     D: Array
     layout: StateLayout
+    constant: bool
     state_names: tuple[str, ...]
     input_names: tuple[str, ...]
     output_names: tuple[str, ...]
@@ -90,13 +96,12 @@ class Linearisation:
         """
         changing: NDArray[np.bool_] = np.array(self.A.any(axis=0))
         free = np.ones(self.layout.positions, dtype=bool)
-        free[[position for position, _ in self.layout.own]] = False
+        free[list(self.layout.joints)] = False
         changing[: free.size][free] = False
         # the size of what has to cancel: a state off by 1e-6 rad or m, or so
         scale = float(np.abs(self.A[changing]).max(initial=1.0))
-        drift = self.A[free.size :, : free.size][:, free] @ self.rate[: free.size][free]
-        greatest = max(np.abs(part).max(initial=0.0) for part in (self.rate[changing], drift))
-        return bool(greatest <= _STEADY * scale)
+        greatest = np.abs(self.rate[changing]).max(initial=0.0)
+        return self.constant and bool(greatest <= _STEADY * scale)
 
     @property
     def eigenvalues(self) -> Complex:
@@ -109,7 +114,7 @@ class Linearisation:
     @cached_property
     def tangent(self) -> Tangent:
         """The motions near the point, counted in as many coordinates as there are speeds."""
-        return Tangent.at(self.A, self.state, self.layout)
+        return Tangent.at(self.A, self.rate, self.state, self.layout)
 
     @property
     def modes(self) -> tuple[Mode, ...]:
@@ -136,11 +141,13 @@ class Linearisation:
         InputError
             If there is no such coordinate.
         """
-        known = [self.state_names[place] for place in self.layout.partners]
+        freedoms = self.layout.freedoms
+        known = {self.state_names[position]: position for position in freedoms}
         with Arguments("mode") as given:
             given.among("coordinate", coordinate, known)
-        place = known.index(coordinate)
-        places = place, len(known) + place
+        position = known[coordinate]
+        speed = self.layout.speed_of[position]
+        places = [freedoms[position]] + ([] if speed is None else [len(freedoms) + speed])
         return mode_of_states(self.tangent.A, self.state_names, places, self.tangent.lift)
 
     def state_space(self) -> "StateSpace":
@@ -291,6 +298,7 @@ def linearise(
         C=evaluated("signals_jacobian", signals, states)[rows],
         D=evaluated("signals_input_jacobian", signals, entries)[rows],
         layout=model.layout,
+        constant=_constant(model, point, given),
         state_names=model.state_names,
         input_names=model.input_names,
         output_names=names,
@@ -299,3 +307,21 @@ def linearise(
         output_units=tuple(described.SIGNALS[name]["unit"] for name in names),
         input_rates={name: rates_of(name, described.INPUTS) for name in described.INPUTS},
     )
+
+
+def _constant(model: System, state: Array, inputs: Array) -> bool:
+    """Return whether the motions near a state have the same equations a moment later."""
+    if not model.layout.free:
+        return True
+    rate = model.evaluate("rhs", state, inputs)
+    ahead = model.layout.normalised(state + rate * _MOMENT / max(1.0, float(np.abs(rate).max())))
+    now, then = (
+        Tangent.at(
+            model.evaluate("rhs_jacobian", at, inputs),
+            model.evaluate("rhs", at, inputs),
+            at,
+            model.layout,
+        ).A
+        for at in (model.layout.normalised(state), ahead)
+    )
+    return bool(np.abs(then - now).max() <= _STEADY * np.abs(now).max())

@@ -128,10 +128,11 @@ class _Search:
     def _slopes(self, state: Array) -> tuple[Array, Array]:
         """Return how accelerations change with the unknowns, and how the state does."""
         jacobian = self._system.evaluate("rhs_jacobian", state, self._inputs)
-        positions, speeds = self._layout.positions, self._layout.speeds
-        directions = np.zeros((len(jacobian), len(jacobian) - positions))
-        directions[:positions, :speeds] = jacobian[:positions, self._speeds]
-        directions[positions + speeds :, speeds:] = np.eye(len(jacobian) - positions - speeds)
+        positions, basis = self._layout.positions, self._layout.basis(state)
+        internal = len(state) - self._speeds.stop
+        directions = np.zeros((len(state), basis.shape[1] + internal))
+        directions[:positions, : basis.shape[1]] = basis
+        directions[self._speeds.stop :, basis.shape[1] :] = np.eye(internal)
         return jacobian[positions:] @ directions, directions
 
     def _refuse(self, state: Array, left: Array) -> None:
@@ -139,7 +140,7 @@ class _Search:
         names = self._system.state_names
         values = dict(zip(names[:positions], state.tolist(), strict=False))
         worst = int(np.abs(left).argmax())
-        own = {speed: place for place, speed in self._layout.own}
+        own = {self._layout.speed_of[place]: place for place in self._layout.joints}
         name = names[own.get(worst, positions + worst)]
         unit = described[name]["unit"]
         rate = f"is still accelerated by {left[worst]:.3g} {unit}/s^2"

@@ -238,7 +238,10 @@ class System:
             imaginary part first. `kintrafo.linearise` has the modes that belong to them.
         """
         jacobian = self.evaluate("rhs_jacobian", state, inputs)
-        return eigenvalues_of(Tangent.at(jacobian, np.asarray(state), self.layout).A)
+        if not self.layout.free:
+            return eigenvalues_of(jacobian)
+        rate = self.evaluate("rhs", state, inputs)
+        return eigenvalues_of(Tangent.at(jacobian, rate, np.asarray(state), self.layout).A)
 
 
 @cache

@@ -1,15 +1,14 @@
-"""Motions near a state, counted in as many coordinates as there are speeds.
+"""Motions near a state, counted in as many coordinates as it can move.
 
 A quaternion has four elements and three degrees of freedom: linear equations of all elements of a
-state have an eigenvalue that belongs to the norm and to no motion. Motions near a state are these
-instead: of coordinates whose rate is a speed, the coordinate; of a free body, a displacement s and
-a small turn t in its own axes. With V its velocity and W its angular velocity there, by ``r' = R
-V`` and ``R' = R [W]x``,
+state have an eigenvalue that belongs to the norm and to no motion. Motions near a state are these instead:
+of a hinge or a guide, its coordinate; of a free body, a displacement and a small turn in its own axes.
+With T the directions in which elements of the state change then, ``x = T y`` in ``x' = A x`` leaves
 
-    s' = -W x s + t x V + v,    t' = -W x t + w,
+    y' = T^+ (A T - T') y,
 
-where v and w are what the speeds change by. In these axes a steady motion along a circle has
-constant coefficients.
+where T' is how these axes turn on the way. In them a steady motion along a circle has constant
+coefficients.
 """
 
 from dataclasses import dataclass
@@ -38,40 +37,27 @@ class Tangent:
     lift: Array | None
 
     @classmethod
-    def at(cls, jacobian: Array, state: Array, layout: StateLayout) -> "Tangent":
+    def at(cls, jacobian: Array, rate: Array, state: Array, layout: StateLayout) -> "Tangent":
         """Return them from the derivative of the rates of a state.
 
         Parameters
         ----------
         jacobian : ndarray, shape (states, states)
-        state : ndarray, shape (states,)
+        rate, state : ndarray, shape (states,)
         layout : StateLayout
         """
-        positions, speeds = layout.positions, layout.speeds
         if not layout.free:
             return cls(jacobian, None)
-        count = len(jacobian) - positions + speeds
-        lift = np.zeros((len(jacobian), count))
-        lift[:positions, :speeds] = jacobian[:positions, positions : positions + speeds]
-        lift[positions:, speeds:] = np.eye(len(jacobian) - positions)
-        found = np.zeros((count, count))
-        found[:speeds, :speeds] = _turning(state[positions:], layout)
-        found[:speeds, speeds : 2 * speeds] = np.eye(speeds)
-        found[speeds:] = jacobian[positions:] @ lift
-        return cls(found, lift)
+        state = layout.normalised(state)
+        lift = _of_all(layout.basis(state), len(state), 1.0)
+        turning = _of_all(layout.turned(state, rate), len(state), 0.0)
+        return cls(np.linalg.pinv(lift) @ (jacobian @ lift - turning), lift)
 
 
-def _turning(speeds: Array, layout: StateLayout) -> Array:
-    """Return what the motion of free bodies does to displacements and turns in their axes."""
-    found = np.zeros((layout.speeds, layout.speeds))
-    for _, at in layout.free:
-        moving, turning = slice(at, at + 3), slice(at + 3, at + 6)
-        found[moving, moving] = found[turning, turning] = -_cross(speeds[turning])
-        found[moving, turning] = -_cross(speeds[moving])
+def _of_all(positions: Array, size: int, others: float) -> Array:
+    """Return directions of all elements of the state: positions have some, others their own."""
+    count, freedoms = positions.shape
+    found = np.zeros((size, size - count + freedoms))
+    found[:count, :freedoms] = positions
+    found[count:, freedoms:] = others * np.eye(size - count)
     return found
-
-
-def _cross(v: Array) -> Array:
-    """Return the matrix of the vector product with v from the left."""
-    x, y, z = v
-    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

@@ -103,19 +103,15 @@ def _described(entries: Iterable[Entry]) -> dict[str, dict[str, str]]:
 
 
 def _layout(states: StateLayout) -> dict[str, Any]:
-    """Return how many positions and speeds there are, and where those of free bodies begin."""
-    positions, speeds = ([e.name for e in entries] for entries in (states.positions, states.speeds))
+    """Return where free bodies begin among the positions, and which speed goes with each position.
+
+    That is null of the scalar part of a quaternion, and where constraints give the speed.
+    """
     return {
-        "positions": len(positions),
-        "speeds": len(speeds),
-        "free": [
-            {
-                "body": part.joint.second.name,
-                "position": positions.index(part.positions[0].name),
-                "speed": speeds.index(part.speeds[0].name),
-            }
-            for part in states.free
-        ],
+        "positions": len(states.positions),
+        "speeds": len(states.speeds),
+        "speed_of": states.partners,
+        "free": [states.positions.index(part.positions[0]) for part in states.free],
     }
 
 

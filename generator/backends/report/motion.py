@@ -573,6 +573,20 @@ def _dynamics(motion: Motion, number: Equations) -> list[Block]:
                 "length one."
             )
         )
+    constraints = motion.mechanism.constraints
+    if constraints:
+        names = ", ".join(f"`{constraint.name}`" for constraint in constraints)
+        given = ", ".join(f"`{name}`" for name in motion.derivation.states.eliminated)
+        sections.append(
+            Paragraph(
+                f"Constraints on speeds, {names}, give {given}. With "
+                r"$`\mathbf{v} = \mathbf{T}\mathbf{v}_i + \mathbf{p}`$ for the other speeds "
+                r"$`\mathbf{v}_i`$, what is compiled is $`\mathbf{T}^T\mathbf{M}\mathbf{T}`$, "
+                r"$`\mathbf{T}^T\mathbf{Q}`$ and "
+                r"$`\mathbf{T}^T(\mathbf{B} + \mathbf{M}\mathbf{g})`$, where "
+                r"$`\mathbf{g}`$ is what the eliminated speeds change by themselves."
+            )
+        )
     for rotor in motion.rotors():
         name = inline(rf"\boldsymbol{{\Theta}}_{{{numbers[rotor.name]}}}")
         sections.append(

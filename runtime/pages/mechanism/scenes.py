@@ -85,7 +85,7 @@ def by_hand(skeleton: Skeleton) -> Iterator[Scene]:
     """
     system = skeleton.system
     start, none = system.design_state, np.zeros(len(system.input_names))
-    for place, _ in system.layout.own:
+    for place in system.layout.joints:
         name = system.state_names[place]
         yield from _scene(skeleton, name, system.equations.STATE[name], _moving(start, place, none))
     for place, name in enumerate(system.input_names):

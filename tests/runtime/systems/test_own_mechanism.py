@@ -36,6 +36,7 @@ from typer.testing import CliRunner
 
 EXAMPLE = ROOT / "examples/pushrod_suspension.py"
 STEERING = ROOT / "examples/steering_gear.py"
+BICYCLE = ROOT / "examples/bicycle.py"
 LIMB = ROOT / "examples/limb_in_flight.py"
 PAGE = (ROOT / "docs/mechanisms/own-mechanism.md").read_text(encoding="utf-8")
 
@@ -71,9 +72,9 @@ def blocks(language):
 
 class TestPage:
     def test_declarations_are_those_of_the_examples(self):
-        examples = [path.read_text(encoding="utf-8") for path in (EXAMPLE, STEERING, LIMB)]
+        examples = [path.read_text(encoding="utf-8") for path in (EXAMPLE, STEERING, LIMB, BICYCLE)]
         shown = [block for block in blocks("python") if "import kintrafo" not in block]
-        assert len(shown) == 10
+        assert len(shown) == 11
         assert all(any(block in example for example in examples) for block in shown)
 
     def test_the_use_of_it_prints_what_it_says(self, tmp_path, monkeypatch, capsys):

@@ -1,0 +1,148 @@
+"""Constraints on speeds: what rolls without slip, or glides along an edge.
+
+They are linear in the speeds and cannot be integrated to constraints on positions, as a rule. Each
+says which velocities vanish. As many speeds as that are eliminated (`Formulation.eliminated`).
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import sympy as sp
+
+from .bodies import Body
+from .declared import DeclarationError, Name, declared
+from .geometry import Direction, Point
+from .joints import Revolute
+from .parameters import Length
+from .shown import Shown
+from .wheel import Wheel
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from .surroundings import Motion, Surroundings
+
+
+@dataclass(frozen=True)
+class SpeedConstraint(ABC):
+    """Velocities that vanish."""
+
+    name: Name
+
+    count: ClassVar[int]
+    """How many."""
+
+    @abstractmethod
+    def velocities(self, at: Surroundings) -> list[Motion]:
+        """Return what vanishes, per unit rate of each coordinate that moves it."""
+
+    def signals(self, at: Surroundings) -> Iterator[Shown]:
+        """Yield what shows how well it holds."""
+        del at
+        yield from ()
+
+
+@declared
+@dataclass(frozen=True)
+class NoSlip(SpeedConstraint):
+    """A point of a body has no velocity along a direction: a skate, a keel, a knife's edge.
+
+    Parameters
+    ----------
+    name
+        Its name.
+    body, point
+        The point by its place at the design position.
+    direction
+        Along which it does not move; its length does not count.
+    follows
+        Whether the direction turns with the body; else it stays as it is in the world.
+    """
+
+    body: Body
+    point: Point
+    direction: Direction
+    follows: bool = True
+
+    count: ClassVar[int] = 1
+
+    def velocities(self, at: Surroundings) -> list[Motion]:
+        """Return the velocity along the direction."""
+        body = self.body.name
+        line, local = at.line(body, self.direction, self.follows), at.local(body, self.point)
+        return [
+            {
+                k: at.program.define(
+                    f"{self.name}_{k}", line.dot(twist.linear + twist.angular.cross(local))
+                )
+                for k, twist in at.twists(body).items()
+            }
+        ]
+
+
+@declared
+@dataclass(frozen=True)
+class Rolling(SpeedConstraint):
+    """A thin disc rolls without slip on level ground: the point of it that touches has no velocity.
+
+    The disc stays at the height at which a motion starts, since the point has none upward either;
+    the signal ``<name>_gap`` is the height of the lowest point above z = 0 [m].
+
+    Parameters
+    ----------
+    name
+        Its name.
+    wheel
+        Centre and axis of the disc, on its carrier.
+    radius
+        [m].
+    bearing
+        The hinge about which it spins on its carrier, along its axis; None: it is the carrier.
+    """
+
+    wheel: Wheel
+    radius: Length
+    bearing: Revolute | None = None
+
+    count: ClassVar[int] = 3
+
+    def __post_init__(self) -> None:
+        bearing, wheel, problems = self.bearing, self.wheel, []
+        if bearing is not None and bearing.first.name != wheel.carrier.name:
+            problems.append(
+                f"hinge {bearing.name!r} leads from {bearing.first.name!r}, and the wheel is "
+                f"carried by {wheel.carrier.name!r}; give the wheel's bearing"
+            )
+        if bearing is not None and (
+            bearing.axis.towards != wheel.spin or bearing.angle_to is not None
+        ):
+            problems.append(
+                f"hinge {bearing.name!r} does not turn about the wheel's spin axis "
+                f"{wheel.spin.name!r}; give its bearing the same Direction, and no angle_to"
+            )
+        if problems:
+            raise DeclarationError(f"Rolling {self.name!r}", problems)
+
+    def velocities(self, at: Surroundings) -> list[Motion]:
+        """Return the velocity of the lowest point in the axes of the carrier."""
+        body, program = self.wheel.carrier.name, at.program
+        upright = self.wheel.upright(at, f"{self.name}_")
+        shortening = -self.radius.symbol / sp.sqrt(upright.squared)
+        arm = program.vector(f"{self.name}_arm", upright.pull * shortening, "123")
+        local = at.local(body, self.wheel.center) + arm
+        found = {k: t.linear + t.angular.cross(local) for k, t in at.twists(body).items()}
+        if self.bearing is not None:
+            found[at.coordinate(self.bearing.name)] = upright.axis.cross(arm)
+        named = {k: program.vector(f"{self.name}_{k}", v, "123") for k, v in found.items()}
+        return [{k: getattr(v, axis) for k, v in named.items()} for axis in "xyz"]
+
+    def signals(self, at: Surroundings) -> Iterator[Shown]:
+        """Yield the height of the lowest point."""
+        body = self.wheel.carrier.name
+        height = at.height(body, at.local(body, self.wheel.center))
+        cosine = sp.sqrt(self.wheel.upright(at, f"{self.name}_").squared)
+        meaning = f"height of the lowest point of {self.name} above the ground"
+        yield Shown(f"{self.name}_gap", height - self.radius.symbol * cosine, "m", meaning)
