@@ -1,9 +1,10 @@
 """Motions near a state, counted in as many coordinates as it can move.
 
 A quaternion has four elements and three degrees of freedom: linear equations of all elements of a
-state have an eigenvalue that belongs to the norm and to no motion. Motions near a state are these instead:
-of a hinge or a guide, its coordinate; of a free body, a displacement and a small turn in its own axes.
-With T the directions in which elements of the state change then, ``x = T y`` in ``x' = A x`` leaves
+state have an eigenvalue that belongs to the norm and to no motion. Motions near a state are these
+instead: of a hinge or a guide, its coordinate; of a free body, a displacement and a small turn in
+its own axes. With T the directions in which elements of the state change then, ``x = T y`` in
+``x' = A x`` leaves
 
     y' = T^+ (A T - T') y,
 
