@@ -14,7 +14,7 @@ from ...formulas import linear_contact, magic_formula, tmeasy, vertical
 from ...formulas.arithmetic import at_most
 from ...formulas.coefficients import IN_EQUATIONS, NEUTRAL, ODD
 from ...formulas.magic_formula import Contact, Form
-from .declared import Name, declared
+from .declared import DeclarationError, Name, declared
 from .parameters import Owner, Parameter
 
 if TYPE_CHECKING:
@@ -189,11 +189,21 @@ class MagicFormulaContact(AnyContactLaw):
         Combined slip by weighting functions; else by the friction ellipse.
     angle
         The lateral slip is an angle; else a tangent.
+    without
+        Coefficients that do nothing in all tyres that are meant: they are no parameters, and the
+        arithmetic of their terms is not there.
     """
 
     newer: bool = True
     weighted: bool = True
     angle: bool = False
+    without: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        unknown = [key for key in self.without if key not in IN_EQUATIONS]
+        if unknown:
+            problems = [f"{key!r} is no coefficient of these equations" for key in unknown]
+            raise DeclarationError(f"MagicFormulaContact {self.name!r}", problems)
 
     _SIZES: ClassVar[Mapping[str, tuple[float, str, str]]] = {
         "UNLOADED_RADIUS": (0.316, "m", "radius of the tyre without load"),
@@ -215,54 +225,59 @@ class MagicFormulaContact(AnyContactLaw):
     def _entries(self) -> Iterator[tuple[str, float, str, str]]:
         for key, described in self._SIZES.items():
             yield key.lower(), *described
-        for key in IN_EQUATIONS:
+        for key in self._keys:
             default = self._USUAL.get(key, NEUTRAL[key])
             yield key.lower(), default, "1", f"coefficient {key} of the Magic Formula"
 
     @property
     def turned(self) -> tuple[int, ...]:
         """The sign of every number in the mirror."""
-        return tuple(-1 if key in ODD else 1 for key in (*self._SIZES, *IN_EQUATIONS))
+        return tuple(-1 if key in ODD else 1 for key in (*self._SIZES, *self._keys))
+
+    @property
+    def _keys(self) -> tuple[str, ...]:
+        return tuple(key for key in IN_EQUATIONS if key not in self.without)
 
     @cached_property
     def _coefficients(self) -> dict[str, sp.Expr]:
-        return {key: self.symbol(key.lower()) for key in (*self._SIZES, *IN_EQUATIONS)}
+        fixed = {key: sp.Integer(int(NEUTRAL[key])) for key in self.without}
+        return fixed | {key: self.symbol(key.lower()) for key in (*self._SIZES, *self._keys)}
 
     @property
     def _pressure(self) -> sp.Expr:
-        return self.symbol("inflpres") / self.symbol("nompres") - 1
+        return self._coefficients["INFLPRES"] / self._coefficients["NOMPRES"] - 1
 
     @property
     def _stiffening(self) -> sp.Expr:
         """What scale and pressure multiply the load with."""
-        return self.symbol("lcz") * (1 + self.symbol("pfz1") * self._pressure)
+        return self._coefficients["LCZ"] * (1 + self._coefficients["PFZ1"] * self._pressure)
 
     @property
     def radius(self) -> sp.Expr:
         """Radius of the disc, without load [m]."""
-        return self.symbol("unloaded_radius") * self.symbol("q_re0")
+        return self._coefficients["UNLOADED_RADIUS"] * self._coefficients["Q_RE0"]
 
     def load(self, deflection: sp.Expr) -> sp.Expr:
         """Return the load of a deflection [N] (A3.3)."""
-        share = deflection / self.symbol("unloaded_radius")
-        shape = share * (self.symbol("q_fz1") + self.symbol("q_fz2") * share)
-        return shape * (self.symbol("fnomin") * self._stiffening)
+        share = deflection / self._coefficients["UNLOADED_RADIUS"]
+        shape = share * (self._coefficients["Q_FZ1"] + self._coefficients["Q_FZ2"] * share)
+        return shape * (self._coefficients["FNOMIN"] * self._stiffening)
 
     def rolling_radius(self, a: Arithmetic, load: sp.Expr) -> sp.Expr:
         """Return the speed of a freely rolling wheel over its rate of spin [m] (A3.6)."""
-        first, second = self.symbol("q_fz1"), self.symbol("q_fz2")
+        first, second = self._coefficients["Q_FZ1"], self._coefficients["Q_FZ2"]
         moved = self._stiffening
         # load over slope of the deflection, at the nominal load
-        length = self.symbol("unloaded_radius") / (
+        length = self._coefficients["UNLOADED_RADIUS"] / (
             moved * sp.sqrt(first * first + 4 * second / moved)
         )
-        share = load / self.symbol("fnomin")
-        part = self.symbol("dreff") * a.atan(self.symbol("breff") * share)
-        return self.radius - length * (part + self.symbol("freff") * share)
+        share = load / self._coefficients["FNOMIN"]
+        part = self._coefficients["DREFF"] * a.atan(self._coefficients["BREFF"] * share)
+        return self.radius - length * (part + self._coefficients["FREFF"] * share)
 
     def forces(self, a: Arithmetic, at: Rolling) -> Forces:
         """Return forces and moments at the contact."""
-        given = {"speed": at.speed / self.symbol("longvl"), "pressure": self._pressure}
+        given = {"speed": at.speed / self._coefficients["LONGVL"], "pressure": self._pressure}
         if self.angle:
             given["lateral"] = a.define("slip_as_angle", a.atan(at.lateral))
         contact = at.contact(**given)

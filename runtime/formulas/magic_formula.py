@@ -418,9 +418,19 @@ def _rolling_resistance(a: Arithmetic, p: Coefficients, c: Contact, fx: Any) -> 
     share = p["QSY1"] + p["QSY2"] * fx / p["FNOMIN"] + p["QSY3"] * magnitude(a, c.speed)
     share = share + p["QSY4"] * square * square
     share = share + (p["QSY5"] + p["QSY6"] * load) * c.inclination * c.inclination
-    power = p["QSY7"] * a.log((c.load + _SMALL_LOAD) / p["FNOMIN"])
-    # a step of its own: SymPy makes a power with any exponent of an exponential of a logarithm
-    power = a.define("resistance_power", power + p["QSY8"] * a.log(1 + c.pressure))
-    power = a.exp(power)
+    share = a.define("resistance", share) * _load_power(a, p, c)
     scale = p["UNLOADED_RADIUS"] * p["FNOMIN"] * p["LMY"]
-    return -a.define("resistance", share * power) * scale * c.rolling
+    return -share * scale * c.rolling
+
+
+def _load_power(a: Arithmetic, p: Coefficients, c: Contact) -> Any:
+    """Return the powers of load and pressure of rolling resistance."""
+    by_load, by_pressure = c.load / p["FNOMIN"], 1
+    if p["QSY7"] != 1:
+        power = p["QSY7"] * a.log((c.load + _SMALL_LOAD) / p["FNOMIN"])
+        # a step of its own: SymPy makes a power of the exponential of a product with a logarithm
+        by_load = a.exp(a.define("load_power", power))
+    if p["QSY8"] != 0:
+        power = p["QSY8"] * a.log(1 + c.pressure)
+        by_pressure = a.exp(a.define("pressure_power", power))
+    return by_load * by_pressure

@@ -153,7 +153,7 @@ def forces(a: Arithmetic, p: Mapping[str, Any], c: Contact, length: Any) -> Forc
     induced = -length / 2 * c.inclination * c.rolling
     fx = per_slip * along
     fy = per_slip * (across + induced / (3 * norm_y))
-    share = (c.load + 1e-6) / load
+    share = c.load / load
     fx, fy = a.define("fx", fx * share), a.define("fy", fy * share)
     trail = length * _trail(a, p, load, c.lateral) * c.rolling
     resistance = by_load(

@@ -1,6 +1,6 @@
 """Tyres of the Magic Formula: PAC2002, MF 6.1 and MF 6.2, from property files."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Self
@@ -135,7 +135,9 @@ class MagicFormula(Tyre):
             self, coefficients=known.mirrored(self.coefficients), side=_OTHER_SIDE[self.side]
         )
 
-    def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
+    def parameters(
+        self, name: str = "tyre", *, relaxing: bool = False, without: Iterable[str] = ()
+    ) -> dict[str, float]:
         """Return the parameters of equations of motion that this tyre has.
 
         Parameters
@@ -144,6 +146,8 @@ class MagicFormula(Tyre):
             Of the `kintrafo.generator.MagicFormulaContact` whose parameters they are.
         relaxing : bool, optional
             Whether the equations have deflections as states, so that relaxation lengths are needed.
+        without : iterable of str, optional
+            Coefficients that the equations leave out, as `MagicFormulaContact.without`.
 
         Returns
         -------
@@ -153,7 +157,8 @@ class MagicFormula(Tyre):
         Raises
         ------
         InputError
-            If relaxation lengths are needed, and the file does not say them.
+            If relaxation lengths are needed, and the file does not say them; or if the tyre has
+            what the equations leave out.
         """
         lengths = self.evaluate(self.nominal_load)
         if relaxing and not np.isfinite([lengths.relaxation_x, lengths.relaxation_y]).all():
@@ -161,6 +166,11 @@ class MagicFormula(Tyre):
             missing = newer if self.form.newer else "PTX1, PTY1 and PTY2"
             problem = f"relaxation lengths are not known. Add {missing}, or leave deflections out."
             raise InputError([problem], self.source or self.name)
+        left = frozenset(without)
+        lost = [k for k in left if self.coefficients.get(k) != known.DEFAULTS.get(k)]
+        if lost:
+            told = (f"{k} = {self.coefficients.get(k)}: the equations leave it out." for k in lost)
+            raise InputError(sorted(told), self.source or self.name)
         first, second = vertical.rates(ARRAYS, self.coefficients)
         found = {key: self.coefficients[key] for key in IN_EQUATIONS}
         found |= {
@@ -176,7 +186,7 @@ class MagicFormula(Tyre):
             "Q_FZ1": float(first),
             "Q_FZ2": float(second),
         }
-        return {f"{name}_{key.lower()}": value for key, value in found.items()}
+        return {f"{name}_{k.lower()}": value for k, value in found.items() if k not in left}
 
     # -- what it does --
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -324,6 +325,29 @@ def test_a_tyre_has_all_parameters_of_its_law(system_of):
     assert {p.name for p in g.TMeasyContact(name="tyre").numbers} == set(tmeasy.parameters())
     for name, tyre in (("linear", linear), ("newer", system_of.tyre("newer"))):
         assert {p.name for p in LAWS[name].numbers} == set(tyre.parameters()), name
+
+
+WITHOUT = ("RHX1", "RHY1", "RHY2", *(f"QSX{i}" for i in range(4, 15)), "PKX3", "QSY7", "QSY8")
+
+
+def test_coefficients_that_do_nothing_cost_nothing(folder, system_of):
+    law = replace(LAWS["newer"], without=WITHOUT)
+    model = rig(law, "rig_without")
+    system = kintrafo.System(kintrafo.compile(model, folder=folder, backend="numpy"))
+    path = folder / "neutral.tir"
+    path.write_text(without(NEWER, *WITHOUT), encoding="utf-8")
+    tyre = kintrafo.tyres.load(path)
+    lean = kintrafo.System(system.equations, tyre.parameters(without=WITHOUT))
+    full = kintrafo.System(system_of("newer").equations, tyre.parameters())
+    for state in states(5):
+        one, two = (each.evaluate("rhs", state, each.inputs({})) for each in (lean, full))
+        np.testing.assert_allclose(one, two, rtol=1e-9, atol=1e-9 * np.abs(two).max())
+    arcs, every = (each.equations.rhs.operations["trigonometric"] for each in (lean, full))
+    assert arcs <= every - 14
+    with pytest.raises(kintrafo.InputError, match=r"QSX4 = 0\.02: the equations leave it out"):
+        system_of.tyre("newer").parameters(without=WITHOUT)
+    with pytest.raises(g.DeclarationError, match="'LONGVL' is no coefficient of these"):
+        replace(LAWS["newer"], without=("PTX1", "LONGVL"))
 
 
 def test_it_is_refused_by_name():
