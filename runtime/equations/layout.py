@@ -61,7 +61,7 @@ class StateLayout:
         return tuple(i for i in range(self.positions) if i not in of_free)
 
     @property
-    def freedoms(self) -> dict[int, int]:
+    def directions(self) -> dict[int, int]:
         """Of each position, its place among the directions of `basis`; the scalar part has none."""
         scalar = {at + _AXES for at in self.free}
         found = (i for i in range(self.positions) if i not in scalar)
@@ -92,13 +92,13 @@ class StateLayout:
 
         Returns
         -------
-        ndarray, shape (positions, freedoms)
+        ndarray, shape (positions, directions)
         """
         found = self._of_free(
             (at, rotation(e), turning(e)) for at in self.free for e in [self._quaternion(state, at)]
         )
         for position in self.joints:
-            found[position, self.freedoms[position]] = 1.0
+            found[position, self.directions[position]] = 1.0
         return found
 
     def turned(self, state: Array, rate: Array) -> Array:
@@ -116,7 +116,7 @@ class StateLayout:
         return state[at + _AXES : at + _POSITIONS]
 
     def _of_free(self, blocks: Iterable[tuple[int, Array, Array]]) -> Array:
-        places = self.freedoms
+        places = self.directions
         found = np.zeros((self.positions, len(places)))
         for at, moved, turned in blocks:
             first = places[at]

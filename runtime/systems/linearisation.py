@@ -141,13 +141,13 @@ class Linearisation:
         InputError
             If there is no such coordinate.
         """
-        freedoms = self.layout.freedoms
-        known = {self.state_names[position]: position for position in freedoms}
+        directions = self.layout.directions
+        known = {self.state_names[position]: position for position in directions}
         with Arguments("mode") as given:
             given.among("coordinate", coordinate, known)
         position = known[coordinate]
         speed = self.layout.speed_of[position]
-        places = [freedoms[position]] + ([] if speed is None else [len(freedoms) + speed])
+        places = [directions[position]] + ([] if speed is None else [len(directions) + speed])
         return mode_of_states(self.tangent.A, self.state_names, places, self.tangent.lift)
 
     def state_space(self) -> "StateSpace":

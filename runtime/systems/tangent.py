@@ -57,8 +57,8 @@ class Tangent:
 
 def _of_all(positions: Array, size: int, others: float) -> Array:
     """Return directions of all elements of the state: positions have some, others their own."""
-    count, freedoms = positions.shape
-    found = np.zeros((size, size - count + freedoms))
-    found[:count, :freedoms] = positions
-    found[count:, freedoms:] = others * np.eye(size - count)
+    count, directions = positions.shape
+    found = np.zeros((size, size - count + directions))
+    found[:count, :directions] = positions
+    found[count:, directions:] = others * np.eye(size - count)
     return found
