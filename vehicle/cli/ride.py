@@ -57,6 +57,8 @@ def command(
     outputs = output.files(file, suffixes=suffixes, drawn=[""])
     assembly = car_of(file)
     v = speed / 3.6
+    if not duration > 0.0:
+        raise typer.BadParameter(f"--duration {duration:g}: more than 0 s is needed")
     chosen = _road(assembly, road, seed, bump, bump_length, under, v * duration)
     found = {"at_rest": ride.at_rest(assembly), "modes": ride.modes(assembly)}
     if bump is None:
