@@ -10,7 +10,7 @@ steers a car is none of this.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from .. import declare as d
 from ..declare.composition import replaced
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 FREEDOMS = ("heave", "pitch", "roll")
 """Coordinates of the body, in the order of its joints."""
 
+FREE = ("free",)
+"""Instead of some of these: the body moves freely in the world."""
+
 ENDS = ("front", "rear")
 
 ROAD = d.Ground("road")
@@ -31,6 +34,11 @@ BODY = d.Body("body", 1200.0, (-1.15, 0.0, 0.55), (450.0, 1600.0, 1800.0))
 
 _TYRE = "tyre"
 _LEFTWARD = d.Direction("leftward", fixed=Vector.of(0, 1, 0))
+_ANGLES: dict[Literal["yaw", "pitch", "roll"], str] = {
+    "yaw": "turn of the body about the upward axis, positive to the left",
+    "pitch": "pitch of the body behind that, positive nose down",
+    "roll": "roll of the body behind both, positive with its left side up",
+}
 _MEANINGS = {
     "heave": "height of the centre of mass of the body above that at design",
     "pitch": "turn of the body about its axis to the left, positive nose down",
@@ -62,7 +70,7 @@ def car(
     axles
         The front and the rear one, each from `of_corners` or `of_whole_axle`.
     freedoms
-        Coordinates of the body, the first ones of `FREEDOMS`.
+        Coordinates of the body, the first ones of `FREEDOMS`; or `FREE`.
     """
     joints, coordinates = _body_joints(freedoms)
     parts = [_on_the_car(one, f"{end}_") for end, one in zip(ENDS, axles, strict=True)]
@@ -183,6 +191,10 @@ def _body_joints(
     freedoms: Sequence[str],
 ) -> tuple[tuple[d.Joint, ...], tuple[d.RelativeCoordinate, ...]]:
     """Return the joints from the road to the body, and their coordinates."""
+    if freedoms == FREE:
+        free = d.Free("body_free", BODY)
+        angles = (free.coordinate(kind, f"body_{kind}", _ANGLES[kind]) for kind in _ANGLES)
+        return (free,), tuple(angles)
     bodies = [ROAD, *(d.Body(f"body_after_{f}", 0.0, BODY.center) for f in freedoms[:-1]), BODY]
     joints: list[d.Joint] = []
     coordinates = []
