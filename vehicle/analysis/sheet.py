@@ -130,6 +130,29 @@ def tabulated(found: xr.Dataset, title: str) -> list[Tabulated]:
     return tables
 
 
+def one_page(found: xr.Dataset, title: str) -> Tabulated:
+    """Return the sheet as one table without the words of signs, for a terminal.
+
+    The sign of quantities marked with an asterisk is the opposite in SAE J670 with z down.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        From `sheet`.
+    title : str
+    """
+    rows = []
+    for part in tabulated(found, ""):
+        values = part.columns[1:-3]
+        rows += [(part.title.upper(), *("" for _ in values), "")]
+        rows += [
+            (f"{name} *" if sae == "the other sign" else name, *cells, unit)
+            for name, *cells, unit, _, sae in part.rows
+        ]
+    heads = ("", *values, "unit")
+    return Tabulated(title, heads, tuple(rows), frozenset({0, len(heads) - 1}))
+
+
 def _rows(here: xr.Dataset, values: Sequence[str]) -> Iterator[tuple[str, ...]]:
     """Yield the rows of a part, each with both wheels."""
     names = [str(name) for name in here[QUANTITY].values]

@@ -29,7 +29,7 @@ def command(
     where the file has bushes, or --bushes are given.
     """
     from ...datasets import export
-    from ..analysis.sheet import sheet, tabulated
+    from ..analysis.sheet import one_page, sheet
 
     outputs = output.files(file, bushes)
     found = sheet(assembly_of_file(file), bushes_of(file, bushes), held=held)
@@ -37,7 +37,6 @@ def command(
     if output.json:
         print_json(export.as_dict(found))
         return
-    for table in tabulated(found, f"{file}: "):
-        print_table(table)
-    say("At design. SAE J670 with its z axis down; definitions are in data files (-o).")
+    print_table(one_page(found, f"{file}: K&C sheet at design, signs of ISO 8855"))
+    say("* opposite sign in SAE J670, z down. Data files (-o) have definitions and both signs.")
     name_files(written)

@@ -94,8 +94,10 @@ def test_what_cannot_be_is_refused_by_name():
 def test_the_command_prints_it_and_writes_definitions(kintrafo):
     code, out, err = kintrafo("sheet", "rigid_axle", "-o", "sheet.csv")
     assert code == 0, err
-    assert "rigid_axle: in roll" in out
+    assert "IN ROLL" in out
+    assert "roll steer *" in out  # the other sign in SAE J670
     assert "SAE J670, z down" in out
+    assert len(out.splitlines()) < 60  # one page
     with Path("sheet.csv").open(encoding="utf-8") as file:
         rows = {row["quantity"]: row for row in csv.DictReader(file)}
     steer = rows["roll_steer"]
