@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from enum import IntEnum
-from typing import TextIO
+from typing import Any, TextIO
 
 from .console import problems
 
@@ -80,6 +80,27 @@ def guarded() -> Iterator[None]:
         message, code = found
         _print(f"error: {message}", "red")
         raise SystemExit(code) from None
+
+
+def show_usage_error(error: Any) -> None:
+    """Show a mistake in the arguments as all errors are shown.
+
+    Parameters
+    ----------
+    error : click.ClickException
+        Its context, where it has one, names the command.
+    """
+    context = getattr(error, "ctx", None)
+    command = "kintrafo" if context is None else context.command_path
+    # Click's words name the option, and may propose others
+    words = error.format_message()
+    if words.startswith("Invalid value for "):
+        place, _, rest = words.removeprefix("Invalid value for ").partition(": ")
+        words = f"{place.strip(chr(39))} {rest}"
+    message = f"{command}: 1 problem\n  - {words}"
+    if context is not None:
+        message += f"\nThe options are listed by: {command} --help"
+    _print(f"error: {message}", "red")
 
 
 def _explained(error: Exception) -> tuple[str, Exit] | None:

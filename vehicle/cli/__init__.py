@@ -7,7 +7,7 @@ import typer
 from rich.markup import escape
 from typer.core import TyperCommand
 
-from ...terminal.exits import guarded, standing_streams
+from ...terminal.exits import guarded, show_usage_error, standing_streams
 from . import (
     characteristics,
     check,
@@ -144,5 +144,8 @@ def main(
 
 def run() -> None:
     """Run the command line; a user's mistake ends with a message, not with a traceback."""
+    from typer import rich_utils
+
+    vars(rich_utils)["rich_format_error"] = show_usage_error
     with standing_streams(), guarded():
         app()
