@@ -72,7 +72,7 @@ def iso8608(
     Examples
     --------
     >>> road = iso8608("B", length=100.0, seed=1)
-    >>> road.left[0], road.words
+    >>> float(road.left[0]), road.words
     (0.0, 'a road of class B of ISO 8608, seed 1')
     """
     with Arguments("iso8608") as given:
