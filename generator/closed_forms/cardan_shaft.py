@@ -26,7 +26,7 @@ from ..program.functions import SignOf
 from .guided_pair import GuidedPair
 from .lines import line_of_ends
 from .turned_alike import place_turned_alike
-from .universal_joint import turn_on_cross
+from .universal_joint import turn_with
 from .yoke import DrivenYoke, GivenAxis, norm, second_axis, through_center, turn_through_cross
 
 if TYPE_CHECKING:
@@ -132,7 +132,7 @@ class CardanShaft(ClosedForm):
         del closing
         return (
             f"{self.shaft.line} = length of {self.shaft.links}; {self.driven.name} at right angles",
-            f"a cos x + b sin x = c for the angle of {self.hinge.name}, branch as at design",
+            self._yoke.solution,
         )
 
     def carry_out(self, kin: Kinematics) -> None:
@@ -142,16 +142,7 @@ class CardanShaft(ClosedForm):
         line = line_of_ends(kin, self, shaft.near, ends, f"the shaft of {shaft.links}")
         kin.on_line |= {shaft.near: line, shaft.far: line.reversed()}
         self._slide(kin, line)
-        driving = kin.placed[shaft.anchor_body]
-        turn_on_cross(
-            kin,
-            shaft.near,
-            driving,
-            kin.local_direction(driving, self.driving.first_axis),
-            kin.design_direction(self.driving.first_axis),
-            f"the shaft {shaft.near} lies along the first axis of universal joint "
-            f"{self.driving.name}",
-        )
+        turn_with(kin, shaft.near, shaft.anchor_body, self.driving)
         near = kin.placed[shaft.near]
         place_turned_alike(kin, shaft.far, near, self.parent, shaft.end)
         own = kin.design_direction(self.driven.first_axis)

@@ -152,7 +152,7 @@ class CarrierOnRods(Iteration):
         held = _Held.of(kin, self)
         _place(kin, held, _corrected(kin, held))
         for rod in held.rods:
-            place_rod(kin, rod.entry, rod.anchor, rod.rod.length)
+            place_rod(kin, rod.entry)
 
 
 # -- structure ------------------------------------------------------------------------------------
@@ -231,8 +231,7 @@ class _Held:
         if all(program.constants.contains(c) for rod in rods for c in rod.equation.moving):
             message = (
                 f"{body}, held by {step.rod_names}, cannot move: everything that holds it is "
-                f"at rest. "
-                "Declare it as a part of the ground"
+                "at rest. Declare it as a part of the ground"
             )
             raise NoClosedFormError(message)
         return cls(step, base, origin, size, rods)
@@ -285,26 +284,18 @@ class _Solved:
 # -- position -------------------------------------------------------------------------------------
 
 
-def _found(kin: Kinematics, held: _Held) -> dict[str, sp.Expr]:
-    """Append the call of the iteration, and return its results."""
-    body, rods = held.step.body, {rod.entry.rod: rod.equation for rod in held.rods}
-    iteration = block(kin.program, body, rods, held.size, driven_coordinates(kin))
-    return kin.program.iterated(f"{body}_found", iteration)
-
-
 def _corrected(kin: Kinematics, held: _Held) -> _Solved:
     """Correct what the iteration has found, and return the pose with its linear equations."""
     program, body = kin.program, held.step.body
-    found = _found(kin, held)
+    equations = {rod.entry.rod: rod.equation for rod in held.rods}
+    iteration = block(program, body, equations, held.size, driven_coordinates(kin))
+    found = program.iterated(f"{body}_found", iteration)
     u, sigma = split(list(found.values())[: len(held.rods)])
     axes = rotation(program, f"{body}_found", u)
     start = Pose(axes, program.vector(f"{body}_found_shift", sigma * held.size))
     left = [
-        program.define(
-            f"{rod.entry.rod}_residual",
-            rod.equation.length(rod.equation.rod_vector(start)).residual(),
-        )
-        for rod in held.rods
+        program.define(f"{rod}_residual", equation.length(equation.rod_vector(start)).residual())
+        for rod, equation in equations.items()
     ]
     inverse = Inverse.found(
         kin,

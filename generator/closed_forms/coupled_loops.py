@@ -134,7 +134,7 @@ class CoupledLoops(Tree, Iteration):
         _add_motion(kin, self, solved)
         for rod in self.rods:
             if not rod.pinned:
-                place_rod(kin, rod, rod.anchor_motion(kin), kin.rod_lengths[rod.rod])
+                place_rod(kin, rod)
 
 
 def obstacle(step: CoupledLoops, mobility: Mobility) -> str:

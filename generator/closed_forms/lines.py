@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..kinematics.extent import extent_squared, require
-from ..kinematics.motion import OnLine, PointMotion
+from ..kinematics.motion import OnLine
 from ..program.floors import DIRECTION, LENGTH
 from ..program.vectors import ZERO, Vector
 
@@ -18,69 +18,11 @@ if TYPE_CHECKING:
     from ..kinematics.motion import Axes
     from .leg import Leg
 
-
-def line_between(
-    kin: Kinematics,
-    name: str,
-    points: tuple[Point, Point],
-    motions: tuple[PointMotion, PointMotion],
-    bodies: tuple[str, str],
-    span: Vector,
-    length: sp.Expr,
-    squared: sp.Expr | None = None,
-    *,
-    rigid: bool = False,
-) -> OnLine:
-    """Describe the line between two points of known motion.
-
-    Given the square of the length, the reciprocals come from that: a division that need not wait
-    for the root.
-
-    Parameters
-    ----------
-    kin, name
-        The kinematics so far, and what ends the names of the steps.
-    points, motions, bodies
-        Both points, their motions, and the bodies that they are of.
-    span, length, squared
-        The way between them, its length, and the square of that.
-    rigid
-        Whether the length is constant.
-    """
-    if squared is None:
-        inverse = kin.program.define(f"inverse_length_{name}", 1 / length)
-        inverse_squared = kin.program.define(f"inverse_length_squared_{name}", inverse**2)
-    else:
-        inverse_squared = kin.program.define(f"inverse_length_squared_{name}", 1 / squared)
-        inverse = kin.program.define(f"inverse_length_{name}", length * inverse_squared)
-    direction = kin.program.vector(f"direction_{name}", span * inverse)
-    relative = motions[1].minus(motions[0])
-    motion = {
-        k: kin.program.define(f"d_length_{name}_{k}", direction.dot(v))
-        for k, v in relative.motion.items()
-        if not rigid
-    }
-    return OnLine(
-        *points,
-        *motions,
-        *bodies,
-        direction,
-        length,
-        inverse,
-        relative,
-        motion,
-        span,
-        inverse_squared,
-    )
+    Ends = tuple[tuple[str, Point], tuple[str, Point]]
+    """Body and point at either end."""
 
 
-def line_of_ends(
-    kin: Kinematics,
-    step: Spanning,
-    name: str,
-    ends: tuple[tuple[str, Point], tuple[str, Point]],
-    what: str,
-) -> OnLine:
+def line_of_ends(kin: Kinematics, step: Spanning, name: str, ends: Ends, what: str) -> OnLine:
     """Append the line between the two placed ends of what can change its length.
 
     Parameters
@@ -94,30 +36,57 @@ def line_of_ends(
     what
         What has these ends, for the message that they coincide.
     """
-    (anchor_body, anchor_point), (end_body, end_point) = ends
-    anchor = kin.point_motion(anchor_body, anchor_point)
-    end = kin.point_motion(end_body, end_point)
-    span = kin.program.vector(f"span_{name}", end.minus(anchor).position)
-    extent = extent_squared(kin, step)
-    require_length(kin, name, (anchor_point, end_point), what, extent)
+    (_, first), (_, second) = ends
+    span, extent = _span(kin, name, ends), extent_squared(kin, step)
+    require_length(kin, name, (first, second), what, extent)
     squared = kin.program.guarded(
         f"length_squared_{name}",
         span.dot(span),
-        f"{kin.loop_of(step)}: the ends {anchor_point.name} and {end_point.name} of {what} "
-        "coincide",
+        f"{kin.loop_of(step)}: the ends {first.name} and {second.name} of {what} coincide",
         "m^2",
         DIRECTION * extent,
     )
-    return line_between(
-        kin,
-        name,
-        (anchor_point, end_point),
-        (anchor, end),
-        (anchor_body, end_body),
-        span,
-        kin.program.define(f"length_{name}", sp.sqrt(squared)),
-        squared,
+    return _line(kin, name, ends, kin.program.define(f"length_{name}", sp.sqrt(squared)), squared)
+
+
+def _line(
+    kin: Kinematics,
+    name: str,
+    ends: Ends,
+    length: sp.Expr,
+    squared: sp.Expr | None = None,
+    *,
+    rigid: bool = False,
+) -> OnLine:
+    """Describe the line between two points of placed bodies, whose distance may be constant.
+
+    Given the square of the length, the reciprocals come from that: a division that need not wait
+    for the root.
+    """
+    program, ((anchor_body, anchor), (end_body, end)) = kin.program, ends
+    if squared is None:
+        inverse = program.define(f"inverse_length_{name}", 1 / length)
+        inverse_squared = program.define(f"inverse_length_squared_{name}", inverse**2)
+    else:
+        inverse_squared = program.define(f"inverse_length_squared_{name}", 1 / squared)
+        inverse = program.define(f"inverse_length_{name}", length * inverse_squared)
+    motions = kin.point_motion(anchor_body, anchor), kin.point_motion(end_body, end)
+    relative, span = motions[1].minus(motions[0]), _span(kin, name, ends)
+    direction = program.vector(f"direction_{name}", span * inverse)
+    motion = {
+        k: program.define(f"d_length_{name}_{k}", direction.dot(v))
+        for k, v in relative.motion.items()
+        if not rigid
+    }
+    return OnLine(
+        *(anchor, end, *motions, anchor_body, end_body, direction, length, inverse),
+        *(relative, motion, span, inverse_squared),
     )
+
+
+def _span(kin: Kinematics, name: str, ends: Ends) -> Vector:
+    anchor, end = (kin.point_motion(*at).position for at in ends)
+    return kin.program.vector(f"span_{name}", end - anchor)
 
 
 def require_length(
@@ -147,28 +116,10 @@ def require_length(
     )
 
 
-def place_rod(kin: Kinematics, leg: Leg, rod_anchor: PointMotion, length: sp.Expr) -> None:
-    """Record the line of a leg from its anchor to the body that it holds.
-
-    Parameters
-    ----------
-    kin, leg
-        The kinematics so far, and the leg.
-    rod_anchor, length
-        Motion of its anchor, and its length.
-    """
-    end = kin.point_motion(leg.body, leg.end)
-    span = kin.program.vector(f"span_{leg.rod}", end.position - rod_anchor.position)
-    kin.on_line[leg.rod] = line_between(
-        kin,
-        leg.rod,
-        (leg.anchor, leg.end),
-        (rod_anchor, end),
-        (leg.anchor_body, leg.body),
-        span,
-        length,
-        rigid=leg.rigid,
-    )
+def place_rod(kin: Kinematics, leg: Leg) -> None:
+    """Record the line of a leg from its anchor to the body that it holds."""
+    ends, length = ((leg.anchor_body, leg.anchor), (leg.body, leg.end)), kin.rod_lengths[leg.rod]
+    kin.on_line[leg.rod] = _line(kin, leg.rod, ends, length, rigid=leg.rigid)
 
 
 def axes_about(kin: Kinematics, name: str, line: Vector, way: Vector) -> tuple[Axes, Vector]:

@@ -61,7 +61,7 @@ def solve_offset_turn(kin: Kinematics, step: Spanning, leg: Leg) -> None:
     record = kin.off_line[leg.body]
     rod_anchor = leg.anchor_motion(kin)
     turn = _OffsetTurn(kin, step, leg, record, rod_anchor)
-    place_rod(kin, leg, rod_anchor, turn.rod_length)
+    place_rod(kin, leg)
     _aim(kin, record, turn.placed)
 
 

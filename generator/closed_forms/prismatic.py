@@ -90,7 +90,7 @@ class PrismaticByLength(HeldOnJoint):
             program.define(f"{body}_inverse_lever", -branch / root),
         )
         if not leg.pinned:
-            place_rod(kin, leg, anchor, rod.length)
+            place_rod(kin, leg)
 
     def _branch(self, kin: Kinematics, rod: Rod, extent: sp.Expr) -> sp.Expr:
         """Return on which side of its foot on the guide the leg is at the design position."""

@@ -48,4 +48,4 @@ class RevoluteByLength(HeldOnJoint):
         add_turn_of_rod(kin, place_on_hinge(kin, hinge, fit.axes), fit, hinge.arm, anchor)
         report_angle(kin, hinge, fit.axes)
         if not leg.pinned:
-            place_rod(kin, leg, anchor, fit.rod.length)
+            place_rod(kin, leg)

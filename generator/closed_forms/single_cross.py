@@ -83,10 +83,7 @@ class SingleCross(ClosedForm):
     def words(self, closing: Closing | None) -> tuple[str, str]:
         """Return the closure equation and its solution."""
         del closing
-        return (
-            f"the axes of {self.yoke.cross.name} at right angles",
-            f"a cos x + b sin x = c for the angle of {self.yoke.hinge.name}, branch as at design",
-        )
+        return f"the axes of {self.yoke.cross.name} at right angles", self.yoke.solution
 
     def carry_out(self, kin: Kinematics) -> None:
         """Turn the driven body until the cross fits."""

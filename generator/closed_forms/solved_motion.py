@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Protocol
+from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from ..declare.geometry import Point
     from ..kinematics.kinematics import Kinematics
+    from ..kinematics.motion import OffLine, OnLine
     from .constraints import Constraint
     from .leg import Rod
 
@@ -184,18 +185,6 @@ class TurnOnHinge(Unsolved):
         return Twist(alpha, self._origin.biases().acceleration)
 
 
-class Line(Protocol):
-    """What a turn about a line reads of it."""
-
-    @property
-    def relative(self) -> PointMotion:
-        """Motion of its end relative to its anchor."""
-
-    @property
-    def length_motion(self) -> Mapping[str, sp.Expr]:
-        """Rate of its length, per unit rate of each coordinate."""
-
-
 class TurnOnLine(Unsolved):
     """A body that turns about the line of two points, along the first of its axes.
 
@@ -225,7 +214,7 @@ class TurnOnLine(Unsolved):
         kin: Kinematics,
         placed: BodyMotion,
         base: PointMotion,
-        line: Line,
+        line: OnLine | OffLine,
         inverse: sp.Expr,
         sway: Vector = UNIT_X,
     ) -> None:

@@ -79,7 +79,7 @@ class TurnByLength(HeldByLeg):
         placed = place_at(kin, leg.body, at, fit.axes, arm.design_axes, local=local)
         unsolved = TurnOnLine(kin, placed, base.motion, record, record.inverse_length)
         add_turn_of_rod(kin, unsolved, fit, arm, rod_anchor)
-        place_rod(kin, leg, rod_anchor, fit.rod.length)
+        place_rod(kin, leg)
 
 
 @dataclass(frozen=True)

@@ -60,15 +60,23 @@ class PlaceByUniversalJoint(Follower):
 
     def carry_out(self, kin: Kinematics) -> None:
         """Turn the shaft about its line."""
-        joint, parent = self.joint, kin.placed[self.parent]
-        turn_on_cross(
-            kin,
-            self.body,
-            parent,
-            kin.local_direction(parent, joint.first_axis),
-            kin.design_direction(joint.first_axis),
-            f"the shaft {self.body} lies along the first axis of universal joint {joint.name}",
-        )
+        turn_with(kin, self.body, self.parent, self.joint)
+
+
+def turn_with(kin: Kinematics, body: str, on: str, joint: Universal) -> None:
+    """Turn a shaft of known line with its universal joint.
+
+    Parameters
+    ----------
+    kin, body
+        The kinematics so far, and the shaft.
+    on, joint
+        The placed body at the other side of the joint, and the joint.
+    """
+    parent, first = kin.placed[on], joint.first_axis
+    meaning = f"the shaft {body} lies along the first axis of universal joint {joint.name}"
+    local, design = kin.local_direction(parent, first), kin.design_direction(first)
+    turn_on_cross(kin, body, parent, local, design, meaning)
 
 
 def turn_on_cross(

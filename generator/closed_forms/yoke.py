@@ -67,6 +67,11 @@ class DrivenYoke:
         """The driven body."""
         return self.hinge.other(self.parent)
 
+    @property
+    def solution(self) -> str:
+        """How the equation is solved, for the report."""
+        return f"a cos x + b sin x = c for the angle of {self.hinge.name}, branch as at design"
+
 
 def through_center(hinge: Revolute, cross: Universal, scale: sp.Expr) -> Iterator[Assumption]:
     """Yield what keeps a hinge in the centre of a cross.
@@ -116,87 +121,58 @@ def second_axis(kin: Kinematics, cross: Universal, line: Vector) -> Vector:
 
 
 def turn_through_cross(
-    kin: Kinematics,
-    step: Step,
-    yoke: DrivenYoke,
-    own: Vector,
-    given: GivenAxis,
+    kin: Kinematics, step: Step, yoke: DrivenYoke, own: Vector, given: GivenAxis
 ) -> None:
     """Turn a body on its hinge until both axes of a cross are at right angles.
 
     Parameters
     ----------
-    step
-        Which loop it closes.
-    own
-        The axis of the cross on the driven body, at the design position.
-    """
-    _Turned.of(kin, step, yoke, own, given).place(kin, yoke)
-
-
-@dataclass(frozen=True)
-class _Turned:
-    """The driven body's side of its cross.
-
-    Attributes
-    ----------
-    axes, design_axes
-        Hinge e, t and e x t: now, and at the design position (work axes).
+    kin, step
+        The kinematics so far, and the step, which closes the loop.
+    yoke
+        The body.
     own, given
-        The axes of the cross in these axes, f and b.
+        The axes of the cross: on the body, at the design position, and on what drives.
     """
+    design_axes, f = _own_axis(kin, yoke, own)
+    axes, b = _fitted(kin, step, yoke, design_axes, f, given)
+    at, second = (yoke.parent, yoke.cross.at), yoke.hinge.second.name == yoke.body
+    hinge = yoke.hinge.name if second and yoke.hinge.angle_to is None else None
+    placed = place_at(kin, yoke.body, at, axes, design_axes, hinge=hinge)
+    target = TargetBody(kin, placed, kin.placed[yoke.driving], "shaft")
+    add_turn(kin, TurnOnHinge(kin, placed, *at), Condition(Perpendicular(b, f), target))
 
-    axes: Axes
-    design_axes: Axes
-    own: Vector
-    given: Vector
 
-    @classmethod
-    def of(
-        cls, kin: Kinematics, step: Step, yoke: DrivenYoke, own: Vector, given: GivenAxis
-    ) -> _Turned:
-        program, body = kin.program, yoke.body
-        parent, b = kin.placed[yoke.parent], given.now
-        design_axes, first = _own_axis(kin, yoke, own)
-        hinge = program.vector(
-            f"{body}_hinge_on_parent", to_axes(parent.design_axes, design_axes[0])
-        )
-        e = program.vector(f"{body}_hinge", from_axes(parent.axes, hinge))
-        along = program.define(f"{body}_second_along", b.dot(e))
-        beta = program.vector(f"{body}_second_across", b - e * along)
-        slope = program.define(f"{body}_first_slope", first.x / first.y)
-        k = program.define(f"{body}_second_needed", -slope * along)
-        squared = program.define(f"{body}_second_across_squared", beta.dot(beta))
-        room = program.guarded(
-            f"{body}_closure",
-            squared - k**2,
-            f"{kin.loop_of(step)}: {yoke.named} is bent too far at universal joint "
-            f"{yoke.cross.name}, towards a right angle to hinge {yoke.hinge.name}: it no longer "
-            f"turns {body}",
-            "1",
-            DIRECTION,
-        )
-        branch = _branch(kin, yoke, given.design, design_axes)
-        height = program.define(f"{body}_second_height", branch * sp.sqrt(room))
-        inverse = program.define(f"{body}_second_inverse", 1 / (room + k**2))
-        cosine = program.define(f"{body}_turn_cosine", k * inverse)
-        sine = program.define(f"{body}_turn_sine", height * inverse)
-        normal = program.vector(f"{body}_second_normal", e.cross(beta))
-        axes = (
-            e,
-            program.vector(f"{body}_first_across", beta * cosine - normal * sine),
-            program.vector(f"{body}_third_axis", normal * cosine + beta * sine),
-        )
-        return cls(axes, design_axes, first, Vector(along, k, height))
-
-    def place(self, kin: Kinematics, yoke: DrivenYoke) -> None:
-        """Record pose, velocities and bias of the driven body."""
-        at, own = (yoke.parent, yoke.cross.at), yoke.hinge.second.name == yoke.body
-        hinge = yoke.hinge.name if own and yoke.hinge.angle_to is None else None
-        placed = place_at(kin, yoke.body, at, self.axes, self.design_axes, hinge=hinge)
-        right_angle = Perpendicular(self.given, self.own)
-        target = TargetBody(kin, placed, kin.placed[yoke.driving], "shaft")
-        add_turn(kin, TurnOnHinge(kin, placed, *at), Condition(right_angle, target))
+def _fitted(
+    kin: Kinematics, step: Step, yoke: DrivenYoke, design_axes: Axes, f: Vector, given: GivenAxis
+) -> tuple[Axes, Vector]:
+    """Return e, t and e x t, and b in these axes."""
+    program, body, b = kin.program, yoke.body, given.now
+    parent = kin.placed[yoke.parent]
+    hinge = program.vector(f"{body}_hinge_on_parent", to_axes(parent.design_axes, design_axes[0]))
+    e = program.vector(f"{body}_hinge", from_axes(parent.axes, hinge))
+    along = program.define(f"{body}_second_along", b.dot(e))
+    beta = program.vector(f"{body}_second_across", b - e * along)
+    slope = program.define(f"{body}_first_slope", f.x / f.y)
+    k = program.define(f"{body}_second_needed", -slope * along)
+    squared = program.define(f"{body}_second_across_squared", beta.dot(beta))
+    room = program.guarded(
+        f"{body}_closure",
+        squared - k**2,
+        f"{kin.loop_of(step)}: {yoke.named} is bent too far at universal joint {yoke.cross.name}, "
+        f"towards a right angle to hinge {yoke.hinge.name}: it no longer turns {body}",
+        "1",
+        DIRECTION,
+    )
+    branch = _branch(kin, yoke, given.design, design_axes)
+    height = program.define(f"{body}_second_height", branch * sp.sqrt(room))
+    inverse = program.define(f"{body}_second_inverse", 1 / (room + k**2))
+    cosine = program.define(f"{body}_turn_cosine", k * inverse)
+    sine = program.define(f"{body}_turn_sine", height * inverse)
+    normal = program.vector(f"{body}_second_normal", e.cross(beta))
+    t = program.vector(f"{body}_first_across", beta * cosine - normal * sine)
+    third = program.vector(f"{body}_third_axis", normal * cosine + beta * sine)
+    return (e, t, third), Vector(along, k, height)
 
 
 def _own_axis(kin: Kinematics, yoke: DrivenYoke, f: Vector) -> tuple[Axes, Vector]:
