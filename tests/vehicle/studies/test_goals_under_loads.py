@@ -236,7 +236,7 @@ def test_goals_of_both_wheels(axle: Any, bushes: dict[str, Any]) -> None:
         found.drop_dims(["moved", "by"]), [name.removesuffix("_left")], goals=wanted
     ).get_axes()
     (line,) = (line for line in axes.get_lines() if line.get_label() == "limit, left")
-    np.testing.assert_allclose(line.get_xydata(), [[0.0, 0.01], [20.0, 0.01]], rtol=1e-12)
+    np.testing.assert_allclose(line.get_xydata(), [[0.01, 0.0], [0.01, 20.0]], rtol=1e-12)
     (row,) = goals_chapter(soft, wanted).tables[0].rows
     assert row[0].endswith("[deg/kN] (held: height)")
     if isinstance(axle, Axle):
@@ -278,7 +278,7 @@ def test_the_chapter_of_compliance_draws_those_of_its_wheels(
     }  # fmt: skip
     curve = name.removesuffix("_left").removesuffix("_right")
     assert {key: marks for key, marks in marked.items() if marks} == {
-        curve: {label: [[-20.0, pytest.approx(0.3)], [20.0, pytest.approx(0.3)]]}
+        curve: {label: [[pytest.approx(0.3), -20.0], [pytest.approx(0.3), 20.0]]}
     }
     with pytest.raises(InputError, match="there is no curve of camber_by_wind"):
         compliance_chapter(
