@@ -86,7 +86,7 @@ def free_bodies(
     chosen = {part: here.isel(load=(here["part"] == part).values) for part in shown}
     # a view stands alone in its row where many labels are beside it
     rows = sum(len(_VIEWS) if _crowded(loads) else 1 for loads in chosen.values())
-    figure = Figure(figsize=(7.4, 0.6 + 2.5 * rows), layout="constrained")
+    figure = Figure(figsize=(7.4, 0.6 + 2.7 * rows), layout="constrained")
     grid, row = figure.add_gridspec(rows, len(_VIEWS)), 0
     labels = {}
     for part, loads in chosen.items():
