@@ -88,9 +88,7 @@ def command(
     of: Of = None,
     every: Annotated[
         bool,
-        option(
-            "Draw all curves in groups, not only those that are looked at first.", None, "--all"
-        ),
+        option("Draw all curves in groups, not only the eight main ones.", None, "--all"),
     ] = False,
     goals: wanted.Goals = None,
     positions: Annotated[

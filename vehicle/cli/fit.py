@@ -113,4 +113,4 @@ def _print(found: "Fit", measured: "Dataset", file: str) -> None:
     console.print(table(f"{file}: what may be off", head, values, words=(0, 5)))
     title = "deviations of the curves, root mean square"
     console.print(table(title, ("characteristic", "file", "fitted", "accuracy"), curves))
-    say(f"{found.message}; {found.evaluations} suspensions were looked at.")
+    say(f"{found.message}; {found.evaluations} suspensions were evaluated.")

@@ -70,9 +70,11 @@ def command(
 
 
 def _print(found: "Optimum", file: str) -> None:
-    console.print(moved_table(found.places, found.moved, f"{file}: values that moved"))
+    console.print(
+        moved_table(found.places, found.moved, f"{file}: changes of the design variables")
+    )
     console.print(_goals(found))
-    say(f"{found.message}; {found.evaluations} suspensions were looked at.")
+    say(f"{found.message}; {found.evaluations} suspensions were evaluated.")
 
 
 def _goals(found: "Optimum") -> "Table":
@@ -89,5 +91,5 @@ def _goals(found: "Optimum") -> "Table":
         ]
         name = bracketed(f"{target.quantity.long_name}{target.over_words}", attributes)
         rows.append((name, *(significant(float(v) * factor) for v in (*missed, target.within))))
-    columns = ("characteristic", "before", "after", "what matters")
+    columns = ("characteristic", "before", "after", "within")
     return table("largest deviations from the targets", columns, rows)

@@ -129,7 +129,7 @@ def _print(found: "Front", chosen: int, file: str) -> None:
     if chosen:
         title = f"{file}: values of member {chosen}"
         console.print(moved_table(found.places, found.moved[chosen - 1], title))
-    say(f"{found.message}; {found.evaluations} were looked at.")
+    say(f"{found.message}; {found.evaluations} were evaluated.")
 
 
 def _table(found: "Front", chosen: int, file: str) -> "Table":

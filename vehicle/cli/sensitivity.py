@@ -91,14 +91,14 @@ def _table(dataset: "Dataset", look: StudyCurves, file: str) -> "Table":
         for unit in dict.fromkeys(effect.unit for effect in found[name])
     ]
     title = f"{title_of(file)}: effect of values on characteristics, {look.where}"
-    return table(title, ("characteristic", "unit", "moved most by"), rows, words=range(3))
+    return table(title, ("characteristic", "unit", "largest effects"), rows, words=range(3))
 
 
 def _greatest(effects: "list[Effect]") -> str:
     """Name the values with the largest effects on a characteristic, the largest first."""
     moved = [effect for effect in effects if isfinite(effect.size) and effect.size]
     words = [f"{_short(effect.place)} {effect.size:+.3g}" for effect in moved[:_GREATEST]]
-    return ", ".join(words) or "none of them"
+    return ", ".join(words) or "none"
 
 
 def _words(dataset: "Dataset", name: str) -> str:

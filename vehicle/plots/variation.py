@@ -167,7 +167,7 @@ def _bars(axes: Axes, dataset: xr.Dataset, name: str, found: Sequence[Effect]) -
     places = [str(words[effect.place]) for effect in moved[:_MOST_BARS]]
     values = [effect.size for effect in moved[:_MOST_BARS]]
     if not values:
-        nothing = "none of them moves it" if defined else "no derivative here"
+        nothing = "no effect" if defined else "no derivative here"
         axes.text(0.5, 0.5, nothing, ha="center", va="center", transform=axes.transAxes)
         axes.set_yticks([])
     axes.barh(places, values, color=[BLUE if v > 0.0 else ORANGE for v in values], height=0.7)

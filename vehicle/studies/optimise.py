@@ -196,7 +196,7 @@ def _optimum(search: Search, x: Array, gave_up: str) -> Optimum:
     facts = {
         "the solver gave up": [gave_up] if gave_up else [],
         "not within its limits": broken,
-        "further off than what matters": missed,
+        "targets missed by more than within": missed,
         "at the end of its range": search.at_the_end(x),
         "moves no target": search.idle(x),
     }

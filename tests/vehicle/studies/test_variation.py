@@ -331,7 +331,7 @@ def test_what_was_not_reached_is_told() -> None:
     far = {"toe": {"at_mm": 50.0, "value": 0.5, "within": 0.01}}
     found = variation.optimise(CAR, {ROD: 1.0, "hardpoints.strut_top.x": 1.0, "wheel": 0.1}, far)
     assert found.success
-    assert "further off than what matters: toe" in found.message
+    assert "targets missed by more than within: toe" in found.message
     assert f"at the end of its range: hardpoints.strut_top.x, {ROD}, wheel." in found.message
     idle = variation.optimise(CAR, {ROD: 1.0, "bodies.wheel.mass_kg": 1.0}, far)
     assert "moves no target: bodies.wheel.mass_kg" in idle.message

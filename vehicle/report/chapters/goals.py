@@ -16,7 +16,7 @@ from .chapter import Chapter, Picture
 from .curves import pictures, positions_of, with_wanted
 
 _MEANING = (
-    "A target is met where it is off by no more than what matters of it, at all of its positions. "
+    "A target is met if its deviation is at most its tolerance (within) at all of its positions. "
     "Beyond is by how much more the worst position is off."
 )
 
