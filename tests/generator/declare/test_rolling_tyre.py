@@ -350,6 +350,29 @@ def test_coefficients_that_do_nothing_cost_nothing(folder, system_of):
         replace(LAWS["newer"], without=("PTX1", "LONGVL"))
 
 
+def test_a_mirrored_copy_has_the_mirror_image_of_the_tyre(folder, system_of):
+    """Its coordinates have the values of the other side in a mirrored motion, but for `across`."""
+    tyre = system_of.tyre("newer")
+    neutral = {key: 0.0 for key in WITHOUT if key.startswith(("QSX", "RH", "PKX", "QSY8"))}
+    tyre = tyre.with_changes(neutral | {"QSY7": 1.0})
+    mechanism = rig(replace(LAWS["newer"], without=WITHOUT), "one", relaxing=True).mechanism
+    both = g.combined(
+        "both", "both", (g.Copy(mechanism, "left_", mirrored=True), g.Copy(mechanism, "right_"))
+    )
+    model = g.Formulation("both", "both", both, independent=both.joints)
+    equations = kintrafo.compile(model, folder=folder, backend="numpy")
+    system = kintrafo.System(equations, tyre.parameters(relaxing=True, without=WITHOUT))
+    position = states(1)[0]
+    state = np.concatenate(
+        [np.tile(position[:6], 2), np.tile(position[6:], 2), [0.005, 0.01, 0.005, -0.01]]
+    )
+    signals = system.signals(state, system.inputs({}))
+    assert abs(signals["right_tyre_fy"]) > 300.0
+    for what, sign in (("fx", 1), ("fy", -1), ("fz", 1), ("mz", -1), ("slip_angle", -1)):
+        left, right = (float(signals[f"{side}_tyre_{what}"]) for side in ("left", "right"))
+        assert left == pytest.approx(sign * right, rel=1e-10), what
+
+
 def test_it_is_refused_by_name():
     law = LAWS["linear"]
     tyre = next(f for f in rig(law, "rig").mechanism.forces if isinstance(f, g.RollingTyre))
