@@ -54,7 +54,8 @@ class Seen:
         self._moving, self._placed, self._part_of = moving, moving.placed, moving.part_of
         self._driven = moving.coordinates
         self.program, self.mechanism = moving.program, moving.mechanism
-        self.independent, self.coordinates = self._driven.independent, self._driven.moving
+        # what acts along an eliminated speed acts on the others by the constraints
+        self.independent, self.coordinates = self._driven.unconstrained, self._driven.moving
         self.driven = tuple(self._driven.symbols)
         self._momenta, self._accelerations = momenta, accelerations
 

@@ -117,27 +117,32 @@ def test_axes_that_spin_have_no_constant_coefficients(disc):
     assert not kintrafo.linearise(disc, disc.state(disc_q=3.0)).steady
 
 
-@pytest.mark.parametrize("omega", [3.0, 8.0])
-def test_a_wheel_rolls_on_above_its_critical_speed(omega):
-    """Lean and turn: ``(A + m r^2) A lean'' = (A m g r - C (C + m r^2) omega^2) lean``."""
-    frame = g.Body("frame", 1.0, DISC.center, (0.02, 0.03, 0.02))
-    wheel = g.Rotor("wheel", MASS, DISC.center, axis=AXIS, spin=SPIN, diametral=DIAMETRAL)
-    flight = g.Free("flight", frame)
-    hub = g.Revolute("hub", frame, wheel, g.Line(DISC.center, AXIS))
-    rim = replace(RIM, wheel=g.Wheel(frame, DISC.center, AXIS), bearing=hub)
+FRAME = g.Body("frame", 1.0, DISC.center, (0.02, 0.03, 0.02))
+WHEEL = g.Rotor("wheel", MASS, DISC.center, axis=AXIS, spin=SPIN, diametral=DIAMETRAL)
+HUB = g.Revolute("hub", FRAME, WHEEL, g.Line(DISC.center, AXIS))
+ON_FRAME = g.Wheel(FRAME, DISC.center, AXIS)
+
+
+def unicycle(*forces):
+    flight, rim = g.Free("flight", FRAME), replace(RIM, wheel=ON_FRAME, bearing=HUB)
     mechanism = g.Mechanism(
         "unicycle",
         "a wheel in a fork",
-        joints=(flight, hub),
-        forces=(g.Weight(),),
-        coordinates=(hub.angle("angle", "angle of the wheel"),),
+        joints=(flight, HUB),
+        forces=(g.Weight(), *forces),
+        coordinates=(HUB.angle("angle", "angle of the wheel"),),
         constraints=(rim,),
     )
     eliminated = ("frame_u", "frame_v", "frame_w")
-    model = g.Formulation(
-        "unicycle", "a wheel in a fork", mechanism, (flight, hub), eliminated=eliminated
+    return g.Formulation(
+        "unicycle", "a wheel in a fork", mechanism, (flight, HUB), eliminated=eliminated
     )
-    system = kintrafo.System(own(model, arrays=True))
+
+
+@pytest.mark.parametrize("omega", [3.0, 8.0])
+def test_a_wheel_rolls_on_above_its_critical_speed(omega):
+    """Lean and turn: ``(A + m r^2) A lean'' = (A m g r - C (C + m r^2) omega^2) lean``."""
+    system = kintrafo.System(own(unicycle(), arrays=True))
     linear = kintrafo.linearise(system, system.state(angle_rate=omega))
     mass, across = MASS + 1.0, DIAMETRAL + 0.02
     rolling = mass * RADIUS**2
@@ -146,6 +151,29 @@ def test_a_wheel_rolls_on_above_its_critical_speed(omega):
     nearest = np.abs(linear.eigenvalues[:, None] - [expected, -expected]).min(axis=0)
     assert nearest.max() < 1e-6 * abs(expected)
     assert linear.steady
+
+
+def test_a_push_acts_on_the_speeds_that_are_left():
+    """``(C + m r^2) omega' = F r`` of a force ahead, said in two ways."""
+    push = g.Input("push", "N", "force at the centre, ahead")
+    none = [g.Input(f"none_{i}", "N" if i < 5 else "N m", "nothing") for i in range(10)]
+    loads = g.WheelLoads(
+        wheel=ON_FRAME,
+        bearing=HUB,
+        radius=RIM.radius,
+        contact=tuple(none[:3]),
+        moment=tuple(none[5:8]),
+        center=(push, *none[3:5]),
+        shaft=none[8],
+        hub=none[9],
+    )
+    applied = g.AppliedForce(FRAME, DISC.center, g.FORWARD, push)
+    for force in (loads, applied):
+        system = kintrafo.System(own(unicycle(force), arrays=True, derivatives=False))
+        inputs = system.inputs({"push": 6.0})
+        rates = system.evaluate("rhs", system.state(angle_rate=2.0), inputs)
+        expected = 6.0 * RADIUS / (SPIN + (MASS + 1.0) * RADIUS**2)
+        assert rates[-1] == pytest.approx(expected, rel=1e-12)
 
 
 def _lowest(turned):
