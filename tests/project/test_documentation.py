@@ -64,6 +64,16 @@ def test_links_lead_somewhere(page):
             assert anchor in anchors_of(target), link
 
 
+def test_contributing_names_files_that_there_are():
+    """Each step of its walks names files and folders of the sources, or of what tools make."""
+    text = without_code(text_of(DOCS / "contributing.md"))
+    named = set(
+        re.findall(r"`((?:generator|runtime|vehicle|docs|tests|benchmarks)/[\w./-]*)`", text)
+    )
+    assert len(named) > 10
+    assert not [name for name in sorted(named) if not (ROOT / name).exists()]
+
+
 def test_every_page_is_in_the_table_of_contents_once():
     listed = Counter(target for page in PAGES for target in listed_by(page))
     assert set(listed) == set(PAGES) - {DOCS / "index.md"}
