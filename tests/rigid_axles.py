@@ -39,6 +39,12 @@ LOPSIDED = AXLE.with_changes(
         "wheel": {"camber_deg": -0.5, "toe_deg": 0.1},
     }
 )
+STOPPED = AXLE.with_changes(
+    {
+        "bump_stop": {"clearance_mm": 60.0, "rate_N_per_m": 6e4, "progression_N_per_mm3": 0.1},
+        "rebound_stop": {"clearance_mm": 80.0, "rate_N_per_m": 1.2e5},
+    }
+)
 # Four links and a Panhard rod.
 FIVE = AXLE.with_changes(
     {

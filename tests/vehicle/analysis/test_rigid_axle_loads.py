@@ -3,7 +3,6 @@
 The root finder of `test_rigid_axle` shares nothing with the equations or the balance of the parts.
 """
 
-import itertools
 import math
 from pathlib import Path
 from typing import Any
@@ -23,18 +22,11 @@ from kintrafo import (
 )
 from kintrafo.vehicle.analysis.loads.sheets import overview
 from kintrafo.vehicle.analysis.scenario import Scenario, run
-from kintrafo.vehicle.plots.loads import free_bodies
 from listed_loads import wrench
-from rigid_axles import AXLE, LEFT, LOPSIDED, MODEL, Found, each_axle, slopes
+from rigid_axles import AXLE, LEFT, LOPSIDED, MODEL, STOPPED, Found, each_axle, slopes
 
 Array = np.ndarray
 SIDES = ("left", "right")
-STOPPED = AXLE.with_changes(
-    {
-        "bump_stop": {"clearance_mm": 60.0, "rate_N_per_m": 6e4, "progression_N_per_mm3": 0.1},
-        "rebound_stop": {"clearance_mm": 80.0, "rate_N_per_m": 1.2e5},
-    }
-)
 # Forces and moments at both places of both wheels, all of them different.
 PUSHED: dict[str, Any] = {
     "pushed": {
@@ -431,27 +423,6 @@ def test_each_rod_has_a_row_with_its_sign() -> None:
         found["force"].sel(load="beam at upper_link_axle by upper_link", axis="x").max()
     )
     assert "reason" in loads.table(found)
-
-
-@pytest.mark.parametrize(
-    ("axle", "case"),
-    [(STOPPED, "brake"), (STOPPED, "corner"), (LOPSIDED, "trail_brake")],
-    ids=["stopped brake", "stopped corner", "lopsided trail brake"],
-)
-def test_labels_of_free_bodies_do_not_overlap(axle: RigidAxle, case: str) -> None:
-    usual = {name: found for name, found in loads.standard_cases(axle).items()
-             if name == case}  # fmt: skip
-    figure = free_bodies(loads.static(axle, usual), case)
-    figure.draw_without_rendering()
-    assert len(figure.axes) == 6
-    for axes in figure.axes[:2]:
-        labels = [text for text in axes.texts if text.get_text()]
-        assert len(labels) > 6
-        boxes = [text.get_window_extent() for text in labels]
-        for one, other in itertools.combinations(boxes, 2):
-            assert not one.overlaps(other)
-        frame = axes.get_window_extent().padded(1.0)
-        assert all(frame.contains(*end) for box in boxes for end in (box.p0, box.p1))
 
 
 def test_commands_tell_the_loads(kintrafo: Any, tmp_path: Path) -> None:

@@ -3,16 +3,29 @@
 from __future__ import annotations
 
 from itertools import combinations
+from typing import Any
 
 import pytest
 from kintrafo import Model, loads
 from kintrafo.vehicle.plots.loads import free_bodies
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from rigid_axles import LOPSIDED, STOPPED
 
 
-@pytest.mark.parametrize("name", ["reference_car", "push_rod_car"])
-def test_labels_do_not_overlap(name: str) -> None:
-    figure = free_bodies(loads.static(Model(name)), "brake")
+@pytest.mark.parametrize(
+    ("of", "case"),
+    [
+        (Model("reference_car"), "brake"),
+        (Model("push_rod_car"), "brake"),
+        (STOPPED, "brake"),
+        (STOPPED, "corner"),
+        (LOPSIDED, "trail_brake"),
+    ],
+    ids=["strut", "push rod", "stopped brake", "stopped corner", "lopsided trail brake"],
+)
+def test_labels_do_not_overlap(of: Any, case: str) -> None:
+    usual = {case: loads.standard_cases(of)[case]}
+    figure = free_bodies(loads.static(of, usual), case)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()  # type: ignore[no-untyped-call]
     count = 0
@@ -21,6 +34,8 @@ def test_labels_do_not_overlap(name: str) -> None:
         boxes = [text.get_window_extent(canvas.get_renderer()) for text in shown]
         for (one, first), (other, second) in combinations(zip(shown, boxes, strict=True), 2):
             assert not first.overlaps(second), (one.get_text(), other.get_text())
+        frame = axes.get_window_extent().padded(1.0)
+        assert all(frame.contains(*end) for box in boxes for end in (box.p0, box.p1))
         count += len(shown)
         words = {text.get_text().splitlines()[1] for text in shown if "N" in text.get_text()}
         assert all(word.startswith("at ") or word.endswith(" N") for word in words)
