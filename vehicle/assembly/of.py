@@ -1,15 +1,18 @@
 """The assembly of what a file describes."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...systems.compile.build import require_generator
 from ..kinds import Suspension
 from ..models.axle import Axle
 from ..models.axle.equations import AxleModel
+from ..models.axle.equations import declared as axle_declared
 from ..models.car import Car
 from ..models.car.equations import CarModel
+from ..models.car.equations import declared as car_declared
 from ..models.model import Model
 from ..models.whole_axle import WholeAxle
 from ..models.whole_axle_model import WholeAxleModel
@@ -18,6 +21,9 @@ from .axle import AxleAssembly
 from .car import NOT_A_CAR, CarAssembly
 from .corner import CornerAssembly
 from .whole_axle import whole_axle_assembly
+
+if TYPE_CHECKING:
+    from ...generator import Formulation
 
 
 def assembly_of(subject: Any) -> Assembly:
@@ -97,6 +103,23 @@ def model_of(
         return whole_axle_assembly(subject.KEY).MODEL(subject, wheel_loads=wheel_loads)
     free_rack = bool(subject.neglected_masses())
     return Model(subject, free_rack=free_rack, wheel_loads=wheel_loads)
+
+
+def declaration_of(subject: Suspension | Axle | WholeAxle | Car) -> "Formulation":
+    """Return the declaration of which the equations of motion of `model_of` were derived.
+
+    Parameters
+    ----------
+    subject : Suspension, Axle, WholeAxle or Car
+    """
+    require_generator()
+    from ...generator.mechanisms import model_named  # noqa: PLC0415 (an extra)
+
+    if isinstance(subject, Car):
+        return car_declared(subject)
+    if isinstance(subject, Axle):
+        return axle_declared(subject)
+    return model_named(str(model_of(subject).equations.NAME))
 
 
 _NO_WHEEL_LOADS = (

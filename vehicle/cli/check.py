@@ -62,11 +62,10 @@ def command(file: File, *, json: Json = False) -> None:
 
 def _refuse_missing(file: str) -> None:
     """Refuse a file that is not there, so that what a check says is about its content."""
-    from ..data.starter import packaged, packaged_axles, packaged_cars, whole_axles
+    from ..data.starter import all_packaged
     from ..kinds import Suspension
 
-    names = {*packaged(), *packaged_axles(), *whole_axles(), *packaged_cars()}
-    if file not in names and not Path(file).is_file():
+    if file not in all_packaged() and not Path(file).is_file():
         Suspension.load(file)  # says so, and what was probably meant
 
 

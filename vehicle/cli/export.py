@@ -90,11 +90,11 @@ def _described_by(file: str, model: str | None) -> "System":
     from importlib import import_module
 
     from ...systems.system import System
-    from ..data.starter import packaged, packaged_axles
+    from ..data.starter import all_packaged
 
     if file.endswith(".py"):
         return system_of(file, model)
-    if file in _shipped() and file not in (*packaged(), *packaged_axles()):
+    if file in _shipped() and file not in all_packaged():
         return System(import_module(f"kintrafo.generated.{file}"))
     return model_of(file)
 

@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from ..assembly.of import AnyModel
     from ..kinds import Suspension
     from ..models.axle import Axle
-    from ..models.model import Model
     from ..models.whole_axle import WholeAxle
 
 
@@ -88,17 +87,6 @@ def car_of(file: str) -> "CarAssembly":
         model = of_subject(subject, progress=lambda text: status.update(f"the equations: {text}"))
     assert isinstance(model, CarModel)
     return CarAssembly(subject, model)
-
-
-def suspension_of(file: str) -> "Model":
-    """Return the equations of the file of one suspension; others are refused."""
-    from ..assembly.of import assembly_of
-    from ..kinds import Suspension
-
-    suspension = Suspension.load(file)
-    with problems.status("preparing the equations"):
-        (model,) = assembly_of(suspension).corners.values()
-    return model
 
 
 def system_of(file: str, name: str | None = None) -> "System":

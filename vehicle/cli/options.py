@@ -61,12 +61,11 @@ def argument(words: str, value: str | None = None, **how: Any) -> Any:
 
 def complete_file(incomplete: str) -> list[str]:
     """Return packaged names and TOML files that begin like this."""
-    from ..data.starter import packaged, packaged_axles, packaged_cars, whole_axles
+    from ..data.starter import all_packaged
 
     parent = Path(incomplete).parent if "/" in incomplete else Path()
     files = sorted(str(path) for path in parent.glob("*.toml"))
-    names = (*files, *packaged(), *packaged_axles(), *whole_axles(), *packaged_cars())
-    return [name for name in names if name.startswith(incomplete)]
+    return [name for name in (*files, *all_packaged()) if name.startswith(incomplete)]
 
 
 File = Annotated[

@@ -93,6 +93,17 @@ def whole_axles() -> tuple[str, ...]:
     return tuple(data_sets(WHOLE_AXLES))
 
 
+def all_packaged() -> tuple[str, ...]:
+    """Return the names of all that comes with kintrafo: suspensions, axles and cars.
+
+    Examples
+    --------
+    >>> {"reference_car", "rigid_axle", "quarter_car"} <= set(all_packaged())
+    True
+    """
+    return (*packaged(), *packaged_axles(), *whole_axles(), *packaged_cars())
+
+
 def whole_axle_in(data: Container[str]) -> str | None:
     """Return which of these axles the top-level keys of a file are of; None for other files."""
     return next((key for key in whole_axles() if key in data), None)
@@ -112,9 +123,9 @@ def words_of(key: str) -> str:
 def not_of_a_suspension(key: str) -> str:
     """Return what is said of the file of such an axle where that of a suspension is needed."""
     return (
-        f"this is the file of {words_of(key)}, and that of a suspension is needed. The commands of "
-        f"kintrafo mechanism and export --to points do not take {words_of(key)}; all others do. In "
-        "Python: kintrafo.load."
+        f"this is the file of {words_of(key)}, and that of a suspension is needed. The command "
+        f"export --to points does not take {words_of(key)}; all others do. In Python: "
+        "kintrafo.load."
     )
 
 

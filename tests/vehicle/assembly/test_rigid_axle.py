@@ -537,7 +537,6 @@ def test_other_doors_refuse_it_by_name() -> None:
         "characteristics rigid_axle --positions --over rack",
         "sweep rigid_axle wheel.toe_deg=0,1 --rack 5",
         "export rigid_axle --to points -o a.csv",
-        "mechanism topology rigid_axle",
         "compare rigid_axle reference_car",
         "simulate rigid_axle --rack 5",
         "characteristics rigid_axle --over steer",

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from ....terminal.console import problems, say
-from ..loading import suspension_of, system_of
+from ..loading import model_of, system_of
 from ..options import File, Force, Which, argument, option, refuse_which
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def command(
     model: Which = None,
     force: Force = False,
 ) -> None:
-    """Show the free response of a mechanism of your own, or of a suspension.
+    """Show the free response of a mechanism of your own, a suspension, an axle or a car.
 
     It starts at rest at the design position, but for what --start says. In Python any motion can be
     shown, over a road or with inputs: kintrafo.animate(result, "motion.gif").
@@ -76,6 +76,6 @@ def _motion(file: str, name: str | None, values: dict[str, float], duration: flo
 
     with Arguments("animate") as given:
         seconds = given.number("--duration", duration, "s", above=0.0, below=3600.0)
-    system = system_of(file, name) if file.endswith(".py") else suspension_of(file)
+    system = system_of(file, name) if file.endswith(".py") else model_of(file)
     times = np.linspace(0.0, seconds, max(201, round(500 * min(seconds, 20.0)) + 1))
     return simulate(system, (0.0, seconds), system.state(**values), t_eval=times)

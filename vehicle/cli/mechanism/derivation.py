@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from ....terminal.console import problems
-from ..loading import suspension_of
 from ..options import Force, Which, argument, option, refuse_which
 from ..outputs import name_files
 
@@ -22,8 +21,8 @@ def command(
     file: Annotated[
         str,
         argument(
-            "Hardpoint file, Python file with a mechanism of your own, or the name of a model that "
-            "comes with kintrafo: macpherson, four_bar, andrews, excavator.",
+            "File of a suspension, an axle or a car, Python file with a mechanism of your own, or "
+            "the name of a model that comes with kintrafo: macpherson, four_bar, andrews.",
             "FILE",
         ),
     ],
@@ -51,16 +50,18 @@ def command(
 
 
 def _shipped(file: str) -> "Formulation":
-    """Return the model of a name, or that of the suspension in a file."""
+    """Return the model of a name, or that of what a file describes."""
     from ....core.errors import InputError
     from ....core.suggestions import suggestion
-    from ....generator.mechanisms import MODELS, model_named
-    from ...data.starter import packaged
+    from ....generator.mechanisms import MODELS
+    from ...assembly.of import declaration_of
+    from ...data.starter import all_packaged
+    from ...files.loading import load
 
     known = {model.name: model for model in MODELS}
     if file in known:
         return known[file]
-    if not Path(file).suffix and file not in packaged() and not Path(file).exists():
-        problem = f"is no file and no name. {suggestion(file, [*known, *packaged()])}"
+    if not Path(file).suffix and file not in all_packaged() and not Path(file).exists():
+        problem = f"is no file and no name. {suggestion(file, [*known, *all_packaged()])}"
         raise InputError([problem], file)
-    return model_named(suspension_of(file).equations.NAME)
+    return declaration_of(load(file))

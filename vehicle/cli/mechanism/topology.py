@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from rich.table import Table
 
 from ....terminal.console import console, print_json, say
-from ..loading import suspension_of
+from ..loading import model_of
 from ..options import Json, Which, argument, option, refuse_which
 
 if TYPE_CHECKING:
@@ -28,7 +28,10 @@ _FREE_RACK = "macpherson_free_rack"
 def command(
     file: Annotated[
         str | None,
-        argument("Hardpoint file, or Python file with a mechanism of your own.", "FILE"),
+        argument(
+            "File of a suspension, an axle or a car, or Python file with a mechanism of your own.",
+            "FILE",
+        ),
     ] = None,
     *,
     model: Which = None,
@@ -102,7 +105,7 @@ def _show_loops(found: "Topology") -> None:
 def _equations(file: str, model: str | None) -> ModuleType:
     """Return the compiled equations that a file leads to."""
     if not file.endswith(".py"):
-        return suspension_of(file).equations
+        return model_of(file).equations
     from ....systems.compile.build import compile_mechanism
 
     return compile_mechanism(file, name=model)
