@@ -9,6 +9,7 @@ import networkx as nx
 import sympy as sp
 
 from ..declare.joints import Revolute
+from .jointed_base import jointed_base
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -160,7 +161,12 @@ class Coordinates:
 
     @cached_property
     def single_coordinate(self) -> frozenset[str]:
-        """The independent coordinates that alone move bodies that hang together."""
+        """The independent coordinates that alone move bodies that hang together.
+
+        None on a base that joints move: what the base does is added at the true rates.
+        """
+        if jointed_base(self.formulation):
+            return frozenset()
         pacing = list(self._pacing())
         together = {k for several in pacing if len(several) > 1 for k in several}
         alone = {k for several in pacing for k in several} - together
