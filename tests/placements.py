@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import sympy as sp
 from kintrafo.equations.following import follow_turns
-from kintrafo.generator.backends.numpy import printer as arrays
+from kintrafo.generator.backends import arrays
+from kintrafo.generator.backends.numpy.dialect import NUMPY
 from kintrafo.generator.backends.words import blocks_of
 from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.kinematics.motion import from_axes, to_axes
@@ -109,8 +110,13 @@ def _printed(function: Function, prepare: Function, parameters: list[str], names
     texts = [
         "import numpy as np",
         "from kintrafo.equations.following import follow_turns",
-        *arrays.printed_blocks(blocks_of([function])),
-        arrays.definition(prepare, "parameters", arrays.loaded("parameters", parameters, prepare)),
-        arrays.definition(function, "constants, coordinates", loads),
+        *arrays.printed_blocks(blocks_of([function]), NUMPY),
+        arrays.definition(
+            prepare,
+            "parameters",
+            arrays.loaded("parameters", parameters, prepare, NUMPY),
+            NUMPY,
+        ),
+        arrays.definition(function, "constants, coordinates", loads, NUMPY),
     ]
     return "\n\n\n".join(texts)

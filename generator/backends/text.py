@@ -32,12 +32,18 @@ class Dialect:
         The square root, and one of several results.
     argument
         A number that a block which iterates is given.
+    element
+        Of an array of states, inputs, constants or parameters, by its place.
+    negation
+        A comparison that must not hold.
     """
 
     functions: Mapping[type, str]
     root: str
     component: str
     argument: str = "{}"
+    element: str = "{}[..., {}]"
+    negation: str = "not {}"
 
 
 def _named(symbol: sp.Symbol) -> str:

@@ -9,13 +9,23 @@ from ..core.files import Paths
 from ..core.named_types import ArrayLike
 from ..systems.state import inputs_of
 from ..systems.system import System
-from . import c_folder, fmu
+from . import c_folder, fmu, python_module
 from .emitted import Emitted
 
 Write = Callable[..., Path]
-TARGETS: Mapping[str, Write] = {"c": c_folder.write, "fmu": fmu.write}
+TARGETS: Mapping[str, Write] = {
+    "c": c_folder.write,
+    "fmu": fmu.write,
+    "casadi": python_module.write_casadi,
+    "jax": python_module.write_jax,
+}
 """What writes each kind of export: of an `Emitted` and a path, with options of its own."""
-ENDINGS: Mapping[str, str] = {"c": "_c", "fmu": fmu.ENDING}
+ENDINGS: Mapping[str, str] = {
+    "c": "_c",
+    "fmu": fmu.ENDING,
+    "casadi": f"_casadi{python_module.ENDING}",
+    "jax": f"_jax{python_module.ENDING}",
+}
 """What is added to a name where no path is given."""
 
 
@@ -37,10 +47,13 @@ def export_model(
     system : System, Model, AxleModel or RigidAxleModel
         With compiled equations.
     path : str or pathlib.Path
-        What to write: a folder for 'c', a file that ends in ``.fmu`` for 'fmu'.
-    to : {'c', 'fmu'}
+        What to write: a folder for 'c', a file that ends in ``.fmu`` for 'fmu', in
+        ``.py`` for 'casadi' and 'jax'.
+    to : {'c', 'fmu', 'casadi', 'jax'}
         'c': plain C99 without dependencies, with a CMake file and an example. 'fmu': a functional
-        mock-up unit for Model Exchange and Co-Simulation.
+        mock-up unit for Model Exchange and Co-Simulation. 'casadi': a Python module of functions
+        of CasADi. 'jax': one of functions over arrays of JAX. Both are derived anew, for which the
+        packages of the extra "generator" are needed.
     state : array_like, optional
         Where it starts; the design position at rest by default. The inputs of a state of
         `equilibrium` come with it.
@@ -62,7 +75,10 @@ def export_model(
     Raises
     ------
     InputError
-        If an argument cannot be used, or what is there must not be replaced.
+        If an argument cannot be used, or what is there must not be replaced; of 'casadi' and
+        'jax', if the equations iterate.
+    MissingPackageError
+        If equations must be derived, and the packages for that are not installed.
     CompilerError
         If a library is to be compiled, and there is no compiler for it, or it fails.
 

@@ -82,5 +82,6 @@ def environment(folder: str) -> Environment:
         "comment": comment,
         "operations": operations,
         "wrapped": wrapped,
+        "repr": repr,
     }
     return made

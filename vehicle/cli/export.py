@@ -14,6 +14,8 @@ EXAMPLES = (
     "kintrafo export my_car.toml --to c -o my_car_c",
     "kintrafo export my_axle.toml --to fmu",
     "kintrafo export my_car.toml --to fmu --fmi 3 -o my_car_3.fmu",
+    "kintrafo export slider_crank --to casadi",
+    "kintrafo export four_bar --to jax",
     "kintrafo export my_mechanism.py --model crane --to c",
     "kintrafo export my_car.toml --to points -o points.csv",
 )
@@ -32,8 +34,9 @@ def command(
     to: Annotated[
         str,
         option(
-            "c: a folder with plain C. fmu: a functional mock-up unit. points: a table of the "
-            "hardpoints (.csv), which kintrafo import reads again.",
+            "c: a folder with plain C. fmu: a functional mock-up unit. casadi, jax: a module of "
+            "Python for these. points: a table of the hardpoints (.csv), which kintrafo import "
+            "reads again.",
             "KIND",
         ),
     ],
@@ -53,9 +56,9 @@ def command(
     """Write a model, or its hardpoints, for other programs: with the numbers of FILE, at design.
 
     c: the emitted C99, which needs nothing else, with constants, a CMake file and an example. fmu:
-    Model Exchange and Co-Simulation of FMI 2.0 or 3.0 in one file. points: the hardpoints of a
-    suspension as a table. In Python any state can be the start: kintrafo.export_model(model,
-    "car.fmu", "fmu", state=rest).
+    Model Exchange and Co-Simulation of FMI 2.0 or 3.0 in one file. casadi, jax: functions that
+    these libraries differentiate. points: the hardpoints of a suspension as a table. In Python any
+    state can be the start: kintrafo.export_model(model, "car.fmu", "fmu", state=rest).
     """
     from ...core.arguments import Arguments
     from ...targets.export import ENDINGS, export_model

@@ -30,6 +30,8 @@ Report = Callable[[str], None]
 _REMEDY = "Install a C compiler (on Debian: apt-get install gcc libc6-dev), or name one in CC"
 _COMPILED_PER_S = 8_000  # operations: of a file by GCC, on the processors that this was written on
 _warned = False
+# by the name of the module: the declaration, and whether there are derivatives by parameters
+_declared: dict[str, "tuple[Formulation, bool]"] = {}
 
 
 def compile_mechanism(
@@ -136,7 +138,49 @@ def compile_mechanism(
         with appearing(target) as temporary, shown() as notify:
             build(derived or derive(notify), temporary, compiler, name=target.name, report=notify)
         refuse_damaged(target)
-    return load(target)
+    module = load(target)
+    _declared[module.__name__] = model, parameter_derivatives
+    return module
+
+
+def derived_again(equations: ModuleType) -> "Derivation":
+    """Return the derivation of equations that come with the project or were compiled here.
+
+    Parameters
+    ----------
+    equations : module
+        One of `kintrafo.generated`, or what `compile_mechanism` returned in this process.
+
+    Returns
+    -------
+    Derivation
+        Of which the C code of `equations` was emitted.
+
+    Raises
+    ------
+    InputError
+        If the declaration is not known, or gives other equations now.
+    MissingPackageError
+        If the packages of the extra "generator" are not installed.
+    """
+    require_generator()
+    from ...generator.backends.words import mechanism_hash
+    from ...generator.equations.outputs import generate
+    from ...generator.mechanisms import model_named
+
+    if equations.__name__.startswith("kintrafo."):
+        model, by_parameters = model_named(equations.NAME), False
+    elif equations.__name__ in _declared:
+        model, by_parameters = _declared[equations.__name__]
+    else:
+        problem = "the declaration is not known here. Call kintrafo.compile first, in this process."
+        raise InputError([problem], str(equations.NAME))
+    with on_terminal(f"derive {model.name}") as notify, translated_errors(model):
+        derived = generate(model, parameter_derivatives=by_parameters, progress=notify)
+    if mechanism_hash(derived) != equations.MECHANISM_HASH:
+        problem = "the declaration gives other equations now. Compile the mechanism again."
+        raise InputError([problem], str(equations.NAME))
+    return derived
 
 
 def require_generator() -> None:

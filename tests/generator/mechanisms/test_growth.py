@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from as_commands import ROOT, run_module
 from kintrafo.generator.backends.counting import operations_of
-from kintrafo.generator.backends.numpy.printer import ArraysPrinter
+from kintrafo.generator.backends.numpy.printer import numpy_source
 from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import Plan
@@ -63,7 +63,7 @@ def test_the_loop_that_cannot_close_is_named(chain: Built, loop: int) -> None:
 
 
 def test_arrays_share_the_last_bit_too(long_chain: Derivation) -> None:
-    source = ArraysPrinter(long_chain).source()
+    source = numpy_source(long_chain)
     assert len(long_chain.guards) > 32
     assert f"{len(long_chain.guards) - 1}: " in source
 

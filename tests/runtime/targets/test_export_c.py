@@ -109,8 +109,8 @@ def test_equations_without_a_compiler_have_their_c_all_the_same(tmp_path):
 
 def test_what_cannot_be_used_is_refused(tmp_path):
     system = system_named("four_bar")
-    with pytest.raises(kintrafo.InputError, match="'casadi' is not known"):
-        kintrafo.export_model(system, tmp_path / "c", "casadi")
+    with pytest.raises(kintrafo.InputError, match="'matlab' is not known"):
+        kintrafo.export_model(system, tmp_path / "c", "matlab")
     with pytest.raises(kintrafo.InputError, match="fmi is no option of an export to 'c'"):
         kintrafo.export_model(system, tmp_path / "c", "c", fmi=2)
     with pytest.raises(kintrafo.InputError, match="'crank_torq' is not known"):
@@ -161,9 +161,9 @@ def test_the_command(kintrafo, tmp_path):
     code, out, _ = kintrafo("export", "four_bar", "--to", "c", "-o", "bar", "--json")
     assert code == 0
     assert '"equations": "four_bar"' in out
-    code, _, err = kintrafo("export", "four_bar", "--to", "casadi")
+    code, _, err = kintrafo("export", "four_bar", "--to", "matlab")
     assert code == 2
-    assert "'casadi' is not known" in err
+    assert "'matlab' is not known" in err
     code, _, err = kintrafo("export", "four_bra", "--to", "c")
     assert code == 2
     assert "no such file" in err

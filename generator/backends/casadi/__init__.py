@@ -1,0 +1,1 @@
+"""Python for CasADi: functions over SX."""

@@ -1,0 +1,1 @@
+"""Python for JAX: arrays under jit, vmap and grad."""

@@ -1,0 +1,133 @@
+"""A Python module of the equations, for CasADi or JAX: with values of one parameter set."""
+
+from collections.abc import Mapping
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..core.errors import InputError
+from ..core.files import Paths, replacing
+from ..systems.compile.build import derived_again, require_generator
+from .emitted import Emitted
+from .text import environment
+
+if TYPE_CHECKING:
+    from ..generator.backends.text import Dialect
+    from ..generator.equations.outputs import Derivation
+
+ENDING = ".py"
+
+
+def write_casadi(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path:
+    """Write functions of CasADi; see `_write`."""
+    return _write("casadi", emitted, path, force=force, read=read)
+
+
+def write_jax(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path:
+    """Write functions over arrays of JAX; see `_write`."""
+    return _write("jax", emitted, path, force=force, read=read)
+
+
+def _write(library: str, emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path:
+    """Write a module.
+
+    Parameters
+    ----------
+    library : {'casadi', 'jax'}
+        The back end of the generator, and the template, of this name.
+    emitted : Emitted
+    path : Path
+        Ends in ``.py``.
+    force : bool
+        Whether a file that somebody else wrote is replaced.
+    read : iterable of str or pathlib.Path
+        Files that are never replaced.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    InputError
+        If the equations iterate or are not known to the generator, or the file cannot be written.
+    MissingPackageError
+        If the packages of the extra "generator" are not installed.
+    """
+    _refuse_name(library, path)
+    _refuse_iterations(library, emitted)
+    require_generator()
+    with replacing(path, force=force, inputs=read) as temporary:
+        facts = _facts(emitted, derived_again(emitted.system.equations), _dialects()[library])
+        text = environment("python_files").get_template(f"{library}.py.jinja").render(facts)
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+    return path
+
+
+def _refuse_name(library: str, path: Path) -> None:
+    """Refuse files that are no module, and those that would be imported for a library."""
+    if path.suffix != ENDING or path.stem in (library, "numpy"):
+        stem = path.stem or "model"
+        problem = f"the name of a module such as {stem}_{library}{ENDING} is needed."
+        raise InputError([problem], str(path))
+
+
+def _refuse_iterations(library: str, emitted: Emitted) -> None:
+    functions = emitted.manifest["functions"].values()
+    loops = {block for function in functions for block in function.get("iterates", ())}
+    if loops:
+        problem = (
+            f"{', '.join(sorted(loops))}: Newton's method solves a loop of these equations. "
+            f"{library!r} has equations in closed form only; export to 'fmu' or 'c'."
+        )
+        raise InputError([problem], emitted.name)
+
+
+def _dialects() -> Mapping[str, "Dialect"]:
+    from ..generator.backends.casadi.dialect import CASADI  # noqa: PLC0415 (an extra)
+    from ..generator.backends.jax.dialect import JAX  # noqa: PLC0415
+
+    return {"casadi": CASADI, "jax": JAX}
+
+
+def _facts(emitted: Emitted, derived: "Derivation", dialect: "Dialect") -> Mapping[str, Any]:
+    """Return the data of the templates."""
+    from ..generator.backends.arrays import differentiable, exported  # noqa: PLC0415 (an extra)
+    from ..generator.program.floors import ROUNDING  # noqa: PLC0415
+
+    system, manifest = emitted.system, emitted.manifest
+    conditions = [f"{entry['meaning']}: {entry['remedy']}" for entry in manifest["assumptions"]]
+    return {
+        "name": emitted.name,
+        "title": emitted.title,
+        "version": version("kintrafo"),
+        "state": _valued(manifest["state"], emitted.state),
+        "inputs": _valued(manifest["inputs"], emitted.inputs),
+        "parameters": _valued(manifest["parameters"], system.parameters.values()),
+        "constants": len(system.constants),
+        "functions": [_described(function) for function in differentiable(derived)],
+        "guards": manifest["guards"],
+        "conditions": conditions,
+        "rounding": repr(ROUNDING),
+        "code": exported(derived, dialect),
+    }
+
+
+def _valued(described: Mapping[str, Mapping[str, Any]], values: Any) -> list[dict[str, str]]:
+    """Return names, exact values, units and meanings."""
+    return [
+        {"name": name, "value": repr(float(value)), "unit": of["unit"], "meaning": of["meaning"]}
+        for (name, of), value in zip(described.items(), values, strict=True)
+    ]
+
+
+def _described(function: Any) -> dict[str, Any]:
+    return {
+        "name": function.name,
+        "doc": function.doc,
+        "labels": list(function.labels),
+        "shape": tuple(map(int, function.shape)),
+        "count": int(np.prod(function.shape)),
+    }

@@ -1,0 +1,255 @@
+"""Modules for CasADi and JAX: values of the compiled C, derivatives of the emitted Jacobians.
+
+Both libraries differentiate the right-hand side themselves, by the chain rule over its operations;
+the Jacobians that are compared with were derived by the generator and are C.
+"""
+
+import importlib.util
+from functools import cache
+
+import kintrafo
+import numpy as np
+import pytest
+from exported import system_named
+from free_bodies import thrown
+from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
+
+CLOSED, OPEN = "four_bar", {"crank_pin_y": 0.3}  # a crank that reaches beyond the dead point
+AT_THE_DEAD_POINT = {"crank_angle": 1.5}
+# An elementary function of a library is off by a few units in the last place; a closed form near
+# a dead point, and an inverse mass matrix, make hundreds of them.
+CLOSE = 1e-12
+
+
+@cache
+def system_of(name):
+    """Return a mechanism; of one that is declared here, its program over NumPy arrays."""
+    if name == "thrown":  # a body that moves freely, with a quaternion
+        return kintrafo.System(kintrafo.compile(thrown(), backend="numpy"))
+    return system_named(name)
+
+
+def loaded(path):
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def module_of(tmp_path_factory):
+    """Return the module of a mechanism for a library, each written once."""
+    folder = tmp_path_factory.mktemp("modules")
+
+    @cache
+    def exported(name, library):
+        pytest.importorskip(library)
+        path = folder / f"{name}_{library}.py"
+        return loaded(kintrafo.export_model(system_of(name), path, library))
+
+    return exported
+
+
+def places(system, count=3):
+    """Return states and inputs around the design position, a wheel off its road among them."""
+    random = np.random.default_rng(5)
+    for size in (0.0, *[0.05] * (count - 1)):
+        states, inputs = len(system.state_names), len(system.input_names)
+        state = system.design_state + size * random.standard_normal(states)
+        yield state, size * random.standard_normal(inputs)
+
+
+def assert_close(found, wanted):
+    wanted = np.asarray(wanted)
+    size = np.max(np.abs(wanted), initial=1e-3)
+    np.testing.assert_allclose(np.reshape(found, wanted.shape), wanted, rtol=0, atol=CLOSE * size)
+
+
+# -- CasADi ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["four_bar", "slider_crank", "reference_car", "thrown"])
+def test_casadi_has_the_values_and_derivatives_of_c(module_of, name):
+    system, module = system_of(name), module_of(name, "casadi")
+    constants = module.prepare(parameters=module.parameters())["constants"]
+    assert_close(constants.full(), system.constants)
+    assert_close(module.design_state(module.parameters()).full(), system.design_state)
+    assert np.all(module.conditions(module.parameters()).full() == 1.0)
+    for state, inputs in places(system):
+        for function in module.LABELS:
+            found = getattr(module, function)(state, inputs, constants)
+            assert_close(found.full(), system.evaluate(function, state, inputs))
+        for function in {"rhs", "signals"} & {*module.LABELS}:
+            jacobian = getattr(module, function).jacobian()
+            found = jacobian(state, inputs, constants, 0)
+            for block, prefix in zip(found, ("", "_input"), strict=False):
+                own = system.evaluate(f"{function}{prefix}_jacobian", state, inputs)
+                assert_close(block.full(), own)
+
+
+def test_casadi_takes_derivatives_by_parameters(module_of):
+    """Beside it: differences of the compiled C, whose error is the square of their step."""
+    system, module = system_of("four_bar"), module_of("four_bar", "casadi")
+    casadi = module.casadi
+    parameters = casadi.SX.sym("parameters", len(module.PARAMETERS))
+    place = [*module.PARAMETERS].index("crank_pin_y")
+    state, inputs = next(places(system))
+    rates = module.rhs(state, inputs, module.prepare(parameters))
+    slope = casadi.Function("slope", [parameters], [casadi.jacobian(rates, parameters)[:, place]])
+    step = 1e-5
+    ends = [
+        kintrafo.System(system.equations, {"crank_pin_y": 0.1 + by}).evaluate("rhs", state, inputs)
+        for by in (-step, step)
+    ]
+    found = slope(module.parameters()).full().ravel()
+    np.testing.assert_allclose(found, (ends[1] - ends[0]) / (2 * step), rtol=1e-6, atol=1e-9)
+
+
+def test_casadi_has_nan_where_a_loop_cannot_close(module_of):
+    module = module_of(CLOSED, "casadi")
+    system = kintrafo.System(system_of(CLOSED).equations, OPEN)
+    state, inputs = system.state(**AT_THE_DEAD_POINT), system.inputs()
+    with pytest.raises(kintrafo.ClosureError):
+        system.evaluate("rhs", state, inputs)
+    constants = module.prepare(module.parameters(**OPEN))
+    assert np.isnan(module.rhs(state, inputs, constants).full()).all()
+    jacobian = module.rhs.jacobian()(state, inputs, constants, 0)[0].full()
+    assert np.isnan(jacobian).any(axis=1).all()
+    margins = module.margins(state, inputs, constants).full().ravel()
+    assert np.array([*module.MARGINS])[margins < 0.0].tolist() == ["rocker_closure"]
+    assert "cannot close" in module.MARGINS["rocker_closure"]
+    assert np.isfinite(module.rhs(system.design_state, inputs, constants).full()).all()
+
+
+def test_casadi_names_conditions_of_parameters(module_of):
+    """Where a rod has no length, constants are NaN and so is what is computed with them."""
+    module = module_of(CLOSED, "casadi")
+    flat = module.parameters(rocker_pin_x=0.3, rocker_pin_y=0.0)  # on the bearing of the rocker
+    fulfilled = module.conditions(flat).full().ravel()
+    assert len(fulfilled) == len(module.CONDITIONS)
+    assert (fulfilled == 0.0).any()
+    assert np.isnan(module.prepare(flat).full()).all()
+
+
+def test_casadi_lets_nothing_be_forgotten(module_of):
+    module = module_of(CLOSED, "casadi")
+    constants = module.prepare(module.parameters())
+    whole = module.rhs(state=module.state(), constants=constants)["rhs"].full()
+    assert_close(whole, system_of(CLOSED).evaluate("rhs", module.state().full().ravel(), [0.0]))
+    assert np.isnan(module.rhs(state=module.state())["rhs"].full()).all()
+    assert np.isnan(module.prepare()["constants"].full()).any()
+    with pytest.raises(ValueError, match="there is no parameter 'crank_mas'"):
+        module.parameters(crank_mas=1.0)
+
+
+def test_casadi_has_the_start_that_was_exported(tmp_path):
+    pytest.importorskip("casadi")
+    system = kintrafo.System(system_of(CLOSED).equations, {"crank_mass": 2.0})
+    module = loaded(
+        kintrafo.export_model(
+            system, tmp_path / "bar.py", "casadi", state=[0.3, 0.1], inputs={"crank_torque": 3.0}
+        )
+    )
+    assert system.parameters == module.PARAMETERS
+    constants = module.prepare(module.parameters())
+    wanted = system.evaluate("rhs", [0.3, 0.1], [3.0])
+    assert_close(module.rhs(module.state(), module.inputs(), constants).full(), wanted)
+
+
+# -- JAX ------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def jax():
+    found = pytest.importorskip("jax")
+    # the second because compiling takes most of the time
+    options = "jax_enable_x64", "jax_disable_most_optimizations"
+    for name in options:
+        found.config.update(name, True)
+    yield found
+    for name in options:
+        found.config.update(name, False)
+
+
+def test_jax_has_the_values_and_derivatives_of_c(jax, module_of):
+    system, module = system_of(CLOSED), module_of(CLOSED, "jax")
+    constants = jax.jit(module.prepare)(module.parameters())
+    assert_close(constants, system.constants)
+    states, inputs = map(np.array, zip(*places(system), strict=True))
+    for function in {"rhs", "signals", "orientations"} & {*module.LABELS}:
+        found = jax.jit(getattr(module, function))(states, inputs, constants)
+        assert_close(found, system.evaluate(function, states, inputs))
+    for by, own in ((0, "rhs_jacobian"), (1, "rhs_input_jacobian")):
+        slopes = jax.jit(jax.vmap(jax.jacfwd(module.rhs, by), (0, 0, None)))
+        assert_close(slopes(states, inputs, constants), system.evaluate(own, states, inputs))
+
+    def first(state):
+        return module.rhs(state, inputs[1], constants)[-1]
+
+    own = system.evaluate("rhs_jacobian", states[1], inputs[1])[-1]
+    assert_close(jax.jit(jax.grad(first))(states[1]), own)
+
+
+def test_jax_has_nan_where_a_loop_cannot_close(jax, module_of):
+    module = module_of(CLOSED, "jax")
+    constants = jax.jit(module.prepare)(module.parameters(**OPEN))
+    states = np.stack([module.state(), module.state(**AT_THE_DEAD_POINT)])
+    rates = jax.jit(module.rhs)(states, module.inputs(), constants)
+    assert np.isnan(rates).tolist() == [[False, False], [True, True]]
+    slopes = jax.jit(jax.vmap(jax.jacrev(module.rhs), (0, None, None)))(
+        states, module.inputs(), constants
+    )
+    assert np.isfinite(slopes[0]).all()
+    assert np.isnan(slopes[1]).any(axis=-1).all()
+    margins = jax.jit(module.margins)(states, module.inputs(), constants)
+    assert margins[1, [*module.MARGINS].index("rocker_closure")] < 0.0
+
+
+def test_jax_refuses_single_precision_and_other_shapes(jax, module_of):
+    module = module_of(CLOSED, "jax")
+    constants = system_named(CLOSED).constants
+    with pytest.raises(ValueError, match=r"four_bar\.rhs: the last dimension of state must be 2"):
+        module.rhs(np.zeros(1), module.inputs(), constants)
+    with pytest.raises(ValueError, match="there is no input 'torque'"):
+        module.inputs(torque=1.0)
+    jax.config.update("jax_enable_x64", False)
+    with pytest.raises(TypeError, match="four_bar needs double precision: call jax"):
+        module.rhs(np.zeros(2), np.zeros(1), constants)
+
+
+# -- what is refused ------------------------------------------------------------------------------
+
+
+def test_what_cannot_be_exported_is_refused(tmp_path):
+    system = system_named("four_bar")
+
+    def refused(match, of=system, name="bar_casadi.py", **options):
+        with pytest.raises(kintrafo.InputError, match=match):
+            kintrafo.export_model(of, tmp_path / name, "casadi", **options)
+
+    refused("pose_of_knuckle: Newton's method", system_named("multi_link"))
+    refused(r"such as bar_casadi\.py", name="bar.txt")
+    refused(r"such as casadi_casadi\.py", name="casadi.py")
+    refused("fmi is no option of an export to 'casadi', which has none", fmi=2)
+    assert not [*tmp_path.iterdir()]
+    (tmp_path / "bar_casadi.py").write_text("by hand")
+    refused("there already")
+
+
+def test_equations_must_be_those_of_their_declaration(tmp_path, monkeypatch):
+    prescribed = system_named("prescribed")  # compiled before, or elsewhere
+    with pytest.raises(kintrafo.InputError, match=r"Call kintrafo\.compile first"):
+        kintrafo.export_model(prescribed, tmp_path / "a.py", "jax")
+    system = kintrafo.System(kintrafo.compile(FOUR_BAR, backend="numpy"))
+    monkeypatch.setattr(system.equations, "MECHANISM_HASH", "another")
+    with pytest.raises(kintrafo.InputError, match="other equations now"):
+        kintrafo.export_model(system, tmp_path / "a.py", "jax")
+    assert not [*tmp_path.iterdir()]
+
+
+def test_the_same_export_has_the_same_bytes(tmp_path):
+    system = system_named("slider_crank")
+    for name in ("first.py", "second.py"):
+        kintrafo.export_model(system, tmp_path / name, "jax")
+    first, second = (path.read_bytes() for path in sorted(tmp_path.iterdir()))
+    assert first == second
