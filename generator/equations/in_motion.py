@@ -21,7 +21,8 @@ from ..declare.joints import Free
 from ..kinematics.base import Base, FreeBase
 from ..kinematics.carried import Carried
 from ..kinematics.coordinates import Coordinates
-from ..kinematics.jointed_base import JointedBase, jointed_base
+from ..kinematics.jointed import jointed_base
+from ..kinematics.jointed_base import JointedBase
 from ..kinematics.kinematics import Kinematics
 from ..kinematics.motion import BodyMotion, PointMotion
 

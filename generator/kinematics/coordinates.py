@@ -9,7 +9,7 @@ import networkx as nx
 import sympy as sp
 
 from ..declare.joints import Revolute
-from .jointed_base import jointed_base
+from .jointed import jointed_base
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

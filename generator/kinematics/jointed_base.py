@@ -10,9 +10,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-import networkx as nx
-
-from ..declare.joints import Prismatic, Revolute
 from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, Twist, Vector
 from .base import Base
 from .motion import IDENTITY, BodyMotion, from_axes, to_axes
@@ -20,9 +17,7 @@ from .motion import IDENTITY, BodyMotion, from_axes, to_axes
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from ..declare.formulation import Formulation
     from ..declare.geometry import Point
-    from ..declare.mechanism import Mechanism
     from ..program.program import Program
     from .kinematics import Kinematics
     from .motion import Axes
@@ -134,40 +129,3 @@ def _turned(root: Kinematics, placed: BodyMotion, v: Vector) -> Vector:
     """Return where a body has carried a direction of the ground."""
     now = from_axes(placed.axes, to_axes(placed.design_axes, root.to_work(v)))
     return root.to_ground(now)
-
-
-def jointed_base(formulation: Formulation) -> tuple[list[str], str] | None:
-    """Return the body that carries all others, with those that lead to it; None without one.
-
-    The way from the ground is along independent hinges and guides, each body of it but the last
-    has no other joints and no mass, and what hangs on the last one closes loops with it. Nothing
-    follows others through gears.
-    """
-    mechanism = formulation.mechanism
-    if mechanism.geared or formulation.states.free:
-        return None
-    links: list[str] = []
-    at, seen = mechanism.ground, set[str]()
-    while True:
-        onward = [joint for joint in mechanism.joints_of(at) if joint.name not in seen]
-        if len(onward) != 1 or onward[0] not in formulation.independent:
-            break
-        (joint,) = onward
-        if not isinstance(joint, Prismatic | Revolute) or joint.first.name != at or joint.gear:
-            break
-        if links and formulation.has_mass(at):
-            break
-        seen.add(joint.name)
-        links.append(at)
-        at = joint.second.name
-    return (links[1:], at) if seen and _closes_loops(mechanism, at, {*links}) else None
-
-
-def _closes_loops(mechanism: Mechanism, base: str, before: set[str]) -> bool:
-    """Return whether some of what hangs on a base is joined to it twice."""
-    graph = nx.Graph([joint.bodies for joint in mechanism.joints])
-    graph.remove_nodes_from({base, *before})
-    ends = [
-        joint.other(base) for joint in mechanism.joints_of(base) if joint.other(base) not in before
-    ]
-    return any(sum(end in group for end in ends) > 1 for group in nx.connected_components(graph))

@@ -9,7 +9,7 @@ import pytest
 from free_bodies import state_near
 from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.equations.outputs import generate
-from kintrafo.generator.kinematics.jointed_base import jointed_base
+from kintrafo.generator.kinematics.jointed import jointed_base
 from kintrafo.generator.mechanisms import MODELS, car, model_named
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.loader import load
