@@ -5,12 +5,14 @@ the Jacobians that are compared with were derived by the generator and are C.
 """
 
 import importlib.util
+import re
 from functools import cache
 
 import kintrafo
 import numpy as np
 import pytest
 from exported import system_named
+from folders import ROOT
 from free_bodies import thrown
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 
@@ -154,6 +156,20 @@ def test_casadi_has_the_start_that_was_exported(tmp_path):
     constants = module.prepare(module.parameters())
     wanted = system.evaluate("rhs", [0.3, 0.1], [3.0])
     assert_close(module.rhs(module.state(), module.inputs(), constants).full(), wanted)
+
+
+def test_the_example_does_better_than_a_passive_strut(monkeypatch, capsys):
+    """What it finds is compared with a simulation, whose steps and method are others."""
+    pytest.importorskip("casadi")
+    example = loaded(ROOT / "examples/active_suspension.py")
+    monkeypatch.setattr(example, "STEPS", 20)
+    example.main()
+    pattern = r"at most +(\d+) N: sum ([\d.]+), (\S+) apart from a simulation"
+    passive, active = (map(float, found) for found in re.findall(pattern, capsys.readouterr().out))
+    (_, worse, first), (most, better, second) = passive, active
+    assert most == example.FORCE
+    assert better < 0.8 * worse
+    assert max(first, second) < 1e-3  # of the fixed steps, rad/s
 
 
 # -- JAX ------------------------------------------------------------------------------------------
