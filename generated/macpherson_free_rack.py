@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from kintrafo.equations import Equations
 
-from ._macpherson_free_rack import ADDRESSES
+from ._macpherson_free_rack import ADDRESSES, MECHANISM
 
-equations = Equations.beside(__file__, ADDRESSES)
+equations = Equations.beside(__file__, ADDRESSES, MECHANISM)
 globals().update(equations.names())
 
 if TYPE_CHECKING:

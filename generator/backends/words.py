@@ -91,6 +91,8 @@ def mechanism_hash(derivation: Derivation) -> str:
 
 def _hash(derivation: Derivation) -> str:
     digest = hashlib.sha256()
+    for entries in (derivation.parameters, derivation.state, derivation.inputs):
+        digest.update(f"{','.join(entry.name for entry in entries)};".encode())
     blocks = blocks_of(derivation.functions.values())
     once = (block.once for block in blocks)
     for function in (derivation.prepare, derivation.design, *once, *derivation.emitted.values()):

@@ -100,7 +100,7 @@ class Equations:
         self.directions = Directions(self, {n: f for n, f in made.items() if self._behind(n)})
 
     @classmethod
-    def beside(cls, module: str, code: Code) -> "Equations":
+    def beside(cls, module: str, code: Code, mechanism: str) -> "Equations":
         """Return the equations whose manifest lies beside a module.
 
         Parameters
@@ -109,9 +109,23 @@ class Equations:
             ``__file__`` of the module.
         code : mapping
             The functions that the manifest names.
+        mechanism : str
+            The hash of the equations that the functions were compiled from.
+
+        Raises
+        ------
+        ModelError
+            If the manifest is that of other equations: calls would write beside their arrays.
         """
-        text = Path(module).with_suffix(".json").read_text(encoding="utf-8")
-        return cls(json.loads(text), code)
+        manifest = json.loads(Path(module).with_suffix(".json").read_text(encoding="utf-8"))
+        if mechanism != manifest["mechanism"]:
+            problem = (
+                f"{manifest['name']}: its compiled code is that of other equations than its "
+                f"manifest describes, {mechanism} and {manifest['mechanism']}. Build it again: "
+                "`make build`, or install the package anew."
+            )
+            raise ModelError(problem)
+        return cls(manifest, code)
 
     def __repr__(self) -> str:
         return f"<Equations of {self.name}>"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..templates import template
-from ..words import emitted_names, reads_given
+from ..words import emitted_names, mechanism_hash, reads_given
 
 if TYPE_CHECKING:
     from ...equations.outputs import Derivation
@@ -18,6 +18,7 @@ class CythonPrinter:
     def __init__(self, derivation: Derivation) -> None:
         self.name = derivation.formulation.name
         self._functions = derivation.emitted
+        self._mechanism = mechanism_hash(derivation)
         self._names = emitted_names(derivation)
 
     def addresses(self) -> str:
@@ -29,6 +30,7 @@ class CythonPrinter:
         ]
         return template("cython", "addresses.pyx").substitute(
             name=self.name,
+            mechanism=self._mechanism,
             declarations="\n".join(
                 [*of_parameters, *map(self._declaration, self._functions.values())]
             ),

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from ...program.floors import ROUNDING
 from ..arrays import ArrayFunctions, printed_blocks
 from ..templates import template
-from ..words import blocks_of, emitted_names
+from ..words import blocks_of, emitted_names, mechanism_hash
 from .dialect import NUMPY
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ def numpy_source(derivation: Derivation) -> str:
     return template("numpy", "arrays.py").substitute(
         name=derivation.formulation.name,
         rounding=ROUNDING,
+        mechanism=mechanism_hash(derivation),
         functions="\n\n\n".join(
             [
                 *printed_blocks(blocks_of(derivation.emitted.values()), NUMPY),

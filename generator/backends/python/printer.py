@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..templates import template
-from ..words import emitted_names
+from ..words import emitted_names, mechanism_hash
 
 if TYPE_CHECKING:
     from ...equations.outputs import Derivation
@@ -34,5 +34,6 @@ def addresses_in(derivation: Derivation, library: str) -> str:
     return template("python", "addresses.py").substitute(
         name=derivation.formulation.name,
         library=library,
+        mechanism=mechanism_hash(derivation),
         functions="\n".join(f'        "{name}",' for name in emitted_names(derivation)),
     )

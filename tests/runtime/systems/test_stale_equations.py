@@ -11,6 +11,9 @@ from dataclasses import fields
 
 import kintrafo
 import pytest
+from kintrafo.equations import Equations
+from kintrafo.equations.errors import ModelError
+from kintrafo.generated import four_bar as four_bar_equations
 from kintrafo.generator.declare.declared import parts
 from kintrafo.generator.mechanisms import front_axle
 from kintrafo.systems.compile.identity import identity
@@ -135,3 +138,11 @@ def test_what_is_not_known_is_not_kept_by_its_text():
     changed = deepcopy(model)
     object.__setattr__(changed, "title", json)
     assert identity(changed) is None
+
+
+def test_code_of_other_equations_than_the_manifest_describes_is_refused():
+    """Arrays of the manifest's sizes would be too small for it."""
+    ours, code = four_bar_equations.MECHANISM_HASH, four_bar_equations.ADDRESSES
+    Equations.beside(str(four_bar_equations.__file__), code, ours)
+    with pytest.raises(ModelError, match="make build"):
+        Equations.beside(str(four_bar_equations.__file__), code, "0" * len(ours))
