@@ -70,7 +70,7 @@ def palette_of(shot: Image.Image) -> Image.Image:
     colours = colours[np.argsort(-weights, kind="stable")]
     _, first = np.unique(colours // 8, axis=0, return_index=True)
     palette = Image.new("P", (1, 1))
-    palette.putpalette(colours[np.sort(first)[:128]].tobytes())
+    palette.putpalette(colours[np.sort(first)[:256]].tobytes())
     return palette
 
 

@@ -13,7 +13,7 @@ from .outputs import PlotOptions, name_files, title_of
 
 if TYPE_CHECKING:
     from rich.table import Table
-    from xarray import Dataset
+    from xarray import DataArray, Dataset
 
     from ..assembly.car import CarAssembly
     from ..roads import Road
@@ -76,10 +76,11 @@ def command(
         return
     for unused in assembly.car.unused:
         note(f"not used: {unused}")
-    console.print(_rest(found["at_rest"], file))
-    console.print(_modes(found["modes"], file))
+    for made in [*_rest(found["at_rest"], file), _modes(found["modes"], file)]:
+        console.print(made)
     title = f"{file}: {chosen.words}, {speed:g} km/h, {duration:g} s"
-    console.print(_ride(motion, found.get("linear"), title))
+    for made in _ride(motion, found.get("linear"), title):
+        console.print(made)
     name_files(written)
     left = motion.attrs["not_valid"]
     for text in left:
@@ -106,16 +107,32 @@ def _road(
     return roads.bump(bump / 1e3, bump_length, at=at, end=max(way, at + bump_length), sides=under)
 
 
-def _rest(found: "Dataset", file: str) -> "Table":
+def _rest(found: "Dataset", file: str) -> "list[Table]":
+    """Return a table of the wheels, a column for each, and one of the body."""
     from ...core.quantities import displayed, heading_of
     from ..assembly.by_wheel import WHEEL
 
-    wheels = [str(name).replace("_", " ") for name in found[WHEEL].values.ravel()]
-    rows = [
-        (heading_of(data), *map(significant, displayed(data).ravel().tolist()[: len(wheels)]))
-        for data in found.data_vars.values()
+    wheels, body = (
+        [(heading_of(data), *map(significant, displayed(data).ravel())) for data in some]
+        for some in _wheels_and_body(found)
+    )
+    return [
+        table(f"{file}: at rest", ("wheels", *_words(found[WHEEL])), wheels),
+        table(f"{file}: at rest", ("body", "value"), body),
     ]
-    return table(f"{file}: at rest", ("", *wheels), rows)
+
+
+def _wheels_and_body(found: "Dataset") -> "list[list[DataArray]]":
+    """Return the variables of the wheels, and those of the body."""
+    variables = found.data_vars.items()
+    return [
+        [data for name, data in variables if (name in _OF_WHEELS) is of_wheels]
+        for of_wheels in (True, False)
+    ]
+
+
+def _words(names: "DataArray") -> list[str]:
+    return [str(name).replace("_", " ") for name in names.values.ravel()]
 
 
 def _modes(found: "Dataset", file: str) -> "Table":
@@ -128,34 +145,49 @@ def _modes(found: "Dataset", file: str) -> "Table":
     return table(f"{file}: modes at rest", ("mode", "frequency [Hz]", "damping ratio"), rows)
 
 
-def _ride(motion: "Dataset", linear: "Dataset | None", title: str) -> "Table":
-    """Return what the ride is judged by, beside the linear prediction."""
+def _ride(motion: "Dataset", linear: "Dataset | None", title: str) -> "list[Table]":
+    """Return a table of the body, and one of the wheels, a column for each."""
+    from ...core.quantities import heading_of
+    from ..assembly.by_wheel import WHEEL
+
+    wheels, body = (
+        {heading_of(data): _figures(data, linear) for data in some}
+        for some in _wheels_and_body(motion)
+    )
+    heads = list(dict.fromkeys(name for own in body.values() for name in own))
+    of_body = [
+        (output, *("".join(own.get(name, ())) for name in heads)) for output, own in body.items()
+    ]
+    of_wheels = [
+        (output if i == 0 else "", name, *values)
+        for output, own in wheels.items()
+        for i, (name, values) in enumerate(own.items())
+    ]
+    return [
+        table(title, ("body", *heads), of_body),
+        table(title, ("wheels", "", *_words(motion[WHEEL])), of_wheels, words=(0, 1)),
+    ]
+
+
+def _figures(data: "DataArray", linear: "Dataset | None") -> dict[str, list[str]]:
+    """Return the texts of what a variable is judged by, each by wheel if it is of the wheels."""
     import numpy as np
 
-    from ...core.quantities import display_of, heading_of
+    from ...core.quantities import display_of
 
-    rows = []
-    wheels = np.atleast_1d(motion["wheel"].values)
-    for name, data in motion.data_vars.items():
-        predicted = {} if linear is None else linear.get(f"{name}_psd", motion[name]).attrs
-        factor = display_of(data.attrs).factor
-        keys = ("rms", "weighted_rms", "smallest", "largest")
-        columns = [np.atleast_1d(data.attrs.get(key, np.nan)) for key in keys]
-        columns += [
-            np.atleast_1d(predicted.get(key, np.nan) if f"{name}_psd" in (linear or ()) else np.nan)
-            for key in ("rms", "weighted_rms")
-        ]
-        several = len(columns[0]) > 1
-        for i in range(len(columns[0])):
-            wheel = f", {str(wheels[i]).replace('_', ' ')}" if several else ""
-            cells = [_cell(column[min(i, len(column) - 1)] * factor) for column in columns]
-            rows.append((heading_of(data) + wheel, *cells))
-    heads = ("rms", "weighted rms", "smallest", "largest", "rms, linear", "weighted, linear")
-    return table(title, ("output", *heads), rows)
+    spectrum = None if linear is None else linear.get(f"{data.name}_psd")
+    sources = {"": data.attrs, ", linear": {} if spectrum is None else spectrum.attrs}
+    factor = display_of(data.attrs).factor
+    return {
+        words + suffix: [significant(float(v) * factor) for v in np.atleast_1d(own[key])]
+        for suffix, own in sources.items()
+        for key, words in _FIGURES.items()
+        if key in own
+    }
 
 
-def _cell(value: float) -> str:
-    return "" if value != value else significant(float(value))  # noqa: PLR0124 (no number)
+_OF_WHEELS = {"load", "travel", "camber", "toe", "road"}
+_FIGURES = {key: key.replace("_", " ") for key in ("rms", "weighted_rms", "smallest", "largest")}
 
 
 def _judged(data: Any) -> dict[str, Any]:

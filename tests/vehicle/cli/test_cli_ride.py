@@ -1,0 +1,42 @@
+"""Tables of ``kintrafo ride``: the wheels have a column each, the body has its figures in one."""
+
+from kintrafo.vehicle.assembly.by_wheel import WHEEL
+from kintrafo.vehicle.cli import ride
+from rich.console import Console
+from xarray import Dataset
+
+
+def _lines(tables):
+    console = Console(width=200, color_system=None)
+    with console.capture() as printed:
+        for made in tables:
+            console.print(made)
+    lines = filter(None, printed.get().splitlines())
+    return [[cell.strip() for cell in line[1:-1].split(line[0])] for line in lines]
+
+
+def test_wheels_are_columns_and_the_linear_prediction_is_a_row():
+    wheels = {WHEEL: ["front_left", "rear_right"]}
+    of_wheels = {"rms": [40.0, 50.0], "largest": [4e3, 5e3], "units": "N"}
+    of_body = {"rms": 0.5, "weighted_rms": 0.4, "units": "m/s^2"}
+    motion = Dataset(
+        {"body_acceleration": ((), 0.0, of_body), "load": (WHEEL, [0.0, 0.0], of_wheels)}, wheels
+    )
+    linear = Dataset({"load_psd": (WHEEL, [0.0, 0.0], {"rms": [41.0, 51.0]})}, wheels)
+    lines = _lines(ride._ride(motion, linear, "a road"))
+    assert ["wheels", "", "front left", "rear right"] in lines
+    assert ["load [N]", "rms", "40", "50"] in lines
+    assert ["", "largest", "4000", "5000"] in lines
+    assert ["", "rms, linear", "41", "51"] in lines
+    assert ["body", "rms", "weighted rms"] in lines
+    assert ["body acceleration [m/s^2]", "0.5", "0.4"] in lines
+
+
+def test_at_rest_no_value_of_the_body_is_below_a_wheel():
+    wheels = {WHEEL: ["front_left", "rear_right"]}
+    found = Dataset(
+        {"load": (WHEEL, [3.0, 4.0], {"units": "N"}), "heave": ((), 2e-3, {"units": "m"})}, wheels
+    )
+    lines = _lines(ride._rest(found, "my_car"))
+    assert ["load [N]", "3", "4"] in lines
+    assert ["heave [mm]", "2"] in lines
