@@ -8,6 +8,7 @@ from typing import Any
 
 from ..core.errors import InputError
 from ..core.files import Paths, as_input_errors, replacing
+from .casadi_external import externals
 from .emitted import Emitted
 from .text import environment
 
@@ -18,6 +19,7 @@ _TEMPLATES = {
     "{name}_values.h": "values.h.jinja",
     "{name}_values.c": "values.c.jinja",
     "{name}_example.c": "example.c.jinja",
+    "{name}_casadi.c": "casadi.c.jinja",
     "CMakeLists.txt": "CMakeLists.txt.jinja",
     "README.txt": "README.txt.jinja",
 }
@@ -96,6 +98,7 @@ def _known(emitted: Emitted) -> dict[str, Any]:
         "costs": list(costs.items()),
         "iterates": _stages_of(iterating, manifest),
         "stack": _stack(costs.values()),
+        "externals": externals(emitted),
         "steps": STEPS,
         "step": STEP,
     }

@@ -80,7 +80,8 @@ def _refuse_iterations(library: str, emitted: Emitted) -> None:
     if loops:
         problem = (
             f"{', '.join(sorted(loops))}: Newton's method solves a loop of these equations. "
-            f"{library!r} has equations in closed form only; export to 'fmu' or 'c'."
+            f"{library!r} has equations in closed form only. Export to 'c', whose functions "
+            "casadi.external calls with their derivatives, or to 'fmu'."
         )
         raise InputError([problem], emitted.name)
 

@@ -11,10 +11,11 @@ from functools import cache
 import kintrafo
 import numpy as np
 import pytest
-from exported import system_named
+from exported import compiled, system_named
 from folders import ROOT
 from free_bodies import thrown
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
+from kintrafo.systems.compile.compiler import find_compiler
 
 CLOSED, OPEN = "four_bar", {"crank_pin_y": 0.3}  # a crank that reaches beyond the dead point
 AT_THE_DEAD_POINT = {"crank_angle": 1.5}
@@ -156,6 +157,29 @@ def test_casadi_has_the_start_that_was_exported(tmp_path):
     constants = module.prepare(module.parameters())
     wanted = system.evaluate("rhs", [0.3, 0.1], [3.0])
     assert_close(module.rhs(module.state(), module.inputs(), constants).full(), wanted)
+
+
+@pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
+def test_casadi_calls_the_compiled_c(tmp_path):
+    """Every block of its derivatives has the bits of the exact Jacobians."""
+    casadi = pytest.importorskip("casadi")
+    system = kintrafo.System(system_named(CLOSED).equations, OPEN)
+    folder = kintrafo.export_model(system, tmp_path / "c", "c")
+    library = compiled(folder, "-shared", "-fPIC")
+    state, inputs = system.state(crank_angle=0.2, crank_angle_rate=3.0), np.array([2.0])
+    for name in ("rhs", "signals"):
+        function = casadi.external(f"four_bar_casadi_{name}", str(library))
+        assert function.name_in() == ["state", "inputs"]
+        wanted = system.evaluate(name, state, inputs)
+        assert function(state, inputs).full().ravel().tolist() == wanted.tolist()
+        found = function.jacobian()(state, inputs, 0)
+        for block, own in zip(found, (f"{name}_jacobian", f"{name}_input_jacobian"), strict=True):
+            assert block.is_dense()
+            assert block.full().tolist() == system.evaluate(own, state, inputs).tolist()
+        with pytest.raises(RuntimeError, match="valuation"):
+            function(system.state(**AT_THE_DEAD_POINT), inputs)
+        with pytest.raises(RuntimeError, match="Derivatives cannot be calculated"):
+            function.jacobian().jacobian()
 
 
 def test_the_example_does_better_than_a_passive_strut(monkeypatch, capsys):
