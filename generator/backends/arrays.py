@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from ..equations.kinks import KINKS
 from .sharing import names_in
 from .text import formula, written
 from .words import reads_given
@@ -24,11 +25,11 @@ if TYPE_CHECKING:
 
 def differentiable(derivation: Derivation) -> list[Function]:
     """Return the functions of constants, state and inputs that are no derivatives themselves."""
-    of_parameters = {function.name for function in derivation.by_parameters.functions}
+    others = {KINKS, *(function.name for function in derivation.by_parameters.functions)}
     return [
         function
         for name, function in derivation.functions.items()
-        if not function.part and not reads_given(function) and name not in of_parameters
+        if not function.part and not reads_given(function) and name not in others
     ]
 
 

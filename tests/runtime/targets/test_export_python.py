@@ -14,6 +14,11 @@ import pytest
 from exported import compiled, system_named
 from folders import ROOT
 from free_bodies import thrown
+from kintrafo.generator.backends.arrays import differentiable
+from kintrafo.generator.backends.casadi.dialect import CASADI
+from kintrafo.generator.backends.jax.dialect import JAX
+from kintrafo.generator.backends.numpy.dialect import NUMPY
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.systems.compile.compiler import find_compiler
 
@@ -285,6 +290,17 @@ def test_equations_must_be_those_of_their_declaration(tmp_path, monkeypatch):
     with pytest.raises(kintrafo.InputError, match="other equations now"):
         kintrafo.export_model(system, tmp_path / "a.py", "jax")
     assert not [*tmp_path.iterdir()]
+
+
+def test_libraries_spell_the_same_functions():
+    assert CASADI.functions.keys() == JAX.functions.keys() == NUMPY.functions.keys()
+
+
+def test_derivatives_by_parameters_add_nothing(derived):
+    """Equations that were compiled with them are exported without."""
+    plain = derived("trailing_arm")
+    added = generate(plain.formulation, parameter_derivatives=True)
+    assert [f.name for f in differentiable(added)] == [f.name for f in differentiable(plain)]
 
 
 def test_the_same_export_has_the_same_bytes(tmp_path):
