@@ -266,6 +266,8 @@ def first_curves(dataset: xr.Dataset) -> tuple[str, ...]:
     tuple of str
         In the order of a page.
     """
+    with Arguments("first_curves") as given:
+        given.dataset(dataset)
     over_rack = any(name in dataset.dims for name in ("rack_position", "steering_wheel_angle"))
     there = [name for name in (_FIRST_STEERED if over_rack else _FIRST) if name in dataset]
     shown = [name for name in there if not is_constant(displayed(dataset[name]))]
