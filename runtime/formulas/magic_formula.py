@@ -165,9 +165,9 @@ def stiffnesses(a: Arithmetic, p: Coefficients, c: Contact) -> tuple[Any, Any]:
         What the tyre rolls with.
     """
     dfz = a.define("load_change", (c.load - _nominal(p)) / _nominal(p))
-    camber = c.inclination * p["LGAY"]
+    leaning = c.inclination * p["LGAY"]
     along = a.define("x_stiffness", _slip_stiffness(a, p, c, dfz))
-    across = a.define("y_stiffness", _cornering(a, p, c, camber, camber * camber))
+    across = a.define("y_stiffness", _cornering(a, p, c, leaning, leaning * leaning))
     return c.load * along, c.load * across
 
 
