@@ -127,6 +127,7 @@ def native_call(
     def call() -> dict[str, Any]:
         raw: dict[str, Any] = sundials.integrate(
             addresses,
+            case.model.layout,
             case.model.constants,
             case.inputs,
             [],

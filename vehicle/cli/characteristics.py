@@ -72,10 +72,10 @@ def command(
     over: Annotated[
         list[str] | None,
         option(
-            "Motions of the rig: of a suspension travel and rack, the default; of an axle bump, "
-            "roll, left, right, steer and rack, by default bump,roll,left,steer; of a car heave, "
-            "pitch and roll of its body. What is not steered has no rack and no steer. With "
-            "--positions travel (of an axle bump), the default, rack, or both, which make a grid.",
+            "Motions of the rig. Suspension: travel, rack (default: both). Axle: bump, roll, left, "
+            "right, steer, rack (default: bump,roll,left,steer). Car: heave, pitch, roll. Wheels "
+            "that are not steered have no rack and no steer. With --positions: travel (the "
+            "default; bump of an axle), rack, or both, which make a grid.",
             "NAME,...",
         ),
     ] = None,
@@ -94,16 +94,16 @@ def command(
     positions: Annotated[
         bool,
         option(
-            "Where wheels, joints and coordinates are, in place of characteristics.",
+            "Positions of wheels, joints and coordinates instead of characteristics.",
             None,
             "--positions",
         ),
     ] = False,
     output: CurveOptions,
 ) -> None:
-    """All characteristics over the motions of a rig; tables of them at design.
+    """Print characteristics at design, and write their curves over the motions of a rig.
 
-    Data files and pages are written once for each motion, with its name behind theirs: _travel and
+    Each motion has its own data files and pages, whose names end in that of the motion: _travel and
     _rack of a suspension, _bump, _roll, _left and _steer of an axle. With --positions both wheels
     of an axle travel in parallel.
     """

@@ -28,11 +28,11 @@ EXAMPLES = (
 
 
 def command(file: File, *, json: Json = False) -> None:
-    """Say what is wrong with a hardpoint file, or sum the suspension up.
+    """List the errors of a file, or summarise its suspension, axle or car.
 
-    Geometry at design, reachable travel and what limits it, static equilibrium, wheel-hop mode. Of
-    a car its axles one by one, on a body that is held, and its centre of gravity. The exit code is
-    1 if there is a problem.
+    The summary has the geometry at design, the range of travel with its limits, the static
+    equilibrium and the wheel-hop mode; for a car those of each axle with the body held, and the
+    centre of gravity. The exit code is 1 if there is a problem.
     """
     from ...core.errors import InputError
     from ..analysis.checkup import as_dict, checkup

@@ -47,27 +47,27 @@ def command(
     over: Annotated[
         Literal["travel", "rack", "bump", "roll", "left", "right", "steer"] | None,
         option(
-            "What varies: travel or rack, of axles the motion of the rig. Default: travel, bump, "
-            "or that of the measured curves."
+            "Motion: travel or rack of suspensions, the others of axles. Default: travel, bump of "
+            "axles, or that of the measured curves."
         ),
     ] = None,
     of: Of = None,
     held: Annotated[
         Held | None,
         option(
-            "Compare compliance, too, on the bushes of the files: what holds the wheel, or held it "
-            "on the rig, where it is height by default."
+            "Compare compliance on the bushes of the files, too, with this support of the wheel. "
+            "Beside measured compliance the default is height."
         ),
     ] = None,
     goals: wanted.Goals = None,
     output: CurveOptions,
 ) -> None:
-    """Compare the characteristics of two or more files, or with curves that were measured.
+    """Compare the characteristics of two or more files, or of files and measured curves.
 
-    Differences are those from the first file: at design, and where they are largest. Data files
-    have all characteristics. A file .csv has measured curves, wheel_travel [mm], rack_position
-    [mm] or roll_angle [deg], and toe [deg] (of an axle toe_left [deg]) and so on in its first line:
-    the others are compared with it.
+    Differences are relative to the first file: at design, and where they are largest. Data files
+    have all characteristics. A .csv file has measured curves; its first line names wheel_travel
+    [mm], rack_position [mm] or roll_angle [deg], and toe [deg] (toe_left [deg] of an axle) and so
+    on. The other files are compared with it.
     """
     from ..analysis import compare
     from ..assembly.by_wheel import flat

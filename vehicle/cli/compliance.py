@@ -45,19 +45,21 @@ def command(
     nonlinear: Annotated[
         bool,
         option(
-            "By equilibrium, by any amount: over a motion, or --under a load.", None, "--nonlinear"
+            "Equilibrium with large deflections: over a motion, or --under a load.",
+            None,
+            "--nonlinear",
         ),
     ] = False,
     under: Annotated[
         Literal["lateral", "braking", "recession", "aligning"] | None,
-        option("With --nonlinear: under which load."),
+        option("With --nonlinear: the load."),
     ] = None,
     most: Annotated[
         float | None, option("Greatest load, N or N m. Default: 5000, aligning 250.", "N")
     ] = None,
     wheels: Annotated[
         Literal["parallel", "opposed", "left", "right"] | None,
-        option("Of an axle, which wheels have the load. Default: parallel."),
+        option("Of an axle: the loaded wheels. Default: parallel."),
     ] = None,
     over: Annotated[
         Literal["bump", "roll", "left", "right", "steer"] | None,
@@ -66,16 +68,16 @@ def command(
     hardpoints: Annotated[
         Literal["loaded", "relaxed"] | None,
         option(
-            "With --nonlinear: whether the joints are at the hardpoints under the static load at "
-            "design, the default, or with relaxed bushes."
+            "With --nonlinear: the joints are at the hardpoints under the static load at design "
+            "(loaded, the default), or with relaxed bushes."
         ),
     ] = None,
     held: Annotated[
         Held | None,
-        option("What holds the wheel: see docs/suspension/compliance.md. Default: height."),
+        option("Support of the wheel: see docs/suspension/compliance.md. Default: height."),
     ] = None,
     at: At = 0.0,
-    rack: Annotated[float, option("Rack held there.", "MM")] = 0.0,
+    rack: Annotated[float, option("Constant rack displacement.", "MM")] = 0.0,
     rebound: Rebound = None,
     bump: Bump = None,
     of: Of = None,
@@ -84,10 +86,10 @@ def command(
 ) -> None:
     """Print toe, camber and displacement of the wheels per kN and per 100 N m, on their bushes.
 
-    The table is about one position; data files and curves go over wheel travel. Of an axle both
-    wheels are loaded, in one direction and oppositely. With --nonlinear the equilibrium of all
-    parts, however far bushes deflect: over wheel travel, or over roll and steering of an axle, with
-    rigid joints and on the bushes; or under a load, beside what is in proportion to it.
+    The table is for one position; data files and curves are over wheel travel. The loads act on
+    both wheels of an axle, in one direction and oppositely. With --nonlinear the result is the
+    equilibrium of all parts with large deflections: over wheel travel, or roll and steering of an
+    axle, beside the curves with rigid joints; or under a load, beside the linear result.
     """
     if goals and rack:
         raise typer.BadParameter(wanted.ELSEWHERE)

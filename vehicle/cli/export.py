@@ -42,12 +42,12 @@ def command(
     ],
     out: Annotated[
         Path | None,
-        option("Path of what is written. Default: from the name of FILE.", "PATH", "--out", "-o"),
+        option("File or folder to write. Default: named after FILE.", "PATH", "--out", "-o"),
     ] = None,
-    fmi: Annotated[int | None, option("Of FMI, for a unit: 2 or 3. Default: 2.", "VERSION")] = None,
+    fmi: Annotated[int | None, option("Version of FMI: 2 or 3. Default: 2.", "VERSION")] = None,
     platform: Annotated[
         list[str] | None,
-        option("With a library for linux and windows. Default: this system.", "NAME,..."),
+        option("Systems of the library: linux, windows. Default: this one.", "NAME,..."),
     ] = None,
     model: Which = None,
     force: Force = False,

@@ -35,19 +35,17 @@ def command(
     ],
     tolerances: Annotated[
         Path,
-        argument(
-            "TOML: [tolerances] of values that may be off, and [accuracy] of curves.", "TOLERANCES"
-        ),
+        argument("TOML: [tolerances] of uncertain values, and [accuracy] of curves.", "TOLERANCES"),
     ],
     *,
     of: Of = None,
-    held: Annotated[Held, option("What held the wheel when compliance was measured.")] = "height",
+    held: Annotated[Held, option("Support of the wheel when compliance was measured.")] = "height",
     output: CarOptions,
 ) -> None:
-    """Find which values of the file are off, so that the curves are as they were measured.
+    """Find the errors of values of the file that explain measured curves.
 
-    Each stays within its tolerance. Where several errors explain a curve, the most probable ones
-    are printed, with their uncertainty. The exit code is 1 where a curve is not explained.
+    Each error stays within its tolerance. Of several explanations the most probable one is
+    printed, with its uncertainty. The exit code is 1 if a curve is not explained.
     """
     from .. import studies as variation
     from ..analysis import rig

@@ -56,7 +56,7 @@ class _Options:
     ] = None
     name: Annotated[
         list[str] | None,
-        option("What a table or Adams/Car calls a hardpoint. May be repeated.", "OURS=THEIRS"),
+        option("Name of a hardpoint in the table or in Adams/Car. May be repeated.", "OURS=THEIRS"),
     ] = None
     side: Annotated[
         Side | None,
@@ -90,7 +90,7 @@ class _Options:
     ] = None
     kind: Annotated[
         Kind | None,
-        option("What guides the wheel. Default: by the hardpoints.", panel=_ADAMS),
+        option("Type of suspension. Default: by the hardpoints.", panel=_ADAMS),
     ] = None
     tire: Annotated[
         Path | None,
@@ -125,10 +125,10 @@ def command(
 ) -> None:
     """Write the hardpoint file of a suspension from another program, or from a table.
 
-    The ending of SOURCE, or its content, decides what it is read as. Of a table everything else,
-    comments too, is as in the file after --from. Of Adams/Car hardpoints, camber, toe and a spring
-    are read; what Project Chrono leaves open is assumed. What was read, assumed and left out is
-    printed.
+    The format follows from the ending or the content of SOURCE. A table has hardpoints; all else,
+    with comments, is that of the file after --from. Adams/Car gives hardpoints, camber, toe and a
+    spring. Data that files of Project Chrono lack are assumed. The output lists the data that were
+    read, assumed and left out.
     """
     from ...core.errors import InputError
     from ...core.files import refuse

@@ -31,7 +31,7 @@ def command(
     file: File,
     *,
     cases: Annotated[
-        Path | None, option("TOML of load cases. Default: usual ones.", "PATH")
+        Path | None, option("TOML of load cases. Default: the standard cases.", "PATH")
     ] = None,
     case: Annotated[list[str] | None, option("Show these cases by components.", "NAME,...")] = None,
     part: Annotated[
@@ -50,12 +50,12 @@ def command(
 ) -> None:
     """Print forces and moments on every part at its hardpoints, in static load cases.
 
-    Of an axle those of both sides, with the anti-roll bar and the rack between them; of a rigid
-    axle its rods, springs and dampers, and both wheels.
-    The table has the size of each force; --case shows components. Data files have everything. The
-    figure has the free bodies of the parts, in a file for each case. The exit code is 1 where a
-    case cannot be carried that is in --cases or, of the usual ones, that --case names; without
-    either, where none can.
+    An axle has the loads of both sides, of the anti-roll bar and of the rack; a rigid axle those
+    of its rods, springs, dampers and wheels.
+    The table has the magnitude of each force; --case shows components. Data files have everything.
+    The figure has the free bodies of the parts, in a file for each case. The exit code is 1 if a
+    case of --cases or --case has no equilibrium; without these options, if no standard case has
+    one.
     """
     from ...datasets import export
     from ..analysis import loads as study

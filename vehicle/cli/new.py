@@ -29,7 +29,7 @@ else:
 def command(
     path: Annotated[Path, argument("File to write; ends in .toml.", "PATH")],
     *,
-    suspension: Annotated[Kind, option("What guides the wheel, or both.")] = DEFAULT,
+    suspension: Annotated[Kind, option("Type of suspension or axle.")] = DEFAULT,
     template: Annotated[
         str | None, option("Packaged data set to copy. Default: by --suspension.", "NAME")
     ] = None,

@@ -37,7 +37,7 @@ def command(
 ) -> None:
     """Find values of the file that bring characteristics to their targets, within limits.
 
-    The exit code is 1 where limits cannot be kept, or the search does not come to its end.
+    The exit code is 1 if limits cannot be kept, or the search does not converge.
     """
     from .. import studies as variation
 

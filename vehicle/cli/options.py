@@ -81,7 +81,7 @@ Json = Annotated[
 Force = Annotated[
     bool,
     option(
-        "Replace files that are there, too, where kintrafo did not write them.",
+        "Replace existing files, also those that kintrafo did not write.",
         None,
         "--force",
         panel=OUTPUT,
@@ -91,10 +91,10 @@ Rebound = Annotated[float | None, option("Wheel travel downward. Default: 80, if
 Bump = Annotated[float | None, option("Wheel travel upward. Default: 80, if reached.", "MM")]
 Of = Annotated[
     list[str] | None,
-    option("Characteristics that are shown, such as bump_steer,toe.", "NAME,..."),
+    option("Characteristics to show, such as bump_steer,toe.", "NAME,..."),
 ]
 Which = Annotated[
-    str | None, option("Which model, where a Python file has several.", "NAME", "--model")
+    str | None, option("Name of the model, if a Python file has several.", "NAME", "--model")
 ]
 Held = Literal["height", "tyre", "spring", "locked"]
 Bushes = Annotated[

@@ -34,21 +34,21 @@ def command(
         Path,
         argument(
             "TOML: values that are [free]; [targets], [minimise] and [maximise], each an "
-            "objective; and [limits] if there are some.",
+            "objective; and optional [limits].",
             "STUDY",
         ),
     ],
     *,
     population: Annotated[
-        int, option("Suspensions of a generation, and members at most.", "N")
+        int, option("Suspensions in each generation, and most members of the front.", "N")
     ] = 48,
-    generations: Annotated[int, option("How many there are.", "N")] = 40,
-    seed: Annotated[int, option("Another search for another seed.", "N")] = 1,
+    generations: Annotated[int, option("Number of generations.", "N")] = 40,
+    seed: Annotated[int, option("Seed of the search.", "N")] = 1,
     member: Annotated[
         int | None,
         option(
-            "The member that is chosen. Default: the compromise, nearest to the best of all "
-            "objectives.",
+            "Number of the chosen member. Default: the compromise, nearest to the best values of "
+            "all objectives.",
             "N",
         ),
     ] = None,
@@ -60,8 +60,8 @@ def command(
 ) -> None:
     """Find suspensions of which none is better than another in every objective.
 
-    It is the Pareto front of objectives that contradict each other, to choose from. The exit code
-    is 1 where no suspension keeps the limits.
+    They are the Pareto front of conflicting objectives. The exit code is 1 if no suspension keeps
+    the limits.
     """
     from ...datasets import export
     from .. import studies as variation

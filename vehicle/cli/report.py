@@ -55,12 +55,13 @@ def command(
     goals: wanted.Goals = None,
     force: Force = False,
 ) -> None:
-    """Write a report that opens in any browser: the mechanism to move by hand, curves, data.
+    """Write a report that opens in any browser: interactive 3D view, curves, data.
 
     FILE may be the Python file of a mechanism of your own.
 
-    Of an axle it has one side to be moved, and what a rig finds of both; of a rigid axle drawings,
-    tables and curves. Where FILE has bushes, or --bushes are given, it has compliance.
+    An axle has one side in the 3D view, and a chapter with the results of a rig for both; a rigid
+    axle has drawings, tables and curves. Compliance is included if FILE has bushes, or with
+    --bushes.
     """
     from ...core.files import refuse
     from ..report import ENDINGS, write, write_chapters

@@ -1,4 +1,4 @@
-"""``kintrafo ride``: how a car rests, swings and rides over a road."""
+"""``kintrafo ride``: rest, modes and motion of a car over a road."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -31,9 +31,12 @@ def command(
     ],
     *,
     road: Annotated[str, option("Rough road: a class of ISO 8608, A to H.", "CLASS")] = "B",
-    seed: Annotated[int, option("Of the rough road.", "NUMBER")] = 1,
+    seed: Annotated[
+        int, option("Seed of the rough road: equal seeds give equal roads.", "NUMBER")
+    ] = 1,
     bump: Annotated[
-        float | None, option("A bump of this height in place of it; negative: a pothole.", "MM")
+        float | None,
+        option("Height of one bump instead of the rough road; negative: a pothole.", "MM"),
     ] = None,
     bump_length: Annotated[float, option("Length of the bump.", "M")] = 0.5,
     under: Annotated[str, option("Wheels that meet the bump: both, left, right.", "SIDE")] = "both",
@@ -42,13 +45,13 @@ def command(
     output_step: Annotated[float, option("Time between outputs.", "MS")] = 5.0,
     output: PlotOptions,
 ) -> None:
-    """Let a car ride over a road: rest, modes, accelerations, wheel loads, rattle space.
+    """Simulate a car over a road: rest, modes, accelerations, wheel loads, wheel travel.
 
-    The acceleration is that of the body, unweighted and weighted for comfort (W_k of ISO 2631-1).
-    On a rough road the linear prediction, from the exact linearisation at rest, is beside the
-    simulation. Rear wheels meet the road later by the wheelbase. Data files have the motion; on a
-    rough road others, with _response behind their names, the spectra and the responses to the
-    road under each wheel.
+    Accelerations are those of the body, unweighted and weighted for comfort (W_k of ISO 2631-1).
+    On a rough road the tables also have the prediction by the exact linearisation at rest. Rear
+    wheels meet the road later, by the wheelbase over the speed. Data files have the motion; on a
+    rough road further files, whose names end in _response, have the spectra and the responses to
+    the road under each wheel.
     """
     from ...datasets import export
     from ..analysis import ride

@@ -19,14 +19,14 @@ def command(
     *,
     bushes: Bushes = None,
     held: Annotated[
-        Held, option("What holds the wheel: see docs/suspension/compliance.md.")
+        Held, option("Support of the wheel: see docs/suspension/compliance.md.")
     ] = "height",
     output: DataOptions,
 ) -> None:
     """Print the K&C sheet: kinematic and compliance gradients at design, as measured on a rig.
 
-    With definitions, and with the signs of ISO 8855 and of SAE J670 (z down). Compliance is there
-    where the file has bushes, or --bushes are given.
+    The sheet has definitions, and the signs of ISO 8855 and of SAE J670 (z down). It has compliance
+    if the file has bushes, or with --bushes.
     """
     from ...datasets import export
     from ..analysis.sheet import one_page, sheet

@@ -60,7 +60,7 @@ def command(
     driven: ScenarioOptions,
     wheels: Annotated[
         Literal["both", "left", "right"] | None,
-        option("Of an axle: under which wheels the road is. Default: both.", panel="Road"),
+        option("Of an axle: wheels on this road. Default: both.", panel="Road"),
     ] = None,
     solver: SolverOptions,
     output: CurveOptions,
@@ -73,12 +73,11 @@ def command(
         ),
     ] = None,
 ) -> None:
-    """Simulate the suspension over a step, a sine or a measured road, with its rack moving.
+    """Simulate a suspension, an axle or a car over a step, a sine or a measured road.
 
-    The body is held: a wheel alone is no quarter car. The file of a car, such as quarter_car, lets
-    its body move. Without --height it starts from rest on the road as it is at the beginning. The
-    equations of an axle are derived and compiled when they are first needed, which takes some
-    seconds.
+    The body of a suspension or an axle is held; that of a car, such as quarter_car, moves. Without
+    --height the motion starts at rest on the road. The equations of an axle or a car are derived
+    and compiled at first use, which takes up to a minute.
     """
     from ...core.files import refuse
     from ..corner.wheel_loads import UNITS

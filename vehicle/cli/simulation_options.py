@@ -26,14 +26,14 @@ class ScenarioOptions:
     spin: Annotated[
         float, option("Wheel spin, positive rolling forward.", "REV/S", panel="Start")
     ] = 0.0
-    road_step: Annotated[_Number, option("The road rises by this at once.", "MM", panel="Road")] = (
+    road_step: Annotated[_Number, option("Height of a step of the road.", "MM", panel="Road")] = (
         None
     )
-    road_step_at: Annotated[float, option("When it does.", "S", panel="Road")] = 0.1
+    road_step_at: Annotated[float, option("Time of the step.", "S", panel="Road")] = 0.1
     road_sine: Annotated[_Number, option("Amplitude of a harmonic road.", "MM", panel="Road")] = (
         None
     )
-    road_frequency: Annotated[float, option("Its frequency.", "HZ", panel="Road")] = 1.0
+    road_frequency: Annotated[float, option("Frequency of that road.", "HZ", panel="Road")] = 1.0
     measured: Annotated[
         Path | None,
         option(
@@ -46,13 +46,13 @@ class ScenarioOptions:
     speed: Annotated[
         _Number, option("Speed on a road given over distance_m.", "KM/H", panel="Road")
     ] = None
-    rack: Annotated[_Number, option("Rack held there.", "MM", panel="Rack")] = None
+    rack: Annotated[_Number, option("Constant rack displacement.", "MM", panel="Rack")] = None
     rack_sine: Annotated[
         _Number, option("Amplitude of a harmonic rack motion.", "MM", panel="Rack")
     ] = None
-    rack_frequency: Annotated[float, option("Its frequency.", "HZ", panel="Rack")] = 1.0
+    rack_frequency: Annotated[float, option("Frequency of that motion.", "HZ", panel="Rack")] = 1.0
     duration: Annotated[
-        _Number, option("Default: 1, or as long as what was measured.", "S", panel="Time")
+        _Number, option("Default: 1, or the duration of the measurement.", "S", panel="Time")
     ] = None
     output_step: Annotated[float, option("Time between outputs.", "MS", panel="Time")] = 1.0
 
@@ -107,7 +107,7 @@ class SolverOptions:
             panel="Solver",
         ),
     ] = "BDF"
-    step: Annotated[_Number, option("Length of all steps of RK4.", "MS", panel="Solver")] = None
+    step: Annotated[_Number, option("Fixed step of RK4.", "MS", panel="Solver")] = None
     rtol: Annotated[
         _Number,
         option("Relative tolerance. Default: 1e-8 for BDF, else 1e-6.", panel="Solver"),
@@ -119,9 +119,7 @@ class SolverOptions:
     max_step: Annotated[
         _Number, option("Longest step. Default: no limit.", "MS", panel="Solver")
     ] = None
-    max_steps: Annotated[
-        int, option("More steps than these end with an error.", panel="Solver")
-    ] = 10_000_000
+    max_steps: Annotated[int, option("Largest number of steps.", panel="Solver")] = 10_000_000
 
     def of_simulate(self) -> dict[str, Any]:
         """Return them as `kintrafo.simulate` takes them."""

@@ -45,7 +45,7 @@ def command(
     keep: Annotated[
         list[str] | None,
         option(
-            "Kept of each motion: max, min, mean, rms, above:LEVEL, percentile:NUMBER. "
+            "Results of each motion: max, min, mean, rms, above:LEVEL, percentile:NUMBER. "
             f"Default: {','.join(_USUAL)}.",
             "SIGNAL:KIND,...",
         ),
@@ -55,8 +55,7 @@ def command(
 ) -> None:
     """Simulate the suspension with all combinations of some values, many at once.
 
-    Each starts at its own rest, unless --height says where. The exit code is 1 where one does not
-    reach the end.
+    Each motion starts at rest, or at --height. The exit code is 1 if one does not reach the end.
     """
     from ...datasets import export
     from .. import studies as variation

@@ -29,19 +29,19 @@ def command(
     tolerances: Annotated[
         Path,
         argument(
-            "TOML: [tolerances] of values, and [limits] of characteristics if there are some.",
+            "TOML: [tolerances] of values, and optional [limits] of characteristics.",
             "TOLERANCES",
         ),
     ],
     *,
-    cars: Annotated[int, option("How many cars are drawn.", "N")] = 500,
-    seed: Annotated[int, option("Other cars for another seed.", "N")] = 1,
+    cars: Annotated[int, option("Number of random cars.", "N")] = 500,
+    seed: Annotated[int, option("Seed of the random cars.", "N")] = 1,
     asked: StudyOptions,
     output: BarOptions,
 ) -> None:
     """Print bands of the characteristics of many cars within tolerances, and their causes.
 
-    The table is about one position; data files have all, netCDF the shares and each car besides.
+    The table is for one position; data files have all, netCDF also the shares and each car.
     """
     from ...datasets import export
     from .. import studies as variation

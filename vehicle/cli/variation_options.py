@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 Over = Annotated[
     Literal["travel", "rack", "bump", "roll", "left", "right"] | None,
     option(
-        "What varies along the curves. Default: travel; of a rigid axle bump, which has no others "
-        "than the last four.",
+        "Motion along the curves: travel or rack of a suspension, the last four of an axle. "
+        "Default: travel, bump of an axle.",
         show_default=False,
     ),
 ]
-At = Annotated[float, option("Position that the table is about; of roll in deg.", "MM")]
+At = Annotated[float, option("Position of the table; over roll in deg.", "MM")]
 
 
 @dataclass(frozen=True)
@@ -31,8 +31,8 @@ class StudyOptions:
     held: Annotated[
         Held | None,
         option(
-            "Analyse the compliance over wheel travel of a file with [bushings], instead of "
-            "characteristics; this holds the wheels.",
+            "Analyse compliance over wheel travel on the [bushings] of the file instead of "
+            "characteristics, with this support of the wheel.",
             show_default=False,
         ),
     ] = None

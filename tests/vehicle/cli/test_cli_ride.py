@@ -2,17 +2,16 @@
 
 from kintrafo.vehicle.assembly.by_wheel import WHEEL
 from kintrafo.vehicle.cli import ride
-from rich.console import Console
+from rich.text import Text
 from xarray import Dataset
 
 
 def _lines(tables):
-    console = Console(width=200, color_system=None)
-    with console.capture() as printed:
-        for made in tables:
-            console.print(made)
-    lines = filter(None, printed.get().splitlines())
-    return [[cell.strip() for cell in line[1:-1].split(line[0])] for line in lines]
+    return [
+        [Text.from_markup(cell).plain for cell in line]
+        for made in tables
+        for line in zip(*([column.header, *column.cells] for column in made.columns), strict=True)
+    ]
 
 
 def test_wheels_are_columns_and_the_linear_prediction_is_a_row():

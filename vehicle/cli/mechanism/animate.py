@@ -22,7 +22,7 @@ def command(
     path: Annotated[Path, argument("Ends in .gif or .html.", "PATH")],
     *,
     start: Annotated[
-        list[str] | None, option("Where it starts (SI units). May be repeated.", "NAME=VALUE")
+        list[str] | None, option("Values at the start (SI units). May be repeated.", "NAME=VALUE")
     ] = None,
     duration: Annotated[float, option("Length of the motion.", "S")] = 1.0,
     slower: Annotated[float, option("A GIF plays so many times slower.", "TIMES")] = 1.0,
@@ -33,8 +33,8 @@ def command(
 ) -> None:
     """Show the free response of a mechanism of your own, a suspension, an axle or a car.
 
-    It starts at rest at the design position, but for what --start says. In Python any motion can be
-    shown, over a road or with inputs: kintrafo.animate(result, "motion.gif").
+    It starts at rest at the design position, except for the values of --start. In Python any motion
+    can be shown, over a road or with inputs: kintrafo.animate(result, "motion.gif").
     """
     from ....core.files import refuse
     from ....pages.animation import ENDINGS, animate

@@ -42,8 +42,8 @@ def command(
 ) -> None:
     """Show bodies, joints, mobility, loops and characteristic pairs of the mechanism.
 
-    They were found when the equations were derived, and come with the compiled model. Of a
-    mechanism of your own, the joints are listed too that can be independent.
+    They come with the compiled model. For a mechanism of your own, the joints that can be
+    independent are listed, too.
     """
     from ....systems.topology import topology
 
