@@ -126,7 +126,7 @@ def _element(model: type[Section], key: str, index: int | str) -> str:
 def _texts(place: _Place, detail: ErrorDetails) -> list[str]:
     """Say what is wrong at a place; only a whole section can have several problems."""
     if detail["type"] == "problems":
-        return [f"{place.title} {problem}" for problem in detail["ctx"]["problems"]]
+        return [f"{place.title} {problem}".lstrip() for problem in detail["ctx"]["problems"]]
     if detail["type"] == "extra_forbidden":
         return [_unknown(place, detail["input"])]
     if detail["type"] == "missing":

@@ -25,6 +25,9 @@ class Road:
         Heights, positive up [m]; four points or more.
     words : str, optional
         What it is.
+    stationary : bool, optional
+        Whether it is rough in the same way all along, so that what a car begins with on it is of no
+        importance: `kintrafo.ride.over` judges what follows.
 
     Examples
     --------
@@ -37,6 +40,7 @@ class Road:
     left: Array
     right: Array
     words: str = "a road of given heights"
+    stationary: bool = False
 
     def __post_init__(self) -> None:
         with Arguments("Road") as given:
@@ -44,6 +48,7 @@ class Road:
             left = given.array("left", self.left, "m", dimensions=[1])
             right = given.array("right", self.right, "m", dimensions=[1])
             given.text("words", self.words)
+            given.flag("stationary", self.stationary)
             if not given.refused and (left.shape != right.shape or left.size < 4):
                 given.refuse(
                     f"left has {left.size} points and right {right.size}: as many are needed of "
@@ -99,7 +104,8 @@ class Road:
             ):
                 given.refuse("the roads have other points: equal spacing and number are needed.")
         words = f"{self.words}, and {other.words}"
-        return Road(self.spacing, self.left + other.left, self.right + other.right, words)
+        left, right = self.left + other.left, self.right + other.right
+        return Road(self.spacing, left, right, words, self.stationary and other.stationary)
 
 
 def points(length: float, spacing: float) -> Array:

@@ -89,6 +89,8 @@ def iso8608(
                 f"length = {length:g} m: {1.0 / WAVES[0]:g} m, one of the longest waves, to "
                 f"{spacing * _MOST_POINTS:g} m are allowed."
             )
+        if not given.refused and fade > length:
+            given.refuse(f"fade = {fade:g} m: the length, {length:g} m, at most is allowed.")
     count = math.ceil(length / spacing)
     n = np.arange(count // 2 + 1) / (count * spacing)
     density = np.where((n >= WAVES[0]) & (n <= WAVES[1]), spectrum(at_reference, n), 0.0)
@@ -103,7 +105,8 @@ def iso8608(
         np.fft.irfft(common * one + sign * apart * other, n=count) * grown for sign in (1.0, -1.0)
     )
     named = f"of class {roughness}" if isinstance(roughness, str) else f"of {at_reference:g} m^3"
-    return Road(spacing, left, right, f"a road {named} of ISO 8608, seed {seed}")
+    words = f"a road {named} of ISO 8608, seed {seed}"
+    return Road(spacing, left, right, words, stationary=True)
 
 
 def _grown(x: NDArray[Any], fade: float) -> Array:

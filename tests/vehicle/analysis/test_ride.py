@@ -6,7 +6,7 @@ import kintrafo
 import numpy as np
 import pytest
 from kintrafo.vehicle.analysis.ride.linear import linear_at_rest
-from kintrafo.vehicle.analysis.ride.simulated import upward
+from kintrafo.vehicle.analysis.ride.outputs import upward
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.roads import CLASSES, Road, bump, iso8608, isotropic_coherence
 from scipy.signal import csd, welch
@@ -66,6 +66,7 @@ def test_rear_wheels_meet_a_road_later() -> None:
         lambda: bump(0.05, 0.0),
         lambda: bump(0.05, 60.0),
         lambda: bump(0.05, 1.0).over_time("left", 0.0, 0.0, 1.0),
+        lambda: iso8608("A", length=200.0, seed=1, fade=300.0),
     ],
 )
 def test_roads_that_cannot_be_are_refused(made, refused) -> None:
@@ -173,6 +174,30 @@ def test_the_linear_spectrum_is_that_of_a_long_simulation(car: kintrafo.Car) -> 
 def test_a_tyre_that_pulls_at_the_road_is_named(car: kintrafo.Car) -> None:
     motion = kintrafo.ride.over(car, bump(0.05, 0.5, at=1.0, end=20.0), 8.0, duration=1.0, settle=0)
     assert any("pulls at the road" in text for text in motion.attrs["not_valid"])
+
+
+def test_a_bump_at_the_beginning_is_judged(car: kintrafo.Car) -> None:
+    road = bump(0.01, 0.5, at=5.0, end=40.0)  # at 20 m/s it is passed after 0.28 s
+    motion = kintrafo.ride.over(car, road, 20.0)["body_acceleration"]
+    assert motion.attrs["largest"] == motion.values.max() > 0.5
+    rough = iso8608("A", length=200.0, seed=1)
+    assert (rough.stationary, road.stationary, (rough + rough).stationary) == (True, False, True)
+
+
+@pytest.mark.parametrize("frequency", [[2.0], [3.0, 2.0, 1.0], [1.0, 2.0, 2.0]])
+def test_frequencies_over_which_nothing_can_be_summed_are_refused(car, frequency, refused) -> None:
+    refused(kintrafo.InputError, lambda: kintrafo.ride.response(car, 20.0, frequency=frequency))
+
+
+def test_outputs_too_far_apart_to_be_weighted_are_refused(car, refused) -> None:
+    road = bump(0.01, 0.5)
+    refused(kintrafo.InputError, lambda: kintrafo.ride.over(car, road, 20.0, output_step=0.02))
+
+
+@pytest.mark.parametrize("name", ["body", "a/b", ""])
+def test_a_seat_does_not_take_the_name_of_something_else(car, name, refused) -> None:
+    data = car.to_dict() | {"seats": {name: {"place_mm": [0.0, 0.0, 500.0]}}}
+    refused(kintrafo.InputError, lambda: kintrafo.Car.from_dict(data))
 
 
 def test_upward_is_the_second_derivative_of_the_height() -> None:
@@ -302,3 +327,24 @@ def test_four_wheels_ride_as_the_linear_equations_say(whole: kintrafo.CarModel) 
     np.testing.assert_allclose(
         motion["travel"].attrs["rms"], linear["travel_psd"].attrs["rms"], rtol=0.15
     )
+
+
+def test_a_seat_moves_as_the_leaning_body_moves_it(whole: kintrafo.CarModel) -> None:
+    """The height of a seat is differentiated at rest, where the body is pitched and rolled."""
+    frequency, road = np.array([1.0, 3.0]), "front_left_road_height"
+    found = kintrafo.ride.response(whole, 20.0, frequency=frequency)["driver_acceleration_by_road"]
+    assembly = assembly_of(whole)
+    linear = linear_at_rest(assembly)
+    x, y, z = assembly.felt_at()["driver_acceleration"]
+
+    def height(heave, pitch, roll):
+        return heave - np.sin(pitch) * x + np.cos(pitch) * (np.sin(roll) * y + np.cos(roll) * z)
+
+    def slope(i):
+        step = 1e-5 * np.eye(3)[i]
+        return (height(*(linear.state[:3] + step)) - height(*(linear.state[:3] - step))) / 2e-5
+
+    moved = linear.state_response(frequency, road)[:, :3] @ [slope(i) for i in range(3)]
+    wanted = np.abs(moved) * (2.0 * np.pi * frequency) ** 2
+    # a central difference: its rounding, 1e-16 over the step
+    np.testing.assert_allclose(found.sel(road_wheel="front_left"), wanted, rtol=1e-9)

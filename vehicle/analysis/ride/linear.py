@@ -25,7 +25,7 @@ from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from ...assembly.car import CarAssembly
 from ...assembly.equilibrium import equilibrium
 from ...roads.rough import isotropic_coherence, roughness_of, spectrum
-from .outputs import OUTPUTS_OF_WHEELS, body_outputs, wheel_outputs
+from .outputs import OUTPUTS_OF_WHEELS, body_outputs, upward, wheel_outputs
 from .subject import car_assembly
 from .weighting import weighting
 
@@ -117,7 +117,7 @@ def response(
     roughness : str or float, optional
         A class of ISO 8608, or G(n0) [m^3]: of an isotropic road under both tracks.
     frequency : array_like, optional
-        [Hz]; by default 0.2 to 50 Hz in steps of 0.02 Hz.
+        Rising [Hz]; by default 0.2 to 50 Hz in steps of 0.02 Hz.
 
     Returns
     -------
@@ -145,6 +145,8 @@ def response(
         frequencies = given.array("frequency", chosen, "Hz", dimensions=[1])
         if not given.refused and (frequencies <= 0.0).any():
             given.refuse("frequency: more than 0 Hz is needed.")
+        if not given.refused and (frequencies.size < 2 or (np.diff(frequencies) <= 0.0).any()):
+            given.refuse("frequency: two or more are needed, each above the one before it.")
     linear = linear_at_rest(assembly)
     by_wheel = {w: _outputs(assembly, linear, frequencies, w) for w in assembly.wheels}
     variables: dict[str, Any] = {}
@@ -188,12 +190,15 @@ def _outputs(
         zip(linear.state_names[:half], np.moveaxis(states[..., :half], -1, 0), strict=True)
     )
     s2 = (2j * np.pi * frequencies) ** 2
+    body = assembly.car.coordinates
+    at_rest = {k: linear.state[linear.state_names.index(k)] for k in body}
     found: dict[str, Complex] = {}
     for name, place in assembly.felt_at().items():
-        arm = dict(zip(("heave", "pitch", "roll"), (1.0, -place[0], place[1]), strict=True))
-        found[name] = sum(
-            (arm[k] * s2 * position[k] for k in assembly.car.coordinates), np.zeros_like(s2)
-        )
+        arms = {
+            k: upward({n: (at, 0.0, float(n == k)) for n, at in at_rest.items()}, place)
+            for k in body
+        }
+        found[name] = sum((arms[k] * s2 * position[k] for k in body), np.zeros_like(s2))
     travels = assembly.travel_slopes(linear.state)
     rows = wheel_outputs(assembly, signals, position, travels)
     single = len(assembly.wheels) == 1

@@ -4,8 +4,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...assembly.car import CarAssembly
+
+Array = NDArray[np.float64]
 
 OUTPUTS_OF_WHEELS = {
     "load": ("force of the tyre in the plane of the wheel", "N"),
@@ -48,3 +51,30 @@ def wheel_outputs(
             for wheel in assembly.wheels
         ],
     }
+
+
+def upward(motion: Mapping[str, tuple[Any, Any, Any]], place: Array) -> Any:
+    """Return the upward acceleration of a point of a body that heaves, pitches and rolls.
+
+    Parameters
+    ----------
+    motion : mapping of str to tuple of ndarray or float
+        Position, rate and acceleration of ``heave``, ``pitch`` and ``roll``, as far as there are.
+    place : ndarray, shape (3,)
+        From the centre of mass, axes of the body [m].
+    """
+    none = 0.0 * motion["heave"][0]
+    pitch, d_pitch, dd_pitch = motion.get("pitch", (none, none, none))
+    roll, d_roll, dd_roll = motion.get("roll", (none, none, none))
+    x, y, z = place
+    # the height of the point is heave - sin(pitch) x + cos(pitch) h
+    h, slope = np.sin(roll) * y + np.cos(roll) * z, np.cos(roll) * y - np.sin(roll) * z
+    d_h, dd_h = d_roll * slope, dd_roll * slope - d_roll**2 * h
+    sine, cosine = np.sin(pitch), np.cos(pitch)
+    return (
+        motion["heave"][2]
+        - dd_pitch * (cosine * x + sine * h)
+        + d_pitch**2 * (sine * x - cosine * h)
+        - 2.0 * sine * d_pitch * d_h
+        + cosine * dd_h
+    )

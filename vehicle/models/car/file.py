@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal, get_args
 import numpy as np
 from pydantic import Field, WithJsonSchema
 
+from ....core.legible import legible
 from ....core.vectors import Vector
 from ...input.bodies import RigidBody
 from ...input.hardpoints import Hardpoints
@@ -26,6 +27,10 @@ ENDS = ("front", "rear")
 # What a file can say; from Python it may also be what is in it.
 _BY_NAME = WithJsonSchema({"type": "string"})
 _FILE = "file beside this one, or the name of a packaged data set: "
+_OF_A_SEAT = (
+    "the name of a seat begins that of its acceleration: letters, digits and _ are allowed, and "
+    'not "body", whose acceleration is that of the centre of mass. Rename it.'
+)
 # How each coordinate of the body moves it against its own inertia.
 _INERTIA = {"pitch": "yy", "roll": "xx"}
 
@@ -115,6 +120,11 @@ class CarFile(Section):
         ]
         if "rear" not in needed and self.rear_origin_mm:
             problems.append("rear_origin_mm is given, and a quarter car has no rear. Remove it.")
+        problems += [
+            f"[seats.{legible(name)}]: {_OF_A_SEAT}"
+            for name in self.seats
+            if not name.isidentifier() or name == "body"
+        ]
         return problems + [
             f"[body] {problem}" for problem in self.body.problems_with(self.coordinates)
         ]
