@@ -70,6 +70,8 @@ class StateLayout:
     def normalised(self, state: Array) -> Array:
         """Return a state, or positions, with quaternions of length one.
 
+        Zeros stay as they are: equations refuse them.
+
         Parameters
         ----------
         state : ndarray, shape (..., positions or more)
@@ -77,7 +79,8 @@ class StateLayout:
         found = state.copy()
         for at in self.free:
             quaternion = found[..., at + _AXES : at + _POSITIONS]
-            quaternion /= np.linalg.norm(quaternion, axis=-1, keepdims=True)
+            length = np.linalg.norm(quaternion, axis=-1, keepdims=True)
+            quaternion /= np.where(length > 0.0, length, 1.0)
         return found
 
     def basis(self, state: Array) -> Array:

@@ -245,6 +245,7 @@ def linearise(
     state, inputs : array_like
         One state, and inputs: by default those that belong to the state, or zeros. A state of
         rest is found by `kintrafo.equilibrium`; any other is allowed, see `Linearisation.steady`.
+        Quaternions of free bodies are taken with length one.
     outputs : sequence of str, optional
         Signals to take as outputs, all by default.
 
@@ -280,6 +281,7 @@ def linearise(
             )
             outputs = model.signal_names if outputs is None else outputs
             names = checked.names("outputs", outputs, model.signal_names)
+    point = model.layout.normalised(point)
     rows = [model.signal_names.index(name) for name in names]
     described = model.equations
 
@@ -322,6 +324,6 @@ def _constant(model: System, state: Array, inputs: Array) -> bool:
             at,
             model.layout,
         ).A
-        for at in (model.layout.normalised(state), ahead)
+        for at in (state, ahead)
     )
     return bool(np.abs(then - now).max() <= _STEADY * np.abs(now).max())

@@ -240,8 +240,9 @@ class System:
         jacobian = self.evaluate("rhs_jacobian", state, inputs)
         if not self.layout.free:
             return eigenvalues_of(jacobian)
-        rate = self.evaluate("rhs", state, inputs)
-        return eigenvalues_of(Tangent.at(jacobian, rate, np.asarray(state), self.layout).A)
+        at = self.layout.normalised(np.asanyarray(state, dtype=float))
+        jacobian, rate = (self.evaluate(name, at, inputs) for name in ("rhs_jacobian", "rhs"))
+        return eigenvalues_of(Tangent.at(jacobian, rate, at, self.layout).A)
 
 
 @cache

@@ -45,11 +45,11 @@ class Tangent:
         ----------
         jacobian : ndarray, shape (states, states)
         rate, state : ndarray, shape (states,)
+            With quaternions of length one, as that of the derivative.
         layout : StateLayout
         """
         if not layout.free:
             return cls(jacobian, None)
-        state = layout.normalised(state)
         lift = _of_all(layout.basis(state), len(state), 1.0)
         turning = _of_all(layout.turned(state, rate), len(state), 0.0)
         return cls(np.linalg.pinv(lift) @ (jacobian @ lift - turning), lift)

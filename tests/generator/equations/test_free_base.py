@@ -388,6 +388,21 @@ def test_rest_and_modes_are_those_of_a_body_on_a_spring(hanging):
     np.testing.assert_allclose(frequencies[1:], np.sqrt(squares[1:]), rtol=1e-4)
 
 
+def test_modes_do_not_depend_on_the_norm(hanging):
+    """Twice the quaternion is the same attitude."""
+    random = np.random.default_rng(4)
+    state = hanging.design_state.copy()
+    state[3:7], state[7:] = unit_quaternion(random), random.normal(size=6)
+    longer, none = state.copy(), state.copy()
+    longer[3:7] *= 2.0
+    none[3:7] = 0.0
+    for eigenvalues in (hanging.eigenvalues, lambda s: kintrafo.linearise(hanging, s).eigenvalues):
+        # rounding of the length, in simple eigenvalues
+        np.testing.assert_allclose(eigenvalues(longer), eigenvalues(state), rtol=1e-9)
+        with pytest.raises(ClosureError, match="quaternion of block is zero"):
+            eigenvalues(none)
+
+
 def test_an_ensemble_is_made_of_single_motions(hanging):
     times, masses = np.linspace(0.0, 2.0, 5), [2.0, 3.0, 4.5]
     start = hanging.state(block_q=1.5, block_u=0.3)
