@@ -166,8 +166,8 @@ def forces(a: Arithmetic, p: Mapping[str, Any], c: Contact, length: Any) -> Forc
         -lean * c.inclination,
         -resistance * c.load * p["radius"] * c.rolling,
         -trail * fy,
-        x.slope * share,
-        -y.slope * share,
+        _least_slope(a, x.slope, x.maximum / x.slip_of_maximum) * share,
+        -_least_slope(a, y.slope, y.maximum / y.slip_of_maximum) * share,
         trail,
     )
 
@@ -195,11 +195,16 @@ def deflection_of(a: Arithmetic, p: Mapping[str, Any], load: Any) -> tuple[Any, 
     return 2 * load / (p["load_1"] + root), root
 
 
+def _least_slope(a: Arithmetic, slope: Any, secant: Any) -> Any:
+    """Return the slope with which a curve begins: twice the secant to its maximum at least."""
+    return slope + a.positive(2 * secant - slope)
+
+
 def _force_over_slip(a: Arithmetic, curve: _Curve, slip: Any) -> Any:
     """Return the force over the slip: adhesion, two parabolas or a cubic, sliding."""
     first = curve.slip_of_maximum
     steep = a.define("secant", curve.maximum / first)
-    slope = a.define("adhesion_slope", curve.slope + a.positive(2 * steep - curve.slope))
+    slope = a.define("adhesion_slope", _least_slope(a, curve.slope, steep))
     part = a.define("adhering", at_most(a, slip, first) / first)
     bent = a.define("adhesion_bent", 1 + part * (part + slope / steep - 2))
     adhesion = slope * first * part / bent

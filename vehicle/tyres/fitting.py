@@ -141,6 +141,7 @@ def fit(
     with Arguments("fit") as given:
         given.kind("start", start, MagicFormula, "a tyre of the Magic Formula is needed")
     rows = measured(data)
+    start.evaluate(**rows.states, extrapolate=True)  # refuses states that no tyre can be in
     problem = _Problem(rows, start, _scales(rows, accuracy))
     chosen, left_out = _chosen(problem, coefficients)
     limits = _limits(chosen, start, bounds)

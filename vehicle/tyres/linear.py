@@ -12,7 +12,8 @@ from ...formulas.magic_formula import Contact
 from .tyre import States, Tyre
 
 _POSITIVE = ("radius", "effective_radius", "vertical_stiffness", "slip_stiffness",
-             "cornering_stiffness", "friction", "lowest_speed")  # fmt: skip
+             "cornering_stiffness", "friction", "relaxation_x", "relaxation_y", "lowest_speed",
+             "nominal_load")  # fmt: skip
 
 _OF_EQUATIONS = ("effective_radius", "vertical_stiffness", "relaxation_x", "relaxation_y")
 

@@ -209,7 +209,7 @@ class MagicFormula(Tyre):
     def _state(self, at: States) -> dict[str, Any]:
         p, c = self.coefficients, self._contact(at)
         found = magic_formula.forces(ARRAYS, p, c, self.form)
-        spin = at.speed * (1.0 + at.slip) / self.usual_speed
+        spin = (at.speed + at.slip * np.abs(at.speed)) / self.usual_speed
         moved = vertical.factor(ARRAYS, p, found.fx, found.fy, spin, c.pressure)
         deflection, stiffness = vertical.deflection(ARRAYS, p, at.load, c.inclination, moved)
         nominal = vertical.factor(ARRAYS, p, 0.0, 0.0, 0.0, c.pressure)

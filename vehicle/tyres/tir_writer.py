@@ -103,7 +103,8 @@ _NEEDED = frozenset(key for keys in known.NEEDED.values() for key in keys)
 
 
 def _model(tyre: "MagicFormula") -> list[str]:
-    version = (
-        f"FITTYP = 6{tyre.name[-1]}" if tyre.form.newer else "PROPERTY_FILE_FORMAT = 'PAC2002'"
-    )
-    return [version, *([f"TYRESIDE = '{tyre.side.upper()}'"] if tyre.side else [])]
+    older = {"PAC2002": "PROPERTY_FILE_FORMAT = 'PAC2002'", "MF 5": "FITTYP = 5"}
+    version = older.get(tyre.name, f"FITTYP = 6{tyre.name[-1]}")
+    # weights of combined slip may be there and yet not be used
+    combined = [] if tyre.form.weighted else ["FE_METHOD = 'YES'"]
+    return [version, *combined, *([f"TYRESIDE = '{tyre.side.upper()}'"] if tyre.side else [])]

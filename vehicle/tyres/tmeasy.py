@@ -8,6 +8,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.legible import legible, short
 from ...formulas import tmeasy
@@ -156,8 +157,8 @@ class TMeasy(Tyre):
         friction : float
             More than zero; that of the file is the one of its measurement.
         """
-        if not friction > 0.0:
-            raise InputError([f"friction = {friction:g}: more than zero is needed."], self.name)
+        with Arguments(self.name) as given:
+            friction = given.number("friction", friction, above=0.0)
         return replace(self, values={**self.values, "friction": friction})
 
     def _state(self, at: States) -> dict[str, Any]:

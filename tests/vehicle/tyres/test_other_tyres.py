@@ -60,6 +60,21 @@ def test_tmeasy_is_what_its_pieces_say(load, sliding):
         np.testing.assert_allclose(got, wanted, rtol=1e-7, atol=1e-6 * state[0], err_msg=str(state))
 
 
+@pytest.mark.parametrize("axis", ["x", "y"])
+def test_stiffnesses_of_tmeasy_are_slopes_however_flat_the_file_says(load, axis):
+    """A slope below twice the secant to the maximum is that, in forces and in what is reported."""
+    section = {"x": "Longitudinal", "y": "Lateral"}[axis]
+    key = f"Initial Slopes dF{axis}/ds{axis} [N]"
+    tyre = load(changed(("Parameters", section, key), [12e3, 20e3]))
+    slip = 1e-4 * np.array([1.0, -1.0])
+    if axis == "x":
+        (more, less), told = tyre.evaluate(3500.0, slip=slip).fx, "slip_stiffness"
+    else:
+        (less, more), told = tyre.evaluate(3500.0, slip).fy, "cornering_stiffness"
+    # to some 1e-3: the part of the maximum's slip that the step is
+    assert getattr(tyre.evaluate(3500.0), told) == pytest.approx((more - less) / 2e-4, rel=2e-3)
+
+
 def test_tmeasy_rolls_backward():
     """The same slip velocities of tread and wheel, seen from behind."""
     tyre = kintrafo.tyres.load(FILE)
@@ -134,8 +149,9 @@ def test_the_linear_tyre_is_linear_and_ends_at_the_friction():
     sliding = tyre.evaluate(4000.0, 0.7, -0.9)
     assert np.hypot(sliding.fx, sliding.fy) == pytest.approx(3600.0, rel=1e-3)
     assert found.loaded_radius == 0.3 - 4000.0 / 2e5
-    with pytest.raises(kintrafo.InputError, match="friction = -1: a finite number above 0"):
-        kintrafo.tyres.LinearSlip(**(LINEAR | {"friction": -1.0}))
+    for name in ("friction", "relaxation_x", "relaxation_y", "nominal_load"):
+        with pytest.raises(kintrafo.InputError, match=f"{name} = -1: a finite number above 0"):
+            kintrafo.tyres.LinearSlip(**(LINEAR | {name: -1.0}))
 
 
 @pytest.mark.parametrize(

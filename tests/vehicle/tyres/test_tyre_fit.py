@@ -144,6 +144,7 @@ def test_bounds_hold_and_are_named():
         {"data": {"load": [1.0], "fy": [1.0, 2.0]}},
         {"data": {"load": [-1.0], "fy": [1.0]}},
         {"data": {"load": [1.0], "fq": [1.0]}},
+        {"data": {"load": [1e3, 2e3], "slip_angle": [-4.0, 4.0], "fy": [9e2, -9e2]}},
     ],
 )
 def test_arguments_are_refused_by_name(arguments, refused):
@@ -151,7 +152,13 @@ def test_arguments_are_refused_by_name(arguments, refused):
     refused(kintrafo.InputError, lambda: kintrafo.tyres.fit(**(usual | arguments)))
 
 
-@pytest.mark.parametrize("text", [None, OLDER], ids=["newer", "older"])
+_BY_ELLIPSE = OLDER.replace("[DIMENSION]", "FE_METHOD = 'YES'\n[DIMENSION]")
+_MF_5 = OLDER.replace("PROPERTY_FILE_FORMAT     = 'PAC2002'", "FITTYP = 5")
+
+
+@pytest.mark.parametrize(
+    "text", [None, OLDER, _BY_ELLIPSE, _MF_5], ids=["newer", "older", "ellipse", "MF 5"]
+)
 def test_a_tyre_that_is_written_is_the_same(tmp_path, text):
     tyre = TRUTH
     if text is not None:

@@ -129,6 +129,9 @@ def test_rolling_backward_turns_what_depends_on_the_way(tyre_of):
     assert back.trail == -ahead.trail
     assert back.my == -ahead.my
     assert ahead.my < 0.0 < back.my
+    # the speed of the tread, by which a tyre grows, is that of the wheel and what slip adds to it
+    grown = (tyre.evaluate(0.0, slip=s, speed=v).loaded_radius for s, v in ((0.3, 40), (-0.3, -40)))
+    assert len(set(map(float, grown))) == 1
 
 
 def test_ranges_are_kept_and_told(tyre_of):
