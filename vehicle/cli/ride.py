@@ -106,6 +106,9 @@ def _road(
     if bump is None:
         longest = max(way, 1.01 / roads.rough.WAVES[0])
         return roads.iso8608(road, length=longest, seed=seed, track=assembly.track)
+    sides = {wheel.rpartition("_")[2] for wheel in assembly.wheels}
+    if under in {"left", "right"} - sides:
+        raise typer.BadParameter(f"--under {under}: this car has its wheel on the other side")
     at = min(5.0, 0.1 * way)
     return roads.bump(bump / 1e3, bump_length, at=at, end=max(way, at + bump_length), sides=under)
 

@@ -39,3 +39,9 @@ def test_at_rest_no_value_of_the_body_is_below_a_wheel():
     lines = _lines(ride._rest(found, "my_car"))
     assert ["load [N]", "3", "4"] in lines
     assert ["heave [mm]", "2"] in lines
+
+
+def test_a_bump_that_no_wheel_meets_is_refused(kintrafo):
+    code, _, said = kintrafo("ride", "quarter_car", "--bump", "20", "--under", "left")
+    assert code == 2
+    assert "wheel on the other side" in said
