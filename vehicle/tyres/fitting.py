@@ -141,7 +141,7 @@ def fit(
     with Arguments("fit") as given:
         given.kind("start", start, MagicFormula, "a tyre of the Magic Formula is needed")
     rows = measured(data)
-    start.evaluate(**rows.states, extrapolate=True)  # refuses states that no tyre can be in
+    _see_signs(rows, start)
     problem = _Problem(rows, start, _scales(rows, accuracy))
     chosen, left_out = _chosen(problem, coefficients)
     limits = _limits(chosen, start, bounds)
@@ -186,6 +186,19 @@ class _Problem:
             more, less = self.scaled(names, values + step), self.scaled(names, values - step)
             columns.append((more - less) / (2.0 * _STEP))
         return np.transpose(columns)
+
+
+def _see_signs(rows: Measured, start: MagicFormula) -> None:
+    """Refuse states that no tyre can be in, and forces in other axes than those of ISO 8855."""
+    there = vars(start.evaluate(**rows.states, extrapolate=True))
+    with Arguments("fit") as given:
+        for name in ("fx", "fy"):
+            if name in rows.forces and float(rows.forces[name] @ there[name]) < 0.0:
+                given.refuse(
+                    f"data: {name} is opposite to that of the tyre to start from. The axes are "
+                    "those of ISO 8855, x forward, y left, z up: fy is negative at a positive "
+                    "slip angle, fx positive at a positive slip. Change the signs of the data."
+                )
 
 
 def _size(name: str) -> float:

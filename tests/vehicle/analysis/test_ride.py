@@ -189,9 +189,11 @@ def test_frequencies_over_which_nothing_can_be_summed_are_refused(car, frequency
     refused(kintrafo.InputError, lambda: kintrafo.ride.response(car, 20.0, frequency=frequency))
 
 
-def test_outputs_too_far_apart_to_be_weighted_are_refused(car, refused) -> None:
+@pytest.mark.parametrize("options", [{"output_step": 0.02}, {"t_eval": [0.0, 1.0]}])
+def test_other_outputs_than_those_of_a_ride_are_refused(car, options, refused) -> None:
+    """Those that are too far apart cannot be weighted."""
     road = bump(0.01, 0.5)
-    refused(kintrafo.InputError, lambda: kintrafo.ride.over(car, road, 20.0, output_step=0.02))
+    refused(kintrafo.InputError, lambda: kintrafo.ride.over(car, road, 20.0, **options))
 
 
 @pytest.mark.parametrize("name", ["body", "a/b", ""])

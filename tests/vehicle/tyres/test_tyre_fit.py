@@ -145,6 +145,7 @@ def test_bounds_hold_and_are_named():
         {"data": {"load": [-1.0], "fy": [1.0]}},
         {"data": {"load": [1.0], "fq": [1.0]}},
         {"data": {"load": [1e3, 2e3], "slip_angle": [-4.0, 4.0], "fy": [9e2, -9e2]}},
+        {"data": {"load": [3e3, 4e3], "slip_angle": [-0.1, 0.1], "fy": [-9e2, 9e2]}},
     ],
 )
 def test_arguments_are_refused_by_name(arguments, refused):

@@ -84,6 +84,8 @@ def over(
         given.kind("road", road, Road, "a kintrafo.road_profiles.Road is needed")
         speed = given.number("speed", speed, "m/s", above=0.0)
         step = given.number("output_step", output_step, "s", above=0.0)
+        for name in options.keys() & {"inputs", "t_eval"}:
+            given.refuse(f"{name} is that of the road. Leave it out; see output_step and duration.")
         if not given.refused:
             longest = (road.length + max(assembly.behind().values())) / speed
             end = (
