@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from golden.subjects import BUSHES
-from kintrafo import Axle, Model, compliance, load
+from kintrafo import Axle, Model, RigidAxle, compliance, load
 from kintrafo.vehicle.data.starter import whole_axles
 from rigid_axles import AXLE, FIVE
 from soft_suspensions import BAR_OF, BUSHES_OF, LINKED, RACK, STRUT, TRAILING, UNDER, WISHBONES
@@ -69,17 +69,22 @@ def test_small_loads_are_those_of_the_unit_load_theorem(
     of: Any, bushes: Any, options: dict[str, Any], held: Any
 ) -> None:
     """Without a static load both differ by a part in proportion to the load."""
-    off = []
+    off: list[list[Any]] = []
     for size in (20.0, 2.0):
+        off.append([])
         for under in UNDER:
             amounts = np.array([size if under != "aligning" else 0.3 * size])
             found = compliance.nonlinear(
                 of, bushes, under, amounts, held=held, hardpoints="relaxed", **options
             )
-            toe = found["toe_change"].transpose("data_set", ...).values.reshape(2, -1)
-            off.append(abs(toe[0] - toe[1]) / np.maximum(abs(toe[1]), 1e-8 * size))
-    first, second = np.reshape(off, (2, -1))
-    assert (first < 0.05).all()
+            for name in found.data_vars:
+                if name.endswith("_change"):
+                    change = found[name].transpose("data_set", ...).values.reshape(2, -1)
+                    least = np.maximum(abs(change[1]), 1e-8 * size)
+                    off[-1].append(abs(change[0] - change[1]) / least)
+    first, second = map(np.concatenate, off)
+    # of a beam that moves along its rods, the part is the largest
+    assert (first < (0.05 if isinstance(of, RigidAxle) else 0.03)).all()
     # a tenth of it, but for rounding: 1e-10 rad of 1e-6 rad
     assert (second < 0.13 * first + 1e-4).all()
 
