@@ -63,10 +63,10 @@ def command(file: File, *, json: Json = False) -> None:
 def _refuse_missing(file: str) -> None:
     """Refuse a file that is not there, so that what a check says is about its content."""
     from ..data.starter import all_packaged
-    from ..kinds import Suspension
+    from ..files.loading import load
 
     if file not in all_packaged() and not Path(file).is_file():
-        Suspension.load(file)  # says so, and what was probably meant
+        load(file)  # says so, and what was probably meant
 
 
 def _print(found: "Checkup", file: str) -> None:

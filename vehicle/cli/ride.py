@@ -1,6 +1,6 @@
 """``kintrafo ride``: rest, modes and motion of a car over a road."""
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -30,7 +30,9 @@ def command(
         str, argument("File of a car (TOML), or the name of a packaged one: quarter_car.", "FILE")
     ],
     *,
-    road: Annotated[str, option("Rough road: a class of ISO 8608, A to H.", "CLASS")] = "B",
+    road: Annotated[
+        Literal["A", "B", "C", "D", "E", "F", "G", "H"], option("Rough road: a class of ISO 8608.")
+    ] = "B",
     seed: Annotated[
         int, option("Seed of the rough road: equal seeds give equal roads.", "NUMBER")
     ] = 1,
@@ -39,7 +41,9 @@ def command(
         option("Height of one bump instead of the rough road; negative: a pothole.", "MM"),
     ] = None,
     bump_length: Annotated[float, option("Length of the bump.", "M")] = 0.5,
-    under: Annotated[str, option("Wheels that meet the bump: both, left, right.", "SIDE")] = "both",
+    under: Annotated[
+        Literal["both", "left", "right"], option("Wheels that meet the bump.")
+    ] = "both",
     speed: Annotated[float, option("Speed of the car.", "KM/H")] = 80.0,
     duration: Annotated[float, option("Duration of the simulation.", "S")] = 30.0,
     output_step: Annotated[float, option("Time between outputs.", "MS")] = 5.0,
@@ -53,15 +57,18 @@ def command(
     rough road further files, whose names end in _response, have the spectra and the responses to
     the road under each wheel.
     """
+    from ...core.arguments import Arguments
     from ...datasets import export
     from ..analysis import ride
 
+    with Arguments("kintrafo ride") as given:
+        given.number("--speed", speed, "km/h", above=0.0)
+        given.number("--duration", duration, "s", above=0.0)
+        given.number("--output-step", output_step, "ms", above=0.0)
     suffixes = ["", "_response"] if bump is None else [""]
     outputs = output.files(file, suffixes=suffixes, drawn=[""])
     assembly = car_of(file)
     v = speed / 3.6
-    if not duration > 0.0:
-        raise typer.BadParameter(f"--duration {duration:g}: more than 0 s is needed")
     chosen = _road(assembly, road, seed, bump, bump_length, under, v * duration)
     found = {"at_rest": ride.at_rest(assembly), "modes": ride.modes(assembly)}
     if bump is None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Container
 from importlib import resources
+from importlib.resources.abc import Traversable
 from pathlib import Path
 
 from ...core.errors import InputError
@@ -93,15 +94,15 @@ def whole_axles() -> tuple[str, ...]:
     return tuple(data_sets(WHOLE_AXLES))
 
 
-def all_packaged() -> tuple[str, ...]:
-    """Return the names of all that comes with kintrafo: suspensions, axles and cars.
+def all_packaged() -> dict[str, Traversable]:
+    """Return the files of all that comes with kintrafo, suspensions, axles and cars, by names.
 
     Examples
     --------
     >>> {"reference_car", "rigid_axle", "quarter_car"} <= set(all_packaged())
     True
     """
-    return (*packaged(), *packaged_axles(), *whole_axles(), *packaged_cars())
+    return data_sets() | data_sets(AXLES) | data_sets(WHOLE_AXLES) | data_sets(CARS)
 
 
 def whole_axle_in(data: Container[str]) -> str | None:

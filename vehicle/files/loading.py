@@ -3,7 +3,8 @@
 from pathlib import Path
 
 from ...core.arguments import Arguments
-from ..data.starter import AXLE, CAR
+from ..data import find
+from ..data.starter import AXLE, CAR, all_packaged
 from ..input.described import described_by
 from ..kinds import Suspension
 from ..models.axle.axle import Axle
@@ -42,6 +43,8 @@ def load(path_or_name: str | Path) -> Suspension | Axle | WholeAxle | Car:
     with Arguments("load") as given:
         given.path("path_or_name", path_or_name)
     key = described_by(path_or_name)
+    if not key:
+        find(path_or_name, all_packaged())
     if key in _KINDS:
         return _KINDS[key].load(path_or_name)
     return whole_axle_class(key).load(path_or_name)

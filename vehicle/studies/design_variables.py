@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ...core.arguments import Arguments, shown
 from ...core.quantities import Display, attributes
-from ...core.suggestions import suggestion
+from ...core.suggestions import nearest
 from ..assembly.of import assembly_of
 from ..input.units import unit_of, without_unit
 from .evaluation import Subject
@@ -184,7 +184,10 @@ def _hint(pattern: str, known: Mapping[str, DesignVariable]) -> str:
     if "bushings" in pattern.split(".")[:2] and not has_bushes:
         return "The file has no [bushings]. Add them."
     levels = {".".join(name.split(".")[:depth]) for name in known for depth in (1, 2, 3)}
-    return suggestion(pattern, sorted(levels)) if len(pattern) > 2 else "Name one of its sections."
+    found = nearest(pattern, levels) if len(pattern) > 2 else ""
+    if found:
+        return f"Did you mean {found}?"
+    return f"Its sections are: {', '.join(sorted({name.split('.')[0] for name in known}))}."
 
 
 def amounts(

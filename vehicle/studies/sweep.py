@@ -125,7 +125,7 @@ def _axes(
             if place in axes:
                 given.refuse(f"{name} is {place.name}, which is named twice.")
             axes[place] = np.atleast_1d(numbers) * place.to_si
-    if not axes:
+    if not grid:
         given.refuse("values: one place or more is needed.")
     count = np.prod([along.size for along in axes.values()], dtype=float)
     if count > _MOST_CARS:

@@ -32,12 +32,12 @@ def load(path_or_name: str | Path) -> Tyre:
     """
     with Arguments("load") as given:
         given.path("path_or_name", path_or_name)
-    path = Path(str(data_sets(_PACKAGED, ".tir").get(str(path_or_name), path_or_name)))
+    packaged = data_sets(_PACKAGED, ".tir")
+    path = Path(str(packaged.get(str(path_or_name), path_or_name)))
     if path.suffix.lower() == ".tir":
         return MagicFormula.load(path)
     if path.suffix.lower() == ".json":
         return TMeasy.load(path)
-    problem = (
-        f"a file that ends in .tir or .json is needed; this ends in {path.suffix or 'nothing'}."
-    )
+    names = ", ".join(packaged)
+    problem = f"a file that ends in .tir or .json is needed, or a packaged name: {names}."
     raise InputError([problem], str(path_or_name))
