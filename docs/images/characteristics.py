@@ -209,6 +209,7 @@ def _dimension(
         color=GREEN,
         ha="left" if upright else "center",
         va="center" if upright else "bottom" if above else "top",
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85},
     )
 
 

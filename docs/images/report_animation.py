@@ -1,22 +1,29 @@
-"""Draw docs/images/report.gif: ``python docs/images/report_animation.py``.
+"""Draw docs/images/report.gif and others: ``python docs/images/report_animation.py``.
 
-The report of the packaged push-rod suspension in Chromium: its wheel moves through its travel, then
-the rack through its own, and curves follow. Needs Chromium, and Playwright of the extra ``dev``.
+Reports in Chromium: two as they open, and that of the packaged push-rod suspension, whose wheel
+moves through its travel, then the rack through its own, and curves follow. Needs Chromium, and
+Playwright of the extra ``dev``.
 """  # noqa: INP001 (a script beside its picture)
 
 import io
 import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import kintrafo
 import numpy as np
 from PIL import Image
-from playwright.sync_api import sync_playwright
+from playwright.sync_api import Page, sync_playwright
 
 PICTURE = Path(__file__).with_name("report.gif")
 SIZE = {"width": 1120, "height": 640}
 SHOWN = (840, 480)
+STILLS = {
+    "reference_car": ("report.png", 1000),
+    "double_wishbone_car": ("double_wishbone.png", 900),
+}
 FRAMES = 22
 MILLISECONDS = 90
 # No service of the browser asks anything of the network; WebGL is drawn by the processor.
@@ -40,15 +47,24 @@ def positions() -> list[tuple[str, float]]:
     return travel + [("#rack", float(40.0 * wave)) for wave in waves]
 
 
-def frames(page_of_report: Path) -> list[Image.Image]:
-    """Return pictures of the report in all positions."""
-    shots = []
-    with sync_playwright() as running:
+@contextmanager
+def opened(car: str, **size: int) -> Iterator[Page]:
+    """Open the report of a packaged suspension in a window of some size."""
+    with TemporaryDirectory() as folder, sync_playwright() as running:
+        report = kintrafo.report.write(kintrafo.Model(car), Path(folder) / "report.html")
         browser = running.chromium.launch(
             executable_path=shutil.which("chromium") or shutil.which("google-chrome"), args=OPTIONS
         )
-        page = browser.new_page(viewport=SIZE, color_scheme="light")
-        page.goto(page_of_report.as_uri())
+        page = browser.new_page(viewport=size, color_scheme="light")
+        page.goto(report.as_uri())
+        yield page
+        browser.close()
+
+
+def frames() -> list[Image.Image]:
+    """Return pictures of the report in all positions."""
+    shots = []
+    with opened("push_rod_car", **SIZE) as page:
         page.locator('figure[data-curve="camber"]').scroll_into_view_if_needed()
         page.evaluate(
             """document.querySelector('figure[data-curve="camber"]')
@@ -59,7 +75,6 @@ def frames(page_of_report: Path) -> list[Image.Image]:
             page.wait_for_timeout(150)
             shot = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
             shots.append(shot.resize(SHOWN, Image.Resampling.LANCZOS))
-        browser.close()
     return shots
 
 
@@ -75,10 +90,12 @@ def palette_of(shot: Image.Image) -> Image.Image:
 
 
 def main() -> None:
-    """Write the picture."""
-    with TemporaryDirectory() as folder:
-        report = kintrafo.report.write(kintrafo.Model("push_rod_car"), Path(folder) / "report.html")
-        shots = frames(report)
+    """Write the pictures."""
+    for car, (name, height) in STILLS.items():
+        with opened(car, width=1440, height=height) as page:
+            page.wait_for_timeout(1000)
+            page.screenshot(path=PICTURE.with_name(name))
+    shots = frames()
     palette = palette_of(shots[0])
     pictures = [shot.quantize(palette=palette, dither=Image.Dither.NONE) for shot in shots]
     pictures[0].save(

@@ -26,6 +26,8 @@ def write_panels(
 ) -> Path:
     """Write one figure of several panels, two beside each other.
 
+    The legend below them is of those without a legend of their own.
+
     Parameters
     ----------
     draw : callable
@@ -57,7 +59,11 @@ def write_panels(
             draw(axes, name)
         for axes in panels[len(names) :]:
             axes.remove()
-        found = [panel.get_legend_handles_labels() for panel in panels[: len(names)]]
+        found = [
+            panel.get_legend_handles_labels()
+            for panel in panels[: len(names)]
+            if panel.get_legend() is None
+        ]
         named = {
             label: line
             for lines, labels in found

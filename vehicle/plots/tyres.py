@@ -115,6 +115,7 @@ class _Curves:
         axes.set_xlabel("longitudinal force [kN]")
         axes.set_ylabel(f"lateral force [kN], at {load:.0f} N")
         axes.set_aspect("equal", adjustable="datalim")
+        axes.legend(fontsize=8, ncols=2, loc="lower center")
 
     def camber(self, axes: Axes) -> None:
         """Draw the lateral force over small slip angles at several cambers."""
@@ -127,6 +128,7 @@ class _Curves:
                 axes.plot(small, 1e-3 * found.fy, dash, color="#777777", label=label)
         axes.set_xlabel("slip angle [deg]; camber is positive with the top to the right")
         axes.set_ylabel(f"lateral force [kN], at {load:.0f} N")
+        axes.legend(fontsize=8)
 
     def stiffness(self, axes: Axes) -> None:
         """Draw cornering stiffness and relaxation length over the load."""
@@ -148,3 +150,4 @@ class _Curves:
             )  # fmt: skip
             axes.set_ylabel("stiffness [N/deg], length [mm]")
         axes.set_ylim(bottom=0.0)
+        axes.legend(fontsize=8)
