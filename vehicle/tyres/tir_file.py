@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ...core.errors import InputError
 from ...core.legible import legible, short
+from ...formulas.coefficients import ODD
 from ...formulas.magic_formula import Form
 from ..input.teim_orbit import Block, read_blocks
 from ..input.teim_values import NEWTONS, number
@@ -109,12 +110,22 @@ class _Reader:
         asked = self._text("MODEL", "FE_METHOD").upper() == "YES"
         weighted = not asked and any(numbers.get(key) for key in known.OF_COMBINED_SLIP)
         form = Form(newer=newer, weighted=weighted, angle=not newer)
-        assumed = tuple(self._assumed(numbers, form))
+        assumed = (*self._assumed_of_side(numbers), *self._assumed(numbers, form))
         if numbers.get("QSY7") == 0.0:
             del numbers["QSY7"]
         if _is_turned(numbers, form):
             numbers |= {key: -numbers.get(key, 0.0) for key in ("PDY1", "PDY2")}
         return TirFile(numbers, form, name, self._side(), tuple(_listed(unused)), assumed)
+
+    def _assumed_of_side(self, numbers: Mapping[str, float]) -> Iterator[str]:
+        """Yield that a tyre which is not symmetric is not mirrored, where no side is given."""
+        if not self._side() and any(numbers.get(key) for key in ODD):
+            given = self._text("MODEL", "TYRESIDE")
+            why = f"= '{_shown(given)}' is neither LEFT nor RIGHT" if given else "is missing"
+            yield (
+                "the same tyre on both sides: not mirrored, though it is not symmetric, since "
+                f"TYRESIDE {why}"
+            )
 
     # -- what it is --
 

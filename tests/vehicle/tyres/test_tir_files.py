@@ -3,6 +3,7 @@
 import kintrafo
 import numpy as np
 import pytest
+from kintrafo.formulas.coefficients import ODD
 from kintrafo.vehicle.tyres import coefficients
 from tyres import ELLIPSE, FILES, NEWER, OLDER, with_values, without
 
@@ -134,6 +135,10 @@ def test_what_is_left_open_is_told(load):
         "LONGVL: 16.7 m/s, since it is missing",
         "VXLOW: 1 m/s, since it is missing",
     )
+    none = dict.fromkeys(ODD, 0.0)
+    for wrong in (NEWER.replace("'LEFT'", "'LEFFT'"), without(NEWER, "TYRESIDE")):
+        assert "not mirrored, though it is not symmetric" in load(wrong).assumed[0]
+    assert load(without(with_values(NEWER, **none), "TYRESIDE")).assumed == ()
     found = load(with_values(NEWER, QSY7=0))
     assert found.coefficients["QSY7"] == 1.0
     assert "QSY7: 1 and not 0" in found.assumed[0]
