@@ -173,6 +173,35 @@ def mode_of_states(
     return _mode(tuple(values[k] for k in pair), shapes[:, pair[0]], names)
 
 
+def modes_of_motions(
+    matrix: Array, names: tuple[str, ...], motions: Sequence[Sequence[int]]
+) -> tuple[Mode, ...]:
+    """Return the mode of each motion, and no oscillating one twice.
+
+    As `mode_of_states` for each. Where two motions take part most in the same mode, as wheels of
+    equal axles do, modes are shared out so that the sum of all participations is greatest.
+
+    Parameters
+    ----------
+    matrix, names
+        As in `mode_of_states`.
+    motions : sequence of sequence of int
+        The places of each: a coordinate and its rate.
+    """
+    from scipy.optimize import linear_sum_assignment  # noqa: PLC0415 (slow to import)
+
+    found = [mode_of_states(matrix, names, places) for places in motions]
+    oscillating = [i for i, mode in enumerate(found) if mode.oscillates]
+    values, left, right = _decompose(matrix)
+    upper = np.flatnonzero(values.imag > 0.0)
+    parts = _participation(left, right)[:, upper]
+    shares = np.array([parts[list(motions[i])].sum(axis=0) for i in oscillating])
+    rows, columns = linear_sum_assignment(shares.reshape(-1, upper.size), maximize=True)
+    for row, k in zip(rows, upper[columns], strict=True):
+        found[oscillating[row]] = _mode((values[k], values[k].conjugate()), right[:, k], names)
+    return tuple(found)
+
+
 def _mode(values: tuple[complex, ...], shape: Complex, names: tuple[str, ...]) -> Mode:
     largest = shape[np.argmax(np.abs(shape))]
     return Mode(tuple(map(complex, values)), shape / largest, names)

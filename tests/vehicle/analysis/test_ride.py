@@ -315,6 +315,15 @@ def test_modes_have_names(whole: kintrafo.CarModel) -> None:
     assert frequencies[3:].min() > 8.0
 
 
+def test_equal_axles_have_as_many_modes_as_names(whole: kintrafo.CarModel) -> None:
+    """Wheels of both take part alike in modes of two axles together, and against each other."""
+    car = whole.car.with_changes({"body.com_mm": [-1300.0, 0.0, 600.0]})
+    found = np.sort(kintrafo.ride.modes(car)["frequency"].values)
+    modes = linear_at_rest(assembly_of(car)).modes
+    wanted = np.sort([mode.natural_frequency for mode in modes if mode.oscillates])
+    np.testing.assert_allclose(found, wanted, rtol=1e-9)
+
+
 def test_four_wheels_ride_as_the_linear_equations_say(whole: kintrafo.CarModel) -> None:
     speed = 20.0
     road = iso8608("A", length=1200.0, seed=4, track=assembly_of(whole).track)

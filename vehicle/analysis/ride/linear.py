@@ -20,7 +20,7 @@ from ....core.arguments import Arguments
 from ....core.quantities import variable
 from ....datasets.columns import AS_COLUMNS
 from ....systems.linearisation import Linearisation, linearise
-from ....systems.modes import mode_of_states
+from ....systems.modes import modes_of_motions
 from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from ...assembly.car import CarAssembly
 from ...assembly.equilibrium import equilibrium
@@ -50,9 +50,10 @@ def modes(subject: Any) -> xr.Dataset:
     -------
     xarray.Dataset
         Over ``mode``: ``frequency``, undamped [Hz], and ``damping_ratio``, without friction. The
-        modes are those in which the motion of the name takes part most: ``heave``, ``pitch`` and
-        ``roll`` of the body; ``front_hop`` and ``rear_hop``, both wheels of an axle together, and
-        ``front_tramp`` and ``rear_tramp``, oppositely; of a quarter car ``heave`` and ``hop``.
+        modes are those in which the motion of the name takes part most, none of them twice:
+        ``heave``, ``pitch`` and ``roll`` of the body; ``front_hop`` and ``rear_hop``, both wheels
+        of an axle together, and ``front_tramp`` and ``rear_tramp``, oppositely; of a quarter car
+        ``heave`` and ``hop``.
 
     Examples
     --------
@@ -65,7 +66,7 @@ def modes(subject: Any) -> xr.Dataset:
     linear = linear_at_rest(assembly)
     matrix, names, motions = _in_motions(assembly, linear)
     places = [[names.index(name), names.index(f"{name}_rate")] for name in motions]
-    found = [mode_of_states(matrix, names, place) for place in places]
+    found = modes_of_motions(matrix, names, places)
     return xr.Dataset(
         {
             "frequency": variable(
