@@ -196,7 +196,9 @@ def modes_of_motions(
     upper = np.flatnonzero(values.imag > 0.0)
     parts = _participation(left, right)[:, upper]
     shares = np.array([parts[list(motions[i])].sum(axis=0) for i in oscillating])
-    rows, columns = linear_sum_assignment(shares.reshape(-1, upper.size), maximize=True)
+    rows, columns = linear_sum_assignment(
+        shares.reshape(len(oscillating), upper.size), maximize=True
+    )
     for row, k in zip(rows, upper[columns], strict=True):
         found[oscillating[row]] = _mode((values[k], values[k].conjugate()), right[:, k], names)
     return tuple(found)

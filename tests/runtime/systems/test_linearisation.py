@@ -16,7 +16,7 @@ from kintrafo import (
     simulate,
     state_at_height,
 )
-from kintrafo.systems.modes import eigenvalues_of, mode_of_states, modes_of
+from kintrafo.systems.modes import eigenvalues_of, mode_of_states, modes_of, modes_of_motions
 from oracle.multipliers import solve_free, solve_prescribed
 from oracle.newton import Mechanism, solve_pose
 from oracle.reference import EIGENVALUES_AT_REST, SPIN_RATE, reference_parameters
@@ -378,3 +378,11 @@ def test_instants_and_models_name_the_same_states():
         assert instant.state(MODELS[name])[: len(model.state_names) // 2].tolist() == (
             [1.0, 2.0, 3.0] if model.free_rack else [1.0, 2.0]
         )
+
+
+def test_motions_that_only_creep_have_their_modes_too():
+    """Two bodies on dampers so strong that nothing oscillates."""
+    matrix = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.diag([1.0, 2.0]), -9.0 * np.eye(2)]])
+    found = modes_of_motions(matrix, ("a", "b", "a_rate", "b_rate"), [[0, 2], [1, 3]])
+    wanted = [np.sqrt(value) / (2.0 * np.pi) for value in (1.0, 2.0)]
+    np.testing.assert_allclose([mode.natural_frequency for mode in found], wanted, rtol=1e-12)
