@@ -458,7 +458,7 @@ def figure(found: list[Rate]) -> Figure:
             color=colours[what],
             label=label,
         )
-    axes.set(xscale="log", yscale="log", xlabel="cars", ylabel="simulated seconds in one")
+    axes.set(xscale="log", yscale="log", xlabel="cars", ylabel="simulated seconds in one second")
     axes.legend(frameon=False, fontsize=8)
     return drawn
 

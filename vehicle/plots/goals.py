@@ -77,7 +77,7 @@ def mark_sides(
 ) -> NDArray[np.float64]:
     """Mark what `about` returns, that of one side in the colour of its curve; as `mark`."""
     return np.concatenate(
-        [mark(axes, some, side, colours[side] if side else "") for side, some in goals.items()]
+        [mark(axes, some, side, colours.get(side, "")) for side, some in goals.items()]
     )
 
 

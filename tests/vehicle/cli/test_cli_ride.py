@@ -1,7 +1,9 @@
 """Tables of ``kintrafo ride``: the wheels have a column each, the body has its figures in one."""
 
+import numpy as np
 from kintrafo.vehicle.assembly.by_wheel import WHEEL
 from kintrafo.vehicle.cli import ride
+from kintrafo.vehicle.plots.curves import figure
 from rich.text import Text
 from xarray import Dataset
 
@@ -45,3 +47,10 @@ def test_a_bump_that_no_wheel_meets_is_refused(kintrafo):
     code, _, said = kintrafo("ride", "quarter_car", "--bump", "20", "--under", "left")
     assert code == 2
     assert "wheel on the other side" in said
+
+
+def test_curves_of_four_wheels_are_drawn():
+    wheels = ["front_left", "front_right", "rear_left", "rear_right"]
+    loads = np.outer([1.0, 2.0, 3.0, 4.0], np.ones(3))
+    motion = Dataset({"load": ((WHEEL, "time"), loads)}, {WHEEL: wheels, "time": [0.0, 1.0, 2.0]})
+    assert figure(motion, ["load"], title="a ride").axes
