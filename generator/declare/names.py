@@ -38,7 +38,7 @@ guard_bit finite_bit either first_not_finite failed status_word
 parameters constants state inputs given out status wanted compute i np design_state prepare found
 results follow follow_turns square fmax GUARD_FLOOR ROUNDING ITERATIONS CONVERGED STALLED LONGEST
 TURNED INLINED NOT_INLINED NO_EFFECT NULL CLOSE SHORTEST CLOSED FULL_TURN UNKNOWNS ELEMENTS DRIVEN
-ADDRESSES kept INLINE GREATEST_ANGLE ROUNDER SPREAD BITS REAL MODEL WIDTH
+ADDRESSES MECHANISM kept INLINE GREATEST_ANGLE ROUNDER SPREAD BITS REAL MODEL WIDTH
 kt_any_sine kt_any_cosine kt_sine kt_cosine kt_arc_sine kt_arc_tangent kt_root kt_magnitude
 kt_with_sign_of kt_exponential kt_logarithm kt_real
 """

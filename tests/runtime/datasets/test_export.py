@@ -157,11 +157,11 @@ def test_same_curves_same_picture(tmp_path, ending):
 
 def test_axes_say_name_unit_and_sign():
     (axes,) = plots.figure(LINE, ["camber"]).axes
-    assert axes.get_ylabel() == "camber [deg]\npositive with the top of the wheel outboard"
-    assert axes.get_xlabel() == "wheel travel [mm]\npositive in bump"
+    assert axes.get_xlabel() == "camber [deg]\npositive with the top of the wheel outboard"
+    assert axes.get_ylabel() == "wheel travel [mm]\npositive in bump"
     (line, *_) = axes.get_lines()
-    assert line.get_xdata() == pytest.approx(np.linspace(-60.0, 80.0, 8))
-    assert line.get_ydata() == pytest.approx(np.degrees(LINE["camber"].values))
+    assert line.get_ydata() == pytest.approx(np.linspace(-60.0, 80.0, 8))
+    assert line.get_xdata() == pytest.approx(np.degrees(LINE["camber"].values))
 
 
 def test_constants_and_poles_get_sensible_axes():
@@ -170,7 +170,7 @@ def test_constants_and_poles_get_sensible_axes():
     curves = {"flat": 5.0 + 1e-15 * travel, "pole": pole, "none": np.full(201, np.nan)}
     data = {name: ("wheel_travel", values) for name, values in curves.items()}
     figure = plots.figure(xr.Dataset(data, {"wheel_travel": travel}), list(curves), alone=False)
-    flat, pole, _ = (axes.get_ylim() for axes in figure.axes)
+    flat, pole, _ = (axes.get_xlim() for axes in figure.axes)
     assert flat == pytest.approx((4.75, 5.25))
     assert 5.0 < pole[1] < 50.0
     assert figure.axes[2].texts[0].get_text() == "not defined"
@@ -180,7 +180,7 @@ def test_nothing_connects_the_branches_of_a_pole():
     travel = np.linspace(-1.0, 1.0, 200)  # which passes over zero
     data = xr.Dataset({"pole": ("wheel_travel", 1.0 / travel)}, {"wheel_travel": travel})
     (line, *_) = plots.figure(data, ["pole"], alone=False).axes[0].get_lines()
-    (gap,) = np.flatnonzero(np.isnan(line.get_ydata()))
+    (gap,) = np.flatnonzero(np.isnan(line.get_xdata()))
     assert travel[gap] < 0.0 < travel[gap + 1]
 
 

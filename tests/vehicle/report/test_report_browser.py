@@ -19,6 +19,7 @@ from browser import (
 )
 from kintrafo import Model, state_at_height
 from kintrafo.vehicle.models.points import hardpoints
+from kintrafo.vehicle.report.grid import Axis, Grid
 
 pytestmark = needs_chromium
 MODEL = Model("reference_car")
@@ -343,9 +344,10 @@ def test_wheel_rate_jumps_where_the_stops_begin_to_act(browser, tmp_path_factory
     watched.context.close()
 
 
-@pytest.mark.usefixtures("coarse_report")
-def test_what_is_interpolated_says_so(browser, tmp_path):
+def test_what_is_interpolated_says_so(browser, tmp_path, monkeypatch):
     """On a coarse grid: at its positions values are computed, between them they are in doubt."""
+    grid = Grid(Axis(-0.05, 0.025, 5), Axis(-0.04, 0.02, 5))
+    monkeypatch.setattr("kintrafo.vehicle.report.page.reachable_grid", lambda _: grid)
     watched = Watched(browser, kintrafo.report.write(MODEL, tmp_path / "coarse.html"))
     told = {}
     for travel in (0.0, 0.025, 0.010):
