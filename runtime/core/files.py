@@ -134,7 +134,7 @@ def refuse(
 def _paths(paths: Paths, inputs: Paths, force: object) -> tuple[list[Path], list[str | Path]]:
     """Return what is written and what is read; refuse what are no paths.
 
-    A text would be one path for each of its letters. `Arguments` would do it, and is slow to load:
+    A text would be one path for each of its letters. `Validator` would do it, and is slow to load:
     commands that only print their help read this file, too.
     """
     listed = {"path": _listed(paths), "inputs": _listed(inputs)}

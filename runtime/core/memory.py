@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from .arguments import Arguments
 from .named_types import ArrayLike
+from .validator import Validator
 
 Array = NDArray[np.float64]
 
@@ -18,12 +18,12 @@ _EACH = 4096
 _UNITS = (("TB", 1e12), ("GB", 1e9), ("MB", 1e6))
 
 
-def refuse_beyond(given: Arguments, needed: float, what: str, instead: str) -> bool:
+def refuse_beyond(given: Validator, needed: float, what: str, instead: str) -> bool:
     """Refuse what needs more memory than there is, and return whether it does.
 
     Parameters
     ----------
-    given : Arguments
+    given : Validator
     needed : float
         [bytes]
     what : str
@@ -33,12 +33,12 @@ def refuse_beyond(given: Arguments, needed: float, what: str, instead: str) -> b
     """
     there = free()
     if needed > there:
-        given.refuse(f"{what} need {_size(needed)}, and {_size(there)} are free. {instead}")
+        given.fail(f"{what} need {_size(needed)}, and {_size(there)} are free. {instead}")
     return needed > there
 
 
 def positions_given(
-    given: Arguments,
+    given: Validator,
     name: str,
     values: ArrayLike,
     unit: str,
@@ -50,7 +50,7 @@ def positions_given(
 
     Parameters
     ----------
-    given : Arguments
+    given : Validator
     name, values, unit
         The argument.
     dimensions : sequence of int, optional

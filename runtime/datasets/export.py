@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ..core.arguments import Arguments, shown
 from ..core.errors import InputError
 from ..core.files import Paths, replacing
 from ..core.legible import legible
 from ..core.optional import require
 from ..core.quantities import bracketed, display_of
+from ..core.validator import Validator, shown
 from . import workbook
 from .columns import flat
 
@@ -70,19 +70,19 @@ def write(
     MissingPackageError
         If the format needs a package that is not installed.
     """
-    with Arguments("export") as given:
+    with Validator("export") as given:
         given.dataset(dataset)
-        if not given.refused and not dataset.data_vars:
-            given.refuse("dataset: it has no variables.")
+        if not given.failed and not dataset.data_vars:
+            given.fail("dataset: it has no variables.")
         given.flag("force", force)
         given.paths("inputs", inputs)
         sheets = {"data": dataset} if sheets is None else sheets
         for name, sheet in given.mapping("sheets", sheets, "names and datasets").items():
-            given.kind(f"sheets[{name!r}]", sheet, xr.Dataset, "an xarray.Dataset is needed")
+            given.instance(f"sheets[{name!r}]", sheet, xr.Dataset, "an xarray.Dataset is needed")
             if not _SHEET.fullmatch(str(name)):
-                given.refuse(f"sheets: {shown(name)} is no name of a sheet: {_NAMED}.")
+                given.fail(f"sheets: {shown(name)} is no name of a sheet: {_NAMED}.")
         if sheets == {}:
-            given.refuse("sheets: one or more are needed.")
+            given.fail("sheets: one or more are needed.")
     ending = check_format(path)
     with replacing(path, force=force, inputs=inputs) as temporary:
         if ending == ".xlsx":
@@ -94,7 +94,7 @@ def write(
 
 def check_format(path: str | Path) -> str:
     """Return the ending of a file's name, or refuse it where no such file can be written."""
-    with Arguments("export") as given:
+    with Validator("export") as given:
         given.path("path", path)
     ending = Path(path).suffix.lower()
     if ending not in _FORMATS:
@@ -121,7 +121,7 @@ def as_dict(dataset: xr.Dataset) -> dict[str, Any]:
         ``coordinates`` and ``variables``, each by name: ``units``, ``long_name``, ``sign``,
         ``dimensions`` and ``values``. What is over names has a variable for each.
     """
-    with Arguments("export") as given:
+    with Validator("export") as given:
         given.dataset(dataset)
     table = flat(dataset)
 

@@ -7,8 +7,8 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.integrate import trapezoid
 
-from ..core.arguments import Arguments
 from ..core.quantities import variable
+from ..core.validator import Validator
 from ..simulation.result import Simulation
 from ..systems.system import System
 
@@ -39,11 +39,11 @@ def dataset_of(model: System, result: Simulation) -> xr.Dataset:
     >>> dataset_of(model, result)["camber"].attrs["units"]
     'rad'
     """
-    with Arguments("dataset_of") as given:
-        given.kind("model", model, System, System.NEEDED)
-        given.kind("result", result, Simulation, "what kintrafo.simulate returns is needed")
-        if not given.refused and tuple(result.signals) != model.signal_names:
-            given.refuse(f"result: it is not a motion of this model, {model!r}.")
+    with Validator("dataset_of") as given:
+        given.instance("model", model, System, System.NEEDED)
+        given.instance("result", result, Simulation, "what kintrafo.simulate returns is needed")
+        if not given.failed and tuple(result.signals) != model.signal_names:
+            given.fail(f"result: it is not a motion of this model, {model!r}.")
     equations = model.equations
     tables = (
         (equations.SIGNALS, [result.signals[name] for name in model.signal_names]),
@@ -98,7 +98,7 @@ def statistics(dataset: xr.Dataset) -> dict[str, Statistics]:
     >>> found.mean, round(found.rms**2, 12)
     (1.0, 0.5)
     """
-    with Arguments("statistics") as given:
+    with Validator("statistics") as given:
         given.dataset(dataset, over=TIME)
     times = np.asarray(dataset[TIME].values, dtype=np.float64)
     return {str(name): _of(times, np.asarray(data.values)) for name, data in dataset.items()}

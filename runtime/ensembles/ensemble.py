@@ -10,9 +10,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..core.arguments import Arguments, shown
 from ..core.errors import InputError
 from ..core.named_types import ArrayLike
+from ..core.validator import Validator, shown
 from ..simulation.accuracy import accuracy_of, outputs_of, span_of
 from ..simulation.lanes import library
 from ..simulation.lanes.problem import Problem, Systems
@@ -154,9 +154,9 @@ def ensemble(
     >>> found.sizes["car"], bool(found["valid"].all())
     (3, True)
     """
-    with Arguments("ensemble") as given:
-        given.kind("model", model, System, System.NEEDED)
-        if not given.refused:
+    with Validator("ensemble") as given:
+        given.instance("model", model, System, System.NEEDED)
+        if not given.failed:
             state = _start(given, model, y0)
             span = _span(given, t_span)
             times = outputs_of(
@@ -204,11 +204,11 @@ def ensemble(
 # -- arguments ------------------------------------------------------------------------------------
 
 
-def _start(given: Arguments, model: System, y0: Any) -> Array:
+def _start(given: Validator, model: System, y0: Any) -> Array:
     """Return the initial states, one row for all or one for each; NaN for the design position."""
     size = len(model.state_names)
     if not size:
-        given.refuse(
+        given.fail(
             f"{model.equations.NAME} moves as its inputs say, and has no state to be integrated. "
             "Use kintrafo.simulate for each, or the signals of a System at many inputs."
         )
@@ -222,44 +222,44 @@ def _check_together(
     model: System, y0: Any, courses: Mapping[str, Any], own: Variants, asked: OutputSpec
 ) -> None:
     """Refuse arguments that are right each for itself."""
-    with Arguments("ensemble") as given:
+    with Validator("ensemble") as given:
         _check_rows(given, model, y0, {*courses, *own.inputs, *own.labels})
         _check_results(given, asked, own)
 
 
-def _check_rows(given: Arguments, model: System, y0: Any, names: set[str]) -> None:
+def _check_rows(given: Validator, model: System, y0: Any, names: set[str]) -> None:
     """Refuse rows of states that were found under inputs that are not known."""
     for row in y0 if isinstance(y0, list | tuple) else ():
         held = inputs_of(row, model.names_of_states)
         moved = [] if held is None else [model.input_names[i] for i in np.flatnonzero(held)]
         forgotten = [name for name in moved if name not in names]
         if forgotten:
-            given.refuse(
+            given.fail(
                 f"y0 has rows of states that belong to {', '.join(forgotten)}, and rows of numbers "
                 f"do not know that: give {' and '.join(forgotten)} in variants or inputs."
             )
             return
 
 
-def _check_results(given: Arguments, asked: OutputSpec, own: Variants) -> None:
+def _check_results(given: Validator, asked: OutputSpec, own: Variants) -> None:
     """Refuse results that are called as what varies."""
     varied = {*own.parameters, *own.inputs, *own.labels, *map(str, own.coordinates)}
     results = {*asked.signals, *(reduced.name for reduced in asked.reduced)}
     for name in sorted(varied & results):
-        given.refuse(
+        given.fail(
             f"{name!r} is both what varies and a result that was asked for: keep another one, such "
             "as the signal itself over time."
         )
 
 
-def _span(given: Arguments, t_span: Any) -> tuple[float, float]:
+def _span(given: Validator, t_span: Any) -> tuple[float, float]:
     first, last = span_of(given, t_span)
     if last < first:
-        given.refuse(f"t_span = {shown(t_span)}: an ensemble goes forward, from earlier to later.")
+        given.fail(f"t_span = {shown(t_span)}: an ensemble goes forward, from earlier to later.")
     return min(first, last), max(first, last)
 
 
-def _width(given: Arguments, model: System, lanes: Any) -> int:
+def _width(given: Validator, model: System, lanes: Any) -> int:
     """Return how many lanes are used; equations that have none are refused at once."""
     there = library.widths()
     width = there[-1] if there else 0
@@ -267,14 +267,14 @@ def _width(given: Arguments, model: System, lanes: Any) -> int:
         library.functions(model.equations, width, "")
     except InputError as error:
         for problem in error.problems:
-            given.refuse(problem)
+            given.fail(problem)
         return width
     if lanes is None:
         return width
     wanted = given.whole("lanes", lanes)
     if wanted not in there:
         known = ", ".join(map(str, there))
-        given.refuse(f"lanes = {shown(lanes)}: on this machine there are {known}.")
+        given.fail(f"lanes = {shown(lanes)}: on this machine there are {known}.")
     return wanted
 
 

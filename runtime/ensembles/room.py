@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from ..core.arguments import Arguments
 from ..core.memory import refuse_beyond
+from ..core.validator import Validator
 from ..simulation.lanes.run import SAMPLES
 from ..systems.system import System
 from .series import TOGETHER
@@ -34,7 +34,7 @@ class Room:
     threads: int
     width: int
 
-    def refuse_beyond(self, given: Arguments, count: int, columns: int) -> None:
+    def refuse_beyond(self, given: Validator, count: int, columns: int) -> None:
         """Refuse so many systems with so many columns of their own, if they need too much."""
         states = len(self.model.state_names)
         of_one = self.asked.numbers + _OTHERS + _OF_COLUMN * columns + _OF_STATE * states

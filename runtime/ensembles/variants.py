@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..core.arguments import Arguments, shown
 from ..core.physical import impossible
 from ..core.suggestions import suggestion
+from ..core.validator import Validator, shown
 from ..systems.inputs import derived_inputs
 from ..systems.system import System
 from .room import Room
@@ -77,20 +77,20 @@ def variants_of(
         What is kept of the systems.
     """
     choices = {name: several for name, several in courses.items() if isinstance(several, Mapping)}
-    with Arguments("ensemble") as arguments:
+    with Validator("ensemble") as arguments:
         for name, several in choices.items():
             arguments.labels(f"inputs {name!r}", several)
         columns = _columns(arguments, model, given, choices)
-        if not arguments.refused:
+        if not arguments.failed:
             _check_names(arguments, model, columns, courses)
             _check_units(arguments, model, columns, choices)
             _check_coordinates(arguments, model, given, columns)
-        if not arguments.refused:
+        if not arguments.failed:
             columns, shape = _broadcast(arguments, columns, rows)
             room.refuse_beyond(arguments, math.prod(shape.values()), len(columns))
-        if not arguments.refused:
+        if not arguments.failed:
             coordinates = _coordinates(arguments, model, given, columns)
-        if arguments.refused:
+        if arguments.failed:
             return Variants({})
         found = Variants(shape, coordinates)
         homes = (
@@ -122,7 +122,7 @@ def numbered(labels: NDArray[Any]) -> tuple[list[Any], NDArray[np.int64]]:
 
 
 def _columns(
-    arguments: Arguments, model: System, given: Any, choices: Mapping[str, Any]
+    arguments: Validator, model: System, given: Any, choices: Mapping[str, Any]
 ) -> dict[str, xr.DataArray]:
     """Return what was given as labelled arrays by name."""
     if given is None:
@@ -140,7 +140,7 @@ def _columns(
             continue
         array = _row(values, exact=name in choices)
         if array is None:
-            arguments.refuse(
+            arguments.fail(
                 f"variants {shown(name)} = {shown(values)}: one number, or a row of one for each "
                 "system, is needed. What goes over several dimensions is an xarray.DataArray."
             )
@@ -180,32 +180,32 @@ def _row(values: Any, *, exact: bool) -> NDArray[Any] | None:
 
 
 def _check_names(
-    arguments: Arguments, model: System, columns: Mapping[str, Any], courses: Mapping[str, Any]
+    arguments: Validator, model: System, columns: Mapping[str, Any], courses: Mapping[str, Any]
 ) -> None:
     derived = derived_inputs(model.equations.INPUTS)
     known = [name for name in _described(model) if name not in derived]
     for name in columns:
         if name in derived:
-            arguments.refuse(f"variants {name!r} follows from {derived[name]!r}: vary that.")
+            arguments.fail(f"variants {name!r} follows from {derived[name]!r}: vary that.")
         elif name not in known:
-            arguments.refuse(f"variants {name!r} is not known. {suggestion(name, known)}")
+            arguments.fail(f"variants {name!r} is not known. {suggestion(name, known)}")
         elif body := without_mass(model, name):
-            arguments.refuse(
+            arguments.fail(
                 f"variants {name!r} changes nothing: the equations of {model.equations.NAME} leave "
                 f"the {body} without mass."
             )
     for name, course in courses.items():
         if name in columns and not isinstance(course, Mapping):
-            arguments.refuse(f"{name!r} is in both inputs and variants: give one of them.")
+            arguments.fail(f"{name!r} is in both inputs and variants: give one of them.")
         elif isinstance(course, Mapping) and name not in columns:
-            arguments.refuse(
+            arguments.fail(
                 f"inputs {name!r} has several courses: variants needs {name!r}, the label of one "
                 "of them for each system."
             )
 
 
 def _check_units(
-    arguments: Arguments,
+    arguments: Validator,
     model: System,
     columns: Mapping[str, xr.DataArray],
     choices: Mapping[str, Any],
@@ -215,13 +215,11 @@ def _check_units(
     for name, column in columns.items():
         text, unit = column.attrs.get("units"), described[name]["unit"]
         if text is not None and text != unit and name not in choices:
-            arguments.refuse(
-                f"variants {name!r} are in {shown(text)}: they are needed in {unit!r}."
-            )
+            arguments.fail(f"variants {name!r} are in {shown(text)}: they are needed in {unit!r}.")
 
 
 def _check_coordinates(
-    arguments: Arguments, model: System, given: Any, columns: Mapping[str, xr.DataArray]
+    arguments: Validator, model: System, given: Any, columns: Mapping[str, xr.DataArray]
 ) -> None:
     """Refuse dimensions and coordinates that are called as results are."""
     arrays = [given] if isinstance(given, xr.Dataset) else [*(given or {}).values()]
@@ -230,17 +228,17 @@ def _check_coordinates(
     if isinstance(given, xr.Dataset):
         _check_dimensions(arguments, model, given, columns)
     for name in {str(n) for a in labelled for n in (*a.dims, *a.coords)} & taken:
-        arguments.refuse(f"variants have a dimension or coordinate {name!r}: results have it.")
+        arguments.fail(f"variants have a dimension or coordinate {name!r}: results have it.")
 
 
 def _check_dimensions(
-    arguments: Arguments, model: System, given: xr.Dataset, columns: Mapping[str, xr.DataArray]
+    arguments: Validator, model: System, given: xr.Dataset, columns: Mapping[str, xr.DataArray]
 ) -> None:
     """Refuse dimensions over which nothing goes: what is meant there has another name."""
     over = {dimension for column in columns.values() for dimension in column.dims}
     for dimension in given.dims:
         if dimension not in over:
-            arguments.refuse(
+            arguments.fail(
                 f"variants: nothing goes over the dimension {dimension!r}. "
                 f"{suggestion(str(dimension), _described(model))}"
             )
@@ -254,7 +252,7 @@ def without_mass(model: System, name: str) -> str:
 
 
 def _broadcast(
-    arguments: Arguments, columns: dict[str, xr.DataArray], rows: int | None
+    arguments: Validator, columns: dict[str, xr.DataArray], rows: int | None
 ) -> tuple[dict[str, xr.DataArray], dict[Hashable, int]]:
     """Return the columns over all dimensions, and these with their lengths."""
     start = {} if rows is None else {"": xr.DataArray(np.zeros(rows), dims=CAR)}
@@ -264,14 +262,14 @@ def _broadcast(
         together = xr.broadcast(*alike)
     except ValueError as error:
         what = "variants" if rows is None else "variants and the rows of y0"
-        arguments.refuse(
+        arguments.fail(
             f"{what} do not go together: rows as long as each other, and the same labels in the "
             f"same order, are needed ({error})."
         )
         return {}, {}
     shape = dict(together[0].sizes) if together else {}
     if rows is not None and shape != {CAR: rows}:
-        arguments.refuse(
+        arguments.fail(
             f"y0 has {rows} rows, and variants go over {', '.join(map(str, shape))}: vary elements "
             "of the state by name in variants."
         )
@@ -280,7 +278,7 @@ def _broadcast(
 
 
 def _coordinates(
-    arguments: Arguments, model: System, given: Any, columns: Mapping[str, xr.DataArray]
+    arguments: Validator, model: System, given: Any, columns: Mapping[str, xr.DataArray]
 ) -> dict[Hashable, Any]:
     """Return the labels of the systems, as far as they were given; refuse those that mislead."""
     arrays = [given] if isinstance(given, xr.Dataset) else [*(given or {}).values()]
@@ -288,13 +286,13 @@ def _coordinates(
     found: dict[Hashable, Any] = {}
     for name, labels in (item for array in labelled for item in array.coords.items()):
         if labels.dims and not found.setdefault(name, labels.variable).equals(labels.variable):
-            arguments.refuse(f"variants: coordinates {name!r} of several differ.")
+            arguments.fail(f"variants: coordinates {name!r} of several differ.")
     for name, values in found.items():
         if name not in _described(model):
             continue
         column = columns.get(str(name))
         if column is None or not np.all(column.variable == values):
-            arguments.refuse(
+            arguments.fail(
                 f"variants have a coordinate {name!r}, which is not what {name!r} is: coordinates "
                 "of a dict are labels alone. Give an xarray.Dataset, or rename the coordinate."
             )
@@ -302,17 +300,17 @@ def _coordinates(
 
 
 def _checked(
-    arguments: Arguments, name: str, column: xr.DataArray, choices: Mapping[Any, Any] | None
+    arguments: Validator, name: str, column: xr.DataArray, choices: Mapping[Any, Any] | None
 ) -> NDArray[Any]:
     """Return one value for each system."""
     values = column.values.flatten()
     if not values.size:
-        arguments.refuse(f"variants {name!r} is empty: one system or more is needed.")
+        arguments.fail(f"variants {name!r} is empty: one system or more is needed.")
     if choices is None:
         return arguments.array(f"variants {name!r}", values, dimensions=[1])
     strange = [label for label in numbered(values)[0] if label not in choices]
     if strange:
-        arguments.refuse(
+        arguments.fail(
             f"variants {name!r} has the label {shown(strange[0])}; its courses are "
             f"{', '.join(map(shown, choices))}."
         )

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.arguments import Arguments, shown
 from ..core.quantities import display_of
+from ..core.validator import Validator, shown
 from ..simulation.lanes.problem import Kind, LaneOutputs, Outcome, Reduction
 from ..simulation.validity import Bound
 from ..systems.system import System
@@ -185,7 +185,7 @@ _ORIGIN = dict.fromkeys(Kind, Kind.FIRST) | {Kind.ABOVE: Kind.LAST}
 
 
 def asked_of(
-    given: Arguments, model: System, times: Array, signals: Any, reductions: Any
+    given: Validator, model: System, times: Array, signals: Any, reductions: Any
 ) -> OutputSpec:
     """Check what was asked for; the bounds are not known yet."""
     known = (*model.signal_names, *model.state_names)
@@ -199,43 +199,43 @@ def asked_of(
         reduced += [_reduced(given, str(signal), kind, unit) for kind in listed]
     _check_spectra(given, times, {r.level for r in reduced if r.kind == "psd"})
     if reduced and times.size < 2:
-        given.refuse("reductions are over time: t_eval needs two times or more.")
+        given.fail("reductions are over time: t_eval needs two times or more.")
     return OutputSpec(times, tuple(dict.fromkeys(names)), tuple(dict.fromkeys(reduced)), ())
 
 
-def _check_spectra(given: Arguments, times: Array, segments: set[float]) -> None:
+def _check_spectra(given: Validator, times: Array, segments: set[float]) -> None:
     """Refuse times of which there are no spectra, and segments that do not fit them."""
-    if not segments or given.refused:
+    if not segments or given.failed:
         return
     if len(segments) > 1:
         lengths = ", ".join(f"{length:g}" for length in sorted(segments))
-        given.refuse(
+        given.fail(
             f"reductions: segments of 'psd' have {lengths} outputs; they need one length, "
             "since the results have one row of frequencies."
         )
     if times.size < max(segments):
-        given.refuse(
+        given.fail(
             f"reductions: a segment of 'psd' has {max(segments):g} outputs, and t_eval has "
             f"{times.size}: ask for more times, or for shorter segments, ('psd', {times.size})."
         )
     elif uniform_step(times) is None:
         steps = np.diff(times)
-        given.refuse(
+        given.fail(
             f"t_eval: 'psd' needs times at equal distances, and these are {steps.min():g} s to "
             f"{steps.max():g} s. numpy.linspace has such times."
         )
 
 
-def _reduced(given: Arguments, signal: str, kind: Any, unit: str) -> Reduced:
+def _reduced(given: Validator, signal: str, kind: Any, unit: str) -> Reduced:
     if isinstance(kind, tuple) and len(kind) == 2 and isinstance(kind[0], str):
         return _with_value(given, signal, *kind, unit)
     if not isinstance(kind, str):
-        given.refuse(
+        given.fail(
             f"reductions {signal!r}: {shown(kind)} is none; there are {', '.join(REDUCTIONS)}."
         )
         return Reduced(signal, "max")
     if kind in _EXAMPLES:
-        given.refuse(f"reductions {signal!r}: {kind!r} needs {_EXAMPLES[kind]}.")
+        given.fail(f"reductions {signal!r}: {kind!r} needs {_EXAMPLES[kind]}.")
         return Reduced(signal, "max")
     found = given.among(f"reduction of {signal!r}", kind, REDUCTIONS)
     return Reduced(signal, found, USUAL_SEGMENT if found == "psd" else 0.0)
@@ -247,20 +247,20 @@ _EXAMPLES = {
 }
 
 
-def _with_value(given: Arguments, signal: str, kind: str, value: Any, unit: str) -> Reduced:
+def _with_value(given: Validator, signal: str, kind: str, value: Any, unit: str) -> Reduced:
     """Check a kind that has a level, or another number."""
     text = getattr(value, "attrs", {}).get("units")
     number, wanted = f"{kind!r} of {signal!r}", {"above": unit, "percentile": "%"}.get(kind, "1")
     if text is not None and text != wanted:
-        given.refuse(f"{number} is in {shown(text)}: it is needed in {wanted!r}.")
+        given.fail(f"{number} is in {shown(text)}: it is needed in {wanted!r}.")
     if kind == "above":
         return Reduced(signal, kind, given.number(number, value, unit))
     if kind == "percentile":
         percent = given.number(number, value, "%", least=0.0)
         if percent > 100.0:
-            given.refuse(f"{number} = {percent:g} %: a number from 0 % to 100 % is needed.")
+            given.fail(f"{number} = {percent:g} %: a number from 0 % to 100 % is needed.")
         return Reduced(signal, kind, percent)
     if kind == "psd":
         return Reduced(signal, kind, float(given.whole(number, value, least=LEAST_SEGMENT)))
-    given.refuse(f"reductions {signal!r}: {kind!r} takes no number, or is not known.")
+    given.fail(f"reductions {signal!r}: {kind!r} takes no number, or is not known.")
     return Reduced(signal, "max")

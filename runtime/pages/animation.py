@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.files import Paths, refuse, replacing
+from ..core.validator import Validator
 from ..pictures.animation import write_gif
 from ..simulation.result import Simulation
 from ..systems.skeleton import Skeleton
@@ -68,8 +68,8 @@ def animate(
     ...     animate(result, f"{folder}/linkage.html").name
     'linkage.html'
     """
-    with Arguments("animate") as given:
-        given.kind("result", result, Simulation, "what kintrafo.simulate returns is needed")
+    with Validator("animate") as given:
+        given.instance("result", result, Simulation, "what kintrafo.simulate returns is needed")
         fps = given.number("fps", fps, "1/s", least=1.0, below=_QUICKEST + 1e-9)
         slower = given.number("slower", slower, "", above=0.0)
         if title is not None:

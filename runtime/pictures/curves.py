@@ -19,8 +19,8 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, ScalarFormatter
 from numpy.typing import NDArray
 
-from ..core.arguments import Arguments
 from ..core.quantities import bracketed, display_of, displayed, long_name
+from ..core.validator import Validator
 from .figures import BLUE, GREEN, ORANGE, written_plainly
 from .labels import label_lines
 from .turned import turn
@@ -116,15 +116,15 @@ def draw(
     -------
     matplotlib.figure.Figure
     """
-    with Arguments("figures") as given:
+    with Validator("figures") as given:
         given.dataset(dataset)
         given.text("title", title)
         given.flag("alone", alone)
         columns = given.whole("columns", columns, least=1)
-        if not given.refused:
+        if not given.failed:
             names = given.names("names", names, map(str, drawable(dataset)))
             if not names:
-                given.refuse("names is empty: at least one variable is needed.")
+                given.fail("names is empty: at least one variable is needed.")
     vertical = {dimension_along(dataset[name]) in upright for name in names} == {True}
     columns, rows, size = _grid(len(names), columns, vertical=vertical, alone=alone)
     result = Figure(figsize=size, layout="constrained")

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..core.arguments import Arguments, shown
+from ..core.validator import Validator, shown
 
 Array = NDArray[np.float64]
 
@@ -42,7 +42,7 @@ class Accuracy:
 
 
 def accuracy_of(
-    given: Arguments,
+    given: Validator,
     size: int,
     *,
     rtol: float,
@@ -54,7 +54,7 @@ def accuracy_of(
     """Check how accurately a state of some size is to be integrated."""
     absolute = given.array("atol", atol)
     if not (absolute.shape in ((), (size,)) and (absolute > 0.0).all()):
-        given.refuse(
+        given.fail(
             f"atol = {shown(atol)}: one positive number, or one for each of the {size} elements of "
             "the state."
         )
@@ -70,17 +70,17 @@ def accuracy_of(
     )  # fmt: skip
 
 
-def span_of(given: Arguments, t_span: Any) -> tuple[float, float]:
+def span_of(given: Validator, t_span: Any) -> tuple[float, float]:
     """Check first and last time [s]; the last may be the earlier one."""
     span = given.array("t_span", t_span, "s", finite=False)
     first, last = span.tolist() if span.shape == (2,) else (0.0, 0.0)
     if not (math.isfinite(first) and math.isfinite(last) and first != last):
-        given.refuse(f"t_span = {shown(t_span)}: two different finite times are needed.")
+        given.fail(f"t_span = {shown(t_span)}: two different finite times are needed.")
         return 0.0, 1.0
     farthest = max(abs(first), abs(last))
     apart = math.ulp(farthest)
     if apart > _TOLD_APART and farthest > _FAR * abs(last - first):
-        given.refuse(
+        given.fail(
             f"t_span = {shown(t_span)}: so far from zero only times {apart:.1g} s apart "
             "differ, and every step would err by as much. Count all times from the first one, "
             "which is zero."
@@ -88,16 +88,16 @@ def span_of(given: Arguments, t_span: Any) -> tuple[float, float]:
     return first, last
 
 
-def outputs_of(given: Arguments, t_eval: Any, span: tuple[float, float]) -> Array:
+def outputs_of(given: Validator, t_eval: Any, span: tuple[float, float]) -> Array:
     """Check times of outputs, which go as the time span does [s]."""
     times = given.array("t_eval", t_eval, "s", dimensions=[1])
-    if given.refused:
+    if given.failed:
         return times
     sign = math.copysign(1.0, span[1] - span[0])
     first, last = float(times[0]), float(times[-1])
     inside = sign * first >= sign * span[0] and sign * last <= sign * span[1]
     if not (inside and (sign * (times[1:] - times[:-1]) > 0.0).all()):
-        given.refuse(
+        given.fail(
             f"t_eval: times from {span[0]:g} s to {span[1]:g} s are needed, in that order, each of "
             "them once."
         )

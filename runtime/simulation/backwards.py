@@ -14,8 +14,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.arguments import Arguments, shown
 from ..core.named_types import ArrayLike
+from ..core.validator import Validator, shown
 from ..systems.derivatives import checked_directions
 from ..systems.state import inputs_of
 from ..systems.system import System
@@ -121,10 +121,10 @@ def motion_gradient(
     >>> round(found.by["crank_mass"], 4)
     -0.0005
     """
-    with Arguments("motion_gradient") as given:
+    with Validator("motion_gradient") as given:
         directions = checked_directions(given, system)
         span = forward_span(given, t_span)
-        if not given.refused:
+        if not given.failed:
             times = output_times_of(given, t_eval, span)
             asked = _asked(given, system, of, times)
             given.array("y0", y0, dimensions=[1], last=len(system.state_names), empty=True)
@@ -142,15 +142,15 @@ def motion_gradient(
     return MotionGradient(value, _named(system, directions, courses, *swept), motion)
 
 
-def forward_span(given: Arguments, t_span: Any) -> tuple[float, float]:
+def forward_span(given: Validator, t_span: Any) -> tuple[float, float]:
     """Check first and last time, which must be the later one [s]."""
     span = span_of(given, t_span)
     if span[1] < span[0]:
-        given.refuse(f"t_span = {shown(t_span)}: the last time must be the later one.")
+        given.fail(f"t_span = {shown(t_span)}: the last time must be the later one.")
     return span
 
 
-def output_times_of(given: Arguments, t_eval: Any, span: tuple[float, float]) -> Array:
+def output_times_of(given: Validator, t_eval: Any, span: tuple[float, float]) -> Array:
     """Check the times at which a motion is looked at, `OUTPUTS` of them by default [s]."""
     return outputs_of(given, np.linspace(*span, OUTPUTS) if t_eval is None else t_eval, span)
 
@@ -201,7 +201,7 @@ def _longest(
     return (3600.0 * rtol) ** (1.0 / 6.0) / fastest if fastest > 0.0 else np.inf
 
 
-def _asked(given: Arguments, system: System, of: Any, times: Array) -> dict[str, Any]:
+def _asked(given: Validator, system: System, of: Any, times: Array) -> dict[str, Any]:
     """Return what is asked of each signal: a word, or weights."""
     known = (*system.signal_names, *system.state_names)
     found: dict[str, Any] = {}
@@ -210,15 +210,15 @@ def _asked(given: Arguments, system: System, of: Any, times: Array) -> dict[str,
         if isinstance(wanted, str):
             given.among(f"of {name!r}", wanted, ("mean", "rms"))
             if times.size < 2:
-                given.refuse(f"of {name!r}: {wanted!r} needs two times or more.")
+                given.fail(f"of {name!r}: {wanted!r} needs two times or more.")
             found[str(name)] = wanted
             continue
         weights = given.array(f"of {name!r}", wanted, dimensions=[1])
         if weights.shape != times.shape:
-            given.refuse(f"of {name!r}: {weights.size} weights are given for {times.size} times.")
+            given.fail(f"of {name!r}: {weights.size} weights are given for {times.size} times.")
         found[str(name)] = weights
-    if not (found or given.refused):
-        given.refuse("of is empty: one signal or more is needed.")
+    if not (found or given.failed):
+        given.fail("of is empty: one signal or more is needed.")
     return found
 
 

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from typing_extensions import TypeAliasType
 
-from ..core.arguments import Arguments, shown
 from ..core.errors import InputError
 from ..core.suggestions import suggestion
+from ..core.validator import Validator, shown
 from ..systems.system import System
 from .levels import value_of
 
@@ -165,14 +165,14 @@ def events_of(model: System, given: Event | Sequence[Event] | None) -> Events:
 
 
 def _checked(model: System, event: SignalEvent) -> SignalEvent:
-    with Arguments("events") as given:
+    with Validator("events") as given:
         given.among("signal", event.signal, model.signal_names)
         given.number(f"level of {event.signal!r}", event.level)
         _check_sense(given, repr(event.signal), event.direction, event.terminal)
     return event
 
 
-def _check_sense(given: Arguments, name: str, direction: Any, terminal: Any) -> None:
+def _check_sense(given: Validator, name: str, direction: Any, terminal: Any) -> None:
     given.number(f"direction of {name}", direction)
     if not isinstance(terminal, bool):
         given.whole(f"terminal of {name}", terminal, least=0, most=_MOST_CROSSINGS)
@@ -192,7 +192,7 @@ class _CheckedFunction:
         name = getattr(function, "__name__", None) or shown(function)
         direction = getattr(function, "direction", 0.0)
         terminal = getattr(function, "terminal", False)
-        with Arguments("events") as given:
+        with Validator("events") as given:
             _check_sense(given, name, direction, terminal)
         return cls(function, name, float(direction), terminal)
 
@@ -202,5 +202,5 @@ class _CheckedFunction:
         except Exception as error:
             error.add_note(f"This was raised by the event {self.name}, at t = {time:.6g} s.")
             raise
-        with Arguments("events") as given:
+        with Validator("events") as given:
             return given.number(f"{self.name} at {time:.6g} s", value)

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from ..core.arguments import shown
 from ..core.errors import InputError
+from ..core.validator import shown
 
 Array = NDArray[np.float64]
 

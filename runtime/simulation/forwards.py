@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.arguments import Arguments
 from ..core.memory import refuse_beyond
 from ..core.named_types import ArrayLike
+from ..core.validator import Validator
 from ..systems.derivatives import checked_directions, direction_of, kept_together
 from ..systems.state import inputs_of
 from ..systems.system import System
@@ -116,10 +116,10 @@ def motion_sensitivity(
     >>> round(float(found.by["crank_mass"]["crank_angle"][-1]), 4)  # rad/kg, at the end
     -0.5398
     """
-    with Arguments("motion_sensitivity") as given:
+    with Validator("motion_sensitivity") as given:
         checked_directions(given, system)
         span = forward_span(given, t_span)
-        if not given.refused:
+        if not given.failed:
             times = output_times_of(given, t_eval, span)
             along = _along(given, system, by)
             chosen = system.signal_names
@@ -153,7 +153,7 @@ def motion_sensitivity(
     return MotionSensitivity(times, values, by_direction, motion)
 
 
-def _along(given: Arguments, system: System, by: Any) -> dict[str, Mapping[str, float]]:
+def _along(given: Validator, system: System, by: Any) -> dict[str, Mapping[str, float]]:
     """Return the directions by name."""
     known = (*system.parameters, *system.state_names, *system.input_names)
     found: dict[str, Mapping[str, float]] = {}
@@ -167,8 +167,8 @@ def _along(given: Arguments, system: System, by: Any) -> dict[str, Mapping[str, 
             given.among("name", name, known): given.number(f"by {label!r} {name}", value)
             for name, value in named.items()
         }
-    if not (found or given.refused):
-        given.refuse("by is empty: one name or direction is needed.")
+    if not (found or given.failed):
+        given.fail("by is empty: one name or direction is needed.")
     return found
 
 
@@ -176,9 +176,9 @@ def _refuse_varying(
     system: System, along: Mapping[str, Mapping[str, float]], vary: set[str]
 ) -> None:
     """Refuse directions of inputs that vary with time."""
-    with Arguments("motion_sensitivity") as given:
+    with Validator("motion_sensitivity") as given:
         for name in sorted({n for direction in along.values() for n in direction} & vary):
-            given.refuse(
+            given.fail(
                 f"by {name!r}: this input of {system.equations.NAME} varies with time, so that it "
                 "has no one value to be changed. Name inputs that do not vary."
             )

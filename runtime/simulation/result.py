@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import OptimizeResult
 
-from ..core.arguments import Arguments
 from ..core.errors import KintrafoError
+from ..core.validator import Validator
 from ..equations.errors import ModelError
 from ..systems.system import System
 from .validity import Excursion, bounds_of, excursions
@@ -121,9 +121,9 @@ class DenseOutput:
         InputError
             If a time is not a number, or before `t_min` or after `t_max`, by more than rounding.
         """
-        with Arguments("sol") as given:
+        with Validator("sol") as given:
             times = np.atleast_1d(given.array("t", t, "s", dimensions=[0, 1], empty=True))
-            if not given.refused:
+            if not given.failed:
                 self._refuse_outside(given, times)
         sign = -1.0 if self._backward else 1.0
         which = np.searchsorted(sign * self._ends, sign * times, side="left")
@@ -135,11 +135,11 @@ class DenseOutput:
         result: Array = values[0] if np.ndim(t) == 0 else values.T
         return result
 
-    def _refuse_outside(self, given: Arguments, times: Array) -> None:
+    def _refuse_outside(self, given: Validator, times: Array) -> None:
         slack = _ROUNDINGS * np.spacing(max(abs(self.t_min), abs(self.t_max)))
         outside = times[(times < self.t_min - slack) | (times > self.t_max + slack)]
         if outside.size:
-            given.refuse(
+            given.fail(
                 f"t = {outside[0]:.15g} s: the solution is known from {self.t_min:.15g} s to "
                 f"{self.t_max:.15g} s. Ask within, or simulate for as long."
             )

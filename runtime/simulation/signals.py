@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline, CubicSpline, PPoly
 
-from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.suggestions import suggestion
+from ..core.validator import Validator
 from ..systems.inputs import Inputs, derived_inputs, may_jump, rates_of
 from ..systems.system import System
 from .courses import Signal, course
@@ -164,7 +164,7 @@ def time_inputs(
     TimeInputs
     """
     names, inputs = model.input_names, model.equations.INPUTS
-    with Arguments("inputs") as given:
+    with Validator("inputs") as given:
         courses = given.mapping(
             "inputs", {} if signals is None else signals, "input names, what they do"
         )

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from typing_extensions import TypeAliasType
 
-from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.memory import refuse_beyond
 from ..core.named_types import ArrayLike
+from ..core.validator import Validator
 from ..equations.errors import ModelError
 from ..systems.state import inputs_of
 from ..systems.system import System
@@ -168,10 +168,10 @@ def simulate(
     (True, True)
     """
     usual = _TOLERANCE_OF_BDF if method == "BDF" else _TOLERANCE
-    with Arguments("simulate") as arguments:
-        arguments.kind("model", model, System, System.NEEDED)
+    with Validator("simulate") as arguments:
+        arguments.instance("model", model, System, System.NEEDED)
         arguments.among("method", method, NATIVE_METHODS | SCIPY_METHODS)
-        if not arguments.refused:
+        if not arguments.failed:
             state = _state(arguments, model, y0)
             span = span_of(arguments, t_span)
             times = None if t_eval is None else outputs_of(arguments, t_eval, span)
@@ -187,9 +187,9 @@ def simulate(
                 first_step=first_step,
                 max_steps=max_steps,
             )
-            if method == "RK4" and not arguments.refused:
+            if method == "RK4" and not arguments.failed:
                 _check_count(arguments, span, accuracy)
-            if not arguments.refused:
+            if not arguments.failed:
                 _check_memory(arguments, model, method, span, times, accuracy)
             arguments.flag("dense_output", dense_output)
             arguments.flag("stop_at_outputs", stop_at_outputs)
@@ -238,26 +238,26 @@ def simulate_inputs(
 # -- arguments ----------------------------------------------------------------------------------
 
 
-def _state(given: Arguments, model: System, y0: Any) -> Array:
+def _state(given: Validator, model: System, y0: Any) -> Array:
     """Return the initial state, or refuse it."""
     state = given.array("y0", y0, empty=True, finite=False)
     if state.shape != model.design_state.shape:
-        given.refuse(
+        given.fail(
             f"y0 has shape {state.shape}; the state of {model.equations.NAME} has the elements "
             f"{', '.join(model.state_names)}."
         )
     elif not np.isfinite(state).all():
         bad = [n for n, v in zip(model.state_names, state, strict=True) if not np.isfinite(v)]
-        given.refuse(f"y0 is NaN or infinite in {', '.join(bad)}.")
+        given.fail(f"y0 is NaN or infinite in {', '.join(bad)}.")
     return state
 
 
 def _fixed_step(
-    given: Arguments, method: str, step: Any, max_step: Any, others: Mapping[str, Any]
+    given: Validator, method: str, step: Any, max_step: Any, others: Mapping[str, Any]
 ) -> float:
     """Return the length of all steps, or refuse what says otherwise."""
     if method != "RK4":
-        given.refuse(
+        given.fail(
             f"step is for method 'RK4', and {method!r} chooses its steps: give max_step, or the "
             "other method."
         )
@@ -265,23 +265,23 @@ def _fixed_step(
     lines = [name for name, value in others.items() if value is not None]
     lines += [] if isinstance(max_step, float) and max_step == np.inf else ["max_step"]
     if lines:
-        given.refuse(f"method 'RK4' has fixed steps: leave out {', '.join(lines)}.")
+        given.fail(f"method 'RK4' has fixed steps: leave out {', '.join(lines)}.")
     if step is None:
-        given.refuse("method 'RK4' needs step, the length of all steps in seconds, such as 1e-3.")
+        given.fail("method 'RK4' needs step, the length of all steps in seconds, such as 1e-3.")
         return 1.0
     return given.number("step", step, "s", above=0.0)
 
 
-def _check_count(given: Arguments, span: tuple[float, float], accuracy: Accuracy) -> None:
+def _check_count(given: Validator, span: tuple[float, float], accuracy: Accuracy) -> None:
     """Refuse more fixed steps than are allowed, before any is taken."""
     step, most = accuracy.max_step, accuracy.max_steps
     needed = abs(span[1] - span[0]) / step
     if needed > most:
-        given.refuse(f"step = {step:g} s makes {needed:.3g} steps, and max_steps is {most}.")
+        given.fail(f"step = {step:g} s makes {needed:.3g} steps, and max_steps is {most}.")
 
 
 def _check_memory(
-    given: Arguments,
+    given: Validator,
     model: System,
     method: str,
     span: tuple[float, float],
@@ -301,7 +301,7 @@ def _check_memory(
 def _choose_backend(model: System, backend: Backend, options: Options) -> Callable[..., Piece]:
     """Return the solver for a method, and say once if it is not the one that was meant."""
     method = options.method
-    with Arguments("simulate") as given:
+    with Validator("simulate") as given:
         given.among("backend", backend, ("auto", "sundials", "scipy"))
     if backend != "scipy" and method in _in_c(model):
         return solve_native

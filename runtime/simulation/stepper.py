@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
-from ..core.arguments import Arguments, shown
 from ..core.errors import InputError
 from ..core.named_types import ArrayLike
+from ..core.validator import Validator, shown
 from ..systems.inputs import derived_inputs, rates_of
 from ..systems.state import inputs_of
 from ..systems.system import System
@@ -102,15 +102,15 @@ class Stepper:
         atol: ArrayLike | None = None,
         t0: float = 0.0,
     ) -> None:
-        with Arguments("Stepper") as given:
-            given.kind("model", model, System, System.NEEDED)
+        with Validator("Stepper") as given:
+            given.instance("model", model, System, System.NEEDED)
             given.among("method", method, ("RK4", "DormandPrince"))
             self._length = given.number("step", step, "s", above=0.0)
-            if not given.refused:
+            if not given.failed:
                 _check_solver(given, model)
             if method == "RK4" and not (rtol is None and atol is None):
-                given.refuse("method 'RK4' has no tolerances: leave out rtol and atol.")
-            if not given.refused:
+                given.fail("method 'RK4' has no tolerances: leave out rtol and atol.")
+            if not given.failed:
                 accuracy = accuracy_of(
                     given,
                     model.design_state.size,
@@ -212,7 +212,7 @@ class Stepper:
         y0, inputs, t0
             As of the class.
         """
-        with Arguments("Stepper") as given:
+        with Validator("Stepper") as given:
             state = given.array("y0", y0, last=self.state.size)
             held = inputs_of(y0, self.model.names_of_states)
             start = given.number("t0", t0, "s")
@@ -225,10 +225,10 @@ class Stepper:
                         values[place] = given.number(f"inputs {shown(name)}", value)
             elif inputs is not None:
                 values = given.array("inputs", inputs, last=values.size, empty=True)
-            if not given.refused and state.shape != self.state.shape:
-                given.refuse(f"y0 has the shape {state.shape}: one state is needed.")
-            if not given.refused and values.shape != self.inputs.shape:
-                given.refuse(f"inputs has the shape {values.shape}: those of one state are needed.")
+            if not given.failed and state.shape != self.state.shape:
+                given.fail(f"y0 has the shape {state.shape}: one state is needed.")
+            if not given.failed and values.shape != self.inputs.shape:
+                given.fail(f"inputs has the shape {values.shape}: those of one state are needed.")
         self._state[:], self._inputs[:] = state, values
         self._motion.begin(start)
 
@@ -250,7 +250,7 @@ def _copy(name: str, values: ArrayLike, into: Array) -> None:
     """Copy numbers into an array that stays the same; they are looked at when they are used."""
     taken: Any = values
     if not (isinstance(taken, np.ndarray) and taken.dtype == into.dtype):
-        with Arguments("Stepper") as given:
+        with Validator("Stepper") as given:
             taken = given.array(name, values, empty=True, finite=False)
     if taken.shape != into.shape:
         needed = f"{into.size} numbers are needed, in a row"
@@ -258,12 +258,12 @@ def _copy(name: str, values: ArrayLike, into: Array) -> None:
     into[:] = taken
 
 
-def _check_solver(given: Arguments, model: System) -> None:
+def _check_solver(given: Validator, model: System) -> None:
     """Refuse equations that no compiled solver can step."""
     if not native_available():
-        given.refuse(f"no solver was compiled. {why_not_native()}.")
+        given.fail(f"no solver was compiled. {why_not_native()}.")
     elif not (model.equations.ADDRESSES and model.state_names):
-        given.refuse(f"{model.equations.NAME} has no compiled equations with a state to integrate.")
+        given.fail(f"{model.equations.NAME} has no compiled equations with a state to integrate.")
 
 
 def _moving(model: System) -> list[tuple[int, int, int]]:

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.named_types import ArrayLike
+from ..core.validator import Validator
 from ..equations.directions import Directions
 from .state import inputs_of
 from .system import System
@@ -66,9 +66,9 @@ def derivative(
     >>> kintrafo.derivative(four_bar, "relative_coordinates", {"crank_angle": 1.0}, at).round(4)
     array([ 1.    , -1.0119,  0.3715])
     """
-    with Arguments("derivative") as given:
+    with Validator("derivative") as given:
         directions = checked_directions(given, system)
-        if not given.refused:
+        if not given.failed:
             given.among("function", function, directions.of)
             named = given.mapping("along", along, "names and numbers")
             changes = _changes(given, system, named)
@@ -134,12 +134,12 @@ def gradient(
     >>> len(by), round(float(by["crank_mass"]), 4)
     (28, 23.239)
     """
-    with Arguments("gradient") as given:
+    with Validator("gradient") as given:
         directions = checked_directions(given, system)
-        if not given.refused:
+        if not given.failed:
             given.among("function", function, directions.of)
             values = _values(given, system, state, inputs)
-        if not given.refused:
+        if not given.failed:
             shape = getattr(system.equations, function).shape
             rows = _flat(given, weights, shape)
             _broadcast(given, "weights, state and inputs", [rows, *values])
@@ -178,13 +178,13 @@ def design_derivative(system: System, along: Mapping[str, ArrayLike]) -> dict[st
     InputError
         As of `derivative`.
     """
-    with Arguments("design_derivative") as given:
+    with Validator("design_derivative") as given:
         directions = checked_directions(given, system)
-        if not given.refused:
+        if not given.failed:
             named = given.mapping("along", along, "names and numbers")
             for name in named:
                 given.among("parameter", name, system.parameters)
-        if not given.refused:
+        if not given.failed:
             direction, *_ = _changes(given, system, named)
     parameters = kept_together(system, directions, direction)
     count = len(system.state_names)
@@ -195,29 +195,29 @@ def design_derivative(system: System, along: Mapping[str, ArrayLike]) -> dict[st
 # -- what is given --------------------------------------------------------------------------------
 
 
-def checked_directions(given: Arguments, system: Any) -> Any:
+def checked_directions(given: Validator, system: Any) -> Any:
     """Return the derivatives that a system's equations have; None where that is refused."""
-    given.kind("system", system, System, System.NEEDED)
-    if not given.refused and not system.equations.DIRECTIONS.of:
-        given.refuse(
+    given.instance("system", system, System, System.NEEDED)
+    if not given.failed and not system.equations.DIRECTIONS.of:
+        given.fail(
             f"{system.equations.NAME} has no derivatives by parameters. Compile the mechanism with "
             "kintrafo.compile(..., parameter_derivatives=True)."
         )
-    return None if given.refused else system.equations.DIRECTIONS
+    return None if given.failed else system.equations.DIRECTIONS
 
 
 def _names(system: System) -> tuple[tuple[str, ...], ...]:
     return tuple(system.parameters), system.state_names, system.input_names
 
 
-def _changes(given: Arguments, system: System, along: Mapping[str, Any]) -> list[Array]:
+def _changes(given: Validator, system: System, along: Mapping[str, Any]) -> list[Array]:
     """Return the direction as arrays of parameters, state and inputs."""
     known = [name for names in _names(system) for name in names]
     checked = {
         given.among("name", name, known): given.array(f"along {name}", value, empty=True)
         for name, value in along.items()
     }
-    if given.refused or not _go_together(given, "along", [v.shape for v in checked.values()]):
+    if given.failed or not _go_together(given, "along", [v.shape for v in checked.values()]):
         return []
     found = []
     for names in _names(system):
@@ -235,7 +235,7 @@ def direction_of(system: System, along: Mapping[str, float]) -> list[Array]:
     return [np.array([along.get(name, 0.0) for name in names]) for names in _names(system)]
 
 
-def _values(given: Arguments, system: System, state: Any, inputs: Any) -> list[Array]:
+def _values(given: Validator, system: System, state: Any, inputs: Any) -> list[Array]:
     rows = given.array("state", state, last=len(system.state_names), empty=True, finite=False)
     held = inputs_of(state, system.names_of_states) if inputs is None else inputs
     count = len(system.input_names)
@@ -244,25 +244,25 @@ def _values(given: Arguments, system: System, state: Any, inputs: Any) -> list[A
     return [rows, given.array("inputs", held, last=count, empty=True, finite=False)]
 
 
-def _flat(given: Arguments, weights: Any, shape: tuple[int, ...]) -> Array:
+def _flat(given: Validator, weights: Any, shape: tuple[int, ...]) -> Array:
     rows = given.array("weights", weights, empty=True)
     if rows.shape[-len(shape) :] != shape:
-        given.refuse(f"weights have the shape {rows.shape}: (..., {', '.join(map(str, shape))})")
+        given.fail(f"weights have the shape {rows.shape}: (..., {', '.join(map(str, shape))})")
         return np.zeros(1)
     return rows.reshape(*rows.shape[: -len(shape)], -1)
 
 
-def _broadcast(given: Arguments, what: str, arrays: list[Array]) -> None:
-    if not given.refused:
+def _broadcast(given: Validator, what: str, arrays: list[Array]) -> None:
+    if not given.failed:
         _go_together(given, what, [array.shape[:-1] for array in arrays])
 
 
-def _go_together(given: Arguments, what: str, shapes: list[tuple[int, ...]]) -> bool:
+def _go_together(given: Validator, what: str, shapes: list[tuple[int, ...]]) -> bool:
     try:
         np.broadcast_shapes(*shapes)
     except ValueError:
         text = ", ".join(map(str, shapes))
-        given.refuse(f"{what}: the leading dimensions {text} must go together.")
+        given.fail(f"{what}: the leading dimensions {text} must go together.")
         return False
     return True
 

@@ -18,9 +18,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.named_types import ArrayLike
+from ..core.validator import Validator
 from ..equations.layout import StateLayout
 from .inputs import rates_of
 from .modes import Mode, eigenvalues_of, mode_of_states, modes_of
@@ -143,7 +143,7 @@ class Linearisation:
         """
         directions = self.layout.directions
         known = {self.state_names[position]: position for position in directions}
-        with Arguments("mode") as given:
+        with Validator("mode") as given:
             given.among("coordinate", coordinate, known)
         position = known[coordinate]
         speed = self.layout.speed_of[position]
@@ -200,13 +200,11 @@ class Linearisation:
 
     def _responding(self, frequency: ArrayLike, source: str) -> tuple[Complex, Complex]:
         """Return the amplitudes of states and inputs while one input moves harmonically."""
-        with Arguments("frequency response") as given:
+        with Validator("frequency response") as given:
             frequencies = given.array("frequency", frequency, "Hz", empty=True)
             given.among("source", source, self.input_names)
             if np.abs(frequencies).max(initial=0.0) > _GREATEST_FREQUENCY:
-                given.refuse(
-                    f"frequency: {_GREATEST_FREQUENCY:g} Hz at most, in size, are possible."
-                )
+                given.fail(f"frequency: {_GREATEST_FREQUENCY:g} Hz at most, in size, are possible.")
         s = (2j * np.pi * frequencies[..., None]).astype(np.complex128)
         column = self._harmonic(source, s)
         moved = s[..., None] * np.eye(len(self.A)) - self.A
@@ -267,9 +265,9 @@ def linearise(
     >>> linear.steady, linear.mode_of("beta1").text
     (True, '12.35 Hz, damping ratio 0.233')
     """
-    with Arguments("linearise") as checked:
-        checked.kind("model", model, System, System.NEEDED)
-        if not checked.refused:
+    with Validator("linearise") as checked:
+        checked.instance("model", model, System, System.NEEDED)
+        if not checked.failed:
             held = inputs_of(state, model.names_of_states)
             inputs = held if inputs is None else inputs
             given = checked.array(

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.named_types import ArrayLike
+from ..core.validator import Validator
 from ..equations.errors import ModelError, located
 from .state import State, inputs_of
 from .system import System
@@ -65,9 +65,9 @@ def rest(
     >>> bool(abs(system.evaluate("rhs", found)).max() < 1e-9)
     True
     """
-    with Arguments("rest") as given:
-        given.kind("system", system, System, System.NEEDED)
-        if not given.refused:
+    with Validator("rest") as given:
+        given.instance("system", system, System, System.NEEDED)
+        if not given.failed:
             size = len(system.state_names)
             start = system.design_state if near is None else near
             state = given.array("near", start, dimensions=[1], last=size, empty=True)

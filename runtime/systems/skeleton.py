@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.arguments import Arguments
 from ..core.named_types import ArrayLike
+from ..core.validator import Validator
 from .system import System
 
 Array = NDArray[np.float64]
@@ -50,8 +50,8 @@ class Skeleton:
     """
 
     def __init__(self, system: System) -> None:
-        with Arguments("Skeleton") as given:
-            given.kind("system", system, System, System.NEEDED)
+        with Validator("Skeleton") as given:
+            given.instance("system", system, System, System.NEEDED)
         self.system = system
         drawing = system.equations.DRAWING
         self.ground = next(iter(drawing["points"]))

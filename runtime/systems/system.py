@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.arguments import Arguments, shown
 from ..core.named_types import ArrayLike
+from ..core.validator import Validator, shown
 from ..equations.layout import StateLayout
 from .allowed import LengthLimit
 from .compile.loader import find
@@ -54,9 +54,9 @@ class System:
     def __init__(
         self, equations: ModuleType, parameters: Mapping[str, float] | None = None
     ) -> None:
-        with Arguments("System") as given:
+        with Validator("System") as given:
             if not (isinstance(equations, ModuleType) and hasattr(equations, "PARAMETERS")):
-                given.refuse(
+                given.fail(
                     f"equations = {shown(equations)}: a module of kintrafo.generated, or what "
                     "kintrafo.compile returns, is needed. A suspension is a kintrafo.Model."
                 )
@@ -167,7 +167,7 @@ class System:
         ndarray
             Shape of the result behind the leading dimensions.
         """
-        with Arguments(f"{self.equations.NAME}.{function}") as given:
+        with Validator(f"{self.equations.NAME}.{function}") as given:
             given.among("function", function, _functions(self.equations))
             rows = given.array("state", state, last=len(self.state_names), empty=True, finite=False)
             held = inputs_of(state, self.names_of_states)
@@ -213,7 +213,7 @@ class System:
         ndarray
             SI units, of the shape of the leading dimensions.
         """
-        with Arguments("signals") as given:
+        with Validator("signals") as given:
             given.among("signal", name, self.signal_names)
         return self.signals(state, inputs)[name]
 
@@ -259,7 +259,7 @@ def _filled(equations: ModuleType, values: Mapping[str, float]) -> dict[str, flo
     """Return values for all parameters, the defaults where nothing is given."""
     known = {name: entry["default"] for name, entry in equations.PARAMETERS.items()}
     units = {name: entry["unit"] for name, entry in equations.PARAMETERS.items()}
-    with Arguments(equations.NAME) as given:
+    with Validator(equations.NAME) as given:
         checked = {
             given.among("parameter", name, known): given.number(
                 f"parameter {shown(name)}",
@@ -272,17 +272,17 @@ def _filled(equations: ModuleType, values: Mapping[str, float]) -> dict[str, flo
 
 
 def _assign(array: Array, names: tuple[str, ...], values: Mapping[str, Any], what: str) -> None:
-    with Arguments(what) as given:
+    with Validator(what) as given:
         for name, value in given.mapping(what, values, "names and values").items():
             number = given.number(f"{what} {shown(name)}", value)
             array[names.index(given.among("element", name, names))] = number
 
 
-def _check_leading(given: Arguments, state: Array, inputs: Array) -> None:
+def _check_leading(given: Validator, state: Array, inputs: Array) -> None:
     try:
         np.broadcast_shapes(state.shape[:-1], inputs.shape[:-1])
     except ValueError:
-        given.refuse(
+        given.fail(
             f"state and inputs have the shapes {state.shape} and {inputs.shape}: their leading "
             "dimensions must go together."
         )

@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from .. import generated
-from ..core.arguments import Arguments
+from ..core.validator import Validator
 
 
 @dataclass(frozen=True)
@@ -83,10 +83,11 @@ def topology(model: str | ModuleType = "macpherson") -> Topology:
     """
     equations = model
     if not isinstance(equations, ModuleType):
-        with Arguments("topology") as given:
+        with Validator("topology") as given:
             named = {module.name for module in iter_modules(generated.__path__)}
-            given.kind("model", model, str, "a name, or what kintrafo.compile returns, is needed")
-            if not given.refused:
+            needed = "a name, or what kintrafo.compile returns, is needed"
+            given.instance("model", model, str, needed)
+            if not given.failed:
                 given.among("model", model, sorted(n for n in named if not n.startswith("_")))
         equations = import_module(f".{model}", generated.__name__)
     manifest = equations.equations.manifest

@@ -4,9 +4,9 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from ..core.arguments import Arguments
 from ..core.files import Paths
 from ..core.named_types import ArrayLike
+from ..core.validator import Validator
 from ..systems.state import inputs_of
 from ..systems.system import System
 from . import c_folder, fmu, python_module
@@ -92,12 +92,12 @@ def export_model(
     ...     sorted(file.name for file in written.iterdir())[:4]
     ['CMakeLists.txt', 'README.txt', 'elementary.h', 'four_bar.c']
     """
-    with Arguments("export") as given:
-        given.kind("system", system, System, System.NEEDED)
+    with Validator("export") as given:
+        given.instance("system", system, System, System.NEEDED)
         given.path("path", path)
         given.among("to", to, TARGETS)
         given.flag("force", force)
-        if not given.refused:
+        if not given.failed:
             start = system.design_state
             if state is not None:
                 count = len(system.state_names)
@@ -113,10 +113,10 @@ def export_model(
     return TARGETS[to](emitted, Path(path), force=force, read=read, **options)
 
 
-def _refuse_options(given: Arguments, to: str, options: Mapping[str, Any]) -> None:
+def _refuse_options(given: Validator, to: str, options: Mapping[str, Any]) -> None:
     """Refuse options that another kind of export has."""
     known = TARGETS[to].__kwdefaults__ or {}
     for name in options:
         if name not in known:
             has = ", ".join(known) or "none"
-            given.refuse(f"{name} is no option of an export to {to!r}, which has {has}.")
+            given.fail(f"{name} is no option of an export to {to!r}, which has {has}.")

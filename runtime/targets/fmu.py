@@ -8,8 +8,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from ..core.arguments import Arguments
 from ..core.files import Paths, replacing
+from ..core.validator import Validator
 from .emitted import Emitted
 from .fmi import binaries, fmi2, fmi3
 from .fmi.description import Description
@@ -58,12 +58,12 @@ def write(
     CompilerError
         If there is no compiler for a platform, or it fails.
     """
-    with Arguments("export") as given:
+    with Validator("export") as given:
         given.among("fmi", str(fmi), map(str, VERSIONS))
         chosen = given.names("platforms", platforms, binaries.PLATFORMS)
         if path.suffix.lower() != ENDING:
             shown = path.with_suffix(ENDING) if path.name else f"model{ENDING}"
-            given.refuse(f"{path}: the name of this file must end in {ENDING}. Write {shown}.")
+            given.fail(f"{path}: the name of this file must end in {ENDING}. Write {shown}.")
     with replacing(path, force=force, inputs=read) as temporary:
         _pack(temporary, contents(emitted, int(fmi), tuple(dict.fromkeys(chosen))))
     return path

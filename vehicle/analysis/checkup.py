@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.quantities import display_of
+from ...core.validator import Validator
 from ...systems.linearisation import linearise
 from ..assembly.assembly import Assembly
 from ..assembly.equilibrium import equilibrium
@@ -129,7 +129,7 @@ def checkup(subject: Any) -> Checkup:
     >>> round(checkup(load("rigid_axle")).axle.values["roll_center_height"], 2)
     0.41
     """
-    with Arguments("checkup") as given:
+    with Validator("checkup") as given:
         assembly = given_assembly(given, subject)
     wheels = tuple(facts_of(model) for model in assembly.corners.values())
     seen = assembly.plausibility()
@@ -256,8 +256,8 @@ class _AxleLook:
 
 def as_dict(found: Checkup) -> dict[str, Any]:
     """Return a checkup as plain numbers, texts and nested dictionaries, SI units."""
-    with Arguments("as_dict") as given:
-        given.kind("found", found, Checkup, "what checkup returns is needed")
+    with Validator("as_dict") as given:
+        given.instance("found", found, Checkup, "what checkup returns is needed")
     if found.axle is None:
         return found.wheels[0].as_dict()
     sides = {one.side: one.as_dict() for one in found.wheels}

@@ -8,10 +8,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.memory import positions_given
 from ...core.named_types import ArrayLike
+from ...core.validator import Validator
 from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import flat
 from ..assembly.of import given_assemblies
@@ -65,18 +65,18 @@ def compare(
     PositionError
         If one of them does not reach a position.
     """
-    with Arguments("compare") as given:
+    with Validator("compare") as given:
         assemblies = given_assemblies(given, "subjects", subjects)
         given.function("progress", progress)
     if len(assemblies) < 2:
         problem = f"{len(assemblies)} data set; two or more are needed for a comparison."
         raise InputError([problem], "compare")
     motion = _common_motion(assemblies, over)
-    with Arguments("compare") as given:
+    with Validator("compare") as given:
         if along is not None:
             units = next(iter(assemblies.values())).motions[motion].along.units
             along = positions_given(given, "along", along, units)
-            for assembly in assemblies.values() if not given.refused else ():
+            for assembly in assemblies.values() if not given.failed else ():
                 assembly.refuse_positions(given, motion, along)
         if held is not None:
             given.among("held", held, HELD)
@@ -145,16 +145,16 @@ def _common_motion(assemblies: Mapping[str, Assembly], over: str | None) -> str:
     return motion
 
 
-def _refuse_compliance(given: Arguments, assemblies: Mapping[str, Assembly], motion: str) -> None:
+def _refuse_compliance(given: Validator, assemblies: Mapping[str, Assembly], motion: str) -> None:
     """Refuse compliance over other motions than the usual one, and that of rigid joints."""
     usual = next(iter(assemblies.values())).usual_motion
     if motion != usual:
-        given.refuse(
+        given.fail(
             f"held: compliance is over wheel travel, {usual!r}. Leave it out over {motion!r}."
         )
     for name, assembly in assemblies.items():
         if not assembly.has_bushes:
-            given.refuse(f"held: {name} has no [bushings], and nothing in it deflects.")
+            given.fail(f"held: {name} has no [bushings], and nothing in it deflects.")
 
 
 def with_compliance(
@@ -245,7 +245,7 @@ def differences(dataset: xr.Dataset) -> list[Difference]:
     >>> found.at_design, found.largest, found.where
     (0.5, 2.0, 0.1)
     """
-    with Arguments("differences") as given:
+    with Validator("differences") as given:
         given.dataset(dataset, over=DATA_SET)
     table = flat(dataset)
     curves = {str(n): data for n, data in table.items() if DATA_SET in data.dims}

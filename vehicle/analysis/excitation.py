@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.validator import Validator
 from ...simulation.courses import Signal
 from .measurement import Measurement
 from .roads import sine, step
@@ -41,7 +41,7 @@ class TimeProfile:
 
     def signal(self, end: float) -> Signal:
         """Return what `kintrafo.simulate` takes, for a simulation up to a time [s]."""
-        with Arguments("course") as given:
+        with Validator("course") as given:
             for name in self.given:
                 given.number(name, getattr(self, name), "m")
         if self.step is not None:
@@ -80,12 +80,12 @@ def excitation(
     >>> excitation({"road_height": TimeProfile(held=0.01)}, end=1.0)
     {'road_height': 0.01}
     """
-    with Arguments("simulation") as given:
+    with Validator("simulation") as given:
         end = given.number("duration", end, "s", above=0.0)
         for name, course in given.mapping("courses", courses, "input names, courses").items():
-            given.kind(f"course of {name!r}", course, TimeProfile, "a TimeProfile is needed")
+            given.instance(f"course of {name!r}", course, TimeProfile, "a TimeProfile is needed")
         if measured is not None:
-            given.kind("measured", measured, Measurement, "a Measurement is needed")
+            given.instance("measured", measured, Measurement, "a Measurement is needed")
     inputs: dict[str, Signal] = {} if measured is None else dict(measured.inputs())
     problems = []
     for name, course in courses.items():

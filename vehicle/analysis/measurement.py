@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.suggestions import nearest, suggestion
 from ...core.tables import Table, read_table
 from ...core.units import in_si
+from ...core.validator import Validator
 from ...simulation.interpolation import Between, Samples
 from ..corner.wheel_loads import UNITS
 from ..kinds import KINDS
@@ -97,8 +97,8 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
     InputError
         If the file cannot be used; with the lines that are wrong.
     """
-    with Arguments("measured") as given:
-        given.kind("path", path, (str, Path), "the path of a CSV file is needed")
+    with Validator("measured") as given:
+        given.instance("path", path, (str, Path), "the path of a CSV file is needed")
         if speed is not None:
             given.number("speed", speed, "m/s", above=0.0)
     sheet = read_table(path)

@@ -8,11 +8,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.suggestions import nearest
 from ...core.tables import Column, Table, read_table
 from ...core.units import in_si
+from ...core.validator import Validator
 from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import flat
 from ..assembly.of import given_assemblies
@@ -72,7 +72,7 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     InputError
         If the file cannot be used.
     """
-    with Arguments("measured_curves") as given:
+    with Validator("measured_curves") as given:
         given.path("path", path)
     sheet = read_table(path)
     columns = sheet.columns([*_ALONG, *_EVERY])
@@ -164,18 +164,18 @@ def beside(
     PositionError
         If a suspension does not reach a position.
     """
-    with Arguments("beside") as given:
+    with Validator("beside") as given:
         given.dataset(measured)
         assemblies = given_assemblies(given, "subjects", subjects)
         given.text("name", name)
         given.among("held", held, HELD)
-        if not given.refused and name in assemblies:
-            given.refuse(f"name = {name!r} is that of a subject, too. Choose another one.")
-        if not (assemblies or given.refused):
-            given.refuse("subjects is empty: one or more are needed.")
-        if not given.refused and len({*measured.dims} & {*_ALONG}) != 1:
-            given.refuse("measured: what kintrafo.rig.measured_curves returns is needed.")
-        if not given.refused:
+        if not given.failed and name in assemblies:
+            given.fail(f"name = {name!r} is that of a subject, too. Choose another one.")
+        if not (assemblies or given.failed):
+            given.fail("subjects is empty: one or more are needed.")
+        if not given.failed and len({*measured.dims} & {*_ALONG}) != 1:
+            given.fail("measured: what kintrafo.rig.measured_curves returns is needed.")
+        if not given.failed:
             for label, assembly in assemblies.items():
                 _refuse_other_motions(given, label, assembly, measured)
     found = [measured]
@@ -203,15 +203,13 @@ def motion_of(assembly: Assembly, measured: xr.Dataset) -> str | None:
 
 
 def _refuse_other_motions(
-    given: Arguments, name: str, assembly: Assembly, measured: xr.Dataset
+    given: Validator, name: str, assembly: Assembly, measured: xr.Dataset
 ) -> None:
     """Refuse curves over what an assembly does not have."""
     if motion_of(assembly, measured) is None:
         (along,) = {*measured.dims} & {*_ALONG}
         known = ", ".join(dict.fromkeys(how.along.name for how in assembly.motions.values()))
-        given.refuse(
-            f"measured: curves over {along}, which {name} does not have; there is {known}."
-        )
+        given.fail(f"measured: curves over {along}, which {name} does not have; there is {known}.")
 
 
 def _curves(assembly: Assembly, measured: xr.Dataset, held_by: WheelSupport) -> xr.Dataset:

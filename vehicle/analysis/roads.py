@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.validator import Validator
 
 Array = NDArray[np.float64]
 Samples = tuple[Array, Array]
@@ -44,7 +44,7 @@ def step(height: float, *, at: float, end: float) -> Samples | float:
     >>> times.tolist(), heights.tolist()
     ([0.0, 0.1, 0.1, 1.0], [0.0, 0.0, 0.02, 0.02])
     """
-    with Arguments("road step") as given:
+    with Validator("road step") as given:
         height = given.number("height", height, "m")
         at = given.number("at", at, "s")
         end = given.number("end", end, "s", above=0.0)
@@ -79,7 +79,7 @@ def sine(amplitude: float, frequency: float, *, end: float) -> CubicSpline:
     >>> round(float(sine(0.01, 0.5, end=2.0)(0.5)), 11)
     0.01
     """
-    with Arguments("sine") as given:
+    with Validator("sine") as given:
         amplitude = given.number("amplitude", amplitude, "m")
         frequency = given.number("frequency", frequency, "Hz")
         end = given.number("end", end, "s", above=0.0)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.validator import Validator
 from ...datasets.recording import dataset_of
 from ...simulation.courses import Signal
 from ...simulation.result import Simulation
@@ -67,12 +67,12 @@ class Scenario:
     spin_rate: float = 0.0
     inputs: dict[str, Signal] = field(default_factory=dict)
 
-    def checked(self, given: Arguments) -> tuple[float, float]:
+    def checked(self, given: Validator) -> tuple[float, float]:
         """Return duration and output step [s], or refuse them."""
         duration = given.number("duration", self.duration, "s", above=0.0)
         step = given.number("output step", self.output_step, "s", above=0.0)
-        if not given.refused and duration / step > _MOST_OUTPUTS:
-            given.refuse(
+        if not given.failed and duration / step > _MOST_OUTPUTS:
+            given.fail(
                 f"an output every {step:g} s for {duration:g} s makes more than "
                 f"{_MOST_OUTPUTS} rows. Choose a larger output step."
             )
@@ -80,7 +80,7 @@ class Scenario:
 
     def times(self) -> Array:
         """Return the times of the output, the first and the last included [s]."""
-        with Arguments("simulation") as given:
+        with Validator("simulation") as given:
             duration, step = self.checked(given)
         count = int(np.floor(duration / step + 1e-9))
         times = np.linspace(0.0, count * step, count + 1)
@@ -156,7 +156,7 @@ def motion_of(model: AnyModel, result: Simulation) -> "xr.Dataset":
     xarray.Dataset
         See `kintrafo.datasets.recording.dataset_of`.
     """
-    with Arguments("motion_of") as given:
+    with Validator("motion_of") as given:
         assembly = given_model(given, model)
     motion = dataset_of(model, result)
     if "bar_spring_moment" in motion:
@@ -184,7 +184,7 @@ def by_wheel(model: AnyModel, motion: "xr.Dataset") -> "xr.Dataset":
         That of a corner is as it was. Of ``left_road_height`` and ``right_road_height`` there is
         ``road_height``.
     """
-    with Arguments("by_wheel") as given:
+    with Validator("by_wheel") as given:
         assembly = given_model(given, model)
         given.dataset(motion)
     if len(assembly.wheels) == 1:
@@ -199,14 +199,14 @@ def started(
 
     Arguments and errors as of `run`.
     """
-    with Arguments("simulation") as given:
+    with Validator("simulation") as given:
         assembly = given_model(given, model)
-        given.kind("scenario", scenario, Scenario, "a Scenario is needed")
-        if not given.refused:
+        given.instance("scenario", scenario, Scenario, "a Scenario is needed")
+        if not given.failed:
             given.among("wheels", wheels, dict.fromkeys((BOTH, *assembly.wheels)))
             _refuse_unusable(given, assembly, scenario)
         heights = None
-        if scenario.height is not None and not given.refused:
+        if scenario.height is not None and not given.failed:
             heights = each_wheel(given, assembly, "height", scenario.height, "m")
     chosen = assembly.wheels if wheels == BOTH else (wheels,)
     inputs = _by_wheel(assembly, scenario.inputs, chosen)
@@ -228,12 +228,12 @@ def started(
     return start, inputs
 
 
-def _refuse_unusable(given: Arguments, assembly: Assembly, scenario: Scenario) -> None:
+def _refuse_unusable(given: Validator, assembly: Assembly, scenario: Scenario) -> None:
     """Refuse times that cannot be, and a start and inputs that the assembly does not have."""
     scenario.checked(given)
     inputs = given.mapping("inputs", scenario.inputs, "input names, what they do")
     if _RACK in inputs and not assembly.steered:
-        given.refuse(f"{_RACK}: it has no rack, and nothing steers its wheels. Leave that out.")
+        given.fail(f"{_RACK}: it has no rack, and nothing steers its wheels. Leave that out.")
     refuse_missing_loads(given, assembly, inputs)
 
 

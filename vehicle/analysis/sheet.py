@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ...core.arguments import Arguments
 from ...core.quantities import attributes, displayed, long_name, unit_or_stroke
 from ...core.tabulated import Tabulated, significant
+from ...core.validator import Validator
 from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import flat
 from ..assembly.of import given_assembly
@@ -94,7 +94,7 @@ def sheet(
     >>> float(row["iso_8855"]) == -float(row["sae_j670"]), str(row["unit"].values)
     (True, 'deg/mm')
     """
-    with Arguments("sheet") as given:
+    with Validator("sheet") as given:
         assembly = given_assembly(given, subject)
         given.among("held", held, HELD)
     found = dict(_kinematic(assembly))
@@ -113,7 +113,7 @@ def tabulated(found: xr.Dataset, title: str) -> list[Tabulated]:
     title : str
         Begins the titles.
     """
-    with Arguments("tabulated") as given:
+    with Validator("tabulated") as given:
         given.dataset(found, over=QUANTITY)
         given.text("title", title)
     parts = dict.fromkeys(map(str, found["part"].values))

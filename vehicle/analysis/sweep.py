@@ -10,10 +10,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.memory import positions_given
 from ...core.named_types import ArrayLike
 from ...core.quantities import variable
+from ...core.validator import Validator
 from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import by_ending
 from ..assembly.of import given_assembly
@@ -68,7 +68,7 @@ def positions(
     >>> curves["camber"].values[[0, 2]].round(4).tolist()
     [0.0231, -0.016]
     """
-    with Arguments("sweep") as given:
+    with Validator("sweep") as given:
         assembly = given_assembly(given, subject)
         travels = positions_given(
             given, "travel", 0.0 if travel is None else travel, "m", dimensions=[0, 1]
@@ -78,9 +78,9 @@ def positions(
         )
     if racks.ndim or np.any(racks):
         assembly.refuse_motion("rack")
-        with Arguments("sweep") as given:
+        with Validator("sweep") as given:
             if not assembly.steered:
-                given.refuse("rack: this axle has none. Leave it out.")
+                given.fail("rack: this axle has none. Leave it out.")
     travels = assembly.usual(assembly.usual_motion) if travel is None else travels
     # travels go down, racks across; a single one of either has no dimension
     heights, across = np.broadcast_arrays(

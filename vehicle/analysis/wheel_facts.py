@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 from ...core.vectors import distance_from_line
 from ..assembly import wheel
 from ..assembly.corner_kinematics import corner
@@ -173,8 +173,8 @@ def without_friction(model: Model) -> Model:
     -------
     Model
     """
-    with Arguments("without_friction") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+    with Validator("without_friction") as given:
+        given.instance("model", model, Model, Model.NEEDED)
     smooth = model.suspension.without_friction()
     return model if smooth is model.suspension else model.of_another(smooth)
 

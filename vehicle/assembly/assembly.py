@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.quantities import variable
+from ...core.validator import Validator
 from ..corner.bushes import Bush
 from ..corner.corner import Array
 from ..input.vehicle import Tyre
@@ -211,7 +211,7 @@ class Assembly(ABC):
         return {RACK: rack} if self.steered else {}
 
     @abstractmethod
-    def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
+    def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
         """Refuse what cannot be held in a motion: a travel, or a rack that it moves itself."""
 
     def refuse_motion(self, motion: str) -> None:
@@ -232,7 +232,7 @@ class Assembly(ABC):
         """
         del names
 
-    def refuse_positions(self, given: Arguments, motion: str, along: Array) -> None:
+    def refuse_positions(self, given: Validator, motion: str, along: Array) -> None:
         """Refuse positions that a motion does not have, for any reach of the wheels."""
         del given, motion, along
 
@@ -521,12 +521,12 @@ class Assembly(ABC):
     # -- bushes -----------------------------------------------------------------------------------
 
     @abstractmethod
-    def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
+    def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
         """Return bushes as a caller describes them, or those of the file.
 
         Parameters
         ----------
-        given : Arguments
+        given : Validator
             Gets what is wrong.
         bushings : mapping or None
             By hardpoint; of an axle those of one side, and the other has their image.

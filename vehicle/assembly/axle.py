@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.quantities import variable
+from ...core.validator import Validator
 from ...core.vectors import unit_vector
 from ..corner.bushes import described_bushings, mirrored_bushings, softness_of_rack
 from ..corner.corner import Array
@@ -186,12 +186,12 @@ class AxleAssembly(Assembly):
         """Return what a motion holds."""
         return {TRAVEL: travel} if motion in _STEERING else super().held_in(motion, travel, rack)
 
-    def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
+    def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
         """Refuse a rack that the motion moves, and a travel that is for steering."""
         if motion in _STEERING and rack:
-            given.refuse(f"rack_position: the motion {motion!r} moves the rack. Leave it out.")
+            given.fail(f"rack_position: the motion {motion!r} moves the rack. Leave it out.")
         if motion not in _STEERING and travel:
-            given.refuse("travel: it is for the motion 'steer'; others move the wheels by along.")
+            given.fail("travel: it is for the motion 'steer'; others move the wheels by along.")
 
     @cached_property
     def model(self) -> AxleModel:
@@ -220,12 +220,12 @@ class AxleAssembly(Assembly):
         """Refuse what moves a rack where there is none."""
         self.axle.right.refuse_without_rack(what)
 
-    def refuse_positions(self, given: Arguments, motion: str, along: Array) -> None:
+    def refuse_positions(self, given: Validator, motion: str, along: Array) -> None:
         """Refuse angles of a steering wheel whose motion of the rack nothing says, or beyond it."""
         if motion != "steer":
             return
         if self.motions[motion].along is not STEERING_WHEEL:
-            given.refuse(
+            given.fail(
                 "along: nothing says how the steering wheel moves the rack. Give [rack] "
                 "travel_per_turn_mm in the hardpoint file, or [steering] in the axle's; or take "
                 "the motion 'rack', over displacements of it."
@@ -233,7 +233,7 @@ class AxleAssembly(Assembly):
         elif self.axle.steering is not None:
             problem = self.axle.steering.beyond(along)
             if problem:
-                given.refuse(problem)
+                given.fail(problem)
 
     @property
     def steered_by(self) -> str | None:
@@ -392,7 +392,7 @@ class AxleAssembly(Assembly):
         return poses, rates
 
     def described_bushings(
-        self, given: Arguments, bushings: Mapping[str, Any] | None
+        self, given: Validator, bushings: Mapping[str, Any] | None
     ) -> dict[str, dict[str, Any]]:
         """Return what is said of the bushes of both sides: the files', or what is given, mirrored.
 
@@ -406,18 +406,18 @@ class AxleAssembly(Assembly):
         one = self.axle.bar_side
         other = LEFT if one == RIGHT else RIGHT
         described = described_bushings(given, bushings, None)
-        with_one = Arguments("compliance")
+        with_one = Validator("compliance")
         self.axle.sides[one].bushes(with_one, described)
-        return {one: described, other: {} if with_one.refused else mirrored_bushings(described)}
+        return {one: described, other: {} if with_one.failed else mirrored_bushings(described)}
 
     def with_bushings(self, bushings: Mapping[str, Any]) -> Axle:
         """Return the axle on other bushes than those of its files."""
-        with Arguments("compliance") as given:
+        with Validator("compliance") as given:
             described = self.described_bushings(given, bushings)
         changes = {f"{side}.bushings": described[side] for side in SIDES}
         return self.axle.with_changes(changes)
 
-    def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
+    def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
         """Return bushes of both sides, and how far their rack deflects."""
         described = self.described_bushings(given, bushings)
         found = {f"_{side}": self.axle.sides[side].bushes(given, described[side]) for side in SIDES}

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 from ...datasets.columns import AS_COLUMNS, with_columns
 from ..corner.corner import Array
 from .quantity import Quantity
@@ -89,7 +89,7 @@ def flat(dataset: xr.Dataset) -> xr.Dataset:
     >>> {name: float(value) for name, value in flat(both).items()}
     {'camber_left': 0.1, 'camber_right': 0.2}
     """
-    with Arguments("flat") as given:
+    with Validator("flat") as given:
         given.dataset(dataset)
     return with_columns(with_columns(dataset, WHEEL), AXLE)
 

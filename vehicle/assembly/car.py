@@ -7,8 +7,8 @@ from typing import Any, Literal, NoReturn
 
 import numpy as np
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.validator import Validator
 from ...equations.errors import ModelError
 from ...systems.rest import rest
 from ..corner.corner import Array
@@ -218,11 +218,11 @@ class CarAssembly(Assembly):
         del motion, travel
         return {RACK: rack} if self.steered else {}
 
-    def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
+    def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
         """Refuse a travel: the body moves over all wheels."""
         del rack
         if travel:
-            given.refuse(f"travel: the motion {motion!r} moves the body by along. Leave it out.")
+            given.fail(f"travel: the motion {motion!r} moves the body by along. Leave it out.")
 
     def measures(self, motion: str) -> tuple[Measure, ...]:
         """Return its characteristics over a motion: those of its axles, or of its corner."""
@@ -491,7 +491,7 @@ class CarAssembly(Assembly):
         del states, inputs
         self._refuse()
 
-    def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
+    def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
         """Refuse: bushes are those of an axle."""
         del given, bushings
         self._refuse()

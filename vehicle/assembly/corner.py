@@ -6,8 +6,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
+from ...core.validator import Validator
 from ..corner.bushes import described_bushings, softness_of_rack
 from ..corner.corner import Array, Corner
 from ..input.vehicle import Tyre
@@ -106,12 +106,12 @@ class CornerAssembly(Assembly):
         """Return what a motion holds."""
         return {TRAVEL: travel} if motion == "rack" else super().held_in(motion, travel, rack)
 
-    def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
+    def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
         """Refuse a travel of the wheel in a motion that moves it, or a rack that is moved."""
         if motion == "rack" and rack:
-            given.refuse("rack_position: the motion 'rack' moves the rack. Leave it out.")
+            given.fail("rack_position: the motion 'rack' moves the rack. Leave it out.")
         if motion != "rack" and travel:
-            given.refuse("travel: the motion 'travel' moves the wheel by along. Leave it out.")
+            given.fail("travel: the motion 'travel' moves the wheel by along. Leave it out.")
 
     @property
     def coordinates(self) -> tuple[str, ...]:
@@ -250,7 +250,7 @@ class CornerAssembly(Assembly):
         poses = CornerParts.of(self.model, states, inputs)
         return {"": poses}, {"": self.model.evaluate("rhs", states, inputs)}
 
-    def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
+    def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
         """Return bushes as a caller describes them, or those of the file."""
         described = described_bushings(given, bushings, self.subject.bushings)
         found = self.subject.bushes(given, described)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 from ...systems.state import State
 from ..corner.wheel_loads import UNITS
 from . import rest
@@ -83,7 +83,7 @@ def equilibrium(
     >>> round(float(at_rest[axle.state_names.index("roll")]), 4)
     0.0114
     """
-    with Arguments("equilibrium") as given:
+    with Validator("equilibrium") as given:
         assembly = given_model(given, model)
         spin = given.number("spin_rate", spin_rate, "rad/s")
         roads = each_wheel(given, assembly, "road_height", road_height, "m")
@@ -144,10 +144,10 @@ def state_at_heights(
     return State.of(state, inputs, model.names_of_states)
 
 
-def _rack(given: Arguments, assembly: Assembly | None, position: Any) -> float:
+def _rack(given: Validator, assembly: Assembly | None, position: Any) -> float:
     rack = given.number("rack_position", position, "m")
     if rack and assembly is not None and not assembly.steered:
-        given.refuse(
+        given.fail(
             f"rack_position = {1e3 * rack:g} mm: it has no rack, and nothing steers its wheels. "
             "Leave that out."
         )
@@ -155,7 +155,7 @@ def _rack(given: Arguments, assembly: Assembly | None, position: Any) -> float:
 
 
 def each_wheel(
-    given: Arguments, assembly: Assembly | None, name: str, value: Any, unit: str
+    given: Validator, assembly: Assembly | None, name: str, value: Any, unit: str
 ) -> dict[str, float]:
     """Return what is given for all wheels, or by wheel."""
     limits: dict[str, Any] = {}
@@ -172,13 +172,13 @@ def each_wheel(
     }
 
 
-def _refuse_both(given: Arguments, loads: Mapping[str, float], roads: Mapping[str, float]) -> None:
+def _refuse_both(given: Validator, loads: Mapping[str, float], roads: Mapping[str, float]) -> None:
     if any(roads.get(wheel, 0.0) != 0.0 for wheel in loads):
-        given.refuse("road_height and wheel_load are both given. Give the one that is known.")
+        given.fail("road_height and wheel_load are both given. Give the one that is known.")
 
 
 def _further(
-    given: Arguments, assembly: Assembly | None, inputs: Mapping[str, float] | None
+    given: Validator, assembly: Assembly | None, inputs: Mapping[str, float] | None
 ) -> dict[str, float]:
     """Return the inputs that have no argument of their own."""
     values = given.mapping("inputs", {} if inputs is None else inputs, "input names and values")
@@ -196,11 +196,11 @@ def _further(
     }
 
 
-def refuse_missing_loads(given: Arguments, assembly: Assembly, inputs: Iterable[str]) -> None:
+def refuse_missing_loads(given: Validator, assembly: Assembly, inputs: Iterable[str]) -> None:
     """Refuse loads on the wheels of a model without them."""
     loads = [str(name) for name in inputs if str(name).endswith(tuple(UNITS))]
     if loads and not assembly.model.wheel_loads:
-        given.refuse(
+        given.fail(
             f"{', '.join(loads)}: this model has no loads on the wheels besides those of the "
             "tyres. Make it with wheel_loads=True."
         )

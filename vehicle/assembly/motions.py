@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.validator import Validator
 from ..corner.corner import Array
 from ..models.axle import Axle
 from ..models.positions import PositionError, design_height, travel_range
@@ -55,7 +55,7 @@ def rolls(axle: Axle, extent: SweepRange) -> Array:
     if most is None:
         ends = (1.0 - _CLEARANCE) * _most_opposite(axle) * np.array([-1.0, 1.0])
         most = min(USUAL_ROLL, *np.abs(WheelCentreLine.at(axle, -ends, ends).roll))
-    with Arguments("roll") as given:
+    with Validator("roll") as given:
         most = given.number("roll", most, "rad", least=0.0, below=_MOST_ROLL)
     return grid(-most, most, USUAL_ROLL_STEP)
 

@@ -3,8 +3,8 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.validator import Validator
 from ...systems.compile.build import require_generator
 from ..kinds import Suspension
 from ..models.axle import Axle
@@ -34,7 +34,7 @@ def assembly_of(subject: Any) -> Assembly:
     InputError
         If it is something else.
     """
-    with Arguments("assembly") as given:
+    with Validator("assembly") as given:
         return given_assembly(given, subject, cars=True)
 
 
@@ -88,9 +88,9 @@ def model_of(
     InputError
         If it is something else, or a car with inputs that it does not have.
     """
-    with Arguments("model_of") as given:
+    with Validator("model_of") as given:
         kinds = (Suspension, Axle, WholeAxle, Car)
-        given.kind("subject", subject, kinds, "what kintrafo.load returns is needed")
+        given.instance("subject", subject, kinds, "what kintrafo.load returns is needed")
         given.flag("wheel_loads", wheel_loads)
         given.function("progress", progress)
     if isinstance(subject, Car):
@@ -136,25 +136,25 @@ _MODEL_NEEDED = (
 )
 
 
-def given_model(given: Arguments, model: Any) -> Assembly:
+def given_model(given: Validator, model: Any) -> Assembly:
     """Return the assembly of equations of motion, or refuse what is not one's.
 
     Parameters
     ----------
-    given : Arguments
+    given : Validator
     model : Model, AxleModel, RigidAxleModel or CarModel
     """
-    given.kind("model", model, MODELS, _MODEL_NEEDED)
-    # what is refused is never seen, see `Arguments`
+    given.instance("model", model, MODELS, _MODEL_NEEDED)
+    # what is refused is never seen, see `Validator`
     return assembly_of(model) if isinstance(model, MODELS) else None  # type: ignore[return-value]
 
 
-def given_assemblies(given: Arguments, name: str, subjects: Any) -> dict[str, Assembly]:
+def given_assemblies(given: Validator, name: str, subjects: Any) -> dict[str, Assembly]:
     """Return the assemblies of an argument by their names, or refuse what is none.
 
     Parameters
     ----------
-    given : Arguments
+    given : Validator
     name : str
         Of the argument.
     subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
@@ -169,13 +169,13 @@ def given_assemblies(given: Arguments, name: str, subjects: Any) -> dict[str, As
 
 
 def given_assembly(
-    given: Arguments, subject: Any, name: str = "subject", *, cars: bool = False
+    given: Validator, subject: Any, name: str = "subject", *, cars: bool = False
 ) -> Assembly:
     """Return the assembly of an argument, or refuse it; nothing is to be asked of what is refused.
 
     Parameters
     ----------
-    given : Arguments
+    given : Validator
     subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
     name : str, optional
         Of the argument.
@@ -184,7 +184,7 @@ def given_assembly(
     """
     found = _found(subject)
     if isinstance(found, CarAssembly) and not cars:
-        given.refuse(f"{name}: {NOT_A_CAR}")
+        given.fail(f"{name}: {NOT_A_CAR}")
     if found is None:
-        given.kind(name, subject, Assembly, Assembly.NEEDED)
-    return found  # type: ignore[return-value]  # what is refused is never seen, see `Arguments`
+        given.instance(name, subject, Assembly, Assembly.NEEDED)
+    return found  # type: ignore[return-value]  # what is refused is never seen, see `Validator`

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.validator import Validator
 from ..models.model import Model
 from ..models.positions import PositionError, arm_angles, design_height, travel_range
 
@@ -37,7 +37,7 @@ def grid(lowest: float, highest: float, step: float) -> Array:
     >>> grid(-0.025, 0.02, 0.01).tolist()
     [-0.025, -0.02, -0.01, 0.0, 0.01, 0.02]
     """
-    with Arguments("sweep") as given:
+    with Validator("sweep") as given:
         lowest = given.number("lowest", lowest)
         highest = given.number("highest", highest)
         step = given.number("step", step)
@@ -87,8 +87,8 @@ def usual_travel(
     ndarray
         From ``-rebound`` to ``bump``, the design position included [m].
     """
-    with Arguments("sweep") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+    with Validator("sweep") as given:
+        given.instance("model", model, Model, Model.NEEDED)
         rack = given.number("rack", rack, "m")
     _check_amounts(rebound=rebound, bump=bump)
     if rebound is None or bump is None:
@@ -120,8 +120,8 @@ def usual_rack(
     ndarray
         From ``-extent`` to ``extent``, zero included [m].
     """
-    with Arguments("sweep") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+    with Validator("sweep") as given:
+        given.instance("model", model, Model, Model.NEEDED)
         travel = given.number("travel", travel, "m")
     model.suspension.refuse_without_rack("positions over the rack")
     _check_amounts(extent=extent)
@@ -153,10 +153,10 @@ def _reaches(model: Model, travel: float, rack: float) -> bool:
 
 
 def _check_amounts(**amounts: float | None) -> None:
-    with Arguments("sweep") as given:
+    with Validator("sweep") as given:
         for name, value in amounts.items():
             if value is not None and given.number(name, value, "m") < 0.0:
-                given.refuse(
+                given.fail(
                     f"{name} = {value * 1e3:g} mm: a distance of 0 mm or more is needed, without a "
                     "sign."
                 )

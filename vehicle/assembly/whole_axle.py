@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 from ..corner.bushes import described_bushings
 from ..corner.corner import Array
 from ..data.starter import words_of
@@ -114,13 +114,13 @@ class WholeAxleAssembly(Assembly):
         del travel, rack
         far = extent or SweepRange()
         if motion == "roll":
-            with Arguments("roll") as given:
+            with Validator("roll") as given:
                 amount = 0.0 if far.roll is None else far.roll
                 given.number("roll", amount, "rad", least=0.0, below=_MOST_ROLL)
             most = self._ends(motion, USUAL_ROLL) if far.roll is None else [-amount, amount]
             both = min(-most[0], most[1])
             return grid(-both, both, USUAL_ROLL_STEP)
-        with Arguments("wheel travel") as given:
+        with Validator("wheel travel") as given:
             for name in ("rebound", "bump"):
                 value = getattr(far, name)
                 given.number(name, 0.0 if value is None else value, "m", least=0.0)
@@ -158,12 +158,12 @@ class WholeAxleAssembly(Assembly):
         travels = self._travels(motion, along)
         return RigPosition(dict(zip(SIDES, travels, strict=True)), np.zeros(()))
 
-    def refuse_holding(self, given: Arguments, motion: str, travel: float, rack: float) -> None:
+    def refuse_holding(self, given: Validator, motion: str, travel: float, rack: float) -> None:
         """Refuse a travel that is for steering, and a rack."""
         if rack:
-            given.refuse(f"rack_position: {words_of(self.axle.KEY)} has no rack. Leave it out.")
+            given.fail(f"rack_position: {words_of(self.axle.KEY)} has no rack. Leave it out.")
         if travel:
-            given.refuse(f"travel: the motion {motion!r} moves the wheels by along. Leave it out.")
+            given.fail(f"travel: the motion {motion!r} moves the wheels by along. Leave it out.")
 
     @property
     def coordinates(self) -> tuple[str, ...]:
@@ -275,7 +275,7 @@ class WholeAxleAssembly(Assembly):
         rates = self.model.evaluate("rhs", states, inputs)
         return {"": self.parts(states, inputs)}, {"": rates}
 
-    def bushes(self, given: Arguments, bushings: Mapping[str, Any] | None) -> Bushings:
+    def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
         """Return bushes as a caller describes them, or those of the file."""
         described = described_bushings(given, bushings, self.axle.bushings)
         return Bushings({"": self.axle.bushes(given, described)}, 0.0)

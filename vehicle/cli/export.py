@@ -60,13 +60,13 @@ def command(
     these libraries differentiate. points: the hardpoints of a suspension as a table. In Python any
     state can be the start: kintrafo.export_model(model, "car.fmu", "fmu", state=rest).
     """
-    from ...core.arguments import Arguments
+    from ...core.validator import Validator
     from ...targets.export import ENDINGS, export_model
     from ..files.point_table import write_points
     from ..kinds import Suspension
 
     endings = {**ENDINGS, "points": "_points.csv"}
-    with Arguments("export") as given:
+    with Validator("export") as given:
         given.among("--to", to, endings)
     refuse_which(file, model)
     options = {"fmi": fmi, "platforms": platform or None}

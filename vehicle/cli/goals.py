@@ -108,10 +108,10 @@ def refuse_beyond(goals: "Sequence[Goal]", curves: "Mapping[str, Dataset]") -> N
     curves : mapping of str to Dataset
         By what they are over.
     """
-    from ...core.arguments import Arguments
+    from ...core.validator import Validator
     from ..studies.sweep_axes import sweep_axis
 
-    with Arguments("goals") as given:
+    with Validator("goals") as given:
         for goal in goals:
             over = sweep_axis(goal.over)
             along = curves[goal.over][over.along.name].values
@@ -121,7 +121,7 @@ def refuse_beyond(goals: "Sequence[Goal]", curves: "Mapping[str, Dataset]") -> N
                 places, (low, high) = (
                     [f"{over.factor * at + 0.0:g}" for at in values] for values in (beyond, ends)
                 )
-                given.refuse(
+                given.fail(
                     f"{goal.name}: {', '.join(places)} {over.unit} of {over.words} is beyond its "
                     f"curve, which goes from {low} to {high} {over.unit}. Let the curve go as far, "
                     "or leave that position out."

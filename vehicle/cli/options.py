@@ -118,9 +118,9 @@ def refuse_options(sort: str, given: Mapping[str, Any]) -> None:
 
 def among(wanted: list[str], known: Iterable[str], name: str = "--of") -> list[str]:
     """Return what an option names, each once, or refuse what there is not."""
-    from ...core.arguments import Arguments
+    from ...core.validator import Validator
 
-    with Arguments(name) as given:
+    with Validator(name) as given:
         names = given.names(name, wanted, known)
     return list(dict.fromkeys(names))
 

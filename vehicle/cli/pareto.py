@@ -99,9 +99,9 @@ def command(
 
 def _refuse_member(member: int | None, population: int) -> None:
     """Refuse a number that no front can have before it is computed."""
-    from ...core.arguments import Arguments
+    from ...core.validator import Validator
 
-    with Arguments("pareto") as given:
+    with Validator("pareto") as given:
         if member is not None:
             given.whole("--member", member, most=max(population, 1))
 

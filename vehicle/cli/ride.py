@@ -57,11 +57,11 @@ def command(
     rough road further files, whose names end in _response, have the spectra and the responses to
     the road under each wheel.
     """
-    from ...core.arguments import Arguments
+    from ...core.validator import Validator
     from ...datasets import export
     from ..analysis import ride
 
-    with Arguments("kintrafo ride") as given:
+    with Validator("kintrafo ride") as given:
         given.number("--speed", speed, "km/h", above=0.0)
         given.number("--duration", duration, "s", above=0.0)
         given.number("--output-step", output_step, "ms", above=0.0)

@@ -29,14 +29,14 @@ def command(
     At the speed and the pressure of the file, in the axes of ISO 8855. Keys of the file that are
     not used are listed.
     """
-    from ...core.arguments import Arguments
+    from ...core.validator import Validator
     from ...datasets import export
     from ..tyres import key_figures, tabulated
     from ..tyres import load as load_tyre
 
     outputs = output.files(file)
     tyre = load_tyre(file)
-    with Arguments("tyre") as given:
+    with Validator("tyre") as given:
         loads = [given.number("--load", _number(text), "N") for text in load or ()]
     found = key_figures(tyre, loads or None)
     written = outputs.write_data(found)

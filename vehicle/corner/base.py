@@ -18,10 +18,10 @@ from typing import Any, ClassVar, Self, TypeVar, get_args
 
 from pydantic import Field, ValidationError
 
-from ...core.arguments import Arguments
 from ...core.columns import number
 from ...core.errors import InputError
 from ...core.suggestions import suggestion
+from ...core.validator import Validator
 from ...core.vectors import components, unit_vector
 from ...systems.allowed import LengthLimit
 from ..data import data_sets
@@ -135,7 +135,7 @@ class Suspension(DescribedSection):
         if problems:
             raise InputError(problems)
         if self.bushings is not None:
-            with Arguments("bushings") as given:
+            with Validator("bushings") as given:
                 self.bushes(given, self.bushings)
                 softness_of_rack(given, self.bushings)
 
@@ -272,12 +272,12 @@ class Suspension(DescribedSection):
             data["bushings"] = mirrored_bushings(self.bushings)
         return self.from_dict(data, "mirrored suspension")
 
-    def bushes(self, given: Arguments, described: Mapping[str, Any]) -> list[Bush]:
+    def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
         """Return bushes by their hardpoints; see `docs/suspension/compliance.md`.
 
         Parameters
         ----------
-        given : Arguments
+        given : Validator
             Gets what is wrong.
         described : mapping
         """

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, WithJsonSchema
 
-from ...core.arguments import Arguments
 from ...core.suggestions import suggestion
+from ...core.validator import Validator
 from ...core.vectors import cross, unit_vector
 from ..input.bush_curve import curve_of
 from ..input.curve import Curve, Interpolation
@@ -166,11 +166,11 @@ def read_bushes(path: str | Path) -> dict[str, Any]:
 
 
 def described_bushings(
-    given: Arguments, bushings: Any, of_the_file: Mapping[str, Any] | None
+    given: Validator, bushings: Any, of_the_file: Mapping[str, Any] | None
 ) -> dict[str, Any]:
     """Return the bushes that are given, or those of the hardpoint file where none are."""
     if bushings is None and of_the_file is None:
-        given.refuse(
+        given.fail(
             "bushings: none are given, and the hardpoint file has none. Give them, or add its "
             "[bushings.POINT]."
         )
@@ -237,7 +237,7 @@ Bushings = Annotated[
 
 
 def bushes_of(
-    given: Arguments,
+    given: Validator,
     described: Mapping[str, Any],
     structure: Structure,
     design: Points,
@@ -247,7 +247,7 @@ def bushes_of(
 
     Parameters
     ----------
-    given : Arguments
+    given : Validator
         Gets what is wrong.
     described : mapping
         By hardpoint.
@@ -266,17 +266,17 @@ def bushes_of(
         if given.among("bushings at", point, known) != point or point == RACK:
             continue
         if not isinstance(table, Mapping):
-            given.refuse(f"{title} must be a section, with {', '.join(_KEYS)}.")
+            given.fail(f"{title} must be a section, with {', '.join(_KEYS)}.")
             continue
         for key in (str(key) for key in table if key not in _KEYS):
             damps = any(word in key for word in ("damp", "N_s", "loss"))
             meant = _NO_DAMPING if damps else suggestion(key, _KEYS)
-            given.refuse(f"{title} {key} is not known. {meant}")
+            given.fail(f"{title} {key} is not known. {meant}")
         if not any(key in table for key in _STIFFNESSES):
-            given.refuse(f"{title}: one of {', '.join(_STIFFNESSES)} is needed, or it is rigid.")
+            given.fail(f"{title}: one of {', '.join(_STIFFNESSES)} is needed, or it is rigid.")
         is_bearing = isinstance(joints[point], FixedJoint)
         if "torsion_Nm_per_deg" in table and is_bearing:
-            given.refuse(f"{title} torsion_Nm_per_deg: the brake holds the wheel about its axis.")
+            given.fail(f"{title} torsion_Nm_per_deg: the brake holds the wheel about its axis.")
         torsion, _ = _turning(given, title, table, "torsion_Nm_per_deg")
         tilt = _turning(given, title, table, "tilt_Nm_per_deg")
         soft = _translations(given, title, table)
@@ -300,7 +300,7 @@ def bushes_of(
 
 
 def _turning(
-    given: Arguments, title: str, table: Mapping[str, Any], key: str
+    given: Validator, title: str, table: Mapping[str, Any], key: str
 ) -> tuple[float, float]:
     """Return stiffnesses against rotation about two axes [N m/rad]; zero where there are none."""
     if key not in table:
@@ -309,13 +309,13 @@ def _turning(
     return first * _PER_DEG, second * _PER_DEG
 
 
-def _curve(given: Arguments, title: str, table: Mapping[str, Any], which: str) -> Curve | None:
+def _curve(given: Validator, title: str, table: Mapping[str, Any], which: str) -> Curve | None:
     """Return a curve where there is one."""
     key, rate = f"{which}_curve", f"{which}_N_per_mm"
     if key not in table:
         return None
     if rate in table:
-        given.refuse(f"{title}: {key} and {rate} both say how stiff it is. Keep one.")
+        given.fail(f"{title}: {key} and {rate} both say how stiff it is. Keep one.")
     return curve_of(given, f"{title} {key}", table[key], odd=which == "radial")
 
 
@@ -324,10 +324,10 @@ def _at_rest(curve: Curve) -> float:
     return 1.0 / float(curve.rate(np.zeros(1))[0])
 
 
-def refuse_rigid(given: Arguments, bushes: Sequence[Bush], rack: float) -> None:
+def refuse_rigid(given: Validator, bushes: Sequence[Bush], rack: float) -> None:
     """Refuse bushes of which none deflects."""
-    if not (rack or given.refused or any(bush.gives_way for bush in bushes)):
-        given.refuse(
+    if not (rack or given.failed or any(bush.gives_way for bush in bushes)):
+        given.fail(
             "bushings: one or more are needed that deflect, by axial_N_per_mm, radial_N_per_mm, a "
             "curve, or the tilt of the wheel bearing."
         )
@@ -338,25 +338,25 @@ def left_out(bushes: Sequence[Bush]) -> str:
     return "what resists torsion and tilting" if any(any(b.turning) for b in bushes) else ""
 
 
-def softness_of_rack(given: Arguments, described: Mapping[str, Any]) -> float:
+def softness_of_rack(given: Validator, described: Mapping[str, Any]) -> float:
     """Return how far the rack deflects along its axis [m/N]; zero where nothing is said."""
     if RACK not in described:
         return 0.0
     table, title = described[RACK], f"[bushings.{RACK}]"
     if not isinstance(table, Mapping) or set(table) != {"axial_N_per_mm"}:
-        given.refuse(f"{title} must be a section with axial_N_per_mm, and nothing else.")
+        given.fail(f"{title} must be a section with axial_N_per_mm, and nothing else.")
         return 0.0
     return 1.0 / (_stiffness(given, title, table, "axial_N_per_mm") * _PER_MM)
 
 
-def _translations(given: Arguments, title: str, table: Mapping[str, Any]) -> list[float]:
+def _translations(given: Validator, title: str, table: Mapping[str, Any]) -> list[float]:
     """Return the compliances along the axis and in both directions across it [m/N]."""
     axial = _stiffness(given, title, table, "axial_N_per_mm")
     both = _pair(given, title, table, "radial_N_per_mm")
     return [1.0 / (value * _PER_MM) for value in (axial, *both)]
 
 
-def _pair(given: Arguments, title: str, table: Mapping[str, Any], key: str) -> tuple[float, float]:
+def _pair(given: Validator, title: str, table: Mapping[str, Any], key: str) -> tuple[float, float]:
     """Return both of what may be one stiffness or two."""
     value = table.get(key)
     if not (isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.ndim)):
@@ -364,13 +364,13 @@ def _pair(given: Arguments, title: str, table: Mapping[str, Any], key: str) -> t
         return both, both
     if key not in _PAIRS or len(value) != 2:
         words = "a number is needed, or two." if key in _PAIRS else "a number is needed."
-        given.refuse(f"{title} {key}: {words}")
+        given.fail(f"{title} {key}: {words}")
         return np.inf, np.inf
     first, second = (_stiffness(given, title, {key: each}, key) for each in value)
     return first, second
 
 
-def _stiffness(given: Arguments, title: str, table: Mapping[str, Any], key: str) -> float:
+def _stiffness(given: Validator, title: str, table: Mapping[str, Any], key: str) -> float:
     """Return a stiffness in its display unit; infinite where there is none."""
     if key not in table:
         return np.inf
@@ -380,7 +380,7 @@ def _stiffness(given: Arguments, title: str, table: Mapping[str, Any], key: str)
 
 
 def _axes(
-    given: Arguments,
+    given: Validator,
     title: str,
     table: Mapping[str, Any],
     joint: Joint,
@@ -390,37 +390,37 @@ def _axes(
     """Return the axes of a bush as rows: its own, and the two across it."""
     usual_axis = spin if isinstance(joint, FixedJoint) else joint.axis(design)
     if usual_axis is None and "axis" not in table:
-        given.refuse(f"{title} axis is needed: no direction there is that of a bush by itself.")
+        given.fail(f"{title} axis is needed: no direction there is that of a bush by itself.")
         return np.eye(3)
     along = _direction(given, title, table, "axis", usual_axis)
     if isinstance(joint, TelescopeJoint):
         for key in (key for key in ("axial_N_per_mm", "axial_curve") if key in table):
-            given.refuse(f"{title} {key}: a telescope carries nothing along its axis.")
+            given.fail(f"{title} {key}: a telescope carries nothing along its axis.")
         if "axis" in table:
-            given.refuse(f"{title} axis: that of a telescope is its own. Leave it out.")
+            given.fail(f"{title} axis: that of a telescope is its own. Leave it out.")
     return np.stack([along, *_across(given, title, table, along)])
 
 
-def _across(given: Arguments, title: str, table: Mapping[str, Any], along: Array) -> Array:
+def _across(given: Validator, title: str, table: Mapping[str, Any], along: Array) -> Array:
     """Return the radial directions, (2, 3): the first as upright as it can be, unless given."""
     usual = np.eye(3)[0 if abs(along[2]) > np.cos(_LEAST_ANGLE) else 2]
     aside = _direction(given, title, table, "radial_axis", usual)
     across = cross(along, aside)
     if np.linalg.norm(across) < np.sin(_LEAST_ANGLE):
-        given.refuse(f"{title} radial_axis lies along the axis: a direction across it is needed.")
+        given.fail(f"{title} radial_axis lies along the axis: a direction across it is needed.")
         return np.eye(3)[1:]
     across /= np.linalg.norm(across)
     return np.stack([cross(across, along), across])
 
 
 def _direction(
-    given: Arguments, title: str, table: Mapping[str, Any], key: str, usual: Array | None
+    given: Validator, title: str, table: Mapping[str, Any], key: str, usual: Array | None
 ) -> Array:
     if key not in table and usual is not None:
         return usual
     values = given.array(f"{title} {key}", table[key], dimensions=[1])
     if values.shape != (3,) or not 1e-6 < np.abs(values).max() < 1e6:
         problem = "three numbers are needed, of which the largest is between 1e-6 and 1e6."
-        given.refuse(f"{title} {key}: {problem}")
+        given.fail(f"{title} {key}: {problem}")
         return np.array([1.0, 0.0, 0.0])
     return unit_vector(values)

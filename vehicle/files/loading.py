@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 from ..data import find
 from ..data.starter import AXLE, CAR, all_packaged
 from ..input.described import described_by
@@ -40,7 +40,7 @@ def load(path_or_name: str | Path) -> Suspension | Axle | WholeAxle | Car:
     >>> kintrafo.load("reference_car").suspension
     'macpherson'
     """
-    with Arguments("load") as given:
+    with Validator("load") as given:
         given.path("path_or_name", path_or_name)
     key = described_by(path_or_name)
     if not key:

@@ -7,11 +7,11 @@ underscores do not matter.
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.legible import legible, short
 from ...core.suggestions import nearest, suggestion
 from ...core.tables import key
+from ...core.validator import Validator
 from ..input.hardpoints import Hardpoints
 from ..kinds import KINDS
 
@@ -113,11 +113,11 @@ def read_names(texts: Iterable[str]) -> dict[str, str]:
     InputError
         If a text has another form, or a hardpoint is named twice.
     """
-    with Arguments("read_names") as given:
+    with Validator("read_names") as given:
         several = isinstance(texts, Iterable) and not isinstance(texts, str | bytes)
         listed: list[Any] = list(texts) if several else [texts]
         for text in listed:
-            given.kind("texts", text, str, "texts are needed, such as ball_joint=my_lca_outer")
+            given.instance("texts", text, str, "texts are needed, such as ball_joint=my_lca_outer")
     found: dict[str, str] = {}
     problems = []
     for text in listed:

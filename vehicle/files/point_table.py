@@ -13,13 +13,13 @@ from typing import Any
 
 import tomlkit
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.files import Paths, refuse, replacing
 from ...core.legible import legible, short
 from ...core.suggestions import nearest
 from ...core.tables import key
 from ...core.units import LENGTHS, in_si, length_in, unit_of
+from ...core.validator import Validator
 from ..data import find
 from ..kinds import Suspension
 from ..models.sides import SIDES
@@ -133,7 +133,7 @@ def read_points(
     MissingPackageError
         If the package for Excel is not installed.
     """
-    with Arguments("read_points") as given:
+    with Validator("read_points") as given:
         given.path("path", path)
         for name, text in {"unit": unit, "axes": axes, "sheet": sheet}.items():
             if text is not None:
@@ -254,8 +254,8 @@ def merged(
     InputError
         If no suspension can be like this, no row is a hardpoint, or one may be two.
     """
-    with Arguments("merged") as given:
-        given.kind("table", table, PointTable, "what read_points returns is needed")
+    with Validator("merged") as given:
+        given.instance("table", table, PointTable, "what read_points returns is needed")
         given.flag("mirrored", mirrored)
         called = given.mapping("names", names or {}, "hardpoints and what they are called there")
     old = Suspension.load(file)
@@ -353,8 +353,8 @@ def write_merged(
     InputError
         If the file must not or cannot be written.
     """
-    with Arguments("write_merged") as given:
-        given.kind("found", found, Merged, "what merged returns is needed")
+    with Validator("write_merged") as given:
+        given.instance("found", found, Merged, "what merged returns is needed")
     refuse([path], force=force, inputs=inputs, endings=[".toml"])
     with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_text(found.text, encoding="utf-8", newline="\n")
@@ -385,8 +385,8 @@ def write_points(
     InputError
         If the file must not or cannot be written.
     """
-    with Arguments("write_points") as given:
-        given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
+    with Validator("write_points") as given:
+        given.instance("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
     refuse([path], force=force, inputs=inputs, endings=[".csv"])
     points = suspension.hardpoints
     with (
@@ -404,8 +404,8 @@ def doubts(found: Merged) -> str:
 
     A table that leaves nothing out, or has every hardpoint that is needed, is as it is meant.
     """
-    with Arguments("doubts") as given:
-        given.kind("found", found, Merged, "what merged returns is needed")
+    with Validator("doubts") as given:
+        given.instance("found", found, Merged, "what merged returns is needed")
     if not (found.left_out and found.missing):
         return ""
     rows = len(found.left_out) + len(found.read)
@@ -426,10 +426,10 @@ def as_words(found: Merged, table: PointTable | None = None) -> Mapping[str, str
     table : PointTable, optional
         From `read_points`; with it, also its unit, its axes, and what of it was not read.
     """
-    with Arguments("as_words") as given:
-        given.kind("found", found, Merged, "what merged returns is needed")
+    with Validator("as_words") as given:
+        given.instance("found", found, Merged, "what merged returns is needed")
         if table is not None:
-            given.kind("table", table, PointTable, "what read_points returns is needed")
+            given.instance("table", table, PointTable, "what read_points returns is needed")
     read = (n if n == called else f"{n} (from {called})" for n, called in found.read.items())
     said = {
         "read": ", ".join(read),

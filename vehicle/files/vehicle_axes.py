@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.validator import Validator
 
 ISO, REARWARD = "forward left up", "rearward right up"
 
@@ -64,7 +64,7 @@ def axes_of(words: str, *, left_handed: bool = False) -> Axes:
     >>> axes_of("rearward right up").point((1.0, 2.0, 3.0))
     (-1.0, -2.0, 3.0)
     """
-    with Arguments("axes") as given:
+    with Validator("axes") as given:
         given.text("axes", words)
         given.flag("left_handed", left_handed)
     named = words.replace(",", " ").lower().split()

@@ -6,7 +6,7 @@ from typing import Any, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 from .curve import LEAST_GAP, Curve, Interpolation
 
 Array = NDArray[np.float64]
@@ -16,14 +16,14 @@ _KEYS, _WAY = ("mm", "N"), "interpolation"
 _MOST_MM, _MOST_N = 1e3, 1e9
 
 
-def curve_of(given: Arguments, title: str, described: Any, *, odd: bool) -> Curve | None:
+def curve_of(given: Validator, title: str, described: Any, *, odd: bool) -> Curve | None:
     """Read a curve, ``{mm = [...], N = [...]}``; None where it cannot be one.
 
     It rises, and goes on as its last two points do, so that it carries any force.
 
     Parameters
     ----------
-    given : Arguments
+    given : Validator
         Gets what is wrong.
     title : str
     described : mapping
@@ -32,7 +32,7 @@ def curve_of(given: Arguments, title: str, described: Any, *, odd: bool) -> Curv
         distinguished.
     """
     if not isinstance(described, Mapping) or {*described} - {_WAY} != {*_KEYS}:
-        given.refuse(
+        given.fail(
             f"{title} must be a table of two lists, {{mm = [...], N = [...]}}, and if need be "
             f'{_WAY} = "linear".'
         )
@@ -43,7 +43,7 @@ def curve_of(given: Arguments, title: str, described: Any, *, odd: bool) -> Curv
     )
     problem = _problem(places, forces, odd=odd)
     if problem:
-        given.refuse(f"{title}: {problem}")
+        given.fail(f"{title}: {problem}")
         return None
     if odd:
         places, forces = (np.concatenate([-v[:0:-1], v]) for v in (places, forces))

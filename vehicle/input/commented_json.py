@@ -6,10 +6,10 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.legible import legible, short, strange
 from ...core.reading import text_of
+from ...core.validator import Validator
 
 # A text, a comment to the end of the line, a comment between marks. Each of them matches up to the
 # end of the file where it is not closed, and never goes back: the time is linear in the length.
@@ -18,7 +18,7 @@ _COMMENT = re.compile(r'("(?:[^"\\]|\\.)*+"?)|//[^\n]*+|/\*.*?(\*/|\Z)', re.DOTA
 
 def content(path: str | Path) -> dict[str, Any]:
     """Read JSON that may have comments, as Chrono allows."""
-    with Arguments("chrono") as given:
+    with Validator("chrono") as given:
         given.path("path", path)
     text = text_of(Path(path))
     try:

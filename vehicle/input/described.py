@@ -7,8 +7,8 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any, Self
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.validator import Validator
 from ..data import data_sets, find
 from ..data.starter import AXLE, AXLES, CAR, CARS, whole_axle_in, whole_axles
 from .messages import is_named
@@ -51,9 +51,9 @@ def check_keys(source: str, name: str, given: Any, words: str) -> None:
     words : str
         What it has to be: 'places and values'.
     """
-    with Arguments(source) as checked:
+    with Validator(source) as checked:
         for key in checked.mapping(name, given, words):
-            checked.kind(f"key of {name}", key, str, "a text is needed")
+            checked.instance(f"key of {name}", key, str, "a text is needed")
 
 
 class Described:
@@ -94,7 +94,7 @@ class Described:
             If a file cannot be read, or nothing can be like this; it lists everything that is
             wrong.
         """
-        with Arguments(cls.__name__) as given:
+        with Validator(cls.__name__) as given:
             given.path("path_or_name", path_or_name)
         problem = cls._problem_of_name(path_or_name)
         if problem:
@@ -135,7 +135,7 @@ class Described:
         InputError
             If there is a file already, or the name cannot be used.
         """
-        with Arguments(type(self).__name__) as given:
+        with Validator(type(self).__name__) as given:
             given.path("path", path)
             given.flag("force", force)
         return write_toml(self, path, force=force)

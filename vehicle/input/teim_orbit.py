@@ -10,9 +10,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.reading import bytes_of
+from ...core.validator import Validator
 
 _LINE_END = re.compile(r"\r\n|\r|\n")  # not those that Latin-1 has besides
 _BLOCK = re.compile(r"\s*+\[([^\[\]]*+)\]\s*+([$!].*+)?")
@@ -115,7 +115,7 @@ def read_blocks(path: str | Path) -> list[Block]:
     InputError
         If it cannot be read, is no text or has no blocks.
     """
-    with Arguments("teim_orbit") as given:
+    with Validator("teim_orbit") as given:
         given.path("path", path)
     blocks: list[Block] = []
     name, start = "", 0

@@ -7,11 +7,11 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.legible import short, strange
 from ...core.reading import text_of
 from ...core.suggestions import suggestion
+from ...core.validator import Validator
 
 _PYTHON = (
     "This is a Python file, and a hardpoint file (TOML) of a suspension is needed. A mechanism of "
@@ -81,7 +81,7 @@ def read_sections(path: str | Path, known: Sequence[str], needed: str = "") -> d
     InputError
         If it cannot be read, has something else, or not what is needed.
     """
-    with Arguments("file") as given:
+    with Validator("file") as given:
         given.path("path", path)
     data = read_toml(Path(path))
     problems = [f"{key} is not known. {suggestion(key, known)}" for key in data if key not in known]

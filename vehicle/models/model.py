@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments, shown
 from ...core.errors import InputError
+from ...core.validator import Validator, shown
 from ...systems.allowed import LengthLimit
 from ...systems.system import System
 from ..corner.wheel_loads import with_wheel_loads
@@ -64,7 +64,7 @@ class Model(System):
         free_rack: bool = False,
         wheel_loads: bool = False,
     ) -> None:
-        with Arguments("Model") as given:
+        with Validator("Model") as given:
             free_rack = given.flag("free_rack", free_rack)
             wheel_loads = given.flag("wheel_loads", wheel_loads)
         suspension = _suspension_of(suspension)

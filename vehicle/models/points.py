@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.columns import spread
 from ...core.named_types import ArrayLike
+from ...core.validator import Validator
 from ...core.vectors import turned
 from .model import Model
 
@@ -43,8 +43,8 @@ def hardpoints(
     >>> hardpoints(model, model.design_state)["tie_rod_inner"].round(12).tolist()
     [-0.14, -0.31, 0.28]
     """
-    with Arguments("hardpoints") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+    with Validator("hardpoints") as given:
+        given.instance("model", model, Model, Model.NEEDED)
     points = model.suspension.hardpoints
     moved = carried(
         model,

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.named_types import ArrayLike
+from ...core.validator import Validator
 from ...systems.state import State
 from ..input.vehicle import Tyre
 from .model import Model
@@ -55,8 +55,8 @@ _EPSILON = float(np.finfo(np.float64).eps)
 
 def design_height(model: Model) -> float:
     """Return the height of the wheel centre at the design position [m]."""
-    with Arguments("design_height") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+    with Validator("design_height") as given:
+        given.instance("model", model, Model, Model.NEEDED)
     return float(model.signal("wheel_center_z", model.design_state))
 
 
@@ -90,14 +90,14 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
     >>> (model.design_state[0] - arm_angles(model, [0.3, 0.325])).round(9).tolist()
     [0.0, 0.068123601]
     """
-    with Arguments("positions") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+    with Validator("positions") as given:
+        given.instance("model", model, Model, Model.NEEDED)
         heights = given.array("height", height, "m", empty=True)
         racks = given.array("rack_position", rack_position, "m", empty=True)
         try:
             heights, racks = np.broadcast_arrays(heights, racks)
         except ValueError:
-            given.refuse(
+            given.fail(
                 f"height and rack_position have the shapes {heights.shape} and {racks.shape}, "
                 "which do not go together. Give one of them as a single number."
             )
@@ -213,8 +213,8 @@ def state_at_height(
     >>> round(float(model.design_state[0] - state[0]), 10)
     0.068123601
     """
-    with Arguments("state_at_height") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+    with Validator("state_at_height") as given:
+        given.instance("model", model, Model, Model.NEEDED)
         height = given.number("height", height, "m")
         rack_position = given.number("rack_position", rack_position, "m")
         spin_rate = given.number("spin_rate", spin_rate, "rad/s")
@@ -246,8 +246,8 @@ def road_under_load(
     InputError
         If the load is not a finite number of 0 N or more, or the tyre has no stiffness.
     """
-    with Arguments("wheel load") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+    with Validator("wheel load") as given:
+        given.instance("model", model, Model, Model.NEEDED)
         advice = "A road only pushes."
         wheel_load = given.number("wheel_load", wheel_load, "N", least=0.0, advice=advice)
     height: Array = model.signal("wheel_center_z", state, inputs)

@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.errors import KintrafoError
 from ...core.named_types import ArrayLike
+from ...core.validator import Validator
 from ...systems.system import System
 from .attitudes import Attitudes, attitudes_at, iterates
 from .model import Model
@@ -101,8 +101,8 @@ def travel_range(model: Model, rack_position: float = 0.0) -> Range:
     >>> [round(1e3 * height, 1) for height in reach.height]
     [-65.6, 615.9]
     """
-    with Arguments("travel_range") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+    with Validator("travel_range") as given:
+        given.instance("model", model, Model, Model.NEEDED)
         rack_position = given.number("rack_position", rack_position, "m")
     return _range(model, float(rack_position))
 

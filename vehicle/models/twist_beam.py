@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from pydantic import Field
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 from ...core.vectors import Vector, components
 from ...generated import twist_beam as equations
 from ..corner.bushes import Bush, Bushings, bushes_of
@@ -223,12 +223,12 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
         ]
         return Structure(joints, lines)
 
-    def bushes(self, given: Arguments, described: Mapping[str, Any]) -> list[Bush]:
+    def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
         """Return bushes as they are described by their hardpoints.
 
         Parameters
         ----------
-        given : Arguments
+        given : Validator
             Gets what is wrong.
         described : mapping
             By ``pivot`` and ``wheel_center``, of both sides, and ``shear_center``.

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 import numpy as np
 from pydantic import ValidationError
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.validator import Validator
 from ...core.vectors import components
 from ...systems.allowed import LengthLimit
 from ..corner.bushes import Bush
@@ -102,7 +102,7 @@ class WholeAxle(DescribedSection):
         if problems:
             raise InputError(problems)
         if self.bushings is not None:
-            with Arguments("bushings") as given:
+            with Validator("bushings") as given:
                 self._check_bushes(given, self.bushes(given, self.bushings))
 
     # -- making one -----------------------------------------------------------------------------
@@ -183,7 +183,7 @@ class WholeAxle(DescribedSection):
 
     def points(self, side: str) -> dict[str, Array]:
         """Return the hardpoints of a side at design [m]."""
-        with Arguments("points") as given:
+        with Validator("points") as given:
             given.among("side", side, (RIGHT, LEFT))
         found = self.hardpoints.at_design()
         if side == RIGHT:
@@ -219,12 +219,12 @@ class WholeAxle(DescribedSection):
         """Return what holds its parts together."""
 
     @abstractmethod
-    def bushes(self, given: Arguments, described: Mapping[str, Any]) -> list[Bush]:
+    def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
         """Return bushes as they are described by their hardpoints.
 
         Parameters
         ----------
-        given : Arguments
+        given : Validator
             Gets what is wrong.
         described : mapping
         """
@@ -326,7 +326,7 @@ class WholeAxle(DescribedSection):
         """Say what else cannot be, where the points are good."""
         return []
 
-    def _check_bushes(self, given: Arguments, bushes: list[Bush]) -> None:
+    def _check_bushes(self, given: Validator, bushes: list[Bush]) -> None:
         """Refuse bushes of the file with which it cannot move."""
 
     def _problems_of_points(self) -> list[str]:

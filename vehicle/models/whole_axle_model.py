@@ -9,9 +9,9 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments, shown
 from ...core.errors import InputError
 from ...core.named_types import ArrayLike
+from ...core.validator import Validator, shown
 from ...systems.allowed import LengthLimit
 from ...systems.system import System
 from ..corner.corner import Array
@@ -66,7 +66,7 @@ class WholeAxleModel(System):
     axle: Any
 
     def __init__(self, axle: WholeAxle | str | Path, *, wheel_loads: bool = False) -> None:
-        with Arguments(type(self).__name__) as given:
+        with Validator(type(self).__name__) as given:
             wheel_loads = given.flag("wheel_loads", wheel_loads)
         self.axle, self.wheel_loads = self._axle_of(axle), wheel_loads
         self._check()
@@ -120,11 +120,11 @@ class WholeAxleModel(System):
         PositionError
             If the axle cannot be there; the message states how far it goes on this way.
         """
-        with Arguments("states_at") as given:
+        with Validator("states_at") as given:
             lefts = given.array("left", left, "m", dimensions=[0, 1])
             rights = given.array("right", right, "m", dimensions=[0, 1])
             if lefts.ndim and rights.ndim and lefts.shape != rights.shape:
-                given.refuse(
+                given.fail(
                     f"left has {lefts.size} travels and right {rights.size}: as many are needed."
                 )
         lefts, rights = np.broadcast_arrays(lefts, rights)
@@ -206,7 +206,7 @@ class WholeAxleModel(System):
         float
             1 where it comes to the end, less where it does not.
         """
-        with Arguments("farthest") as given:
+        with Validator("farthest") as given:
             left, right = given.number("left", left, "m"), given.number("right", right, "m")
         return float(self.parts_of_ways(np.array([left]), np.array([right]))[0])
 

@@ -17,10 +17,10 @@ from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments, shown
 from ...core.errors import InputError
 from ...core.files import Paths, refuse, replacing
 from ...core.quantities import displayed
+from ...core.validator import Validator, shown
 from ...pictures.curves import COLUMNS, dimension_along, draw, drawable, is_constant
 from ...pictures.figures import METADATA, STYLE, lay_out, save
 from ..analysis.characteristics.groups import ORDER, group_of
@@ -109,7 +109,7 @@ def write(
         If one of them must not be written, before any is; or if one cannot be.
     """
     check_formats(formats=formats)
-    with Arguments("figures") as given:
+    with Validator("figures") as given:
         given.dataset(dataset)
         given.path("folder", folder)
         given.text("title", title)
@@ -170,12 +170,12 @@ def write_overview(
         If the file must not or cannot be written.
     """
     check_formats([path])
-    with Arguments("figures") as given:
+    with Validator("figures") as given:
         given.dataset(dataset)
         given.text("title", title)
         given.flag("force", force)
         given.paths("inputs", inputs)
-        if not given.refused:
+        if not given.failed:
             names = given.names("names", names, map(str, drawable(dataset)))
     pages = {"": tuple(names)} if names else grouped(dataset, goals)
     with rc_context(STYLE):
@@ -204,11 +204,11 @@ def check_formats(paths: Sequence[str | Path] = (), formats: Sequence[str] = ())
     formats : sequence of str, optional
         Of figures: png, svg or pdf.
     """
-    with Arguments("figures") as given:
+    with Validator("figures") as given:
         for name, listed in (("paths", paths), ("formats", formats)):
             if not isinstance(listed, list | tuple):
-                given.refuse(f"{name} = {shown(listed)}: a list is needed.")
-            for path in () if given.refused or name == "formats" else listed:
+                given.fail(f"{name} = {shown(listed)}: a list is needed.")
+            for path in () if given.failed or name == "formats" else listed:
                 given.path("path", path)
     endings = {str(path): Path(path).suffix.lower().removeprefix(".") for path in paths}
     wrong = [given for given, ending in endings.items() if ending not in FORMATS]
@@ -238,7 +238,7 @@ def grouped(dataset: xr.Dataset, goals: Sequence[Goal] = ()) -> dict[str, tuple[
     dict of str to tuple of str
         In the order of the report.
     """
-    with Arguments("figures") as given:
+    with Validator("figures") as given:
         given.dataset(dataset)
     groups: dict[str, tuple[Hashable, ...]] = {}
     names = drawable(dataset)
@@ -266,7 +266,7 @@ def first_curves(dataset: xr.Dataset) -> tuple[str, ...]:
     tuple of str
         In the order of a page.
     """
-    with Arguments("first_curves") as given:
+    with Validator("first_curves") as given:
         given.dataset(dataset)
     over_rack = any(name in dataset.dims for name in ("rack_position", "steering_wheel_angle"))
     there = [name for name in (_FIRST_STEERED if over_rack else _FIRST) if name in dataset]

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse, Rectangle
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 from ..corner.corner import Array
 from ..models.sides import SIDES
 from ..models.whole_axle import WholeAxle
@@ -37,8 +37,8 @@ def views(axle: WholeAxle) -> Figure:
     -------
     matplotlib.figure.Figure
     """
-    with Arguments("views") as given:
-        given.kind("axle", axle, WholeAxle, "an axle without sides, such as a RigidAxle, is needed")
+    with Validator("views") as given:
+        given.instance("axle", axle, WholeAxle, "an axle such as a RigidAxle is needed")
     result = Figure(figsize=(6.4, 5.6), layout="constrained")
     grid = result.add_gridspec(2, 2)
     places = (grid[0, 0], grid[0, 1], grid[1, 0])

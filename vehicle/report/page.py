@@ -11,9 +11,9 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments, shown
 from ...core.files import Paths, refuse, replacing
 from ...core.legible import legible
+from ...core.validator import Validator, shown
 from ...pages.mechanism.page import report_page
 from ...simulation.result import Simulation
 from ...systems.system import System
@@ -115,26 +115,26 @@ def write(
         If the suspension cannot move.
     """
     refuse([path], force=force, inputs=inputs, endings=ENDINGS)
-    with Arguments("report.write") as given:
-        given.kind("model", model, System, System.NEEDED)
+    with Validator("report.write") as given:
+        given.instance("model", model, System, System.NEEDED)
         given.function("progress", progress)
         if title is not None:
             given.text("title", title)
         if motion is not None:
-            given.kind("motion", motion, Simulation, "what kintrafo.simulate returns is needed")
+            given.instance("motion", motion, Simulation, "what kintrafo.simulate returns is needed")
             if isinstance(model, Model):
-                given.refuse("motion: the report of a suspension has a simulated second of its own")
-            elif not given.refused and not is_motion_of(model, motion):
-                given.refuse(f"motion: it is not one of this mechanism, {model!r}.")
+                given.fail("motion: the report of a suspension has a simulated second of its own")
+            elif not given.failed and not is_motion_of(model, motion):
+                given.fail(f"motion: it is not one of this mechanism, {model!r}.")
         check_goals(given, "goals", goals)
         if not isinstance(chapters, list | tuple) or not all(
             isinstance(chapter, Chapter) for chapter in chapters
         ):
-            given.refuse("chapters: a list of chapters is needed, such as goals_chapter returns.")
+            given.fail("chapters: a list of chapters is needed, such as goals_chapter returns.")
         if not isinstance(without, list | tuple | set | frozenset):
-            given.refuse(f"without = {shown(without)}: a list of names is needed.")
-        if not (given.refused or isinstance(model, Model)) and (chapters or without or goals):
-            given.refuse("chapters, without, goals: only the report of a suspension has them")
+            given.fail(f"without = {shown(without)}: a list of names is needed.")
+        if not (given.failed or isinstance(model, Model)) and (chapters or without or goals):
+            given.fail("chapters, without, goals: only the report of a suspension has them")
     report = progress or (lambda _: None)
     if isinstance(model, Model):
         text = render(

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 
 Array = NDArray[np.float64]
 
@@ -43,14 +43,14 @@ class Road:
     stationary: bool = False
 
     def __post_init__(self) -> None:
-        with Arguments("Road") as given:
+        with Validator("Road") as given:
             spacing = given.number("spacing", self.spacing, "m", above=0.0)
             left = given.array("left", self.left, "m", dimensions=[1])
             right = given.array("right", self.right, "m", dimensions=[1])
             given.text("words", self.words)
             given.flag("stationary", self.stationary)
-            if not given.refused and (left.shape != right.shape or left.size < 4):
-                given.refuse(
+            if not given.failed and (left.shape != right.shape or left.size < 4):
+                given.fail(
                     f"left has {left.size} points and right {right.size}: as many are needed of "
                     "both, and four or more."
                 )
@@ -80,7 +80,7 @@ class Road:
         scipy.interpolate.CubicSpline
             From time 0 to the last one [m].
         """
-        with Arguments("Road.over_time") as given:
+        with Validator("Road.over_time") as given:
             given.among("side", side, ("left", "right"))
             speed = given.number("speed", speed, "m/s", above=0.0)
             behind = given.number("behind", behind, "m")
@@ -96,13 +96,13 @@ class Road:
 
     def __add__(self, other: "Road") -> "Road":
         """Return the sum of two roads of equal points."""
-        with Arguments("Road") as given:
-            given.kind("other", other, Road, "a kintrafo.roads.Road is needed")
-            if not given.refused and (other.spacing, other.left.size) != (
+        with Validator("Road") as given:
+            given.instance("other", other, Road, "a kintrafo.roads.Road is needed")
+            if not given.failed and (other.spacing, other.left.size) != (
                 self.spacing,
                 self.left.size,
             ):
-                given.refuse("the roads have other points: equal spacing and number are needed.")
+                given.fail("the roads have other points: equal spacing and number are needed.")
         words = f"{self.words}, and {other.words}"
         left, right = self.left + other.left, self.right + other.right
         return Road(self.spacing, left, right, words, self.stationary and other.stationary)
@@ -115,7 +115,7 @@ def points(length: float, spacing: float) -> Array:
 
 def both(spacing: float, heights: ArrayLike, sides: str, words: str) -> Road:
     """Return a road of one profile under the wheels of both sides, or of one."""
-    with Arguments("road") as given:
+    with Validator("road") as given:
         given.among("sides", sides, ("both", "left", "right"))
     profile = np.asarray(heights, dtype=float)
     left, right = (profile if sides in ("both", s) else 0.0 * profile for s in ("left", "right"))

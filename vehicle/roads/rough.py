@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 from .road import Road
 
 Array = NDArray[np.float64]
@@ -75,22 +75,22 @@ def iso8608(
     >>> float(road.left[0]), road.words
     (0.0, 'a road of class B of ISO 8608, seed 1')
     """
-    with Arguments("iso8608") as given:
+    with Validator("iso8608") as given:
         at_reference = roughness_of(given, roughness)
         length = given.number("length", length, "m", above=0.0)
         seed = given.whole("seed", seed, least=0)
         track = given.number("track", track, "m", least=0.0)
         spacing = given.number("spacing", spacing, "m", above=0.0)
         fade = given.number("fade", fade, "m", least=0.0)
-        if not given.refused and spacing > 0.5 / WAVES[1]:
-            given.refuse(f"spacing = {spacing:g} m: at most {0.5 / WAVES[1]:g} m is allowed.")
-        if not given.refused and not 1.0 / WAVES[0] <= length <= spacing * _MOST_POINTS:
-            given.refuse(
+        if not given.failed and spacing > 0.5 / WAVES[1]:
+            given.fail(f"spacing = {spacing:g} m: at most {0.5 / WAVES[1]:g} m is allowed.")
+        if not given.failed and not 1.0 / WAVES[0] <= length <= spacing * _MOST_POINTS:
+            given.fail(
                 f"length = {length:g} m: {1.0 / WAVES[0]:g} m, one of the longest waves, to "
                 f"{spacing * _MOST_POINTS:g} m are allowed."
             )
-        if not given.refused and fade > length:
-            given.refuse(f"fade = {fade:g} m: the length, {length:g} m, at most is allowed.")
+        if not given.failed and fade > length:
+            given.fail(f"fade = {fade:g} m: the length, {length:g} m, at most is allowed.")
     count = math.ceil(length / spacing)
     n = np.arange(count // 2 + 1) / (count * spacing)
     density = np.where((n >= WAVES[0]) & (n <= WAVES[1]), spectrum(at_reference, n), 0.0)
@@ -116,7 +116,7 @@ def _grown(x: NDArray[Any], fade: float) -> Array:
     return grown
 
 
-def roughness_of(given: Arguments, roughness: str | float) -> float:
+def roughness_of(given: Validator, roughness: str | float) -> float:
     """Return G(n0) of a class, or as it is given [m^3]."""
     if isinstance(roughness, str):
         given.among("roughness", roughness, CLASSES)
@@ -156,7 +156,7 @@ def isotropic_coherence(n: ArrayLike, track: float) -> Array:
     """
     from scipy.special import k1  # noqa: PLC0415 (slow to import)
 
-    with Arguments("isotropic_coherence") as given:
+    with Validator("isotropic_coherence") as given:
         frequencies = given.array("n", n, "1/m")
         track = given.number("track", track, "m", least=0.0)
     x = 2.0 * np.pi * frequencies * track

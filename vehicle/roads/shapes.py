@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 from .road import Road, both, points
 
 # A bump has so many points or more.
@@ -33,13 +33,13 @@ def bump(
     >>> round(float(bump(0.05, 1.0).left.max()), 12)
     0.05
     """
-    with Arguments("bump") as given:
+    with Validator("bump") as given:
         height = given.number("height", height, "m")
         length = given.number("length", length, "m", above=0.0)
         at = given.number("at", at, "m", least=0.0)
         end = given.number("end", end, "m", above=0.0)
-        if not given.refused and at + length > end:
-            given.refuse(f"at + length = {at + length:g} m is beyond the end of {end:g} m.")
+        if not given.failed and at + length > end:
+            given.fail(f"at + length = {at + length:g} m is beyond the end of {end:g} m.")
     spacing = min(_SPACING, length / _POINTS)
     x = points(end, spacing)
     phase = np.clip((x - at) / length, 0.0, 1.0)
@@ -62,7 +62,7 @@ def sine(amplitude: float, wavelength: float, *, end: float = 200.0, sides: str 
     sides : {'both', 'left', 'right'}, optional
         Under which wheels it is.
     """
-    with Arguments("sine") as given:
+    with Validator("sine") as given:
         amplitude = given.number("amplitude", amplitude, "m")
         wavelength = given.number("wavelength", wavelength, "m", above=0.0)
         end = given.number("end", end, "m", above=0.0)

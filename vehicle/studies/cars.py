@@ -7,10 +7,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments, shown
 from ...core.named_types import ArrayLike
 from ...core.quantities import variable
 from ...core.suggestions import suggestion
+from ...core.validator import Validator, shown
 from ..analysis.compliance.flexibility import WheelSupport
 from .batch import curves_of_many
 from .curves import Curves, curves_of, refuse_bushes
@@ -90,19 +90,19 @@ def cars(
     >>> np.rad2deg(found["bump_steer"].values[:, 0] * 1e-3).round(4).tolist()  # deg/mm
     [0.0039, 0.0062, 0.0084]
     """
-    with Arguments("cars") as given:
+    with Validator("cars") as given:
         check_subject(given, suspension)
         given.function("progress", progress)
         if threads is not None:
             threads = given.whole("threads", threads, most=1024)
         kept = tuple(given.names("reductions", reductions, _REDUCTIONS)) if reductions else ()
-        if not given.refused:
+        if not given.failed:
             curves = curves_of(given, suspension, over, positions, names, held)
             columns, frame = _columns(given, suspension, values, curves.over)
-        if not given.refused:
+        if not given.failed:
             numbers = frame.size * len(curves.names) * (len(kept) or curves.positions.size)
             if numbers > _MOST_NUMBERS:
-                given.refuse(
+                given.fail(
                     f"values: {frame.size} cars make {numbers:.3g} numbers, and at most "
                     f"{_MOST_NUMBERS:.3g} are kept. Name fewer characteristics, or reductions."
                 )
@@ -143,7 +143,7 @@ class _Collected:
 
 
 def _columns(
-    given: Arguments, suspension: Subject, values: Any, over: str
+    given: Validator, suspension: Subject, values: Any, over: str
 ) -> tuple[dict[str, Array], xr.DataArray]:
     """Return the values of each car by place, in the unit of the file, and their dimensions."""
     if not isinstance(values, xr.Dataset):
@@ -156,13 +156,13 @@ def _columns(
         rows = {str(n): values[n] for n in (*values.data_vars, *values.coords) if n in known}
         rows |= {str(n): values[n] for n in values.data_vars}
     places = _places(given, suspension, rows)
-    if given.refused:
+    if given.failed:
         return {}, xr.DataArray(0.0)
     refuse_bushes(given, places.values(), [over])
     try:
         whole = xr.broadcast(*(row.drop_vars(row.coords) for row in rows.values()))
     except ValueError:
-        given.refuse("values: rows have different lengths; as many numbers of each are needed.")
+        given.fail("values: rows have different lengths; as many numbers of each are needed.")
         return {}, xr.DataArray(0.0)
     whole = tuple(row if row.dims else row.expand_dims(CAR) for row in whole)
     columns = {}
@@ -176,13 +176,13 @@ def _columns(
     return columns, xr.zeros_like(frame, dtype=float).assign_coords(labels)
 
 
-def _places(given: Arguments, suspension: Subject, names: Any) -> dict[str, DesignVariable]:
+def _places(given: Validator, suspension: Subject, names: Any) -> dict[str, DesignVariable]:
     known = places_of(suspension)
     if not names:
-        given.refuse("values: one place or more is needed.")
+        given.fail("values: one place or more is needed.")
     for name in names:
         if name not in known:
-            given.refuse(f"values: {name} is no number of the file. {suggestion(name, [*known])}")
+            given.fail(f"values: {name} is no number of the file. {suggestion(name, [*known])}")
     return {name: known[name] for name in names if name in known}
 
 

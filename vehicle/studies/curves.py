@@ -7,7 +7,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 from ..analysis.compliance.flexibility import HELD
 from ..assembly.assembly import Assembly
 from ..assembly.of import assembly_of
@@ -93,7 +93,7 @@ def changed(suspension: S, changes: Mapping[str, float]) -> S:
 
 
 def curves_of(
-    given: Arguments,
+    given: Validator,
     suspension: Subject,
     over: Any,
     positions: Any,
@@ -109,9 +109,9 @@ def curves_of(
     if held is not None:
         over = _held(given, suspension, over, held)
     if positions is not None:
-        unit = "m" if given.refused else sweep_axis(over).along.units
+        unit = "m" if given.failed else sweep_axis(over).along.units
         positions = given.array("positions", positions, unit, dimensions=[1])
-    if given.refused:
+    if given.failed:
         return Curves("travel", np.zeros(1), ())
     assembly = assembly_of(suspension)
     if isinstance(names, list | tuple):
@@ -120,30 +120,28 @@ def curves_of(
         positions = usual_positions(assembly, over)
     known = available(assembly, over)
     chosen = known if names is None else given.names("names", names, known)
-    if not (chosen or given.refused):
-        given.refuse(
-            f"names is empty: one characteristic or more is needed, of {', '.join(known)}."
-        )
+    if not (chosen or given.failed):
+        given.fail(f"names is empty: one characteristic or more is needed, of {', '.join(known)}.")
     return Curves(over, positions, tuple(dict.fromkeys(chosen)))
 
 
-def _held(given: Arguments, suspension: Subject, over: Any, held: Any) -> Any:
+def _held(given: Validator, suspension: Subject, over: Any, held: Any) -> Any:
     """Check what holds the wheels under loads, and return it."""
     usual = sweep_axes_of(suspension)[0]
     if over != usual:
-        given.refuse(
+        given.fail(
             f"held: compliance is over {sweep_axis(usual).words}. Leave over = {over!r} out."
         )
     if not assembly_of(suspension).has_bushes:
-        given.refuse("held: compliance needs a file with [bushings]. Add them.")
+        given.fail("held: compliance needs a file with [bushings]. Add them.")
     return given.among("held", held, HELD)
 
 
-def refuse_bushes(given: Arguments, places: Iterable[DesignVariable], overs: Iterable[str]) -> None:
+def refuse_bushes(given: Validator, places: Iterable[DesignVariable], overs: Iterable[str]) -> None:
     """Refuse bushes where no result is one of compliance, so that joints are rigid."""
     soft = [place.name for place in places if place.of_bushes]
     if soft and not any(over in HELD for over in overs):
-        given.refuse(
+        given.fail(
             f"{', '.join(soft[:3])}{' ...' if soft[3:] else ''}: these results do not depend on "
             "bushes, since joints are rigid. Leave bushes out, or ask for compliance: name what "
             "holds the wheels (held), or give limits and targets of compliance."

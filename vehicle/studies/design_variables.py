@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments, shown
 from ...core.quantities import Display, attributes
 from ...core.suggestions import nearest
+from ...core.validator import Validator, shown
 from ..assembly.of import assembly_of
 from ..input.units import unit_of, without_unit
 from .evaluation import Subject
@@ -119,12 +119,12 @@ def _units_of_points(sections: dict[str, Any]) -> dict[str, float]:
     return {"": factors.get("hardpoints", 1.0)} | factors
 
 
-def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, DesignVariable]:
+def matching(given: Validator, suspension: Subject, patterns: Any) -> dict[str, DesignVariable]:
     """Return the numbers that some patterns name, in the order of the file.
 
     Parameters
     ----------
-    given : Arguments
+    given : Validator
         Gets what is wrong.
     suspension : Suspension
     patterns : sequence of str
@@ -137,15 +137,15 @@ def matching(given: Arguments, suspension: Subject, patterns: Any) -> dict[str, 
     lost: dict[str, None] = {}
     texts = isinstance(patterns, list | tuple) and all(isinstance(p, str) for p in patterns)
     if not (texts and patterns):
-        given.refuse(f"places = {shown(patterns)}: a list of places is needed.")
+        given.fail(f"places = {shown(patterns)}: a list of places is needed.")
         return {}
     for pattern in (_of_both(pattern, known) for pattern in patterns):
         found = {name for name in known if _fits(name, pattern) and _is_meant(name, pattern, known)}
         if not found and pattern in lists:
-            given.refuse(f"{pattern} is a list, as of a curve; single numbers vary. Leave it out.")
+            given.fail(f"{pattern} is a list, as of a curve; single numbers vary. Leave it out.")
         elif not found:
             hint = _hint(pattern, known)
-            given.refuse(f"{pattern} is no number of the input file, nor a section of it. {hint}")
+            given.fail(f"{pattern} is no number of the input file, nor a section of it. {hint}")
         wanted |= found
         if found:
             fixed = lists.keys() - found
@@ -191,7 +191,7 @@ def _hint(pattern: str, known: Mapping[str, DesignVariable]) -> str:
 
 
 def amounts(
-    given: Arguments, suspension: Subject, by_pattern: Mapping[str, Any], what: str
+    given: Validator, suspension: Subject, by_pattern: Mapping[str, Any], what: str
 ) -> dict[DesignVariable, float]:
     """Return an amount in SI units for every number that a pattern names; later patterns count.
 
@@ -206,19 +206,19 @@ def amounts(
             checked = given.number(title, number, place.unit, above=0.0, below=_GREATEST)
             if checked < _LEAST:
                 unit = f"{place.unit and ' '}{place.unit}"
-                given.refuse(f"{title} = {checked:g}{unit}: {_LEAST:g}{unit} or more is needed.")
+                given.fail(f"{title} = {checked:g}{unit}: {_LEAST:g}{unit} or more is needed.")
             found[name] = place, checked * place.to_si
     return dict(found[name] for name in places_of(suspension) if name in found)
 
 
-def _part_of(given: Arguments, title: str, text: str, place: DesignVariable) -> float:
+def _part_of(given: Validator, title: str, text: str, place: DesignVariable) -> float:
     """Return what a text such as "20 %" is of a value, in its unit."""
     percent = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*%\s*", text)
     if percent is None:
-        given.refuse(f'{title} = "{text}": a number is needed, or a text such as "20 %".')
+        given.fail(f'{title} = "{text}": a number is needed, or a text such as "20 %".')
         return 1.0
     if place.value == 0.0:
-        given.refuse(f"{title} = {text}: {place.name} is zero, of which there is no part.")
+        given.fail(f"{title} = {text}: {place.name} is zero, of which there is no part.")
         return 1.0
     return float(percent[1]) / 100.0 * abs(place.value)
 

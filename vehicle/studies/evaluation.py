@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 from ..analysis.characteristics.datasets import dataset
 from ..analysis.compare import common_positions as common_to
 from ..analysis.compliance.flexibility import HELD, WheelSupport
@@ -25,9 +25,9 @@ Subject = Suspension | Axle | WholeAxle
 _NEEDED = "a kintrafo.Suspension, a kintrafo.Axle or a kintrafo.RigidAxle is needed"
 
 
-def check_subject(given: Arguments, subject: Any) -> None:
+def check_subject(given: Validator, subject: Any) -> None:
     """Refuse what has no design variables."""
-    given.kind("suspension", subject, (Suspension, Axle, WholeAxle), _NEEDED)
+    given.instance("suspension", subject, (Suspension, Axle, WholeAxle), _NEEDED)
 
 
 def usual_positions(assembly: Assembly, over: str) -> Array:

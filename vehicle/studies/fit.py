@@ -8,9 +8,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.quantities import display_of
+from ...core.validator import Validator
 from ..analysis.compliance.flexibility import HELD, WheelSupport
 from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
@@ -170,22 +170,22 @@ def fit(
     >>> [round(by, 2) for by in found.moved.values()]
     [-0.1, 1.98]
     """
-    with Arguments("fit") as given:
+    with Validator("fit") as given:
         check_subject(given, suspension)
         given.function("progress", progress)
         given.dataset(measured)
         accuracies = given.mapping(
             "accuracy", {} if accuracy is None else accuracy, "names and numbers"
         )
-        if not given.refused:
+        if not given.failed:
             given.among("held", held, HELD)
             targets = _targets(given, suspension, measured, names, (accuracies, held))
-        if not given.refused:
+        if not given.failed:
             check_data(given, suspension, targets)
             by_pattern = given.mapping("tolerances", tolerances, "places and numbers")
             reach = amounts(given, suspension, by_pattern, "tolerance")
             if not reach:
-                given.refuse("tolerances: one or more are needed.")
+                given.fail("tolerances: one or more are needed.")
     search = Search(suspension, reach, targets, (), progress, SIGMAS)
     idle = search.idle(np.zeros(len(reach)))
     if len(idle) == len(reach):
@@ -194,7 +194,7 @@ def fit(
 
 
 def _targets(
-    given: Arguments,
+    given: Validator,
     suspension: Subject,
     measured: xr.Dataset,
     names: Any,
@@ -206,7 +206,7 @@ def _targets(
     ways = {SWEEP_AXES[way].along.name: way for way in reversed(sweep_axes_of(suspension))}
     over = [name for name in ways if name in measured.dims]
     if len(over) != 1:
-        given.refuse(
+        given.fail(
             "measured: what kintrafo.rig.measured_curves returns is needed, over "
             f"{' or '.join(reversed(ways))}."
         )
@@ -217,9 +217,9 @@ def _targets(
         held = measured[name].values
         if not (held.size == 1 and abs(float(held.item())) <= _HELD):
             where = f"held at {1e3 * held.item():g} mm" if held.size == 1 else "not held"
-            given.refuse(f"measured: {name} is {where}; curves with it at zero are needed.")
+            given.fail(f"measured: {name} is {where}; curves with it at zero are needed.")
     if not np.isfinite(measured[along].values.astype(float)).all():
-        given.refuse(f"measured: {along} has no number at some points.")
+        given.fail(f"measured: {along} has no number at some points.")
     there = [
         name
         for name in map(str, measured)
@@ -228,8 +228,8 @@ def _targets(
     under_loads = UNDER_LOADS[held_by].known if way == "travel" else {}
     known = [name for name in there if name in SWEEP_AXES[way].known or name in under_loads]
     chosen = known if names is None else given.names("names", names, known)
-    if not chosen and not given.refused:
-        given.refuse("measured: one curve or more is needed.")
+    if not chosen and not given.failed:
+        given.fail("measured: one curve or more is needed.")
     for name in accuracies:
         given.among("accuracy of", name, known)
     return [
@@ -240,12 +240,12 @@ def _targets(
     ]
 
 
-def _target(given: Arguments, curve: xr.DataArray, over: str, accuracy: Any) -> Target | None:
+def _target(given: Validator, curve: xr.DataArray, over: str, accuracy: Any) -> Target | None:
     name = str(curve.name)
     fine = np.isfinite(curve.values)
     values, at = curve.values[fine], curve[str(curve.dims[0])].values[fine]
     if not values.size:
-        given.refuse(f"measured: {name} has no value.")
+        given.fail(f"measured: {name} has no value.")
         return None
     quantity = (SWEEP_AXES | UNDER_LOADS)[over].known[name]
     shown = display_of(quantity.attributes())
@@ -257,7 +257,7 @@ def _target(given: Arguments, curve: xr.DataArray, over: str, accuracy: Any) -> 
     else:
         within = _USUAL_ACCURACY * float(np.ptp(values))
         if within == 0.0:
-            given.refuse(
+            given.fail(
                 f"measured: {name} does not vary, so that nothing says how well it is measured. "
                 f"Give its accuracy, in {shown.units or 'its unit'}."
             )

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.quantities import bracketed, display_of
+from ...core.validator import Validator
 from ..analysis.compliance.flexibility import HELD
 from ..assembly.of import assembly_of, given_assembly
 from ..assembly.quantity import Quantity
@@ -152,7 +152,7 @@ def limits(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> li
     ways : sequence of str, optional
         As of `goals`.
     """
-    with Arguments("limits") as given:
+    with Validator("limits") as given:
         tables = given.mapping("limits", described, "names and limits")
         return limits_of(given, tables, _ways(given, ways))
 
@@ -172,7 +172,7 @@ def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> lis
     -------
     list of Target and Limit
     """
-    with Arguments("goals") as given:
+    with Validator("goals") as given:
         sections = given.mapping("described", described, "sections and tables")
         known = _ways(given, ways)
         return [
@@ -181,15 +181,15 @@ def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> lis
         ]
 
 
-def _ways(given: Arguments, ways: Any) -> Sequence[str]:
+def _ways(given: Validator, ways: Any) -> Sequence[str]:
     """Return what goals may be over; the usual where what is given is no such names."""
     names = given.names("ways", ways, SWEEP_AXES)
-    if not names and not given.refused:
-        given.refuse(f"ways is empty: one is needed, of {', '.join(SWEEP_AXES)}.")
+    if not names and not given.failed:
+        given.fail(f"ways is empty: one is needed, of {', '.join(SWEEP_AXES)}.")
     return names or OF_CORNERS
 
 
-def _section(given: Arguments, sections: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+def _section(given: Validator, sections: Mapping[str, Any], name: str) -> Mapping[str, Any]:
     return given.mapping(name, sections.get(name, {}), "tables")
 
 
@@ -265,10 +265,10 @@ def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
     >>> [(verdict.name, verdict.met, verdict.at) for verdict in judge(car, toe)]
     [('toe', False, -0.05)]
     """
-    with Arguments("judge") as given:
+    with Validator("judge") as given:
         given_assembly(given, suspension, "suspension")
         check_goals(given, "wanted", wanted)
-        if not given.refused:
+        if not given.failed:
             assembly = assembly_of(suspension)
             check_data(given, assembly, wanted)
     looks = CurveBundle([goal.curves for goal in wanted])
@@ -288,16 +288,16 @@ def _verdict(goal: Goal, values: Array) -> Verdict:
     return Verdict(goal.name, goal.over, kind, met, float(beyond[worst]), float(goal.at[worst]))
 
 
-def check_goals(given: Arguments, name: str, wanted: Any) -> None:
+def check_goals(given: Validator, name: str, wanted: Any) -> None:
     """Refuse what is no list of goals."""
     if not isinstance(wanted, list | tuple) or not all(
         isinstance(one, Target | Limit) for one in wanted
     ):
-        given.refuse(f"{name}: a list of targets and limits, from `variation.goals`, is needed.")
+        given.fail(f"{name}: a list of targets and limits, from `variation.goals`, is needed.")
 
 
 def check_data(
-    given: Arguments,
+    given: Validator,
     suspension: Any,
     goals: Iterable[Goal],
 ) -> None:
@@ -305,7 +305,7 @@ def check_data(
 
     Parameters
     ----------
-    given : Arguments
+    given : Validator
     suspension : Suspension, Axle or RigidAxle
     goals : iterable of Goal
 
@@ -319,11 +319,11 @@ def check_data(
     for goal in goals:
         name = f"{goal.name} over {ways[0] if goal.over in HELD else goal.over}"
         if goal.over not in (*ways, *HELD):
-            given.refuse(f"{name}: what is looked at has curves over {', '.join(ways)}.")
+            given.fail(f"{name}: what is looked at has curves over {', '.join(ways)}.")
             continue
         assembly.refuse_of_steering([goal.name])
         if goal.name not in available(assembly, goal.over):
-            given.refuse(
+            given.fail(
                 f"{name}: the file has not the data that this needs, see [vehicle], [rack], "
                 "[tyre] and [bushings]."
             )
@@ -332,14 +332,14 @@ def check_data(
         if missing.size:
             over = sweep_axis(goal.over)
             places = ", ".join(f"{over.factor * at:g} {over.unit}" for at in missing)
-            given.refuse(
+            given.fail(
                 f"{name}: it has no finite value at {places}, as a turning circle straight ahead. "
                 f"Leave that position out of at_{over.unit}."
             )
 
 
 def targets_of(
-    given: Arguments,
+    given: Validator,
     described: Mapping[str, Any],
     ways: Sequence[str],
     *,
@@ -359,14 +359,14 @@ def targets_of(
 
 
 def extremes_of(
-    given: Arguments, described: Mapping[str, Any], section: str, ways: Sequence[str]
+    given: Validator, described: Mapping[str, Any], section: str, ways: Sequence[str]
 ) -> list[Goal]:
     """Read which characteristics are to be small or great, and where, as `targets_of`."""
     found = _tables(given, described, (section, ways), set())
     return [Goal(name, table.over, table.at) for name, table in found]
 
 
-def limits_of(given: Arguments, described: Mapping[str, Any], ways: Sequence[str]) -> list[Limit]:
+def limits_of(given: Validator, described: Mapping[str, Any], ways: Sequence[str]) -> list[Limit]:
     """Read limits, by the names of characteristics, as `targets_of`."""
     found = []
     for name, table in _tables(given, described, ("limits", ways), {"least", "most"}):
@@ -375,9 +375,9 @@ def limits_of(given: Arguments, described: Mapping[str, Any], ways: Sequence[str
             for key, sign in (("least", -1.0), ("most", 1.0))
         )
         if not least < most:
-            given.refuse(f"[limits.{name}]: least must be smaller than most.")
+            given.fail(f"[limits.{name}]: least must be smaller than most.")
         if not {"least", "most"} & {*table.entries}:
-            given.refuse(f"[limits.{name}]: least or most is needed, in {table.unit}.")
+            given.fail(f"[limits.{name}]: least or most is needed, in {table.unit}.")
         found.append(Limit(name, table.over, table.at, least, most))
     return found
 
@@ -386,7 +386,7 @@ def limits_of(given: Arguments, described: Mapping[str, Any], ways: Sequence[str
 class _Table:
     """A table of a file about one characteristic."""
 
-    given: Arguments
+    given: Validator
     title: str
     entries: Mapping[str, Any]
     over: str
@@ -406,32 +406,30 @@ class _Table:
         name = f"{self.title} {key}"
         values = self.given.array(name, self._given(key), self.unit, dimensions=[0, 1])
         if values.size not in (1, self.at.size):
-            self.given.refuse(
+            self.given.fail(
                 f"{name}: {values.size} numbers and {self.at.size} in "
                 f"at_{sweep_axis(self.over).unit}: one for each position is needed, or one for all."
             )
             return np.zeros_like(self.at)
         if (np.abs(values) > GREATEST).any():
-            self.given.refuse(f"{name}: numbers of {GREATEST:g} {self.unit} or less are needed.")
+            self.given.fail(f"{name}: numbers of {GREATEST:g} {self.unit} or less are needed.")
         return np.broadcast_to(values / self.factor, self.at.shape).copy()
 
     def _given(self, key: str) -> Any:
         if key not in self.entries:
-            self.given.refuse(f"{self.title}: {key} is missing, in {self.unit}.")
+            self.given.fail(f"{self.title}: {key} is missing, in {self.unit}.")
         return self.entries.get(key, 1.0)
 
 
 def _tables(
-    given: Arguments, described: Mapping[str, Any], of: tuple[str, Sequence[str]], keys: set[str]
+    given: Validator, described: Mapping[str, Any], of: tuple[str, Sequence[str]], keys: set[str]
 ) -> Iterable[tuple[str, _Table]]:
     section, ways = of
     for name, table in _listed(described):
         title = f"[{section}.{name}]"
         if not isinstance(table, Mapping):
             at_key = f"at_{SWEEP_AXES[ways[0]].unit}"
-            given.refuse(
-                f"{title} must be a section, with {' and '.join([at_key, *sorted(keys)])}."
-            )
+            given.fail(f"{title} must be a section, with {' and '.join([at_key, *sorted(keys)])}.")
             continue
         over = given.among(f"{title} over", table.get("over", ways[0]), ways)
         under_loads = compliances_over(over)
@@ -441,7 +439,7 @@ def _tables(
             known_keys.append("held")
             over = given.among(f"{title} held", table.get("held", "height"), HELD)
         for key in table.keys() - {*known_keys}:
-            given.refuse(f"{title} {key} is not known: there are {', '.join(known_keys)}.")
+            given.fail(f"{title} {key} is not known: there are {', '.join(known_keys)}.")
         if given.among("characteristic", name, known) != name:
             continue
         shown = display_of(known[name].attributes())

@@ -7,8 +7,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.quantities import distinct
+from ...core.validator import Validator
 from .goals import Goal, Target, extremes_of, targets_of
 from .sweep_axes import sweep_axis
 
@@ -68,7 +68,7 @@ class Objective:
 
 
 def objectives_of(
-    given: Arguments,
+    given: Validator,
     targets: Mapping[str, Any],
     minimise: Mapping[str, Any],
     maximise: Mapping[str, Any],

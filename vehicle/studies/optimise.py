@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.validator import Validator
 from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
 from .goals import Limit, Target, check_data, limits_of, targets_of
@@ -126,21 +126,21 @@ def optimise(
     >>> found.success, round(found.moved["hardpoints.tie_rod_inner.z"], 2)
     (True, -5.5)
     """
-    with Arguments("optimise") as given:
+    with Validator("optimise") as given:
         check_subject(given, suspension)
         given.function("progress", progress)
         ways = sweep_axes_of(suspension)
         aims = targets_of(given, given.mapping("targets", targets, "names and targets"), ways)
         described = given.mapping("limits", {} if limits is None else limits, "names and limits")
         bounds = limits_of(given, described, ways)
-        if not given.refused:
+        if not given.failed:
             check_data(given, suspension, [*aims, *bounds])
             by_pattern = given.mapping("free", free, "places and numbers")
             reach = amounts(given, suspension, by_pattern, "range")
             if not reach:
-                given.refuse("free: one value or more is needed.")
+                given.fail("free: one value or more is needed.")
             if not aims:
-                given.refuse("targets: one or more are needed.")
+                given.fail("targets: one or more are needed.")
     search = Search(suspension, reach, aims, bounds, progress, _RELUCTANCE)
     idle = search.idle(np.zeros(len(reach)))
     if len(idle) == len(reach):

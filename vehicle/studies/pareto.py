@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.validator import Validator
 from .candidates import Candidates
 from .curves import changed, refuse_bushes
 from .design_variables import DesignVariable, amounts
@@ -100,9 +100,9 @@ class Front:
         InputError
             If there is no such member.
         """
-        with Arguments("pareto") as given:
+        with Validator("pareto") as given:
             if not self.moved:
-                given.refuse("member: the front has none.")
+                given.fail("member: the front has none.")
             else:
                 member = given.whole("member", member, most=len(self.moved))
         moved = self.moved[member - 1]
@@ -187,7 +187,7 @@ def pareto(
     >>> [found.success, *found.before]
     [True, 'bump_steer_deviation', 'toe_least']
     """
-    with Arguments("pareto") as given:
+    with Validator("pareto") as given:
         check_subject(given, suspension)
         given.function("progress", progress)
         population = given.whole("population", population, least=_LEAST_MEMBERS, most=_MOST_MEMBERS)
@@ -202,7 +202,7 @@ def pareto(
             ways,
         )
         bounds = limits_of(given, _described(given, "limits", limits), ways)
-        if not given.refused:
+        if not given.failed:
             _refuse_counts(given, len(objectives), population, generations)
             goals = [*(o.goal for o in objectives), *bounds]
             check_data(given, suspension, goals)
@@ -210,7 +210,7 @@ def pareto(
             reach = amounts(given, suspension, by_pattern, "range")
             refuse_bushes(given, reach, [goal.over for goal in goals])
             if not reach:
-                given.refuse("free: one value or more is needed.")
+                given.fail("free: one value or more is needed.")
     check_installed()
     judge = _Judge(suspension, reach, objectives, bounds, population * generations, progress)
     idle = judge.idle()
@@ -221,19 +221,19 @@ def pareto(
     return _front(judge, idle, population)
 
 
-def _described(given: Arguments, name: str, value: Any) -> Mapping[Any, Any]:
+def _described(given: Validator, name: str, value: Any) -> Mapping[Any, Any]:
     return given.mapping(name, {} if value is None else value, "names of characteristics")
 
 
-def _refuse_counts(given: Arguments, objectives: int, population: int, generations: int) -> None:
+def _refuse_counts(given: Validator, objectives: int, population: int, generations: int) -> None:
     if not 2 <= objectives <= _MOST_OBJECTIVES:
-        given.refuse(
+        given.fail(
             f"targets, minimise, maximise: they make {objectives} objectives, and 2 to "
             f"{_MOST_OBJECTIVES} are needed. For one there is `kintrafo optimise`; put what must "
             "only be kept among the limits."
         )
     if population * generations > _MOST_CARS:
-        given.refuse(
+        given.fail(
             f"population = {population}, generations = {generations}: they make "
             f"{population * generations} suspensions, and at most {_MOST_CARS} are looked at."
         )

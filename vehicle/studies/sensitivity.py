@@ -7,10 +7,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError, KintrafoError
 from ...core.named_types import ArrayLike
 from ...core.quantities import Display, display_of
+from ...core.validator import Validator
 from ..analysis.compliance.flexibility import HELD, WheelSupport
 from ..assembly.of import assembly_of
 from .batch import curves_of_many, moved_by
@@ -112,10 +112,10 @@ def sensitivity(
     >>> round(float(np.rad2deg(found["bump_steer"][0, 0])) * 1e-6, 6)  # deg/mm per mm
     0.001124
     """
-    with Arguments("sensitivity") as given:
+    with Validator("sensitivity") as given:
         check_subject(given, suspension)
         given.function("progress", progress)
-        if not given.refused:
+        if not given.failed:
             curves = curves_of(given, suspension, over, positions, names, held)
             wanted = [*matching(given, suspension, places).values()]
             asked = [place for place in wanted if _is_asked_for(place, places)]
@@ -363,9 +363,9 @@ def effects(dataset: xr.Dataset, name: str, at: float = 0.0) -> Iterator[Effect]
     InputError
         If an argument cannot be used.
     """
-    with Arguments("effects") as given:
+    with Validator("effects") as given:
         given.dataset(dataset, over=PLACE)
-        if not given.refused:
+        if not given.failed:
             given.among("name", name, [str(n) for n, d in dataset.items() if PLACE in d.dims])
         given.number("at", at)
     return _effects(dataset, name, at)

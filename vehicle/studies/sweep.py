@@ -7,9 +7,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError, KintrafoError
 from ...core.named_types import ArrayLike
+from ...core.validator import Validator
 from ...ensembles import ensemble
 from ...ensembles.variants import without_mass
 from ..analysis.scenario import Scenario, started
@@ -78,13 +78,13 @@ def sweep(
     >>> found["wheel_acceleration_max"].dims
     ('strut.damper_rate_N_s_per_m',)
     """
-    with Arguments("sweep") as given:
+    with Validator("sweep") as given:
         check_subject(given, suspension)
         scenario = Scenario() if scenario is None else scenario
-        given.kind("scenario", scenario, Scenario, "a Scenario is needed")
+        given.instance("scenario", scenario, Scenario, "a Scenario is needed")
         given.function("progress", progress)
         grid = given.mapping("values", values, "places and numbers")
-        if not given.refused:
+        if not given.failed:
             axes = _axes(given, suspension, grid)
     cars = _Cars(suspension, axes, scenario)
     for car in range(cars.count):
@@ -108,7 +108,7 @@ def sweep(
 
 
 def _axes(
-    given: Arguments, suspension: Subject, grid: Mapping[Any, Any]
+    given: Validator, suspension: Subject, grid: Mapping[Any, Any]
 ) -> dict[DesignVariable, Array]:
     """Return the values of each place in SI units."""
     axes: dict[DesignVariable, Array] = {}
@@ -116,20 +116,20 @@ def _axes(
         places = matching(given, suspension, [name] if isinstance(name, str) else name)
         refuse_bushes(given, places.values(), ())
         if len(places) > 1:
-            given.refuse(f"{name} names {len(places)} numbers: name one of them.")
+            given.fail(f"{name} names {len(places)} numbers: name one of them.")
             continue
         for place in places.values():
             numbers = given.array(f"values of {name}", along, place.unit, dimensions=[0, 1])
             if np.unique(numbers).size != numbers.size:
-                given.refuse(f"values of {name}: each is needed once.")
+                given.fail(f"values of {name}: each is needed once.")
             if place in axes:
-                given.refuse(f"{name} is {place.name}, which is named twice.")
+                given.fail(f"{name} is {place.name}, which is named twice.")
             axes[place] = np.atleast_1d(numbers) * place.to_si
     if not grid:
-        given.refuse("values: one place or more is needed.")
+        given.fail("values: one place or more is needed.")
     count = np.prod([along.size for along in axes.values()], dtype=float)
     if count > _MOST_CARS:
-        given.refuse(f"values: they make {count:g} combinations, at most {_MOST_CARS:g} are taken.")
+        given.fail(f"values: they make {count:g} combinations, at most {_MOST_CARS:g} are taken.")
     return axes
 
 

@@ -7,9 +7,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
 from ...core.named_types import ArrayLike
 from ...core.quantities import variable
+from ...core.validator import Validator
 from ..analysis.compliance.flexibility import WheelSupport
 from ..assembly.of import assembly_of
 from .batch import curves_of_many, moved_by
@@ -103,7 +103,7 @@ def tolerance(
     >>> 0.0 < found.attrs["yield"] < 1.0
     True
     """
-    with Arguments("tolerance") as given:
+    with Validator("tolerance") as given:
         check_subject(given, suspension)
         given.function("progress", progress)
         count = given.whole("count (--cars)", count, least=2, most=_MOST_CARS)
@@ -111,18 +111,18 @@ def tolerance(
         given.among("distribution", distribution, ("normal", "uniform"))
         described = given.mapping("limits", {} if limits is None else limits, "names and limits")
         bounds = limits_of(given, described, sweep_axes_of(suspension))
-        if not given.refused:
+        if not given.failed:
             curves = curves_of(given, suspension, over, positions, names, held)
             check_data(given, suspension, bounds)
             by_pattern = given.mapping("tolerances", tolerances, "places and numbers")
             spread = amounts(given, suspension, by_pattern, "tolerance")
             refuse_bushes(given, spread, [curves.over, *(limit.over for limit in bounds)])
             if not spread:
-                given.refuse("tolerances: one or more are needed.")
+                given.fail("tolerances: one or more are needed.")
             root = _root_of(given, correlation, len(spread), distribution)
             numbers = count * len(curves.names) * curves.positions.size
             if numbers > _MOST_NUMBERS:
-                given.refuse(
+                given.fail(
                     f"count = {count}: {len(curves.names)} characteristics at "
                     f"{curves.positions.size} positions make {numbers:.3g} numbers, and at most "
                     f"{_MOST_NUMBERS:.3g} are kept. Name fewer, or fewer positions."
@@ -137,20 +137,20 @@ def tolerance(
 # -- cars -----------------------------------------------------------------------------------------
 
 
-def _root_of(given: Arguments, correlation: Any, size: int, distribution: str) -> Array:
+def _root_of(given: Validator, correlation: Any, size: int, distribution: str) -> Array:
     """Return a matrix that makes correlated numbers of independent ones."""
     if correlation is None:
         return np.eye(size)
     matrix = given.array("correlation", correlation, dimensions=[2])
     if distribution != "normal":
-        given.refuse("correlation: values vary together by a normal distribution only.")
+        given.fail("correlation: values vary together by a normal distribution only.")
     if matrix.shape != (size, size):
-        given.refuse(f"correlation has the shape {matrix.shape}: ({size}, {size}) is needed.")
+        given.fail(f"correlation has the shape {matrix.shape}: ({size}, {size}) is needed.")
     elif not (np.array_equal(matrix, matrix.T) and (np.diag(matrix) == 1.0).all()):
-        given.refuse("correlation: it must be symmetric, with ones on its diagonal.")
+        given.fail("correlation: it must be symmetric, with ones on its diagonal.")
     elif np.linalg.eigvalsh(matrix)[0] < -1e-12 * size:
-        given.refuse("correlation: no values vary like that (an eigenvalue is negative).")
-    if given.refused:
+        given.fail("correlation: no values vary like that (an eigenvalue is negative).")
+    if given.failed:
         return np.eye(size)
     sizes, vectors = np.linalg.eigh(matrix)
     root: Array = vectors * np.sqrt(np.maximum(sizes, 0.0))

@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...core.tabulated import Tabulated, significant
+from ...core.validator import Validator
 from .tyre import Array, Tyre
 
 if TYPE_CHECKING:
@@ -49,14 +49,14 @@ def key_figures(tyre: Tyre, loads: Any = None) -> "xr.Dataset":
     """
     from xarray import Dataset  # noqa: PLC0415 (slow to import)
 
-    with Arguments("key_figures") as given:
-        given.kind("tyre", tyre, Tyre, "a tyre is needed, such as kintrafo.tyres.load returns")
+    with Validator("key_figures") as given:
+        given.instance("tyre", tyre, Tyre, "a tyre is needed, such as kintrafo.tyres.load returns")
     low, high = tyre.ranges.get("load", (0.0, np.inf))
     usual = np.clip(np.multiply(_SHARES, tyre.nominal_load), low, high)
-    with Arguments("key_figures") as given:
+    with Validator("key_figures") as given:
         chosen = given.array("loads", usual if loads is None else loads, "N", dimensions=(1,))
-        if not given.refused and (chosen.min() < max(low, 1.0) or chosen.max() > high):
-            given.refuse(f"loads: from {max(low, 1.0):g} to {high:g} N the tyre is known.")
+        if not given.failed and (chosen.min() < max(low, 1.0) or chosen.max() > high):
+            given.fail(f"loads: from {max(low, 1.0):g} to {high:g} N the tyre is known.")
     at_zero = tyre.evaluate(chosen)
     leaning = [tyre.evaluate(chosen, camber=side * _SMALL).fy for side in (-1.0, 1.0)]
     lateral, angle = _friction(tyre, chosen, "slip_angle", 0)
@@ -126,7 +126,7 @@ def tabulated(found: "xr.Dataset", head: str = "") -> Tabulated:
     -------
     Tabulated
     """
-    with Arguments("tabulated") as given:
+    with Validator("tabulated") as given:
         given.dataset(found, over="load")
         given.text("head", head)
     loads = [f"{load:.0f} N" for load in found["load"].values]

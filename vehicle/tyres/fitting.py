@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.validator import Validator
 from ...formulas.coefficients import keys
 from . import coefficients as known
 from .magic_formula import MagicFormula
@@ -138,8 +138,8 @@ def fit(
     >>> found.table["value"].values.round(4).tolist()
     [0.98, -21.0]
     """
-    with Arguments("fit") as given:
-        given.kind("start", start, MagicFormula, "a tyre of the Magic Formula is needed")
+    with Validator("fit") as given:
+        given.instance("start", start, MagicFormula, "a tyre of the Magic Formula is needed")
     rows = measured(data)
     _see_signs(rows, start)
     problem = _Problem(rows, start, _scales(rows, accuracy))
@@ -191,10 +191,10 @@ class _Problem:
 def _see_signs(rows: Measured, start: MagicFormula) -> None:
     """Refuse states that no tyre can be in, and forces in other axes than those of ISO 8855."""
     there = vars(start.evaluate(**rows.states, extrapolate=True))
-    with Arguments("fit") as given:
+    with Validator("fit") as given:
         for name in ("fx", "fy"):
             if name in rows.forces and float(rows.forces[name] @ there[name]) < 0.0:
-                given.refuse(
+                given.fail(
                     f"data: {name} is opposite to that of the tyre to start from. The axes are "
                     "those of ISO 8855, x forward, y left, z up: fy is negative at a positive "
                     "slip angle, fx positive at a positive slip. Change the signs of the data."
@@ -207,7 +207,7 @@ def _size(name: str) -> float:
 
 def _scales(rows: Measured, accuracy: Mapping[str, float] | None) -> dict[str, float]:
     """Return what residuals are divided by."""
-    with Arguments("fit") as given:
+    with Validator("fit") as given:
         for name in accuracy or {}:
             given.among("accuracy", name, rows.forces)
         told = {
@@ -215,7 +215,7 @@ def _scales(rows: Measured, accuracy: Mapping[str, float] | None) -> dict[str, f
         }
         missing = [name for name in rows.forces if accuracy and name not in accuracy]
         for name in missing:
-            given.refuse(f"accuracy: {name} is missing. Give one for each force.")
+            given.fail(f"accuracy: {name} is missing. Give one for each force.")
     return {k: told.get(k, 0.1 * (float(np.std(v)) or 1.0)) for k, v in rows.forces.items()}
 
 
@@ -225,12 +225,12 @@ def _chosen(
     """Return what is fitted, and what was left out since the data say nothing of it."""
     start, forces = problem.start, problem.rows.forces
     if coefficients is not None:
-        with Arguments("fit") as given:
+        with Validator("fit") as given:
             names = given.names("coefficients", coefficients, sorted(known.USED))
             if len(set(names)) < len(names):
-                given.refuse("coefficients: a name is there twice.")
+                given.fail("coefficients: a name is there twice.")
             if not names:
-                given.refuse("coefficients: there is none; name one or more.")
+                given.fail("coefficients: there is none; name one or more.")
         _see_determined(problem, names)
         return names, ()
     states = problem.rows.states
@@ -292,7 +292,7 @@ def _limits(
 ) -> tuple[Array, Array]:
     """Return least and greatest values, about the start where nothing is known of them."""
     least, most = [], []
-    with Arguments("fit") as given:
+    with Validator("fit") as given:
         for name in bounds or {}:
             given.among("bounds", name, names)
         for name in names:
@@ -302,9 +302,9 @@ def _limits(
                 f"bounds[{name!r}]", (bounds or {}).get(name, usual), dimensions=(1,), last=2
             )
             if not ends[0] < ends[1]:
-                given.refuse(f"bounds[{name!r}]: the second must be greater than the first.")
+                given.fail(f"bounds[{name!r}]: the second must be greater than the first.")
             elif not ends[0] <= here <= ends[1]:
-                given.refuse(
+                given.fail(
                     f"start: {name} = {here:g} is outside its bounds, {ends[0]:g} and {ends[1]:g}."
                 )
             least.append(ends[0])

@@ -5,7 +5,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 from ...formulas import linear_contact
 from ...formulas.arithmetic import ARRAYS
 from ...formulas.magic_formula import Contact
@@ -57,7 +57,7 @@ class LinearSlip(Tyre):
     name: str = "linear"
 
     def __post_init__(self) -> None:
-        with Arguments("LinearSlip") as given:
+        with Validator("LinearSlip") as given:
             for key, value in asdict(self).items():
                 if key not in {"name", "side"}:
                     above = 0.0 if key in _POSITIVE else -np.inf

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.validator import Validator
 from ..data import data_sets
 from .magic_formula import MagicFormula
 from .tmeasy import TMeasy
@@ -30,7 +30,7 @@ def load(path_or_name: str | Path) -> Tyre:
     InputError
         If the file cannot be read, or no tyre can be like this; it lists everything that is wrong.
     """
-    with Arguments("load") as given:
+    with Validator("load") as given:
         given.path("path_or_name", path_or_name)
     packaged = data_sets(_PACKAGED, ".tir")
     path = Path(str(packaged.get(str(path_or_name), path_or_name)))

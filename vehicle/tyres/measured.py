@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.tables import read_table
 from ...core.units import in_si
+from ...core.validator import Validator
 from .tyre import Array
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def measured(data: "str | Path | Mapping[str, Any]") -> Measured:
     """
     if isinstance(data, Mapping):
         return _checked(_of_arrays(data), "fit", ())
-    with Arguments("fit") as given:
+    with Validator("fit") as given:
         given.path("data", data)
     sheet = read_table(data)
     columns = sheet.columns(_ALL)
@@ -89,15 +89,15 @@ def measured(data: "str | Path | Mapping[str, Any]") -> Measured:
 
 
 def _of_arrays(data: Mapping[str, Any]) -> dict[str, Array]:
-    with Arguments("fit") as given:
+    with Validator("fit") as given:
         for name in data:
             given.among("data", name, _ALL)
         values = {
             k: given.array(k, v, _ALL[k], dimensions=(1,)) for k, v in data.items() if k in _ALL
         }
         lengths = {len(value) for value in values.values()}
-        if len(lengths) > 1 and not given.refused:
-            given.refuse(f"data: columns have {sorted(lengths)} rows; equal numbers are needed.")
+        if len(lengths) > 1 and not given.failed:
+            given.fail(f"data: columns have {sorted(lengths)} rows; equal numbers are needed.")
     return values
 
 

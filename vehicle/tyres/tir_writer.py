@@ -3,10 +3,10 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.files import Paths, replacing
 from ...core.legible import legible
+from ...core.validator import Validator
 from ...formulas.coefficients import NEUTRAL, SCALES
 from . import coefficients as known
 
@@ -75,7 +75,7 @@ def write_tir(
     InputError
         If the file must not or cannot be written.
     """
-    with Arguments("write_tir") as given:
+    with Validator("write_tir") as given:
         given.path("path", path)
         given.text("head", head)
     if Path(path).suffix.lower() != ".tir":

@@ -8,9 +8,9 @@ from typing import Any, Self
 
 import numpy as np
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.legible import legible, short
+from ...core.validator import Validator
 from ...formulas import tmeasy
 from ...formulas.arithmetic import ARRAYS
 from ...formulas.magic_formula import Contact
@@ -157,7 +157,7 @@ class TMeasy(Tyre):
         friction : float
             More than zero; that of the file is the one of its measurement.
         """
-        with Arguments(self.name) as given:
+        with Validator(self.name) as given:
             friction = given.number("friction", friction, above=0.0)
         return replace(self, values={**self.values, "friction": friction})
 

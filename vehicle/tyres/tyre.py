@@ -8,7 +8,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 
 Array = NDArray[np.float64]
 
@@ -130,7 +130,7 @@ class Tyre(ABC):
         Tyre
             Itself, or its mirror image where it was measured for the other side.
         """
-        with Arguments("on") as given:
+        with Validator("on") as given:
             given.among("side", side, ("left", "right"))
         return self if self.side in {"", side} else self.mirrored()
 
@@ -185,7 +185,7 @@ class Tyre(ABC):
         >>> tyre.evaluate(4000.0, angles).fy.round(-1).tolist()
         [3530.0, -60.0, -3460.0]
         """
-        with Arguments("evaluate") as given:
+        with Validator("evaluate") as given:
             wanted = {
                 "load": load,
                 "slip_angle": slip_angle,
@@ -201,7 +201,7 @@ class Tyre(ABC):
                 found = dict(zip(arrays, np.broadcast_arrays(*arrays.values()), strict=True))
             except ValueError:
                 shapes = ", ".join(f"{k} {v.shape}" for k, v in arrays.items())
-                given.refuse(f"the shapes do not broadcast: {shapes}.")
+                given.fail(f"the shapes do not broadcast: {shapes}.")
         load_there = found["load"]
         outside = {} if extrapolate else self._cut(found)
         with np.errstate(over="ignore", under="ignore"):
@@ -210,20 +210,20 @@ class Tyre(ABC):
         fields = {k: np.array(np.broadcast_to(v, shape)) for k, v in state.items()}
         return TyreState(**fields, fz=np.array(load_there), outside=outside)
 
-    def _see(self, given: Arguments, arrays: Mapping[str, Array], with_pressure: bool) -> None:
+    def _see(self, given: Validator, arrays: Mapping[str, Array], with_pressure: bool) -> None:
         """Refuse what no tyre does."""
         if np.any(arrays["load"] < 0.0):
-            given.refuse(f"load = {arrays['load'].min():g} N: zero or more is needed.")
+            given.fail(f"load = {arrays['load'].min():g} N: zero or more is needed.")
         for name in ("slip_angle", "camber"):
             if np.any(abs(arrays[name]) >= 0.5 * np.pi):
-                given.refuse(
+                given.fail(
                     f"{name} = {arrays[name].flat[abs(arrays[name]).argmax()]:g} rad: less than a "
                     "right angle is needed."
                 )
         if with_pressure and not self.usual_pressure:
-            given.refuse("pressure: this tyre does not depend on it. Leave it out.")
+            given.fail("pressure: this tyre does not depend on it. Leave it out.")
         if np.any(arrays["pressure"] <= 0.0) and with_pressure:
-            given.refuse(f"pressure = {arrays['pressure'].min():g} Pa: more than zero is needed.")
+            given.fail(f"pressure = {arrays['pressure'].min():g} Pa: more than zero is needed.")
 
     def _cut(self, found: dict[str, Array]) -> dict[str, NDArray[np.bool_]]:
         """Bring arguments into their ranges; return where they were outside."""

@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from ...core.arguments import Arguments, shown
 from ...core.errors import InputError
 from ...core.optional import require
+from ...core.validator import Validator, shown
 from .versions import differences, versions
 
 _NEEDED = (
@@ -60,12 +60,12 @@ class Workers:
             yield self.of
 
 
-def workers_of(given: Arguments, cluster: Any, cores: int, *, threads: Any) -> Workers | None:
+def workers_of(given: Validator, cluster: Any, cores: int, *, threads: Any) -> Workers | None:
     """Check which workers are used; None: threads of this process.
 
     Parameters
     ----------
-    given : Arguments
+    given : Validator
     cluster
         The argument.
     cores : int
@@ -87,10 +87,10 @@ def workers_of(given: Arguments, cluster: Any, cores: int, *, threads: Any) -> W
     else:
         known = _is_usable(cluster)
     if not known:
-        given.refuse(f"cluster = {shown(cluster)}: {_NEEDED}.")
+        given.fail(f"cluster = {shown(cluster)}: {_NEEDED}.")
         return None
     if threads is not None:
-        given.refuse(
+        given.fail(
             f"threads = {shown(threads)}: the workers of a scheduler have threads of their own. "
             "Leave threads out."
         )
@@ -98,10 +98,10 @@ def workers_of(given: Arguments, cluster: Any, cores: int, *, threads: Any) -> W
     return Workers(cluster)
 
 
-def _local_workers(given: Arguments, cluster: Any, cores: int) -> Workers:
+def _local_workers(given: Validator, cluster: Any, cores: int) -> Workers:
     number = given.whole("cluster", cluster)
     if number > cores:
-        given.refuse(
+        given.fail(
             f"cluster = {number}: there are {cores} threads for so many workers, and each needs "
             "one. Ask for fewer workers, or for more threads."
         )

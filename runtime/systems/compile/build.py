@@ -8,11 +8,11 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Literal
 
-from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.folders import refuse_shared
 from ...core.optional import require
 from ...core.suggestions import suggestion
+from ...core.validator import Validator
 from .cache import appearing, cache_folder, damage, fingerprint, seal
 from .compiler import Compiler, CompilerError, find_compiler
 from .declaration import model_of, translated_errors
@@ -99,7 +99,7 @@ def compile_mechanism(
     >>> four_bar.MOBILITY, list(four_bar.STATE)
     (1, ['crank_angle', 'crank_angle_rate'])
     """
-    with Arguments("compile") as given:
+    with Validator("compile") as given:
         given.among("backend", backend, ("auto", "c", "numpy"))
         given.function("progress", progress)
         parameter_derivatives = given.flag("parameter_derivatives", parameter_derivatives)

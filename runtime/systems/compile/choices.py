@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 from .build import require_generator
 from .declaration import given_by, translated_errors
 
@@ -61,7 +61,7 @@ def proposals(
     >>> next(kintrafo.proposals(SLIDER_CRANK))
     Proposal(independent=('A',), iterates=False)
     """
-    with Arguments("proposals") as given:
+    with Validator("proposals") as given:
         if seconds is not None:
             seconds = given.step("seconds", seconds, "s")
     require_generator()

@@ -14,10 +14,10 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from ...core.arguments import Arguments, shown
 from ...core.errors import InputError, KintrafoError
 from ...core.files import as_input_errors
 from ...core.suggestions import suggestion
+from ...core.validator import Validator, shown
 from .loader import AsItIs, forget
 
 if TYPE_CHECKING:
@@ -100,9 +100,9 @@ def given_by(
     """
     from ...generator import Formulation, Mechanism
 
-    with Arguments("compile") as checked:
+    with Validator("compile") as checked:
         if name is not None:
-            checked.kind("name", name, str, "the name of a model or a mechanism is needed")
+            checked.instance("name", name, str, "the name of a model or a mechanism is needed")
     given: Any = declared
     if isinstance(declared, str | Path):
         if Path(declared).suffix.lower() == ".toml":

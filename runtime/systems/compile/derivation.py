@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...core.arguments import Arguments
+from ...core.validator import Validator
 from .build import require_generator
 from .declaration import model_of, translated_errors
 
@@ -58,7 +58,7 @@ def write_derivation(
     >>> [file.name for file in files][:2]
     ['crank.tex', 'crank_bodies.pdf']
     """
-    with Arguments("write_derivation") as given:
+    with Validator("write_derivation") as given:
         given.path("path", path)
         force = given.flag("force", force)
     inputs = [Path(declared)] if isinstance(declared, str | Path) else []

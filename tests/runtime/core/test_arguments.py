@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from folders import ROOT
 from kintrafo import KintrafoError
-from kintrafo.core.arguments import Arguments, shown
+from kintrafo.core.validator import Validator, shown
 from kintrafo.generated import four_bar
 from kintrafo.vehicle.analysis.scenario import Scenario, run
 
@@ -91,7 +91,7 @@ def test_numbers_of_other_kinds_are_numbers():
     from decimal import Decimal
     from fractions import Fraction
 
-    with Arguments("test") as given:
+    with Validator("test") as given:
         for value in (Decimal("0.5"), Fraction(1, 2), np.float32(0.5), np.array(0.5)):
             assert given.number("x", value) == 0.5
         assert given.array("x", [Fraction(1, 2), 1]).tolist() == [0.5, 1.0]

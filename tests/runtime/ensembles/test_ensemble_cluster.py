@@ -99,7 +99,7 @@ def test_local_workers_share_the_threads(car: Model, start: Any) -> None:
     cars = some_cars(20)
     found = ensemble(car, cars, SPAN, start, cluster=1, threads=2, **KEPT)
     same(found, ensemble(car, cars, SPAN, start, **KEPT))
-    with kintrafo.core.arguments.Arguments("ensemble") as given:
+    with kintrafo.core.validator.Validator("ensemble") as given:
         for three in (3, np.int64(3)):
             assert workers.workers_of(given, three, 8, threads=None) == workers.Workers(3, 2)
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from folders import DATA
 from kintrafo import Axle, InputError, Model, PositionError, Suspension, characteristics, compliance
-from kintrafo.core.arguments import Arguments
+from kintrafo.core.validator import Validator
 from kintrafo.vehicle.analysis.compliance.bars import Bars, Foot
 from kintrafo.vehicle.analysis.compliance.on_bushes import on_joints, softs_of
 from kintrafo.vehicle.analysis.compliance.rigid_displacements import RigidDisplacements
@@ -180,7 +180,7 @@ def test_nothing_is_left_of_the_potential(car: Suspension) -> None:
     As `test_deflection` has it for one side: to 1e-2 N of some thousand.
     """
     axle = axle_of(car, free_twist_deg=3.0)
-    with Arguments("test") as given:
+    with Validator("test") as given:
         assembly = AxleAssembly(axle)
         softs = softs_of(given, assembly, SOFTER[car] | RACK, "relaxed")
     poses = assembly.poses(assembly.at_travel(np.zeros(1)))

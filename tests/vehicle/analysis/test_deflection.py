@@ -21,7 +21,7 @@ from kintrafo import (
     compliance,
     loads,
 )
-from kintrafo.core.arguments import Arguments
+from kintrafo.core.validator import Validator
 from kintrafo.core.vectors import unit_vector
 from kintrafo.vehicle.analysis.compliance.connections import CompliantJoints
 from kintrafo.vehicle.analysis.compliance.equilibrium import ElasticEquilibrium, ElasticState
@@ -110,7 +110,7 @@ def pushed(
 ) -> tuple[Any, ElasticState]:
     """Return the equilibrium under a force at the wheel centre, the wheel held at its height."""
     model = Model(car)
-    with Arguments("test") as given:
+    with Validator("test") as given:
         read = model.suspension.bushes(given, bushes)
     angles = arm_angles(model, [design_height(model) + travel])
     poses = CornerParts.of(model, *at_rest(model, angles))
@@ -484,7 +484,7 @@ def test_two_bearings_share_a_force_as_their_bushes_do(kind: str, on: str) -> No
         car = Suspension.load(name)
         model = Model(car)
         bushes = {one: front, other: rear}
-        with Arguments("test") as given:
+        with Validator("test") as given:
             axle = Axle.from_dict({"axle": "front", "side": car})
             assembly: Any = assembly_of(model if on == "suspension" else axle)
             suffix = "" if on == "suspension" else f"_{car.vehicle.side}"
@@ -512,7 +512,7 @@ def test_how_bearings_share_matters_to_the_toe() -> None:
         "arm_front": {"axial_N_per_mm": _STIFF, "radial_N_per_mm": 2000.0},
         "arm_rear": {"axial_N_per_mm": _LOOSE, "radial_N_per_mm": 1000.0},
     }
-    with Arguments("test") as given:
+    with Validator("test") as given:
         soft = softs_of(given, CornerAssembly(model), bushes, "loaded")[""]
     half, carried = dict(soft.carried), soft.carried
     keys = [("chassis", "control_arm", at) for at in ("arm_front", "arm_rear")]

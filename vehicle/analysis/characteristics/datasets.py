@@ -4,9 +4,9 @@ from typing import Any
 
 import xarray as xr
 
-from ....core.arguments import Arguments
 from ....core.memory import positions_given
 from ....core.named_types import ArrayLike
+from ....core.validator import Validator
 from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import axle_coordinate, of_wheels, wheel_coordinate
 from ...assembly.measures import axle, corner, of_whole_axles
@@ -104,23 +104,23 @@ def over(
     >>> axle["camber"].dims
     ('wheel', 'wheel_travel')
     """
-    with Arguments("characteristics") as given:
+    with Validator("characteristics") as given:
         assembly = given_assembly(given, subject, cars=True)
         travel = given.number("travel", travel, "m")
         rack = given.number("rack_position", rack_position, "m")
         if extent is not None:
-            given.kind(
+            given.instance(
                 "extent", extent, SweepRange, "a kintrafo.characteristics.SweepRange is needed"
             )
         if extent is not None and along is not None:
-            given.refuse("along and extent are both given. Give one of them.")
+            given.fail("along and extent are both given. Give one of them.")
     motion = given_motion(assembly, motion)
-    with Arguments("characteristics") as given:
+    with Validator("characteristics") as given:
         assembly.refuse_holding(given, motion, travel, rack)
         quantity = assembly.motions[motion].along
         if along is not None:
             along = positions_given(given, "along", along, quantity.units)
-            if not given.refused:
+            if not given.failed:
                 assembly.refuse_positions(given, motion, along)
     if along is None:
         along = assembly.usual(motion, extent, travel=travel, rack=rack)
@@ -139,7 +139,7 @@ def given_motion(assembly: Assembly, motion: Any, name: str = "motion") -> str:
         return assembly.usual_motion
     if isinstance(motion, str) and motion not in assembly.motions:
         assembly.refuse_motion(motion)
-    with Arguments("characteristics") as given:
+    with Validator("characteristics") as given:
         given.among(name, motion, assembly.motions)
     return str(motion)
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ....core.arguments import Arguments
 from ....core.named_types import ArrayLike
+from ....core.validator import Validator
 from ...assembly import wheel
 from ...assembly.by_wheel import WHEEL, of_wheels, wheel_coordinate
 from ...assembly.of import given_assembly
@@ -90,7 +90,7 @@ def combined(
     >>> np.rad2deg(found["toe"]).values.round(2).tolist()
     [[-0.22, 0.0, 0.21], [0.06, 0.27, 0.46]]
     """
-    with Arguments("combined") as given:
+    with Validator("combined") as given:
         assembly = given_assembly(given, subject)
         given.among("under", under, BY_NAME)
         given.among("held", held, HELD)
@@ -99,11 +99,11 @@ def combined(
         wanted = amounts_of(given, amounts)
         if travel is not None:
             travel = given.array("travel", travel, "m", dimensions=[1])
-        if not given.refused:
+        if not given.failed:
             assembly.refuse_holding(given, assembly.usual_motion, 0.0, rack_position)
             parts = parts_of(given, assembly, under, wheels)
         softs = softs_of(given, assembly, bushings, hardpoints)
-        if not given.refused:
+        if not given.failed:
             refuse_without_rate(given, held, *assembly.tyres)
     if travel is None:
         travel = assembly.usual(assembly.usual_motion, rack=rack_position)

@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ....core.arguments import Arguments
 from ....core.memory import positions_given
 from ....core.named_types import ArrayLike
 from ....core.quantities import Display, variable
+from ....core.validator import Validator
 from ...assembly import wheel
 from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import WHEEL, of_wheels, wheel_coordinate
@@ -143,9 +143,9 @@ def elastokinematics(
     >>> (found["roll_stiffness_at_contacts"].values * np.pi / 180.0).round(1).tolist()  # N m/deg
     [[851.2, 856.2], [850.8, 856.0]]
     """
-    with Arguments("elastokinematics") as given:
+    with Validator("elastokinematics") as given:
         assembly = given_assembly(given, subject)
-        if not given.refused:
+        if not given.failed:
             name = assembly.usual_motion if motion is None else motion
             if name in ("steer", "rack") and name not in assembly.motions:
                 assembly.refuse_unsteered(f"the motion {name!r}")
@@ -154,11 +154,11 @@ def elastokinematics(
         far = (
             SweepRange()
             if extent is None
-            else given.kind("extent", extent, SweepRange, "a SweepRange")
+            else given.instance("extent", extent, SweepRange, "a SweepRange")
         )
         travel = given.number("travel", travel, "m")
         rack_position = given.number("rack_position", rack_position, "m")
-        if not given.refused:
+        if not given.failed:
             over = assembly.motions[name].along
             if along is not None:
                 along = positions_given(given, "along", along, over.units)

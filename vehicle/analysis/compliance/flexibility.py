@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import root
 
-from ....core.arguments import Arguments
+from ....core.validator import Validator
 from ...assembly.load import Load
 from ...assembly.part_poses import CONTACT, PartPoses, rotated, touching
 from ...assembly.soft_lines import SoftLines
@@ -111,10 +111,10 @@ def rates_of_tyres(wheels: Sequence[RoadWheel]) -> Array:
     return np.array([wheel.vehicle.tyre_rate or 0.0 for wheel in wheels])
 
 
-def refuse_without_rate(given: Arguments, held: WheelSupport, *tyres: Tyre) -> None:
+def refuse_without_rate(given: Validator, held: WheelSupport, *tyres: Tyre) -> None:
     """Refuse to let a tyre hold its wheel that has no vertical rate."""
     if held == "tyre" and not all(tyre.rate_N_per_m > 0.0 for tyre in tyres):
-        given.refuse(
+        given.fail(
             "held: the tyre is to hold the wheel, and [tyre] rate_N_per_m = 0 N/m. Enter its rate, "
             "or let something else hold the wheel: height, spring, locked."
         )

@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ....core.arguments import Arguments
 from ....core.memory import positions_given
 from ....core.named_types import ArrayLike
 from ....core.quantities import Display, display_of, variable
+from ....core.validator import Validator
 from ....core.vectors import cross
 from ...assembly import wheel
 from ...assembly.assembly import Assembly
@@ -128,13 +128,13 @@ def linear(
     >>> round(1e6 * float(found["axle_lateral_by_lateral_parallel"][0]), 2)  # mm/kN
     0.38
     """
-    with Arguments("compliance") as given:
+    with Validator("compliance") as given:
         assembly = given_assembly(given, subject)
         rack_position = given.number("rack_position", rack_position, "m")
         given.among("held", held, HELD)
         if travel is not None:
             travel = positions_given(given, "travel", travel, "m")
-        if not given.refused:
+        if not given.failed:
             assembly.refuse_holding(given, assembly.usual_motion, 0.0, rack_position)
             bushes = assembly.bushes(given, bushings)
             refuse_rigid(given, bushes.every, bushes.rack)
@@ -158,10 +158,10 @@ def linear(
     return found.assign_attrs(title="compliance", held=HELD[held], left_out=without)
 
 
-def refuse_without_radius(given: Arguments, assembly: Assembly) -> None:
+def refuse_without_radius(given: Validator, assembly: Assembly) -> None:
     """Refuse a wheel whose radius is not known."""
     if None in assembly.tyre_radii:
-        given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
+        given.fail("[tyre] radius_mm is needed: where the road touches the wheel.")
 
 
 # -- results --------------------------------------------------------------------------------------

@@ -8,10 +8,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ....core.arguments import Arguments
 from ....core.memory import positions_given
 from ....core.named_types import ArrayLike
 from ....core.quantities import attributes, variable
+from ....core.validator import Validator
 from ...assembly import wheel
 from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import WHEEL, of_wheels, wheel_coordinate
@@ -159,7 +159,7 @@ def nonlinear(
     0.188
     0.0
     """
-    with Arguments("deflection") as given:
+    with Validator("deflection") as given:
         assembly = given_assembly(given, subject)
         given.among("under", under, BY_NAME)
         given.among("held", held, HELD)
@@ -167,11 +167,11 @@ def nonlinear(
         travel = given.number("travel", travel, "m")
         rack_position = given.number("rack_position", rack_position, "m")
         wanted = amounts_of(given, amounts)
-        if not given.refused:
+        if not given.failed:
             assembly.refuse_holding(given, assembly.usual_motion, 0.0, rack_position)
             parts = parts_of(given, assembly, under, wheels)
         softs = softs_of(given, assembly, bushings, hardpoints)
-        if not given.refused:
+        if not given.failed:
             refuse_without_rate(given, held, *assembly.tyres)
     load = replace(BY_NAME[under], words=words_of(under, wheels, parts))
     at = np.array([travel])
@@ -205,12 +205,12 @@ def nonlinear(
 # -- which wheels have the load -------------------------------------------------------------------
 
 
-def parts_of(given: Arguments, assembly: Assembly, under: str, wheels: Any) -> tuple[float, ...]:
+def parts_of(given: Validator, assembly: Assembly, under: str, wheels: Any) -> tuple[float, ...]:
     """Return the parts of a load that the wheels have."""
     ways = {how.name: how.parts for how in loadings(BY_NAME[under], assembly.wheels)}
     if len(assembly.wheels) == 1:
         if wheels is not None:
-            given.refuse("wheels: a corner has one wheel. Leave it out, or give an axle.")
+            given.fail("wheels: a corner has one wheel. Leave it out, or give an axle.")
         return ways[""]
     if wheels is None or isinstance(wheels, str):
         for which, wheel in enumerate(assembly.wheels):
@@ -219,7 +219,7 @@ def parts_of(given: Arguments, assembly: Assembly, under: str, wheels: Any) -> t
         return ways.get(wheels or _PARALLEL, ())
     both = given.array("wheels", wheels, "1", dimensions=[1])
     if both.shape != (len(assembly.wheels),) or not (np.abs(both) <= 1.0).all():
-        given.refuse("wheels: two numbers from -1 to 1 are needed, of the left and right wheel.")
+        given.fail("wheels: two numbers from -1 to 1 are needed, of the left and right wheel.")
     return tuple(both.tolist())
 
 
@@ -256,11 +256,11 @@ def _straight(
     return found
 
 
-def amounts_of(given: Arguments, amounts: ArrayLike) -> Array:
+def amounts_of(given: Validator, amounts: ArrayLike) -> Array:
     """Read how great a load is."""
     wanted = positions_given(given, "amounts", amounts, "N or N m")
     if not (np.abs(wanted) <= _GREATEST).all():
-        given.refuse(f"amounts: numbers of {_GREATEST:g} N or N m or less are needed.")
+        given.fail(f"amounts: numbers of {_GREATEST:g} N or N m or less are needed.")
     return wanted
 
 

@@ -7,8 +7,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.arguments import Arguments
 from ....core.quantities import display_of
+from ....core.validator import Validator
 from ...assembly.assembly import Assembly, Bushings
 from ...assembly.load import Load, known
 from ...assembly.part_poses import PartPoses
@@ -38,16 +38,16 @@ RIGID = CompliantJoints({}, 0.0, {})
 
 
 def softs_of(
-    given: Arguments, assembly: Assembly, bushings: Any, hardpoints: Hardpoints
+    given: Validator, assembly: Assembly, bushings: Any, hardpoints: Hardpoints
 ) -> dict[str, CompliantJoints]:
     """Read the bushes, and what they carry at the hardpoints, by the suffixes of the parts."""
-    if given.refused:
+    if given.failed:
         return {}
     bushes = assembly.bushes(given, bushings)
-    if not bushes.every and not bushes.rack and not given.refused:
-        given.refuse("bushings: one or more are needed.")
+    if not bushes.every and not bushes.rack and not given.failed:
+        given.fail("bushings: one or more are needed.")
     refuse_without_radius(given, assembly)
-    loaded = hardpoints == "loaded" and not given.refused
+    loaded = hardpoints == "loaded" and not given.failed
     carried = _carried_at_design(assembly, bushes) if loaded else {}
     return {
         suffix: CompliantJoints(

@@ -7,10 +7,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ....core.arguments import Arguments
 from ....core.memory import refuse_beyond
 from ....core.quantities import attributes, variable
 from ....core.threads import shared_out
+from ....core.validator import Validator
 from ....datasets.recording import TIME
 from ....simulation.result import Simulation
 from ....systems.system import System
@@ -72,13 +72,13 @@ def along(model: System, result: Simulation) -> xr.Dataset:
     >>> bool(abs(found["holding_force"]).max() < 1e-5)
     True
     """
-    with Arguments("along") as given:
-        given.kind("model", model, System, _NEEDED)
-        if not given.refused:
+    with Validator("along") as given:
+        given.instance("model", model, System, _NEEDED)
+        if not given.failed:
             assembly = given_assembly(given, model, "model")
-        given.kind("result", result, Simulation, "what kintrafo.simulate returns is needed")
-        if not given.refused and not is_motion_of(model, result):
-            given.refuse(f"result: it is not a motion of this model, {model!r}.")
+        given.instance("result", result, Simulation, "what kintrafo.simulate returns is needed")
+        if not given.failed and not is_motion_of(model, result):
+            given.fail(f"result: it is not a motion of this model, {model!r}.")
     return over_time(partial(in_motion, assembly), result)
 
 
@@ -109,7 +109,7 @@ def over_time(find: Callable[[Array, Array], xr.Dataset], result: Simulation) ->
 
 
 def _refuse_beyond(needed: float, outputs: int) -> None:
-    with Arguments("along") as given:
+    with Validator("along") as given:
         what = f"the loads of {outputs:,} outputs"
         refuse_beyond(given, needed, what, "Simulate with fewer outputs, by t_eval.")
 

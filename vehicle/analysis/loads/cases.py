@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.arguments import Arguments
 from ....core.suggestions import suggestion
+from ....core.validator import Validator
 from ...assembly.assembly import Assembly
 from ...assembly.of import given_assembly
 from ...input.toml_file import read_sections
@@ -87,7 +87,7 @@ def read(path: str | Path) -> dict[str, Any]:
 
 
 def cases_of(
-    given: Arguments,
+    given: Validator,
     assembly: Assembly,
     described: Mapping[str, Any],
     static_loads: Sequence[float],
@@ -96,7 +96,7 @@ def cases_of(
 
     Parameters
     ----------
-    given : Arguments
+    given : Validator
         Gets what is wrong.
     assembly : Assembly
     described : mapping
@@ -106,12 +106,12 @@ def cases_of(
         Of each wheel, in parts of which forces may be given [N].
     """
     if not described:
-        given.refuse("cases: one or more are needed.")
+        given.fail("cases: one or more are needed.")
     several = len(assembly.wheels) > 1
     if not assembly.steered and several:
         for name, table in described.items():
             if any(_RACK in one for one in tables_of({name: table})):
-                given.refuse(f"[cases.{name}] {_RACK}: no rack steers it. Leave it out.")
+                given.fail(f"[cases.{name}] {_RACK}: no rack steers it. Leave it out.")
     found = []
     for wheel, static_load in zip(assembly.wheels, static_loads, strict=True):
         own = described
@@ -121,10 +121,10 @@ def cases_of(
                 for name, table in described.items()
             }
         # what all have is told once
-        if not given.refused:
+        if not given.failed:
             of = wheel if several else ""
             found.append(_cases_of_wheel(given, own, static_load, of))
-    return list(zip(*found, strict=True)) if not given.refused else []
+    return list(zip(*found, strict=True)) if not given.failed else []
 
 
 def tables_of(described: Mapping[str, Any]) -> list[Mapping[str, Any]]:
@@ -140,22 +140,22 @@ def in_parts_of_it(described: Mapping[str, Any]) -> bool:
     return any(key.endswith("_g") for key in keys)
 
 
-def _of_wheel(given: Arguments, name: str, table: Any, wheel: str, *, racks: bool) -> Any:
+def _of_wheel(given: Validator, name: str, table: Any, wheel: str, *, racks: bool) -> Any:
     """Return what a case says of one wheel of several; what is no table as it is."""
     if not isinstance(table, Mapping):
         return table
     both = {key: value for key, value in table.items() if key not in SIDES}
     own = table.get(wheel, {})
     if not isinstance(own, Mapping):
-        given.refuse(f"[cases.{name}] {wheel} must be a section, as [cases.{name}.{wheel}].")
+        given.fail(f"[cases.{name}] {wheel} must be a section, as [cases.{name}.{wheel}].")
         return both
     if racks and _RACK in own:
-        given.refuse(
+        given.fail(
             f"[cases.{name}.{wheel}] {_RACK}: both sides have one rack. "
             f"Give it to [cases.{name}] itself."
         )
     for key in (key for key in own if key in both):
-        given.refuse(
+        given.fail(
             f"[cases.{name}] {key} is that of both wheels, and [cases.{name}.{wheel}] has it, too. "
             f"Give it to both by itself, or to left and right."
         )
@@ -163,18 +163,18 @@ def _of_wheel(given: Arguments, name: str, table: Any, wheel: str, *, racks: boo
 
 
 def _cases_of_wheel(
-    given: Arguments, described: Mapping[str, Any], static_load: float, of: str
+    given: Validator, described: Mapping[str, Any], static_load: float, of: str
 ) -> list[Case]:
     cases = []
     for name, table in described.items():
         title = f"[cases.{name}]{of and ' '}{of}"
         if not (isinstance(name, str) and re.fullmatch(r"[\w.-]+", name)):
-            given.refuse(f"{title}: a name is a text of letters, digits, and _ - . only.")
+            given.fail(f"{title}: a name is a text of letters, digits, and _ - . only.")
         if not isinstance(table, Mapping):
-            given.refuse(f"{title} must be a section, with {', '.join(_KEYS)}.")
+            given.fail(f"{title} must be a section, with {', '.join(_KEYS)}.")
             continue
         for key in (key for key in table if key not in _KEYS):
-            given.refuse(f"{title} {key} is not known. {suggestion(str(key), _KEYS)}")
+            given.fail(f"{title} {key} is not known. {suggestion(str(key), _KEYS)}")
         travel = _number(given, title, table, "travel_mm")
         found = {
             place: _vector(given, title, table, f"{place}_N")
@@ -182,12 +182,12 @@ def _cases_of_wheel(
             for place in ("contact", "center")
         }
         if travel is not None and found["contact"][2] != 0.0:
-            given.refuse(
+            given.fail(
                 f"{title}: travel_mm holds the suspension by the vertical force at the contact, "
                 "which cannot be given besides. Leave one of them out (a third number of 0)."
             )
         if found["contact"][2] < 0.0:
-            given.refuse(
+            given.fail(
                 f"{title}: the vertical force at the contact is {found['contact'][2]:.4g} N, and a "
                 "road only pushes: 0 N or more is needed. What pulls belongs to center_N."
             )
@@ -228,7 +228,7 @@ def standard_cases(subject: Any) -> dict[str, dict[str, Any]]:
     >>> standard_cases(Axle.load("reference_axle"))["corner"]["right"]
     {'contact_g': [0.0, 1.2, 1.5]}
     """
-    with Arguments("standard_cases") as given:
+    with Validator("standard_cases") as given:
         assembly = given_assembly(given, subject)
     several = len(assembly.wheels) > 1
     usual = _OF_AXLES if several else _of_corner(-1.0 if assembly.wheels[0] == LEFT else 1.0)
@@ -274,14 +274,14 @@ def _with_torque_on(case: Mapping[str, Any], held: TorqueReaction) -> dict[str, 
     return {"contact_g": [0.0, y, z], "center_g": [x, 0.0, 0.0]}
 
 
-def _number(given: Arguments, title: str, table: Mapping[str, Any], key: str) -> float | None:
+def _number(given: Validator, title: str, table: Mapping[str, Any], key: str) -> float | None:
     if key not in table:
         return None
     unit = key.rpartition("_")[2]
     return given.number(f"{title} {key}", table[key], unit, least=-GREATEST, below=GREATEST)
 
 
-def _vector(given: Arguments, title: str, table: Mapping[str, Any], key: str) -> Array:
+def _vector(given: Validator, title: str, table: Mapping[str, Any], key: str) -> Array:
     """Return three numbers, zeros where there are none."""
     if key not in table:
         return np.zeros(3)
@@ -289,5 +289,5 @@ def _vector(given: Arguments, title: str, table: Mapping[str, Any], key: str) ->
     values = given.array(f"{title} {key}", table[key], unit, dimensions=[1])
     if values.shape == (3,) and (np.abs(values) < GREATEST).all():
         return values
-    given.refuse(f"{title} {key}: three numbers are needed, x, y and z, each below {GREATEST:g}.")
+    given.fail(f"{title} {key}: three numbers are needed, x, y and z, each below {GREATEST:g}.")
     return np.zeros(3)

@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ....core.arguments import Arguments
 from ....core.quantities import variable
+from ....core.validator import Validator
 from ....core.vectors import cross
 from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import WHEEL, flat, wheel_coordinate
@@ -187,8 +187,8 @@ def envelope(dataset: xr.Dataset) -> xr.Dataset:
         ``force_min``, ``force_max``, ``moment_min``, ``moment_max`` over ``load`` and ``axis``, and
         for each of them the case, ``force_min_case`` and so on.
     """
-    with Arguments("envelope") as given:
-        given.kind("dataset", dataset, xr.Dataset, _NEEDED)
+    with Validator("envelope") as given:
+        given.instance("dataset", dataset, xr.Dataset, _NEEDED)
         _check(given, dataset, CASE)
     found = {}
     for name in ("force", "moment"):
@@ -215,8 +215,8 @@ def table(dataset: xr.Dataset) -> xr.Dataset:
         each load on each part, and for the total at each mount of the chassis as that on the part
         ``total``; chassis axes.
     """
-    with Arguments("table") as given:
-        given.kind("dataset", dataset, xr.Dataset, _NEEDED)
+    with Validator("table") as given:
+        given.instance("dataset", dataset, xr.Dataset, _NEEDED)
         _check(given, dataset)
     dataset = with_totals(flat(dataset))
     columns = {
@@ -257,13 +257,13 @@ def workbook(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
     return found | {"envelope": xr.Dataset(columns, attrs=ends.attrs)}
 
 
-def _check(given: Arguments, dataset: xr.Dataset, *further: str) -> None:
+def _check(given: Validator, dataset: xr.Dataset, *further: str) -> None:
     """Refuse a dataset that is none of loads."""
-    if given.refused:
+    if given.failed:
         return
     dimensions = {LOAD, AXIS, *further} <= {*dataset.dims}
     if not (dimensions and {"force", "moment", "at"} <= {*map(str, dataset)}):
-        given.refuse(f"dataset: {_NEEDED}, over {', '.join((*further, LOAD, AXIS))}.")
+        given.fail(f"dataset: {_NEEDED}, over {', '.join((*further, LOAD, AXIS))}.")
 
 
 def _columns(loads: Sequence[Load], name: str, count: int) -> Array:

@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ....core.arguments import Arguments
 from ....core.quantities import attributes, variable
+from ....core.validator import Validator
 from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import stacked
 from ...assembly.load import Load
@@ -108,14 +108,14 @@ def static(
     >>> round(float(found["rod_force"].sel(case="turn", rod="panhard_rod")))
     7628
     """
-    with Arguments("loads") as given:
+    with Validator("loads") as given:
         assembly = given_assembly(given, subject)
-        if not given.refused:
+        if not given.failed:
             if None in assembly.tyre_radii:
-                given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
+                given.fail("[tyre] radius_mm is needed: where the road touches the wheel.")
             described = standard_cases(assembly) if cases is None else cases
             described = given.mapping("cases", described, "names and load cases")
-        if not given.refused:
+        if not given.failed:
             assembly.require_rigid_motion()
             if static_load is None:
                 static_loads = _at_rest_on_the_road(given, assembly, described)
@@ -129,14 +129,14 @@ def static(
 
 
 def _at_rest_on_the_road(
-    given: Arguments, assembly: Assembly, described: Mapping[str, Any]
+    given: Validator, assembly: Assembly, described: Mapping[str, Any]
 ) -> list[float]:
     """Return the vertical forces on all wheels at rest, where a case needs them [N]."""
     if not in_parts_of_it(described):
         return [0.0] * len(assembly.wheels)
     coordinates, (reason,) = static_equilibrium(assembly, WheelLoads.of_tyres(len(assembly.wheels)))
     if reason:
-        given.refuse(f"static_load is needed, [N]: no stable rest on the road: {reason}")
+        given.fail(f"static_load is needed, [N]: no stable rest on the road: {reason}")
         return [1.0] * len(assembly.wheels)
     poses = assembly.at_wheel_coordinates(coordinates, np.zeros(1))
     return [float(poses[suffix].tyre_forces()[part][0, 2]) for suffix, part, _ in wheels_of(poses)]

@@ -16,8 +16,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from ....core.arguments import Arguments
 from ....core.quantities import variable
+from ....core.validator import Validator
 from ....datasets.columns import AS_COLUMNS
 from ....systems.linearisation import Linearisation, linearise
 from ....systems.modes import modes_of_motions
@@ -138,16 +138,16 @@ def response(
     0.68
     """
     assembly = car_assembly("response", subject)
-    with Arguments("response") as given:
+    with Validator("response") as given:
         speed = given.number("speed", speed, "m/s", above=0.0)
         at_reference = roughness_of(given, roughness)
         default = np.arange(0.2, 50.0 + 1e-9, 0.02)
         chosen = default if frequency is None else frequency
         frequencies = given.array("frequency", chosen, "Hz", dimensions=[1])
-        if not given.refused and (frequencies <= 0.0).any():
-            given.refuse("frequency: more than 0 Hz is needed.")
-        if not given.refused and (frequencies.size < 2 or (np.diff(frequencies) <= 0.0).any()):
-            given.refuse("frequency: two or more are needed, each above the one before it.")
+        if not given.failed and (frequencies <= 0.0).any():
+            given.fail("frequency: more than 0 Hz is needed.")
+        if not given.failed and (frequencies.size < 2 or (np.diff(frequencies) <= 0.0).any()):
+            given.fail("frequency: two or more are needed, each above the one before it.")
     linear = linear_at_rest(assembly)
     by_wheel = {w: _outputs(assembly, linear, frequencies, w) for w in assembly.wheels}
     variables: dict[str, Any] = {}

@@ -6,8 +6,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ....core.arguments import Arguments
 from ....core.quantities import variable
+from ....core.validator import Validator
 from ....simulation.result import Simulation
 from ....simulation.simulate import simulate
 from ...assembly.by_wheel import WHEEL, wheel_coordinate
@@ -80,13 +80,13 @@ def over(
         If the motion cannot be finished.
     """
     assembly = car_assembly("ride", subject)
-    with Arguments("ride") as given:
-        given.kind("road", road, Road, "a kintrafo.road_profiles.Road is needed")
+    with Validator("ride") as given:
+        given.instance("road", road, Road, "a kintrafo.road_profiles.Road is needed")
         speed = given.number("speed", speed, "m/s", above=0.0)
         step = given.number("output_step", output_step, "s", above=0.0)
         for name in options.keys() & {"inputs", "t_eval"}:
-            given.refuse(f"{name} is that of the road. Leave it out; see output_step and duration.")
-        if not given.refused:
+            given.fail(f"{name} is that of the road. Leave it out; see output_step and duration.")
+        if not given.failed:
             longest = (road.length + max(assembly.behind().values())) / speed
             end = (
                 longest if duration is None else given.number("duration", duration, "s", above=0.0)
@@ -94,11 +94,11 @@ def over(
             usual = _SETTLED if road.stationary else 0.0
             begin = usual if settle is None else given.number("settle", settle, "s", least=0.0)
             if begin >= end:
-                given.refuse(f"settle = {begin:g} s: less than the duration, {end:g} s, is needed.")
+                given.fail(f"settle = {begin:g} s: less than the duration, {end:g} s, is needed.")
             if step > _LONGEST_STEP:
-                given.refuse(f"output_step = {step:g} s: {_LONGEST_STEP:g} s at most is allowed.")
+                given.fail(f"output_step = {step:g} s: {_LONGEST_STEP:g} s at most is allowed.")
             if end / step > _MOST_OUTPUTS:
-                given.refuse(
+                given.fail(
                     f"output_step = {step:g} s: {end / _MOST_OUTPUTS:.3g} s or more is needed."
                 )
     result = _simulated(assembly, road, speed, end, step, options)

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from ....core.arguments import Arguments
+from ....core.validator import Validator
 from ...assembly.car import CarAssembly
 from ...assembly.of import assembly_of
 from ...models.car import Car
@@ -16,8 +16,8 @@ def car_assembly(source: str, subject: Any) -> CarAssembly:
     ------
     InputError
     """
-    with Arguments(source) as given:
-        given.kind("subject", subject, (Car, CarModel, CarAssembly), _NEEDED)
+    with Validator(source) as given:
+        given.instance("subject", subject, (Car, CarModel, CarAssembly), _NEEDED)
     found = assembly_of(subject)
     assert isinstance(found, CarAssembly)
     return found

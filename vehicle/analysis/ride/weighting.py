@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ....core.arguments import Arguments
+from ....core.validator import Validator
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -53,7 +53,7 @@ def weighting(frequency: ArrayLike) -> Complex:
     >>> abs(weighting([1.0, 8.0])).round(3).tolist()
     [0.482, 1.036]
     """
-    with Arguments("weighting") as given:
+    with Validator("weighting") as given:
         frequencies = given.array("frequency", frequency, "Hz", empty=True)
     numerator, denominator = _polynomials()
     s = 2j * np.pi * frequencies
@@ -71,7 +71,7 @@ def weighted(acceleration: ArrayLike, step: float) -> Array:
     step : float
         Between two times [s].
     """
-    with Arguments("weighted") as given:
+    with Validator("weighted") as given:
         values = given.array("acceleration", acceleration, "m/s^2", dimensions=[1])
         step = given.number("step", step, "s", above=0.0)
     from scipy.signal import lsim  # noqa: PLC0415 (slow to import)

@@ -71,10 +71,10 @@ def _values(given: list[str]) -> dict[str, float]:
 def _motion(file: str, name: str | None, values: dict[str, float], duration: float) -> "Simulation":
     import numpy as np
 
-    from ....core.arguments import Arguments
+    from ....core.validator import Validator
     from ....simulation.simulate import simulate
 
-    with Arguments("animate") as given:
+    with Validator("animate") as given:
         seconds = given.number("--duration", duration, "s", above=0.0, below=3600.0)
     system = system_of(file, name) if file.endswith(".py") else model_of(file)
     times = np.linspace(0.0, seconds, max(201, round(500 * min(seconds, 20.0)) + 1))

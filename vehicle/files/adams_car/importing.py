@@ -7,9 +7,9 @@ from typing import Any
 
 import tomlkit
 
-from ....core.arguments import Arguments
 from ....core.errors import InputError
 from ....core.legible import legible
+from ....core.validator import Validator
 from ...input.teim_values import shown
 from ...kinds import KINDS, Suspension
 from ...models.sides import SIDES
@@ -95,8 +95,8 @@ def imported(
     InputError
         If a hardpoint is missing, or no suspension can be like this; with all problems.
     """
-    with Arguments("imported") as arguments:
-        arguments.kind("subsystem", subsystem, Subsystem, "what read returns is needed")
+    with Validator("imported") as arguments:
+        arguments.instance("subsystem", subsystem, Subsystem, "what read returns is needed")
         if side is not None:
             arguments.among("side", side, SIDES)
         given = arguments.mapping("names", names or {}, "hardpoints and what they are called there")

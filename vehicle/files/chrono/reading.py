@@ -5,8 +5,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ....core.arguments import Arguments
 from ....core.errors import InputError
+from ....core.validator import Validator
 from ...input.commented_json import content
 from ...kinds import Suspension
 from ..fitting import ground
@@ -76,7 +76,7 @@ def read(
         If a file is not JSON or not of this kind, has a key twice or one that seems to be
         misspelt, or no suspension can be like this; by the keys of the file.
     """
-    with Arguments("read") as arguments:
+    with Validator("read") as arguments:
         arguments.flag("points_only", points_only)
     if points_only and tire is not None:
         problem = "nothing of a tire is taken with points_only. Leave one of them out."

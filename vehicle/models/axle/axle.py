@@ -10,9 +10,9 @@ from typing import Any, Self
 import numpy as np
 from pydantic import ValidationError
 
-from ....core.arguments import Arguments, shown
 from ....core.errors import InputError
 from ....core.suggestions import suggestion
+from ....core.validator import Validator, shown
 from ....core.vectors import unit_vector
 from ...corner.bushes import RACK
 from ...data import data_sets
@@ -121,7 +121,7 @@ class Axle(Described):
             If no axle can be like this; it lists everything that is wrong.
         """
         check_keys(source, "data", data, "keys and values of an axle's file")
-        with Arguments(source) as checked:
+        with Validator(source) as checked:
             checked.path("folder", folder)
         if AXLE not in data:
             _refuse_other_files(data, source)
@@ -192,9 +192,9 @@ class Axle(Described):
         (190.0, 180.0)
         """
         check_keys("axle", "changes", changes, "places and values")
-        with Arguments("axle") as checked:
+        with Validator("axle") as checked:
             if not self.symmetric and any(key.startswith("side.") for key in changes):
-                checked.refuse("side: the file gives right and left. Name one of these.")
+                checked.fail("side: the file gives right and left. Name one of these.")
         of_side: dict[str, dict[str, Any]] = {"side": {}, RIGHT: {}, LEFT: {}}
         data, problems = self.to_dict(), list[str]()
         for place, value in changes.items():

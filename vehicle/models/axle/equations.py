@@ -4,8 +4,8 @@ from collections.abc import Callable
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
-from ....core.arguments import Arguments
 from ....core.errors import InputError
+from ....core.validator import Validator
 from ....core.vectors import components
 from ....systems.allowed import LengthLimit
 from ....systems.compile.build import compile_mechanism, require_generator
@@ -46,8 +46,8 @@ class AxleModel(System):
         progress: Callable[[str], None] | None = None,
         wheel_loads: bool = False,
     ) -> None:
-        with Arguments("AxleModel") as given:
-            given.kind("axle", axle, Axle, Axle.NEEDED)
+        with Validator("AxleModel") as given:
+            given.instance("axle", axle, Axle, Axle.NEEDED)
             given.function("progress", progress)
             wheel_loads = given.flag("wheel_loads", wheel_loads)
         equations = compile_mechanism(declared(axle, wheel_loads=wheel_loads), progress=progress)

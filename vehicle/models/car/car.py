@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from ....core.arguments import Arguments, shown
 from ....core.errors import InputError
+from ....core.validator import Validator, shown
 from ...data import data_sets
 from ...data.starter import AXLE, AXLES, CAR, CARS, WHOLE_AXLES, whole_axle_in, whole_axles
 from ...input.described import Described, check_keys, described_by
@@ -99,7 +99,7 @@ class Car(Described):
             If no car can be like this; it lists everything that is wrong.
         """
         check_keys(source, "data", data, "keys and values of a car's file")
-        with Arguments(source) as checked:
+        with Validator(source) as checked:
             checked.path("folder", folder)
         if CAR not in data:
             problem = f'{CAR} is missing: how the body moves. Add a line `{CAR} = "roll"`.'

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from ....core.arguments import Arguments
+from ....core.validator import Validator
 from ....core.vectors import components
 from ....systems.allowed import LengthLimit
 from ....systems.compile.build import compile_mechanism, require_generator
@@ -52,8 +52,8 @@ class CarModel(System):
     NEEDED = 'a kintrafo.CarModel, such as CarModel(load("quarter_car")), is needed'
 
     def __init__(self, car: Car, *, progress: Report | None = None) -> None:
-        with Arguments("CarModel") as given:
-            given.kind("car", car, Car, Car.NEEDED)
+        with Validator("CarModel") as given:
+            given.instance("car", car, Car, Car.NEEDED)
             given.function("progress", progress)
         equations = _equations(car, progress)
         super().__init__(equations, _parameters(car, equations.PARAMETERS))

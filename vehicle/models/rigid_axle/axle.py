@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 from pydantic import Field
 
-from ....core.arguments import Arguments
+from ....core.validator import Validator
 from ....core.vectors import components, unit_vector
 from ...corner.bushes import Bush, Bushings, bushes_of
 from ...corner.coil_sprung import ApartDamper
@@ -169,12 +169,12 @@ are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center
         """Return what holds its parts together."""
         return structure_of(self.rods)
 
-    def bushes(self, given: Arguments, described: Mapping[str, Any]) -> list[Bush]:
+    def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
         """Return bushes by their hardpoints; see `docs/suspension/compliance.md`.
 
         Parameters
         ----------
-        given : Arguments
+        given : Validator
             Gets what is wrong.
         described : mapping
             By the name of a rod with ``_chassis`` or ``_axle`` behind it, and ``wheel_center`` for
@@ -254,12 +254,12 @@ are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center
             return problems
         return Hold.of(ends, self.center).problems()
 
-    def _check_bushes(self, given: Arguments, bushes: Sequence[Bush]) -> None:
+    def _check_bushes(self, given: Validator, bushes: Sequence[Bush]) -> None:
         """Refuse five rods of which none deflects along itself."""
-        if self.overheld and not given.refused:
+        if self.overheld and not given.failed:
             self._refuse_rigid(given, bushes)
 
-    def _refuse_rigid(self, given: Arguments, bushes: Sequence[Bush]) -> None:
+    def _refuse_rigid(self, given: Validator, bushes: Sequence[Bush]) -> None:
         """Refuse five rods of which none deflects along itself."""
         ends = self.ends()
         ways = {
@@ -271,7 +271,7 @@ are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center
         if not any(
             way @ bush.compliance[:3, :3] @ way > _ROUNDING * bush.soft.max() for bush, way in along
         ):
-            given.refuse(
+            given.fail(
                 f"of the five rods {', '.join(ends)} one or more must deflect along itself, or "
                 "the axle neither heaves nor rolls. Give its bush axial_N_per_mm, or "
                 "radial_N_per_mm where its axis is across the rod."

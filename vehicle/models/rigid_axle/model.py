@@ -7,8 +7,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ....core.arguments import Arguments
 from ....core.errors import InputError
+from ....core.validator import Validator
 from ....generated import rigid_axle as equations
 from ...corner.corner import Array
 from ..whole_axle_model import WholeAxleModel
@@ -67,7 +67,7 @@ class RigidAxleModel(WholeAxleModel):
     def __init__(
         self, axle: RigidAxle | str | Path, *, guided: bool = False, wheel_loads: bool = False
     ) -> None:
-        with Arguments("RigidAxleModel") as given:
+        with Validator("RigidAxleModel") as given:
             self._guided = given.flag("guided", guided)
         super().__init__(axle, wheel_loads=wheel_loads)
 

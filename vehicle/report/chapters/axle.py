@@ -6,8 +6,8 @@ from typing import Any
 import xarray as xr
 from matplotlib import rc_context
 
-from ....core.arguments import Arguments
 from ....core.tabulated import Tabulated
+from ....core.validator import Validator
 from ....pictures.figures import STYLE
 from ...analysis.characteristics.at_design import at_design
 from ...analysis.characteristics.datasets import KNOWN, dataset
@@ -82,10 +82,10 @@ def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
     InputError
         If an argument cannot be used.
     """
-    with Arguments("axle_chapter") as given:
+    with Validator("axle_chapter") as given:
         assembly = given_assembly(given, axle, "axle")
-        if not given.refused and len(assembly.wheels) < 2:
-            given.refuse("axle: one wheel has no such chapter. Give an Axle or a RigidAxle.")
+        if not given.failed and len(assembly.wheels) < 2:
+            given.fail("axle: one wheel has no such chapter. Give an Axle or a RigidAxle.")
         check_goals(given, "goals", goals)
     wanted = {goal.over for goal in goals}
     drawn = [*(m for m in _DRAWN if m in assembly.motions), *["right"] * ("right" in wanted)]

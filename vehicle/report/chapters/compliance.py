@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import xarray as xr
 
-from ....core.arguments import Arguments
+from ....core.validator import Validator
 from ...analysis.compliance.flexibility import HELD
 from ...analysis.compliance.tables import compliances, compliances_of_beam
 from ...plots.curves import grouped
@@ -28,7 +28,7 @@ def compliance_chapter(found: xr.Dataset, goals: Sequence[Goal] = ()) -> Chapter
     -------
     Chapter
     """
-    with Arguments("compliance_chapter") as given:
+    with Validator("compliance_chapter") as given:
         given.dataset(found, over="wheel_travel")
         check_goals(given, "goals", goals)
     curves = found.drop_dims([name for name in ("moved", "by") if name in found.dims])

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import xarray as xr
 
-from ....core.arguments import Arguments
 from ....core.quantities import long_name
+from ....core.validator import Validator
 from ...analysis.characteristics.datasets import DATA_SET
 from ...analysis.compliance.tables import deflections
 from ...assembly.by_wheel import WHEEL, flat
@@ -35,13 +35,13 @@ def elastokinematics_chapter(*found: xr.Dataset, goals: Sequence[Goal] = ()) -> 
     InputError
         If an argument cannot be used, or goals are about curves whose rack is turned.
     """
-    with Arguments("elastokinematics_chapter") as given:
+    with Validator("elastokinematics_chapter") as given:
         if not found:
-            given.refuse("dataset: one or more are needed.")
+            given.fail("dataset: one or more are needed.")
         for dataset in found:
             given.dataset(dataset, over=DATA_SET)
         check_goals(given, "goals", goals)
-        if not given.refused:
+        if not given.failed:
             wanted = [_about(given, flat(dataset), goals) for dataset in found]
     sheets = []
     drawn: list[Picture] = []
@@ -57,13 +57,13 @@ def elastokinematics_chapter(*found: xr.Dataset, goals: Sequence[Goal] = ()) -> 
     return Chapter("Elastokinematics", (words, *of_goals), tuple(sheets), tuple(drawn))
 
 
-def _about(given: Arguments, dataset: xr.Dataset, goals: Sequence[Goal]) -> list[Goal]:
+def _about(given: Validator, dataset: xr.Dataset, goals: Sequence[Goal]) -> list[Goal]:
     """Return the goals about curves of a dataset; by its words, since other things have that name.
 
     A wheel rate at the contact, say, is not that of the spring alone.
     """
     if goals and "over" not in dataset.attrs:
-        given.refuse(
+        given.fail(
             'goals: the dataset does not say over what it goes, attrs["over"]. Compute it anew, or '
             "leave the goals out."
         )
@@ -76,7 +76,7 @@ def _about(given: Arguments, dataset: xr.Dataset, goals: Sequence[Goal]) -> list
     ]
     rack = dataset.coords.get(RACK.name)
     if own and rack is not None and rack.ndim == 0 and float(rack) != 0.0:
-        given.refuse(
+        given.fail(
             f"goals: they are about the rack in its middle, and here it is at {1e3 * float(rack):g}"
             " mm. Give curves with rack_position = 0, or leave the goals out."
         )

@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from typing import Any
 
-from ....core.arguments import Arguments
 from ....core.quantities import display_of
 from ....core.tabulated import Tabulated, significant
+from ....core.validator import Validator
 from ...analysis.compliance.flexibility import HELD
 from ...assembly.assembly import Assembly
 from ...assembly.of import given_assembly
@@ -39,10 +39,10 @@ def goals_chapter(subject: Any, goals: Sequence[Goal]) -> Chapter:
     InputError, PositionError
         As of `kintrafo.variation.judge`.
     """
-    with Arguments("goals_chapter") as given:
+    with Validator("goals_chapter") as given:
         assembly = given_assembly(given, subject)
         if isinstance(goals, list | tuple) and not goals:
-            given.refuse("goals is empty: one target or limit is needed.")
+            given.fail("goals is empty: one target or limit is needed.")
     verdicts = judge(assembly, goals)
     missed = sum(not verdict.met for verdict in verdicts)
     words = f"{len(verdicts) - missed} of {len(verdicts)} are met, {missed} missed."

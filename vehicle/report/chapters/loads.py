@@ -3,7 +3,7 @@
 import xarray as xr
 from matplotlib import rc_context
 
-from ....core.arguments import Arguments
+from ....core.validator import Validator
 from ....pictures.figures import STYLE
 from ...analysis.loads.sheets import overview
 from ...plots.loads import free_bodies
@@ -22,7 +22,7 @@ def loads_chapter(found: xr.Dataset) -> Chapter:
     -------
     Chapter
     """
-    with Arguments("loads_chapter") as given:
+    with Validator("loads_chapter") as given:
         given.dataset(found, over="case")
     reasons = {
         str(case): str(reason)

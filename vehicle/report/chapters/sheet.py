@@ -2,7 +2,7 @@
 
 import xarray as xr
 
-from ....core.arguments import Arguments
+from ....core.validator import Validator
 from ...analysis.sheet import QUANTITY, tabulated
 from .chapter import Chapter
 
@@ -19,7 +19,7 @@ def sheet_chapter(found: xr.Dataset) -> Chapter:
     -------
     Chapter
     """
-    with Arguments("sheet_chapter") as given:
+    with Validator("sheet_chapter") as given:
         given.dataset(found, over=QUANTITY)
     words = (
         "Kinematic and compliance gradients at design, as a rig's summary has them. Signs are "

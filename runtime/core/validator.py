@@ -2,8 +2,8 @@
 
 What is wrong is collected, so that one error lists all of it::
 
-    with Arguments("equilibrium") as given:
-        given.kind("model", model, Model, Model.NEEDED)
+    with Validator("equilibrium") as given:
+        given.instance("model", model, Model, Model.NEEDED)
         road_height = given.number("road_height", road_height, "m")
 """
 
@@ -38,7 +38,7 @@ def shown(value: Any) -> str:
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
 
 
-class Arguments:
+class Validator:
     """The arguments of one call; raises one `InputError` for all that are wrong.
 
     Each check returns the argument as it is used, or something harmless where it is wrong: what is
@@ -66,7 +66,7 @@ class Arguments:
         if self._problems:
             raise InputError(self._problems, self._source) from None
 
-    def refuse(self, problem: str) -> None:
+    def fail(self, problem: str) -> None:
         """Note what is wrong."""
         enough = len(self._problems) > _MOST_PROBLEMS  # of which the error shows fewer
         # of a section each of its numbers has the same one
@@ -74,7 +74,7 @@ class Arguments:
             self._problems.append(problem)
 
     @property
-    def refused(self) -> bool:
+    def failed(self) -> bool:
         """Whether anything is wrong."""
         return bool(self._problems)
 
@@ -101,7 +101,7 @@ class Arguments:
         allowed += [f"below {below:g}{unit}"] if below < math.inf else []
         text = shown(value) if isinstance(value, str | bytes) else f"{_plain(value)}{unit}"
         words = " ".join(["a finite number", " and ".join(allowed)]).strip()
-        self.refuse(f"{name} = {text}: {words} is needed. {advice}".strip())
+        self.fail(f"{name} = {text}: {words} is needed. {advice}".strip())
         return max(least, 1.0) if math.isinf(below) else below / 2.0
 
     def step(self, name: str, value: Any, unit: str = "") -> float:
@@ -109,7 +109,7 @@ class Arguments:
         number = _as_float(value)
         if not number > 0.0:
             unit = f" {unit}" if unit else ""
-            self.refuse(f"{name} = {_plain(value)}{unit}: a number above 0{unit} is needed.")
+            self.fail(f"{name} = {_plain(value)}{unit}: a number above 0{unit} is needed.")
             return math.inf
         return number
 
@@ -123,7 +123,7 @@ class Arguments:
         if math.isfinite(number) and number == int(number) and least <= number <= most:
             return int(number)
         up_to = "or more" if math.isinf(most) else f"to {most:g}"
-        self.refuse(f"{name} = {_plain(value)}: a whole number, {least} {up_to}, is needed.")
+        self.fail(f"{name} = {_plain(value)}: a whole number, {least} {up_to}, is needed.")
         return least
 
     def array(
@@ -155,19 +155,19 @@ class Arguments:
         array = _as_array(values)
         in_unit = f", in {unit}," if unit else ""
         if array is None:
-            self.refuse(f"{name} = {shown(values)}: numbers{in_unit} are needed.")
+            self.fail(f"{name} = {shown(values)}: numbers{in_unit} are needed.")
         elif dimensions is not None and array.ndim not in dimensions:
             shapes = "one number", "a row of numbers", "a table"
             wanted = " or ".join(shapes[d] for d in dimensions)
             hint = f" Write [{float(array):g}] for one." if array.ndim == 0 else ""
-            self.refuse(f"{name} has the shape {array.shape}: {wanted}{in_unit} is needed.{hint}")
+            self.fail(f"{name} has the shape {array.shape}: {wanted}{in_unit} is needed.{hint}")
         elif last is not None and array.shape[-1:] != (last,):
-            self.refuse(f"{name} has the shape {array.shape}: its last dimension must be {last}.")
+            self.fail(f"{name} has the shape {array.shape}: its last dimension must be {last}.")
         elif not empty and array.size == 0:
-            self.refuse(f"{name} is empty: one number{in_unit} or more is needed.")
+            self.fail(f"{name} is empty: one number{in_unit} or more is needed.")
         elif finite and not np.isfinite(array).all():
             bad = array[~np.isfinite(array)].flat[0]
-            self.refuse(f"{name} = {bad:g}{f' {unit}' if unit else ''}: a finite number is needed.")
+            self.fail(f"{name} = {bad:g}{f' {unit}' if unit else ''}: a finite number is needed.")
         else:
             return array
         return np.ones((1,) if last is None else (last,))
@@ -181,13 +181,13 @@ class Arguments:
             return value
         hint = f"{suggestion(value, names)} " if isinstance(value, str) else ""
         there = "" if hint.startswith("Known are") else f"There are {', '.join(names)}."
-        self.refuse(f"{name} {shown(value)} is not known. {hint}{there}".strip())
+        self.fail(f"{name} {shown(value)} is not known. {hint}{there}".strip())
         return next(iter(names), "")
 
     def names(self, name: str, values: Any, known: Iterable[str]) -> tuple[str, ...]:
         """Return a row of names, each of which is known."""
         if isinstance(values, str) or not np.iterable(values):
-            self.refuse(f"{name} = {shown(values)}: a list of names is needed.")
+            self.fail(f"{name} = {shown(values)}: a list of names is needed.")
             return ()
         every = tuple(known)
         return tuple(self.among(name, value, every) for value in values)
@@ -201,7 +201,7 @@ class Arguments:
             for form in {str(label).rstrip("\0"), *([] if math.isnan(number) else [number])}:
                 other = known.setdefault(form, label)
                 if other is not label:
-                    self.refuse(
+                    self.fail(
                         f"{name} has the labels {shown(other)} and {shown(label)}, which are the "
                         "same in an array of labels: rename one of them."
                     )
@@ -210,17 +210,17 @@ class Arguments:
     def flag(self, name: str, value: Any) -> bool:
         """Return True or False."""
         if not isinstance(value, bool | np.bool_):
-            self.refuse(f"{name} = {shown(value)}: True or False is needed.")
+            self.fail(f"{name} = {shown(value)}: True or False is needed.")
         return bool(isinstance(value, bool | np.bool_) and value)
 
     def text(self, name: str, value: Any) -> None:
         """Refuse what is no text."""
-        self.kind(name, value, str, "a text is needed")
+        self.instance(name, value, str, "a text is needed")
 
     def paths(self, name: str, values: Any) -> None:
         """Refuse what are no paths of files."""
         if not isinstance(values, list | tuple):
-            self.refuse(f"{name} = {shown(values)}: a list of paths is needed.")
+            self.fail(f"{name} = {shown(values)}: a list of paths is needed.")
             return
         for value in values:
             self.path(name, value)
@@ -228,7 +228,7 @@ class Arguments:
     def mapping(self, name: str, value: Any, of: str) -> Mapping[Any, Any]:
         """Return a dict."""
         if not isinstance(value, Mapping):
-            self.refuse(f"{name} = {shown(value)}: a dict of {of} is needed.")
+            self.fail(f"{name} = {shown(value)}: a dict of {of} is needed.")
             return {}
         return value
 
@@ -239,35 +239,33 @@ class Arguments:
         several = self.mapping(name, value, f"names and {of}")
         for known, one in several.items():
             self.text(f"name in {name}", known)
-            self.kind(name.removesuffix("s"), one, kinds, needed)
+            self.instance(name.removesuffix("s"), one, kinds, needed)
         self.labels(name, several)
         return several
 
-    def kind(self, name: str, value: Any, kinds: type | tuple[type, ...], needed: str) -> Any:
+    def instance(self, name: str, value: Any, kinds: type | tuple[type, ...], needed: str) -> Any:
         """Return something of a certain class."""
         if not isinstance(value, kinds):
             given = "a class, not one of its instances" if isinstance(value, type) else shown(value)
-            self.refuse(f"{name} = {given}: {needed}.")
+            self.fail(f"{name} = {given}: {needed}.")
         return value
 
     def path(self, name: str, value: Any) -> None:
         """Refuse what is no path of a file or folder."""
-        self.kind(name, value, (str, PurePath), "the path of a file or folder is needed")
+        self.instance(name, value, (str, PurePath), "the path of a file or folder is needed")
 
     def dataset(self, value: Any, *, over: str = "") -> None:
         """Refuse what is no dataset, or one that is not over what it must be."""
         from xarray import Dataset  # noqa: PLC0415 (slow to import)
 
-        self.kind("dataset", value, Dataset, "an xarray.Dataset is needed")
+        self.instance("dataset", value, Dataset, "an xarray.Dataset is needed")
         if over and isinstance(value, Dataset) and over not in value.coords:
-            self.refuse(
-                f"dataset: it has no coordinate {over!r}, over which its variables must be."
-            )
+            self.fail(f"dataset: it has no coordinate {over!r}, over which its variables must be.")
 
     def function(self, name: str, value: Any) -> None:
         """Refuse what is neither a function nor None."""
         if not (value is None or callable(value)):
-            self.refuse(f"{name} = {shown(value)}: a function, or None, is needed.")
+            self.fail(f"{name} = {shown(value)}: a function, or None, is needed.")
 
 
 def _as_float(value: Any) -> float:
