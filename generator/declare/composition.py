@@ -104,7 +104,7 @@ class Copy:
 
     def of(self, thing: Thing) -> Thing:
         """Return what something of the declaration is in the copy."""
-        return self._copied(thing)  # type: ignore[no-any-return]
+        return self._copied(thing)  # type: ignore[no-any-return] # of the same type
 
     def _copied(self, thing: Any, *, turns: bool = False) -> Any:  # noqa: PLR0911 (of types)
         """Return something in the copy.
@@ -238,7 +238,7 @@ def replaced(thing: Thing, bodies: Mapping[Body, Body]) -> Thing:
     bodies
         By the body that is replaced.
     """
-    return _replaced(thing, bodies)  # type: ignore[no-any-return]
+    return _replaced(thing, bodies)  # type: ignore[no-any-return] # of the same type
 
 
 def _replaced(thing: Any, bodies: Mapping[Body, Body]) -> Any:

@@ -54,7 +54,7 @@ def write_gif(
     palette: Image.Image | None = None
     for index, time in enumerate(times):
         drawer.draw(index, f"t = {time:.3f} s")
-        canvas.draw()  # type: ignore[no-untyped-call]
+        canvas.draw()  # type: ignore[no-untyped-call] # Matplotlib declares none
         drawer.figure.set_layout_engine("none")  # as the first is laid out: all are alike
         pixels = canvas.buffer_rgba()  # type: ignore[no-untyped-call]
         shown = Image.fromarray(np.asarray(pixels)).convert("RGB")

@@ -17,7 +17,7 @@ from ..models.axle.file import TorqueReaction
 from ..models.plausibility import Plausibility
 from ..models.reach import PositionError
 from ..models.sides import SIDES
-from ..models.whole_axle import WholeAxle
+from ..models.whole_axle import WholeAxle, class_in
 from ..models.whole_axle_model import WholeAxleModel
 from .assembly import Assembly, Bushings
 from .axle import motions_of_two
@@ -314,11 +314,5 @@ def whole_axle_assembly(key: str) -> type[WholeAxleAssembly]:
         One of `data.starter.whole_axles`.
     """
     module = import_module(f".{key}", __package__)
-    (found,) = (
-        kind
-        for kind in vars(module).values()
-        if isinstance(kind, type)
-        and issubclass(kind, WholeAxleAssembly)
-        and kind.__module__ == module.__name__
-    )
+    found: type[WholeAxleAssembly] = class_in(module, WholeAxleAssembly)
     return found

@@ -4,6 +4,7 @@ from abc import abstractmethod
 from collections.abc import Iterable, Mapping
 from importlib import import_module
 from importlib.resources.abc import Traversable
+from types import ModuleType
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
@@ -387,12 +388,23 @@ def whole_axle_class(key: str) -> type[WholeAxle]:
     key : str
         One of `data.starter.whole_axles`.
     """
-    module = import_module(f".{key}", __package__)
+    found: type[WholeAxle] = class_in(import_module(f".{key}", __package__), WholeAxle)
+    return found
+
+
+def class_in(module: ModuleType, base: type) -> Any:
+    """Return the one class of a module, or of a package, that is derived from another.
+
+    Parameters
+    ----------
+    module : module
+    base : type
+    """
     (found,) = (
         kind
         for kind in vars(module).values()
         if isinstance(kind, type)
-        and issubclass(kind, WholeAxle)
+        and issubclass(kind, base)
         and kind.__module__.startswith(module.__name__)
     )
     return found

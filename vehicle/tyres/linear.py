@@ -64,7 +64,7 @@ class LinearSlip(Tyre):
                     object.__setattr__(self, key, given.number(key, value, above=above))
 
     @property
-    def ranges(self) -> dict[str, tuple[float, float]]:  # type: ignore[override]
+    def ranges(self) -> dict[str, tuple[float, float]]:  # type: ignore[override] # read only
         """None: it is known everywhere."""
         return {}
 

@@ -74,17 +74,17 @@ class MagicFormula(Tyre):
     # -- what it is --
 
     @property
-    def nominal_load(self) -> float:  # type: ignore[override]
+    def nominal_load(self) -> float:  # type: ignore[override] # read only
         """Load at which the coefficients are the values of their curves [N]."""
         return self.coefficients["FNOMIN"] * self.coefficients["LFZO"]
 
     @property
-    def radius(self) -> float:  # type: ignore[override]
+    def radius(self) -> float:  # type: ignore[override] # read only
         """Radius without load [m]."""
         return self.coefficients["UNLOADED_RADIUS"]
 
     @property
-    def ranges(self) -> dict[str, tuple[float, float]]:  # type: ignore[override]
+    def ranges(self) -> dict[str, tuple[float, float]]:  # type: ignore[override] # read only
         """Where the tyre is known, by argument of `evaluate`."""
         return {
             name: (self.coefficients.get(low, -np.inf), self.coefficients.get(high, np.inf))
@@ -93,17 +93,17 @@ class MagicFormula(Tyre):
         }
 
     @property
-    def usual_speed(self) -> float:  # type: ignore[override]
+    def usual_speed(self) -> float:  # type: ignore[override] # read only
         """Speed of the measurement [m/s]."""
         return self.coefficients.get("LONGVL", USUAL_SPEED)
 
     @property
-    def lowest_speed(self) -> float:  # type: ignore[override]
+    def lowest_speed(self) -> float:  # type: ignore[override] # read only
         """Speed below which slips are smoothed in equations of motion [m/s]."""
         return self.coefficients.get("VXLOW", LOWEST_SPEED)
 
     @property
-    def usual_pressure(self) -> float:  # type: ignore[override]
+    def usual_pressure(self) -> float:  # type: ignore[override] # read only
         """Inflation pressure [Pa]; zero where the tyre does not depend on it."""
         return self.coefficients.get("INFLPRES", self._nominal_pressure)
 

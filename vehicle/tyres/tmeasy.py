@@ -114,17 +114,17 @@ class TMeasy(Tyre):
         return cls(values, left_out=tuple(_unread(data, used)))
 
     @property
-    def nominal_load(self) -> float:  # type: ignore[override]
+    def nominal_load(self) -> float:  # type: ignore[override] # read only
         """Load of the first of each two values [N]."""
         return self.values["nominal_load"]
 
     @property
-    def radius(self) -> float:  # type: ignore[override]
+    def radius(self) -> float:  # type: ignore[override] # read only
         """Radius without load [m]."""
         return self.values["radius"]
 
     @property
-    def ranges(self) -> dict[str, tuple[float, float]]:  # type: ignore[override]
+    def ranges(self) -> dict[str, tuple[float, float]]:  # type: ignore[override] # read only
         """Up to which load curves are known."""
         return {"load": (0.0, self.values["greatest_load"])}
 
