@@ -192,7 +192,9 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
         """Yield arms and beam: label, colour, width and points, (n, 3) [m]."""
         for side in SIDES:
             points = self.points(side)
-            root = self.shear_center * [1.0, 0.0, 1.0] + points[PIVOT] * [0.0, 0.8, 0.0]
+            arm = points[CENTER] - points[PIVOT]
+            back = (self.shear_center - points[PIVOT])[0] / arm[0] if arm[0] else 0.0
+            root = points[PIVOT] + np.clip(back, 0.0, 1.0) * arm  # where the beam meets the arm
             yield "arms", _ARMS, 5.0, np.array([points[PIVOT], points[CENTER]])
             yield "beam", _BEAM, 2.4, np.array([self.shear_center, root])
 
