@@ -30,7 +30,7 @@ CARS = {
     "car that heaves and pitches": "ride",
     "car that heaves, pitches and rolls": "roll",
 }
-"""What is measured: a packaged car, or the reference vehicle with such motions of its body."""
+"""The cars that are timed: a packaged one, or the motions of the body of the reference vehicle."""
 
 METHODS = (
     ("Runge-Kutta of order 4, 1 ms", {"method": "RK4", "step": 1e-3}),

@@ -1,4 +1,4 @@
-"""Reports what is being done while something takes long, and how long the rest will take."""
+"""Progress of long work, and the time that remains."""
 
 from __future__ import annotations
 

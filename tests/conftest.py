@@ -176,7 +176,9 @@ def kintrafo(
 @pytest.fixture
 def told(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Callable[..., None]]:
     """Compare errors or texts with the messages that are stored for this test."""
-    so_far = messages.Told(request.node, update=request.config.getoption("--update-messages"))
+    so_far = messages.StoredMessages(
+        request.node, update=request.config.getoption("--update-messages")
+    )
 
     def compare(*errors: object) -> None:
         for error in errors:

@@ -29,7 +29,7 @@ def key_of(item: pytest.Item) -> str:
     return f"{item.path.stem}{item.nodeid.partition('.py')[2]}"
 
 
-class Told:
+class StoredMessages:
     """What one test is told, compared with what is stored, one message after the other.
 
     Parameters

@@ -113,7 +113,7 @@ class Leg(ABC):
         Parameters
         ----------
         known
-            What is known.
+            The known motions.
         cut
             The loop as two arcs.
         """
@@ -139,7 +139,7 @@ class Leg(ABC):
         Parameters
         ----------
         known, joint
-            What is known, and the joint whose coordinate it determines.
+            The known motions, and the joint whose coordinate is determined.
         """
         assert self.placing is not None
         known.steps.append(self.placing)
@@ -215,7 +215,7 @@ def leg_of(known: Known, cut: CutLoop) -> Leg | None:
     Parameters
     ----------
     known, cut
-        What is known, and the loop.
+        The known motions, and the loop.
     """
     tried = (kind.match(known, cut) for kind in Leg.kinds)
     return next((leg for leg in tried if leg), None)
@@ -230,7 +230,7 @@ def held_on(known: Known, cut: CutLoop) -> tuple[Joint, str, Leg] | None:
     Parameters
     ----------
     known, cut
-        What is known, and the loop.
+        The known motions, and the loop.
     """
     leg = leg_of(known, cut)
     if leg is None or not cut.other_joints:

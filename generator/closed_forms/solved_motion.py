@@ -1,4 +1,4 @@
-"""Velocities and biases of a body from the constraints that determine what is unknown of them.
+"""Velocities and biases of a body whose unknown parts are determined by constraints.
 
 An *unsolved* body moves with others while its unknown rates are zero; what a unit of each adds to
 that is a screw. As many *conditions* say what the body has to do with what is placed. The rates
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Target(ABC):
-    """What is placed, as seen in axes of the body.
+    """A placed body, in its own axes.
 
     Attributes
     ----------

@@ -119,7 +119,7 @@ class AnyContactLaw(Owner):
         """Return the longitudinal and the lateral relaxation length [m]."""
 
     @abstractmethod
-    def told(self) -> str:
+    def describe(self) -> str:
         """Return what a report says of it."""
 
 
@@ -169,7 +169,7 @@ class LinearContact(AnyContactLaw):
         del a, load, inclination
         return self.symbol("relaxation_x"), self.symbol("relaxation_y")
 
-    def told(self) -> str:
+    def describe(self) -> str:
         """Return what a report says of it."""
         return "linear in slip, up to the friction"
 
@@ -300,7 +300,7 @@ class MagicFormulaContact(AnyContactLaw):
         stiff = magic_formula.stiffnesses(a, p, still)
         return vertical.relaxation_by_stiffness(p, dfz, self._pressure, *stiff)
 
-    def told(self) -> str:
+    def describe(self) -> str:
         """Return what a report says of it."""
         return "the Magic Formula" + ("" if self.newer else " of PAC2002")
 
@@ -373,7 +373,7 @@ class TMeasyContact(AnyContactLaw):
         )
         return x, y
 
-    def told(self) -> str:
+    def describe(self) -> str:
         """Return what a report says of it."""
         return "TMeasy"
 

@@ -27,7 +27,7 @@ DRIVABLE: dict[type[Joint], str] = {
     Free: "three guides and three hinges, with links between them",
     Weld: "a hinge or a guide instead",
 }
-"""What has the degrees of freedom of a joint that cannot be driven, and can be."""
+"""Chains of hinges and guides in place of a joint that cannot be driven."""
 
 
 @declared

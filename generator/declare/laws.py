@@ -100,7 +100,7 @@ class AnyLaw(ABC):
         del element
         return ()
 
-    def told(self) -> str:
+    def describe(self) -> str:
         """Return what a report says of it: what it is, with a formula where that is short."""
         return self.meaning
 
@@ -151,7 +151,7 @@ class LinearSpring(AnyLaw):
     signal = "spring_force"
     meaning = "spring force"
 
-    def told(self) -> str:
+    def describe(self) -> str:
         """Return what it is, and its formula."""
         return _with_formula(self)
 
@@ -185,7 +185,7 @@ class LinearDamper(AnyLaw):
     signal = "damper_force"
     meaning = "damper force"
 
-    def told(self) -> str:
+    def describe(self) -> str:
         """Return what it is, and its formula."""
         return _with_formula(self)
 
@@ -487,7 +487,7 @@ class LaggingDamper(AnyLaw):
     signal = "damper_force"
     meaning = "damper force"
 
-    def told(self) -> str:
+    def describe(self) -> str:
         """Return what it is, and its formula."""
         return f"{self.meaning} `{self.state.name}`, `-{self.rate.name}*velocity` with a lag"
 

@@ -203,7 +203,7 @@ def _moved(
 
 @dataclass(frozen=True)
 class Group:
-    """What is solved together, with the base on which it hangs.
+    """Bodies that are solved together, and their base.
 
     Attributes
     ----------

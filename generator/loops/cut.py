@@ -89,7 +89,7 @@ def pair_candidates(known: Known, cycle: Cycle) -> list[PairCandidate]:
     Parameters
     ----------
     known, cycle
-        What is known, and the loop.
+        The known motions, and the loop.
     """
     pairs = [
         _pair(known, cycle, a, b)

@@ -110,7 +110,7 @@ class Follower(Placement):
         Parameters
         ----------
         known
-            What is known.
+            The known motions.
         joint, parent, child
             The joint, the placed body, and the one to place.
         """
@@ -127,7 +127,7 @@ class Leftover(Placement):
         Parameters
         ----------
         known
-            What is known.
+            The known motions.
         massive
             The bodies with mass.
         """
@@ -153,7 +153,7 @@ class Iteration(Solution):
         Parameters
         ----------
         known
-            What is known.
+            The known motions.
         driven
             The joints whose coordinates are given, by their names.
         waiting

@@ -28,7 +28,7 @@ def turn_alike(known: Known, one: str, other: str) -> bool:
     Parameters
     ----------
     known
-        What is known.
+        The known motions.
     one, other
         The bodies.
     """

@@ -27,7 +27,7 @@ from .turned import turn
 
 Array = NDArray[np.float64]
 
-# Told apart in colour and, by the dashes, in black and white too.
+# Distinct in colour and, by the dashes, in black and white too.
 _COLOURS = (BLUE, ORANGE, GREEN, "#cc79a7", "#56b4e9", "#e69f00", "#000000")
 _DASHES = ("-", "--", "-.", ":")
 # More lines than this are a carpet: some of them are drawn.

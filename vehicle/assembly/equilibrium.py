@@ -1,4 +1,4 @@
-"""The state of rest on the road of what has wheels, by its equations."""
+"""The state of rest on the road, by the equations of motion."""
 
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any

@@ -26,7 +26,7 @@ USUAL_ROLL_STEP = np.deg2rad(0.25)
 USUAL_ANGLE_STEP = np.deg2rad(10.0)  # of the steering wheel
 _MOST_TURNS = 40.0 * np.pi  # twenty turns of it
 _MOST_ROLL = np.pi / 4.0
-# A sweep that is not told otherwise keeps clear of the ends of the motion by this part of them.
+# By default a sweep keeps clear of the ends of the motion by this part of them.
 _CLEARANCE = 0.02
 # Heights of wheels are met to their rounding, 1e-16 m of a metre: a step as small changes nothing.
 _CLOSE = 1e-15

@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 # What a sweep covers where nothing is said, as far as it can be reached.
 USUAL_TRAVEL = 0.080  # bump and rebound of a passenger car [m]
 USUAL_RACK = 0.060  # to either side [m]
-# A sweep that is not told otherwise keeps clear of the ends of the motion by this part of them.
+# By default a sweep keeps clear of the ends of the motion by this part of them.
 _CLEARANCE = 0.02
 _MOST_POINTS = 100_000
 

@@ -1,4 +1,4 @@
-"""An axle that one file describes as an assembly: what is the same of all, such as a rigid axle."""
+"""An axle without sides, such as a rigid axle, as an assembly: the members that all share."""
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
@@ -34,7 +34,7 @@ from .whole_axle_parts import WholeAxleParts
 # What each wheel travels per metre of what varies; in roll it is the half track times the sine.
 _SHARES = {"bump": (1.0, 1.0), "left": (1.0, 0.0), "right": (0.0, 1.0)}
 _MOST_ROLL = np.pi / 4.0
-# A sweep that is not told otherwise keeps clear of the ends of the motion by this part of them.
+# By default a sweep keeps clear of the ends of the motion by this part of them.
 _CLEARANCE = 0.02
 # So far both wheels are moved when its reach is looked for [m].
 _FAR = 0.4
@@ -287,7 +287,7 @@ class WholeAxleAssembly(Assembly):
         return found
 
     def plausibility(self) -> Plausibility:
-        """Return what is unlikely of its file."""
+        """Return the unlikely values of its file."""
         found: Plausibility = self.axle.plausibility()
         return found
 

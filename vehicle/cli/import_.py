@@ -42,7 +42,7 @@ Side = Literal["left", "right"]
 
 @dataclass(frozen=True)
 class _Options:
-    """What may be said of a source."""
+    """The properties that a source may have."""
 
     base: Annotated[
         str | None,

@@ -1,4 +1,4 @@
-"""What is simulated and how, from the options of a command, in their units."""
+"""The motion that options of a command describe, in their units."""
 
 import math
 from dataclasses import dataclass

@@ -46,7 +46,7 @@ class _TwiceError(ValueError):
 
 
 def _keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Return what is in braces; of two keys of one name nobody knows which counts."""
+    """Return the contents of braces; two keys of one name are refused."""
     ((most, times),) = Counter(key for key, _ in pairs).most_common(1) or [("", 0)]
     if times > 1:
         raise _TwiceError(f'"{legible(short(most))}" is there {times} times. Keep one of them.')

@@ -1,4 +1,4 @@
-"""Axles that one file describes with both wheels, such as a rigid axle: what is the same of all."""
+"""Axles without sides, such as a rigid axle: the members that all share."""
 
 from abc import abstractmethod
 from collections.abc import Iterable, Mapping
@@ -308,7 +308,7 @@ class WholeAxle(DescribedSection):
     # -- its checks -----------------------------------------------------------------------------
 
     def plausibility(self) -> Plausibility:
-        """Return what is unlikely of its file."""
+        """Return the unlikely values of its file."""
         notes = [*unusual_alignment(self.wheel)]
         for side in SIDES:
             notes += beyond_the_table(self.parameters_of(side), self.length("spring", side))

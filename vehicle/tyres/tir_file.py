@@ -97,7 +97,7 @@ class _Reader:
         self._blocks = [(block.name.strip().upper(), block) for block in blocks]
 
     def read(self) -> TirFile:
-        newer, name = self._version()  # of another kind of file nothing else is worth telling
+        newer, name = self._version()  # of another kind of file nothing else matters
         scales = self._scales()
         texts, unused = self._found()
         numbers = {key: self._number(key, text) for key, text in texts.items()}

@@ -610,4 +610,4 @@ def _dynamics(motion: Motion, number: Equations) -> list[Block]:
 def _force_rows(formulation: Formulation) -> list[tuple[str, ...]]:
     """Return for each force that acts its name, what it does, its share of Q, the paper's place."""
     acting = [f for f in formulation.mechanism.forces if f.along not in formulation.prescribed]
-    return [(*astuple(f.told()), formulation.cites.get(f.identity[1], "")) for f in acting]
+    return [(*astuple(f.describe()), formulation.cites.get(f.identity[1], "")) for f in acting]

@@ -11,7 +11,7 @@ from ..bodies import Body
 from ..declared import declared
 from ..geometry import Direction, Point
 from ..inputs import Input
-from .force import Action, Force, Told, check_applied
+from .force import Action, Description, Force, check_applied
 
 if TYPE_CHECKING:
     from ..surroundings import Surroundings
@@ -48,10 +48,10 @@ class AppliedForce(Force):
         """Body and input: several may push at one body."""
         return "AppliedForce at", f"{self.body.name} by {self.input.name}"
 
-    def told(self) -> Told:
+    def describe(self) -> Description:
         """Return what a report says of it."""
         name = self.input.name
-        return Told(
+        return Description(
             name,
             f"`{name}` on {self.body.name} at `{self.point.name}` along d",
             r"$`\left(\partial\mathbf{v}_P/\partial\dot{\mathbf{q}}\right)^T\mathbf{d}\,F`$",

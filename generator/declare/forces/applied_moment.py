@@ -11,7 +11,7 @@ from ..bodies import Body
 from ..declared import declared
 from ..geometry import Direction
 from ..inputs import Input
-from .force import Action, Force, Told, check_applied
+from .force import Action, Description, Force, check_applied
 
 if TYPE_CHECKING:
     from ..surroundings import Surroundings
@@ -49,11 +49,11 @@ class AppliedMoment(Force):
         """Body and input: several may turn one body."""
         return "AppliedMoment on", f"{self.body.name} by {self.input.name}"
 
-    def told(self) -> Told:
+    def describe(self) -> Description:
         """Return what a report says of it."""
         name = self.input.name
         share = r"$`\mathbf{W}_b^T\mathbf{d}\,F`$"
-        return Told(name, f"`{name}` on {self.body.name} about d", share)
+        return Description(name, f"`{name}` on {self.body.name} about d", share)
 
     def act(self, at: Surroundings) -> Action:
         """Append its power on the turning of the body."""

@@ -45,7 +45,7 @@ class Action:
 
 
 @dataclass(frozen=True)
-class Told:
+class Description:
     """How a report speaks of a force.
 
     Attributes
@@ -85,10 +85,10 @@ class Force(ABC):
         """The joint whose coordinate it acts along, so that this must be driven."""
         return None
 
-    def told(self) -> Told:
+    def describe(self) -> Description:
         """Return what a report says of it."""
         does = (type(self).__doc__ or "").partition("\n")[0]
-        return Told(" ".join(self.identity), does, "its power by the rate")
+        return Description(" ".join(self.identity), does, "its power by the rate")
 
     @abstractmethod
     def act(self, at: Surroundings) -> Action:

@@ -13,7 +13,7 @@ from ..laws import Law, Stretch
 from ..parameters import Parameter
 from ..paths import Path
 from ..shown import Event, Range, Shown
-from .force import Action, Force, Told
+from .force import Action, Description, Force
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -106,12 +106,12 @@ class ForceElement(Force):
         alone = len(having) == 1 and not self.turns
         return signal if alone else f"{self.name}_{signal}"
 
-    def told(self) -> Told:
+    def describe(self) -> Description:
         """Return what a report says of it."""
-        laws = "; ".join(law.told() for law in self.laws)
+        laws = "; ".join(law.describe() for law in self.laws)
         length = r"\vartheta" if self.turns else r"\ell"
         share = rf"$`\left(\partial {length}/\partial\mathbf{{q}}\right)^T F`$"
-        return Told(self.name, f"F, {self.path.words.sense}: {laws}", share)
+        return Description(self.name, f"F, {self.path.words.sense}: {laws}", share)
 
     def act(self, at: Surroundings) -> Action:
         """Sum up the laws; what pushes the ends apart does work on the length."""

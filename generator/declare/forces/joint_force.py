@@ -10,7 +10,7 @@ import sympy as sp
 from ..declared import DeclarationError, declared
 from ..inputs import Input
 from ..joints import Prismatic, Revolute
-from .force import Action, Force, Told
+from .force import Action, Description, Force
 
 if TYPE_CHECKING:
     from ..surroundings import Surroundings
@@ -51,11 +51,11 @@ class JointForce(Force):
         """The joint."""
         return self.joint
 
-    def told(self) -> Told:
+    def describe(self) -> Description:
         """Return what a report says of it."""
         name = self.input.name
         acts = f"`{name}` along the coordinate of joint {self.joint.name}, which is independent"
-        return Told(name, acts, "itself, in the row of that coordinate")
+        return Description(name, acts, "itself, in the row of that coordinate")
 
     def act(self, at: Surroundings) -> Action:
         """Append the force; it does its work on the coordinate."""

@@ -13,7 +13,7 @@ from ..inputs import Input
 from ..parameters import DamperRate, Displacement, Share, SpringRate
 from ..shown import Event, Range, Shown
 from ..wheel import Wheel
-from .force import Action, Force, Told
+from .force import Action, Description, Force
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -88,12 +88,12 @@ class LinearTyre(Force):
         alone = sum(isinstance(f, LinearTyre) for f in mechanism.forces) == 1
         return "" if alone else f"{self.name}_"
 
-    def told(self) -> Told:
+    def describe(self) -> Description:
         """Return what a report says of it."""
         load = f"{self.rate.name}*({self.free_height.name} + {self.road.name} - height)"
         more = ", with damping" if self.damper is not None else ""
         pull = r"\mathbf{w} = \frac{F}{1-a_z^2}\,(\mathbf{e}_z - a_z\,\mathbf{a})"
-        return Told(
+        return Description(
             f"tyre {self.name}",
             f"F = `{load}`{more}; at `{self.wheel.center.name}`, a the spin axis: $`{pull}`$",
             r"$`\left(\partial\mathbf{v}_P/\partial\dot{\mathbf{q}}\right)^T\mathbf{w}`$",

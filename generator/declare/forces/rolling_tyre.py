@@ -18,7 +18,7 @@ from ..joints import Revolute
 from ..parameters import DamperRate
 from ..shown import Event, Shown
 from ..wheel import Wheel
-from .force import Action, Force, Told
+from .force import Action, Description, Force
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -121,14 +121,14 @@ class RollingTyre(Force):
         """The bearing: its coordinate is turned."""
         return self.bearing
 
-    def told(self) -> Told:
+    def describe(self) -> Description:
         """Return what a report says of it."""
-        acts = f"{self.law.told()}: F and M at the contact, N at the lowest point of the disc"
+        acts = f"{self.law.describe()}: F and M at the contact, N at the lowest point of the disc"
         share = (
             r"$`\left(\partial\mathbf{v}_P/\partial\dot{\mathbf{q}}\right)^T(\mathbf{F}+\mathbf{N})"
             r" + \mathbf{W}_b^T\mathbf{M}`$"
         )
-        return Told(f"tyre {self.name}", acts, share)
+        return Description(f"tyre {self.name}", acts, share)
 
     def act(self, at: Surroundings) -> Action:
         """Append the power of all of it on the motion of the carrier, and on the spin."""

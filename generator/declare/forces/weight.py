@@ -10,7 +10,7 @@ import sympy as sp
 from ..declared import declared
 from ..geometry import UP, Direction
 from ..parameters import Gravity
-from .force import Action, Force, Told
+from .force import Action, Description, Force
 
 if TYPE_CHECKING:
     from ..surroundings import Surroundings
@@ -42,11 +42,11 @@ class Weight(Force):
         """There is one."""
         return "weight", "Weight"
 
-    def told(self) -> Told:
+    def describe(self) -> Description:
         """Return what a report says of it."""
         up = r"\mathbf{e}_z" if self.upward.name == "up" else r"\mathbf{d}"
         share = rf"$`-\sum_b m_b\,g\,\mathbf{{V}}_b^T\,{up}`$"
-        return Told("weight", f"g = `{self.gravity.name}` on every body with mass", share)
+        return Description("weight", f"g = `{self.gravity.name}` on every body with mass", share)
 
     def act(self, at: Surroundings) -> Action:
         """Append the work of gravity on the momentum per unit rate."""

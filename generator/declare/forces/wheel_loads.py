@@ -12,7 +12,7 @@ from ..inputs import Input
 from ..joints import Revolute
 from ..parameters import Length
 from ..wheel import Wheel
-from .force import Action, Force, Told
+from .force import Action, Description, Force
 
 if TYPE_CHECKING:
     from ...program.vectors import Vector
@@ -96,11 +96,11 @@ class WheelLoads(Force):
         """The bearing: its coordinate is turned."""
         return self.bearing
 
-    def told(self) -> Told:
+    def describe(self) -> Description:
         """Return what a report says of it."""
         named = ", ".join(f"`{i.name}`" for i in (*self.contact, *self.center, *self.moment))
         torques = f"torques `{self.shaft.name}` and `{self.hub.name}` about the spin axis"
-        return Told(
+        return Description(
             f"loads on the wheel of {self.bearing.name}",
             f"F at the lowest point and at the centre, M: {named}; {torques}",
             r"$`\left(\partial\mathbf{v}_P/\partial\dot{\mathbf{q}}\right)^T\mathbf{F} + "

@@ -138,7 +138,7 @@ def test_every_kind_can_have_them(formulation) -> None:
     loaded = with_wheel_loads(formulation)
     assert set(loaded.inputs) - set(formulation.inputs) == set(UNITS)
     assert {name: loaded.inputs[name].unit for name in UNITS} == UNITS
-    assert all(f"`{name}`" in loaded.mechanism.forces[-1].told().acts for name in UNITS)
+    assert all(f"`{name}`" in loaded.mechanism.forces[-1].describe().acts for name in UNITS)
 
 
 def test_what_cannot_be_is_refused() -> None:

@@ -1,4 +1,4 @@
-"""How the wheels deflect under forces: the energy of what is soft, by the unit-load theorem.
+"""How the wheels deflect under forces: by the unit-load theorem, from the energy of soft parts.
 
 Everything is linear in unit loads: forces and moments at the contact of each wheel, the torque of
 an anti-roll bar, and what is tense by itself. What each soft thing does under one of them while it
