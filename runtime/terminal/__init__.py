@@ -2,4 +2,5 @@
 
 `console`  results on stdout, everything else on stderr
 `exits`    messages and exit codes
+`usage`    mistakes in the arguments of a command
 """

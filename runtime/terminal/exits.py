@@ -90,16 +90,17 @@ def show_usage_error(error: Any) -> None:
     error : click.ClickException
         Its context, where it has one, names the command.
     """
+    from .usage import usage_problem
+
+    problem = usage_problem(error)
+    if not problem:
+        return
     context = getattr(error, "ctx", None)
     command = "kintrafo" if context is None else context.command_path
-    # Click's words name the option, and may propose others
-    words = error.format_message()
-    if words.startswith("Invalid value for "):
-        place, _, rest = words.removeprefix("Invalid value for ").partition(": ")
-        words = f"{place.strip(chr(39))} {rest}"
-    message = f"{command}: 1 problem\n  - {words}"
+    listed = "commands" if hasattr(getattr(context, "command", None), "commands") else "options"
+    message = f"{command}: 1 problem\n  - {problem}"
     if context is not None:
-        message += f"\nThe options are listed by: {command} --help"
+        message += f"\nThe {listed} are listed by: {command} --help"
     _print(f"error: {message}", "red")
 
 

@@ -1,13 +1,14 @@
 """The command line: ``kintrafo``. One file a command; each is a thin door to a Python function."""
 
+from collections.abc import Mapping
 from types import ModuleType
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import typer
 from rich.markup import escape
-from typer.core import TyperCommand
 
 from ...terminal.exits import guarded, show_usage_error, standing_streams
+from ...terminal.usage import Command, Group
 from . import (
     characteristics,
     check,
@@ -32,8 +33,8 @@ from . import (
     tolerance,
     tyre,
 )
-from .numbers import explained
 from .option_groups import with_groups
+from .values import explained
 
 __all__ = ["COMMANDS", "app", "run"]
 
@@ -45,7 +46,26 @@ _EXIT_CODES = (
     "[bold]kintrafo paper[/bold], the figures of the paper."
 )
 
+
+class _Commands(Group):
+    """All commands, with other names by which users look for them."""
+
+    instead: ClassVar[Mapping[str, str]] = {
+        "animate": "kintrafo mechanism animate",
+        "elastokinematics": "kintrafo compliance",
+        "init": "kintrafo new",
+        "kandc": "kintrafo sheet",
+        "kc": "kintrafo sheet",
+        "kinematics": "kintrafo characteristics --positions",
+        "montecarlo": "kintrafo tolerance",
+        "plot": "kintrafo characteristics FILE --plot curves.pdf",
+        "positions": "kintrafo characteristics --positions",
+        "validate": "kintrafo check",
+    }
+
+
 app = typer.Typer(
+    cls=_Commands,
     help="Suspensions with kinematic loops, in closed form: checked, moved, simulated, compared.",
     epilog=_EXIT_CODES,
     no_args_is_help=True,
@@ -59,25 +79,6 @@ def _flowing(docstring: str) -> str:
     """Return the paragraphs of a docstring in a line each; what is in brackets is no markup."""
     paragraphs = (" ".join(paragraph.split()) for paragraph in docstring.split("\n\n"))
     return escape("\n\n".join(paragraphs))
-
-
-class _Command(TyperCommand):
-    """A command in whose arguments and options, too, what is in brackets is no markup."""
-
-    def __init__(self, *args: Any, **options: Any) -> None:
-        super().__init__(*args, **options)
-        for parameter in self.params:
-            words = getattr(parameter, "help", None)
-            if words:
-                parameter.help = escape(words)  # type: ignore[attr-defined]
-
-    def parse_args(self, *given: Any) -> Any:
-        """Say what is wrong with an argument without the words of what checks it."""
-        try:
-            return super().parse_args(*given)
-        except typer.BadParameter as error:
-            error.message = error.message.removeprefix("Value error, ")
-            raise
 
 
 # In the order in which an engineer needs them.
@@ -99,7 +100,8 @@ def _add(to: typer.Typer, module: ModuleType, group: str = "", **options: Any) -
     name = module.__name__.rpartition(".")[2].strip("_")
     examples = "\n\n".join(("Examples:", *module.EXAMPLES))
     words = _flowing(module.command.__doc__ or "")
-    made = to.command(name, cls=_Command, help=words, epilog=escape(examples), **options)
+    kind = type(f"Command_{name}", (Command,), {"examples": module.EXAMPLES})
+    made = to.command(name, cls=kind, help=words, epilog=escape(examples), **options)
     made(explained(with_groups(module.command)))
     COMMANDS[f"{group}{name}"] = module
 
@@ -109,7 +111,9 @@ for _panel, _modules in _PANELS.items():
         _add(app, _module, rich_help_panel=_panel)
 for _module in _HIDDEN:
     _add(app, _module, hidden=True)
-_mechanism = typer.Typer(no_args_is_help=True, help=mechanism.HELP, rich_markup_mode="rich")
+_mechanism = typer.Typer(
+    cls=Group, no_args_is_help=True, help=mechanism.HELP, rich_markup_mode="rich"
+)
 for _module in mechanism.COMMANDS:
     _add(_mechanism, _module, group="mechanism ")
 app.add_typer(_mechanism, name="mechanism", rich_help_panel="Hand over")
@@ -148,4 +152,4 @@ def run() -> None:
 
     vars(rich_utils)["rich_format_error"] = show_usage_error
     with standing_streams(), guarded():
-        app()
+        app(prog_name="kintrafo")

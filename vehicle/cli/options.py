@@ -6,10 +6,12 @@ from typing import Annotated, Any, Literal
 
 import typer
 
+from .values import existing_file
+
 OUTPUT = "Output"
 """The panel of the help that names files, and how a result is printed."""
 
-FILE: Mapping[str, Any] = {"exists": True, "dir_okay": False}
+FILE: Mapping[str, Any] = {"parser": existing_file}
 """What `argument` and `option` take where a path must be a file that is there."""
 
 

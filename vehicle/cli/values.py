@@ -1,12 +1,15 @@
-"""Numbers on the command line: what is none is refused with its unit and an example."""
+"""Values on the command line: numbers and choices, read with messages that say what is needed."""
 
 import math
 import re
 from collections.abc import Callable
+from pathlib import Path
 from types import UnionType
-from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
 import typer
+
+from ...core.suggestions import nearest
 
 _UNITS = {
     **{name.upper(): name for name in ("mm", "m", "deg", "s", "ms", "km/h", "rev/s", "1/s", "kg")},
@@ -17,22 +20,40 @@ _NAMES = {float: "NUMBER", int: "COUNT"}
 
 
 def explained(command: Callable[..., None]) -> Callable[..., None]:
-    """Let the options and arguments of a command that are numbers be read by `_number`.
+    """Let the options and arguments of a command that are numbers or choices be read here.
 
     Parameters
     ----------
     command : callable
-        Whose parameters are annotated for Typer; what it says of numbers is completed.
+        Whose parameters are annotated for Typer; what it says of numbers and choices is completed.
     """
     for hint in get_type_hints(command, include_extras=True).values():
         if get_origin(hint) is not Annotated:
             continue
-        kind = next((kind for kind in (float, int) if kind in _kinds(hint.__origin__)), None)
+        kinds = _kinds(hint.__origin__)
+        kind = next((kind for kind in (float, int) if kind in kinds), None)
+        choices = next((get_args(kind) for kind in kinds if get_origin(kind) is Literal), None)
         for info in hint.__metadata__:
-            if kind is not None and getattr(info, "parser", kind) is None:
+            if getattr(info, "parser", kind) is not None:
+                continue
+            if kind is not None:
                 info.metavar = info.metavar or _NAMES[kind]
                 info.parser = _number(kind, _UNITS.get(info.metavar, ""))
+            elif choices is not None:
+                info.metavar = info.metavar or f"<{'|'.join(choices)}>"
+                info.autocompletion = info.autocompletion or _completed(choices)
+                info.parser = _choice(choices)
     return command
+
+
+def existing_file(text: str) -> Path:
+    """Return the path of a file that is there."""
+    path = Path(text)
+    if path.is_dir():
+        raise typer.BadParameter(f"{text}: this is a folder, and a file is needed.")
+    if not path.exists():
+        raise typer.BadParameter(f"{text}: there is no such file. Check its name and folder.")
+    return path
 
 
 def _kinds(hint: Any) -> tuple[Any, ...]:
@@ -40,6 +61,27 @@ def _kinds(hint: Any) -> tuple[Any, ...]:
     if get_origin(hint) in (Union, UnionType, list, tuple):
         return tuple(kind for part in get_args(hint) for kind in _kinds(part))
     return (hint,)
+
+
+def _choice(choices: tuple[str, ...]) -> Callable[[Any], str]:
+    """Return what reads one of some words."""
+
+    def read(text: Any) -> str:
+        if text not in choices:
+            meant = nearest(str(text), choices)
+            hint = f" Did you mean {meant}?" if meant else ""
+            raise typer.BadParameter(f"{text!r}: it can be {', '.join(choices)}.{hint}")
+        return str(text)
+
+    read.__name__ = "CHOICE"
+    return read
+
+
+def _completed(choices: tuple[str, ...]) -> Callable[[str], list[str]]:
+    def completed(incomplete: str) -> list[str]:
+        return [choice for choice in choices if choice.startswith(incomplete)]
+
+    return completed
 
 
 def _number(kind: type[float], unit: str) -> Callable[[Any], float]:

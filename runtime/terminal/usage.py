@@ -1,0 +1,168 @@
+"""Mistakes in the arguments of a command, in the style of all other errors.
+
+Click and Typer find them; the sentences are written here, with what to write instead.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, ClassVar
+
+import typer
+from rich.markup import escape
+from typer.core import TyperCommand, TyperGroup
+
+from ..core.suggestions import nearest, suggestion
+
+# Options that every command has, which no message needs to list.
+_COMMON = {"--help", "-h"}
+# A message names the commands that have an option unless there are more than these.
+_FEW = 3
+
+
+class Command(TyperCommand):
+    """A command whose help has no mark-up in brackets, and whose mistakes are explained.
+
+    Attributes
+    ----------
+    examples : sequence of str
+        Lines that can be run; a message shows one of them.
+    """
+
+    examples: ClassVar[Sequence[str]] = ()
+
+    def __init__(self, *args: Any, **options: Any) -> None:
+        super().__init__(*args, **options)
+        for parameter in self.params:
+            words = getattr(parameter, "help", None)
+            if words:
+                parameter.help = escape(words)  # type: ignore[attr-defined]
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Return what is left of the arguments, which is nothing."""
+        ctx.allow_extra_args = True
+        try:
+            left = super().parse_args(ctx, args)
+        except typer.BadParameter:
+            raise
+        except Exception as error:
+            # the parser of options does not know of which command they are
+            if getattr(error, "ctx", ctx) is None:
+                vars(error)["ctx"] = ctx
+            raise
+        if left and not ctx.resilient_parsing:
+            ctx.fail(_too_many(self, left))
+        return left
+
+
+class Group(TyperGroup):
+    """Commands by name; one that there is not is answered with the nearest that there is.
+
+    Attributes
+    ----------
+    instead : mapping of str to str
+        What to write for names by which commands may be looked for.
+    """
+
+    instead: ClassVar[Mapping[str, str]] = {}
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """Return name, command and arguments."""
+        name = args[0]
+        if not name.startswith("-") and self.get_command(ctx, name) is None:
+            ctx.fail(f"{name!r} is not a command. {self._meant(ctx, name)}")
+        return super().resolve_command(ctx, args)
+
+    def _meant(self, ctx: Any, name: str) -> str:
+        if name in self.instead:
+            return f"Write {self.instead[name]}."
+        shown = [key for key, command in self.commands.items() if not command.hidden]
+        inner = {
+            own: f"{key} {own}"
+            for key in shown
+            for own in getattr(self.commands[key], "commands", {})
+        }
+        if name in inner:
+            return f"Write {ctx.command_path} {inner[name]}."
+        return suggestion(name, shown)
+
+
+def usage_problem(error: Any) -> str:
+    """Return what is wrong with the arguments of a command, and what to write instead.
+
+    Parameters
+    ----------
+    error : click.ClickException
+        Of Click, or of the copy of it that Typer has. Its context names the command.
+
+    Returns
+    -------
+    str
+        Sentences; empty where the help is all that is to be shown.
+    """
+    context = getattr(error, "ctx", None)
+    command = getattr(context, "command", None)
+    # by their names, because Click and Typer have classes of their own
+    match type(error).__name__:
+        case "NoArgsIsHelpError":
+            return ""
+        case "NoSuchOption":
+            return _no_option(context, error.option_name)
+        case "MissingParameter":
+            return f"{_named(error.param)} is missing.{_example(command)}"
+        case "BadOptionUsage":
+            return _bad_usage(command, error.option_name)
+        case "BadParameter" if getattr(error, "param", None) is not None:
+            return f"{_named(error.param)} {error.message}"
+    return str(error.message)
+
+
+def _named(parameter: Any) -> str:
+    """Return an option as it is written, an argument as the help writes it."""
+    if parameter.param_type_name == "option":
+        return str(max(parameter.opts, key=len))
+    return str(parameter.metavar or parameter.name.upper())
+
+
+def _no_option(context: Any, name: str) -> str:
+    command, group = context.command, getattr(context.parent, "command", None)
+    words = f"{name} is not an option of this command."
+    others = getattr(group, "commands", {}).items()
+    elsewhere = [key for key, other in others if name in _options(other) and not other.hidden]
+    if group is not None and name in _options(group):
+        return f"{words} Write {context.parent.command_path} {name}."
+    if 0 < len(elsewhere) <= _FEW:
+        return f"{words} It is an option of {', '.join(elsewhere)}."
+    known = {o.strip("-"): o for o in _options(command) if o.startswith("--")}
+    found = nearest(name.strip("-"), known) if name.startswith("--") else ""
+    if found:
+        return f"{words} Did you mean {known[found]}?"
+    return f"{words} Its options are {', '.join(sorted({*known.values()} - _COMMON))}."
+
+
+def _options(command: Any) -> Iterator[str]:
+    for parameter in command.params:
+        if parameter.param_type_name == "option":
+            yield from (*parameter.opts, *parameter.secondary_opts)
+
+
+def _bad_usage(command: Any, name: str) -> str:
+    """Return that an option lacks its value, or has one that it does not take."""
+    wanted = next((p for p in command.params if name in (*p.opts, *p.secondary_opts)), None)
+    if wanted is None or getattr(wanted, "is_flag", False):
+        return f"{name} takes no value. Write {name} alone."
+    value = wanted.metavar or wanted.name.upper()
+    return f"{name} needs a value. Write {name} {value}.{_example(command, name)}"
+
+
+def _too_many(command: Any, left: Sequence[str]) -> str:
+    known = [_named(p) for p in command.params if p.param_type_name == "argument"]
+    shown = ", ".join(map(repr, left))
+    one = "is one argument" if len(left) == 1 else f"are {len(left)} arguments"
+    taken = ", ".join(known) or "options only"
+    return f"{shown} {one} too many: the command takes {taken}.{_example(command)}"
+
+
+def _example(command: Any, name: str = "") -> str:
+    """Return a sentence with an example that has an option, or with the first one."""
+    examples = getattr(command, "examples", ())
+    found = next((line for line in examples if not name or name in line.split()), "")
+    return f" For example: {found}" if found else ""
