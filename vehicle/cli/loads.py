@@ -1,5 +1,6 @@
 """``kintrafo loads``: the forces on every part in load cases."""
 
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,7 +11,7 @@ from ...core.tabulated import whole
 from ...terminal.console import console, print_json, print_table, say, table
 from ...terminal.exits import Exit
 from .loading import assembly_of_file
-from .options import File, among, option
+from .options import OUTPUT, File, among, option
 from .outputs import BarOptions, name_files, title_of
 
 if TYPE_CHECKING:
@@ -21,10 +22,61 @@ EXAMPLES = (
     "kintrafo loads reference_car",
     "kintrafo loads my_car.toml --cases cases.toml -o loads.csv",
     "kintrafo loads my_car.toml --out loads.xlsx",
+    "kintrafo loads my_car.toml --part knuckle,chassis -o loads.bdf",
+    "kintrafo loads my_car.toml -o loads.inp --units m --axes vehicle",
     "kintrafo loads my_car.toml --case brake,corner --part knuckle --plot knuckle.pdf",
     "kintrafo loads reference_axle --case corner",
     "kintrafo loads rigid_axle --case brake --part beam --plot beam.png",
 )
+
+
+@dataclass(frozen=True)
+class LoadOptions(BarOptions):
+    """The options of files, which may be load cards."""
+
+    out: Annotated[
+        list[Path] | None,
+        option(
+            "Write the data: .csv or .xlsx (mm), .nc or .parquet (SI); or load cards, a file for "
+            "each part: .bdf (Nastran), .inp (Abaqus). May be repeated.",
+            "PATH",
+            "--out",
+            "-o",
+            panel=OUTPUT,
+        ),
+    ] = None
+    axes: Annotated[
+        str | None,
+        option(
+            "Of the data and cards: vehicle, or part, which is where it is at design. "
+            "Default: vehicle for data, part for cards.",
+            "NAME",
+            panel=OUTPUT,
+        ),
+    ] = None
+    units: Annotated[
+        str | None,
+        option("Of the cards: mm (N, N mm) or m (N, N m). Default: mm.", "NAME", panel=OUTPUT),
+    ] = None
+
+    def split(self) -> "tuple[LoadOptions, list[Path]]":
+        """Return the same for data alone, and the files of cards; refuse what has no file."""
+        from ..analysis.loads.cards import ENDINGS
+        from ..analysis.loads.cards.sheet import LENGTHS
+        from ..analysis.loads.dataset import AXES
+
+        every = self.out or []
+        cards = [path for path in every if path.suffix.lower() in ENDINGS]
+        problem = ""
+        if self.axes is not None:
+            among([self.axes], AXES, "--axes")
+            problem = "" if every else "--axes is for files of data or cards: give one by --out"
+        if self.units is not None:
+            among([self.units], LENGTHS, "--units")
+            problem = "" if cards else "--units is for load cards: --out loads.bdf or loads.inp"
+        if problem:
+            raise typer.BadParameter(problem)
+        return replace(self, out=[path for path in every if path not in cards] or None), cards
 
 
 def command(
@@ -46,13 +98,14 @@ def command(
         bool,
         option("Show the extremes of every component, and their cases.", None, "--envelope"),
     ] = False,
-    output: BarOptions,
+    output: LoadOptions,
 ) -> None:
     """Print forces and moments on every part at its hardpoints, in static load cases.
 
     An axle has the loads of both sides, of the anti-roll bar and of the rack; a rigid axle those
     of its rods, springs, dampers and wheels.
-    The table has the magnitude of each force; --case shows components. Data files have everything.
+    The table has the magnitude of each force; --case shows components. Data files have everything;
+    load cards have a file for each part, or for those of --part.
     The figure has the free bodies of the parts, in a file for each case. The exit code is 1 if a
     case of --cases or --case has no equilibrium; without these options, if no standard case has
     one.
@@ -67,14 +120,30 @@ def command(
     described = {} if cases is None else study.read(cases)
     named = described["cases"] if "cases" in described else study.standard_cases(assembly)
     shown = among(case, [*named], "--case") if case else None
-    outputs = output.files(file, cases, drawn=[f"_{name}" for name in shown or named])
+    data, cards = output.split()
+    outputs = data.files(file, cases, drawn=[f"_{name}" for name in shown or named])
     found = study.static(assembly, named, static_load=described.get("static_load_N"))
     parts = among(part, dict.fromkeys(with_totals(found)["part"].values), "--part") if part else []
     bodies = [name for name in parts if name != ALL]
     if outputs.pages and parts and not bodies:
         problem = f"{ALL} is no part that can be drawn. Name one, or leave --plot out."
         raise InputError([problem], "--part")
-    written = outputs.write_data(found, rows=study.table(found), sheets=study.workbook(found))
+    written = [
+        each
+        for path in cards
+        for each in study.write_cards(
+            found,
+            path,
+            bodies or None,
+            axes=output.axes or "part",
+            length=output.units or "mm",
+            source=title_of(file),
+            **outputs.rule,
+        )
+    ]
+    axes = output.axes or "vehicle"
+    rows, sheets = study.table(found, axes), study.workbook(found, axes)
+    written += outputs.write_data(found, rows=rows, sheets=sheets)
     if outputs.pages:
         from ..plots import loads as plots
 

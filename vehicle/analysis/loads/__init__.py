@@ -4,11 +4,13 @@
 `along`     along a simulation
 `envelope`  the extremes of load cases
 `table`     a column for each component
+`write_cards`  files for programs of strength: Nastran, Abaqus
 `workbook`  that and the extremes, for Excel
 `read`      a file of load cases
 """
 
 from .along import along
+from .cards import write_cards
 from .cases import read, standard_cases
 from .dataset import envelope, table, workbook
 from .static import static
@@ -21,4 +23,5 @@ __all__ = [
     "static",
     "table",
     "workbook",
+    "write_cards",
 ]

@@ -19,11 +19,18 @@ from ...assembly.part_poses import PartPoses
 from ...corner.structure import GROUND
 from ...models.reach import PositionError
 from .mounts import totals, with_totals
+from .reactions import BalanceEquations
 
 Array = NDArray[np.float64]
 
 CASE, LOAD, AXIS, PART = "case", "load", "axis", "part"
 """Dimensions of the loads."""
+
+AXES = {
+    "vehicle": "vehicle: x forward y left z up",
+    "part": "part as at design: x forward y left z up",
+}
+"""Axes of points and components, and what tables call them."""
 
 _ENDS = "min", "min_case", "max", "max_case"
 _NEEDED = "what kintrafo.loads.static or along returns is needed"
@@ -45,6 +52,23 @@ def loads_of(
     poses, loads : mapping
         By suffix.
     """
+    every, places = _with_shared(assembly, poses, loads)
+    mounted = {
+        f"{point}{suffix}": mount and f"{mount}{suffix}"
+        for suffix, group in poses.items()
+        for point, mount in group.structure.mounted.items()
+    }
+    found = dataset_of(over, every, places, design_centers(assembly), mounted)
+    found = found.assign(assembly.further(over, poses, found))
+    return found.assign_coords({WHEEL: wheel_coordinate(assembly.wheels)}).assign_attrs(
+        rules="; ".join(assembly.rules)
+    )
+
+
+def _with_shared(
+    assembly: Assembly, poses: Mapping[str, PartPoses], loads: Mapping[str, Sequence[Load]]
+) -> tuple[list[Load], dict[str, BodyPose]]:
+    """Return all loads, those on what both sides share too, and where all parts are."""
     own = [of_side(load, suffix) for suffix, every in loads.items() for load in every]
     places = {
         f"{part}{suffix}": BodyPose(group.centers[part], group.turned[part])
@@ -52,16 +76,19 @@ def loads_of(
         for part in group.structure.parts
     }
     further, shared = assembly.between(poses, own)
-    mounted = {
-        f"{point}{suffix}": mount and f"{mount}{suffix}"
-        for suffix, group in poses.items()
-        for point, mount in group.structure.mounted.items()
-    }
-    found = dataset_of(over, [*own, *further], places | shared, mounted)
-    found = found.assign(assembly.further(over, poses, found))
-    return found.assign_coords({WHEEL: wheel_coordinate(assembly.wheels)}).assign_attrs(
-        rules="; ".join(assembly.rules)
-    )
+    return [*own, *further], places | shared
+
+
+def design_centers(assembly: Assembly) -> dict[str, Array]:
+    """Return where the centre of each part is at design, see `BodyPose`, (3,) [m]."""
+    poses = assembly.at_wheel_coordinates(assembly.design_wheel_coordinates[None], np.zeros(1))
+    acting, loads = assembly.acting(poses), {}
+    for suffix, group in poses.items():
+        equations = BalanceEquations(group)
+        unknowns, _ = equations.solved(equations.applied(acting[suffix]))
+        loads[suffix] = [*equations.carried(unknowns), *acting[suffix]]
+    places = _with_shared(assembly, poses, loads)[1]
+    return {part: place.center[0] for part, place in places.items()}
 
 
 def of_side(load: Load, suffix: str) -> Load:
@@ -78,6 +105,7 @@ def dataset_of(
     over: str,
     loads: Sequence[Load],
     places: Mapping[str, BodyPose],
+    design: Mapping[str, Array],
     mounted: Mapping[str, str],
 ) -> xr.Dataset:
     """Return loads over the positions.
@@ -90,6 +118,8 @@ def dataset_of(
         All that there are.
     places : mapping
         The parts that are in equilibrium.
+    design : mapping
+        Where their centres are at design, (3,) [m].
     mounted : mapping of str to str
         As of `Structure`.
     """
@@ -103,10 +133,13 @@ def dataset_of(
         "moment": (fields["moment"], "moment about the point, chassis axes", "N m"),
         "at": (fields["at"], "where it acts, chassis axes", "m"),
     }
+    turned = {part: places[part].turned for part in moving}
     for name in ("force", "moment"):
-        inside = _in_parts(fields[name], {part: places[part].turned for part in moving}, rows)
+        inside = _in_parts(fields[name], turned, rows)
         meaning = f"{name} on the part, in the axes that the part had at design"
         data[f"{name}_in_part"] = (inside, meaning, data[name][2])
+    points = _points_in_parts(fields["at"], places, design, rows)
+    data["at_in_part"] = (points, "where it acts on the part as it was at design", "m")
     left = [_sum(fields, rows[part], places[part].center) for part in moving]
     residuals = {}
     for name, unit, sums in zip(
@@ -200,27 +233,31 @@ def envelope(dataset: xr.Dataset) -> xr.Dataset:
     return xr.Dataset(found, attrs={"title": "envelope of the loads"})
 
 
-def table(dataset: xr.Dataset) -> xr.Dataset:
+def table(dataset: xr.Dataset, axes: str = "vehicle") -> xr.Dataset:
     """Return loads with a column for each component, as a strength engineer's program reads them.
 
     Parameters
     ----------
     dataset : xarray.Dataset
         From `static` or `along`.
+    axes : {"vehicle", "part"}, optional
+        Of points and components: those of the vehicle, or of each part, where it is at design.
 
     Returns
     -------
     xarray.Dataset
         ``force_x`` to ``moment_z`` and ``at_x`` to ``at_z`` over case, or time, and load: a row for
         each load on each part, and for the total at each mount of the chassis as that on the part
-        ``total``; chassis axes.
+        ``total``. The column ``axes`` says which they are.
     """
     with Validator("table") as given:
         given.instance("dataset", dataset, xr.Dataset, _NEEDED)
         _check(given, dataset)
+        given.among("axes", axes, AXES)
+    end = "_in_part" if axes == "part" else ""
     dataset = with_totals(flat(dataset))
     columns = {
-        f"{name}_{axis}": dataset[name].sel({AXIS: axis}, drop=True)
+        f"{name}_{axis}": dataset[f"{name}{end}"].sel({AXIS: axis}, drop=True)
         for name in ("force", "moment", "at")
         for axis in dataset[AXIS].values
     }
@@ -229,16 +266,20 @@ def table(dataset: xr.Dataset) -> xr.Dataset:
         column.attrs["long_name"] = f"{words[0]}, {name[-1]}"
     if "reason" in dataset:
         columns["reason"] = dataset["reason"]
+    meaning = "axes of points and components"
+    columns["axes"] = xr.DataArray(variable((), AXES[axes], meaning, "1"))
     return xr.Dataset(columns, attrs=dataset.attrs)
 
 
-def workbook(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
+def workbook(dataset: xr.Dataset, axes: str = "vehicle") -> dict[str, xr.Dataset]:
     """Return loads as the sheets of an Excel workbook, see `kintrafo.export.write`.
 
     Parameters
     ----------
     dataset : xarray.Dataset
         From `static` or `along`.
+    axes : {"vehicle", "part"}, optional
+        Of the sheet ``loads``, see `table`; the extremes are in those of the vehicle.
 
     Returns
     -------
@@ -246,7 +287,7 @@ def workbook(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
         ``loads``, as of `table`, and in load cases ``envelope``: a row for each of these, with the
         least and the greatest of every component, and the case in which it is.
     """
-    found = {"loads": table(dataset)}
+    found = {"loads": table(dataset, axes)}
     if CASE not in dataset.dims:
         return found
     ends = envelope(with_totals(flat(dataset)))
@@ -282,4 +323,20 @@ def _in_parts(
     for part, rotation in turned.items():
         own = np.ascontiguousarray(np.moveaxis(rotation, 0, -1))
         found[rows[part]] = np.einsum("ijn,lin->ljn", own, columns[rows[part]])
+    return found
+
+
+def _points_in_parts(
+    at: Array,
+    places: Mapping[str, BodyPose],
+    design: Mapping[str, Array],
+    rows: Mapping[str, Sequence[int]],
+) -> Array:
+    """Return points, (loads, 3, count), where the parts had them at design."""
+    arms = at.copy()
+    for part, own in rows.items():
+        arms[own] -= places[part].center.T
+    found = _in_parts(arms, {part: places[part].turned for part in rows}, rows)
+    for part, own in rows.items():
+        found[own] += design[part][:, None]
     return found

@@ -87,7 +87,7 @@ def with_totals(dataset: xr.Dataset, *, several: bool = False) -> xr.Dataset:
     names = [str(name) for name in here[MOUNT].values]
     further = {
         name: here[f"total_{name.removesuffix('_in_part')}"].rename({MOUNT: "load"})
-        for name in ("force", "moment", "at", "force_in_part", "moment_in_part")
+        for name in (*_FIELDS, *(f"{name}_in_part" for name in _FIELDS))
     }
     labels = {
         "load": [f"{ALL} at {name} by {acting[i]}" for name, i in zip(names, rows, strict=True)],

@@ -53,10 +53,10 @@ def static(
     xarray.Dataset
         Over ``case``, ``load`` and ``axis``: ``force`` [N] and ``moment`` [N m] about the point at
         which it acts (``at`` [m]), in chassis axes, and ``force_in_part`` and ``moment_in_part`` in
-        the axes that the part had at design. Every load says on which ``part`` it is, at which
-        ``point`` and ``by`` whom: what two parts exert on each other is there twice, with both
-        signs. Names of parts and points of an axle that there are twice end in ``_left`` and
-        ``_right``.
+        the axes that the part had at design, when its point was at ``at_in_part`` [m]. Every load
+        says on which ``part`` it is, at which ``point`` and ``by`` whom: what two parts exert on
+        each other is there twice, with both signs. Names of parts and points of an axle that there
+        are twice end in ``_left`` and ``_right``.
 
         Over ``case``, and of an axle over ``wheel``: ``travel`` [m], ``wheel_load`` [N], and
         ``holding_force`` [N], the vertical force at the contact that is missing: none, to rounding.

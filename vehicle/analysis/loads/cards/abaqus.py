@@ -1,0 +1,42 @@
+"""Loads as keywords of Abaqus: nodes with sets of their names, and a step for each case."""
+
+from collections.abc import Iterator
+
+from .sheet import CardSheet
+
+DIGITS = 13
+"""Of all numbers."""
+
+
+def lines_of(sheet: CardSheet) -> Iterator[str]:
+    """Yield the lines of the file of a part, to be included behind a model."""
+    nodes = sheet.nodes()
+    for remark in sheet.remarks(DIGITS):
+        yield f"** {remark}"
+    yield "** Nodes, in axes of the two points of *System; change them where the model has others."
+    yield "*System"
+    yield "0., 0., 0., 1., 0., 0."
+    yield "0., 1., 0."
+    for node in nodes:
+        yield f"** {node.name}, by {', '.join(node.by)}"
+        yield f"*Node, nset={node.name}"
+        yield ", ".join((str(node.number), *map(_real, node.at)))
+    yield "*System"
+    yield "** Axes of the forces: x axis, and a point in the plane of x and y."
+    for node in nodes:
+        yield f"*Transform, nset={node.name}"
+        yield "1., 0., 0., 0., 1., 0."
+    for place, case in enumerate(sheet.loaded.cases):
+        yield f"*Step, name={case}"
+        yield "*Static"
+        yield "*Cload, op=NEW"
+        for node in nodes:
+            force, moment = node.loads.get(place, ((), ()))
+            for freedom, value in enumerate((*force, *moment), 1):
+                if value:
+                    yield f"{node.name}, {freedom}, {_real(value)}"
+        yield "*End Step"
+
+
+def _real(value: float) -> str:
+    return f"{value:.{DIGITS - 1}E}"
