@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shlex
 import shutil
@@ -116,6 +117,14 @@ def texts(folder: str) -> Callable[[Path], Any]:
     return lambda path: shutil.copy(DATA / folder / path.name, path)
 
 
+def vehicle_of_chrono(path: Path) -> None:
+    """Write the file of a vehicle, and beside it those that it names in their folders."""
+    for name, data in json.loads((DATA / "chrono/vehicle.json").read_text("utf-8")).items():
+        file = path if name.endswith(path.name) else path.parent / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(json.dumps(data), encoding="utf-8")
+
+
 def shown(page: str, name: str = "") -> Callable[[Path], Any]:
     return lambda path: path.write_text(documented(page, name or path.name), encoding="utf-8")
 
@@ -155,6 +164,7 @@ FILES: Files = {
     **dict.fromkeys(
         ("MacPhersonStrut.json", "DoubleWishbone.json", "RigidTire.json"), texts("chrono")
     ),
+    "Vehicle_DoubleWishbones_ARB.json": vehicle_of_chrono,
 }
 FILES_OF: dict[str, Files] = {
     "fit": {"rig.csv": measured},

@@ -1,4 +1,4 @@
-"""``kintrafo import``: a suspension from another program, or hardpoints from a spreadsheet."""
+"""``kintrafo import``: a suspension or a car of another program, or hardpoints of a table."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +20,7 @@ EXAMPLES = (
     ),
     "kintrafo import MacPhersonStrut.json new_car.toml --tire RigidTire.json --side right",
     "kintrafo import DoubleWishbone.json new_car.toml --points-only",
+    "kintrafo import Vehicle_DoubleWishbones_ARB.json vehicle.toml --tire RigidTire.json",
     "kintrafo import front_suspension.sub new_car.toml",
     "kintrafo import front_suspension.sub right.toml --side right --from my_wishbones.toml",
     "kintrafo import own.sub new_car.toml --name lower_ball_joint=my_lca_outer",
@@ -123,12 +124,13 @@ def command(
     given: _Options,
     force: Force = False,
 ) -> None:
-    """Write the hardpoint file of a suspension from another program, or from a table.
+    """Write the hardpoint file of a suspension from another program or from a table, or a car.
 
     The format follows from the ending or the content of SOURCE. A table has hardpoints; all else,
     with comments, is that of the file after --from. Adams/Car gives hardpoints, camber, toe and a
-    spring. Data that files of Project Chrono lack are assumed. The output lists the data that were
-    read, assumed and left out.
+    spring. Data that files of Project Chrono lack are assumed. A whole vehicle of Project Chrono
+    becomes five files: PATH is that of the car, and those of its axles and their suspensions lie
+    beside it. The output lists the data that were read, assumed and left out.
     """
     from ...core.errors import InputError
     from ...core.files import refuse
@@ -182,16 +184,52 @@ def _adams(source: Path, path: Path, rule: Any, given: _Options) -> None:
 
 def _chrono(source: Path, path: Path, rule: Any, given: _Options) -> None:
     from ..files.chrono import read
+    from ..files.chrono.vehicle import is_vehicle
     from ..input.toml_writer import write_toml
 
+    if is_vehicle(source):
+        _chrono_vehicle(source, path, rule, given)
+        return
     found = read(source, tire=given.tire, points_only=given.points_only)
     files = f"{source.name} and {given.tire.name}" if given.tire else source.name
-    head = [f"From {files} of Project Chrono (https://projectchrono.org)."]
+    suspension = found.suspension.mirrored() if given.side == "right" else found.suspension
+    write_toml(suspension, path, head=_head(files, found), **rule)
+    say(f"  {path}")
+    _lists(found)
+
+
+def _chrono_vehicle(source: Path, path: Path, rule: Any, given: _Options) -> None:
+    from ..files.car_files import car_files
+    from ..files.chrono import read_vehicle
+    from ..input.toml_writer import write_several
+
+    for name, value in (("--side", given.side), ("--points-only", given.points_only)):
+        if value:
+            raise typer.BadParameter(f"{name} is not for a whole vehicle, as {source} is")
+    found = read_vehicle(source, tire=given.tire)
+    rule = rule | {"inputs": [*rule["inputs"], *found.files]}
+    named = f"{source.name} and the files that it names"
+    heads = {path: _head(named, found)}
+    other = [_from(named), f"What was assumed and left out is listed in {path.name}."]
+    files = {f: (part, heads.get(f, other)) for f, part in car_files(found.car, path).items()}
+    for file in write_several(files, **rule):
+        say(f"  {file}")
+    _lists(found)
+
+
+def _head(files: str, found: Any) -> list[str]:
+    """Return the comment that a file begins with."""
+    head = [_from(files)]
     for title, lines in (("Assumed:", found.assumptions), ("Left out:", found.left_out)):
         head += [title, *(part for line in lines for part in _indented(line))] if lines else []
-    suspension = found.suspension.mirrored() if given.side == "right" else found.suspension
-    write_toml(suspension, path, head=head, **rule)
-    say(f"  {path}")
+    return head
+
+
+def _from(files: str) -> str:
+    return f"From {files} of Project Chrono (https://projectchrono.org)."
+
+
+def _lists(found: Any) -> None:
     for line in found.assumptions:
         say(f"  assumed   {line}")
     for line in found.left_out:

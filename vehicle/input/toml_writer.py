@@ -1,6 +1,7 @@
 """Write a suspension or an axle as the input file that it could have come from."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -83,10 +84,42 @@ def write_toml(
     InputError
         If there is a file already, or the name cannot be used.
     """
-    refuse([path], force=force, inputs=inputs, endings=[_ENDING])
-    with replacing(path, force=force, inputs=inputs) as temporary:
-        temporary.write_text(toml_text(suspension, head), encoding="utf-8")
+    write_several({path: (suspension, head)}, force=force, inputs=inputs)
     return Path(path)
+
+
+def write_several(
+    files: Mapping[Any, tuple[Written, Sequence[str]]],
+    *,
+    force: bool = False,
+    inputs: Paths = (),
+) -> list[Path]:
+    """Write input files that belong together: all of them, or none.
+
+    Parameters
+    ----------
+    files : mapping
+        What each describes, and the lines of the comment that it begins with, by its path, which
+        ends in ``.toml``.
+    force, inputs
+        As of `write_toml`.
+
+    Returns
+    -------
+    list of Path
+
+    Raises
+    ------
+    InputError
+        If one of the files cannot be written.
+    """
+    rule: dict[str, Any] = {"force": force, "inputs": list(inputs)}
+    refuse(files, endings=[_ENDING], **rule)
+    with ExitStack() as complete:
+        for path, described in files.items():
+            temporary = complete.enter_context(replacing(path, **rule))
+            temporary.write_text(toml_text(*described), encoding="utf-8")
+    return [Path(path) for path in files]
 
 
 def _table(section: Mapping[str, Any]) -> Any:

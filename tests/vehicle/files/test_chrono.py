@@ -488,13 +488,9 @@ class TestStops:
         [
             {"Minimum Length": 0.5, "Maximum Length": 0.4},
             {"Minimum Length": 0.05, "Maximum Length": 0.4},
-            {"Minimum Length": 0.2, "Maximum Length": 0.4, "Spring Coefficient": None,
-              "Spring Curve Data": SPRING_CURVE},
-            {"Minimum Length": 0.2, "Maximum Length": 0.4, "Spring Coefficient": None,
-              "Curve Data": SPRING_CURVE},
             {"Minimal Length": 0.2},
         ],
-    )  # fmt: skip
+    )
     def test_what_cannot_be_read_is_refused_but_for_the_points(
         self, tmp_path, path, changes, refused
     ):
@@ -503,6 +499,20 @@ class TestStops:
         data["Spring"] = {key: value for key, value in spring.items() if value is not None}
         refused(InputError, lambda: chrono.read(written(tmp_path, data)))
         assert chrono.read(written(tmp_path, data), points_only=True).suspension
+
+    @pytest.mark.parametrize("path", [STRUT, WISHBONES])
+    def test_beside_a_spring_by_a_curve_have_nearly_chronos_force(self, tmp_path, path):
+        """Up to 50 mm pressed in: by a rate and a cubic term, of 5.5 % at most."""
+        data = content(path)
+        stops = {"Minimum Length": 0.2, "Maximum Length": 0.4}
+        data["Spring"] |= stops | {"Spring Curve Data": SPRING_CURVE}
+        del data["Spring"]["Spring Coefficient"]
+        found, told, _ = chrono.read(written(tmp_path, data), tire=TIRE)
+        assert any("within 5 % up to 50 mm" in text for text in told)
+        for stop in (found.bump_stop, found.rebound_stop):
+            for x, force in STOP_CURVE[5:-1]:
+                own = stop.rate_N_per_m * x + stop.progression_N_per_mm3 * 1e9 * x**3
+                assert own == pytest.approx(force, rel=0.056)
 
 
 class TestNoBody:

@@ -11,7 +11,7 @@ from ....core.vectors import cross
 from .forces import DamperLaw, Shock, Spring, damper_law, spring_law, words_of_curves
 from .keys import Part
 from .parts import ON_THE_LINE, POINTS_ONLY, ArmPoints, ControlArm, Point
-from .suspension_file import PointsFile, SuspensionFile, arm_sources
+from .suspension_file import KnuckleFile, SteeredPoints, arm_sources
 
 # How much of the spring's speed the damper has at least, of which it can do the work.
 _LEAST_RATIO = 0.1
@@ -39,12 +39,12 @@ class _Shock(Shock):
     arm: Point = Field(alias="Location Arm")
 
 
-class WishbonePoints(PointsFile):
+class WishbonePoints(SteeredPoints):
     """The points of two arms; the spring acts on the lower one."""
 
     TEMPLATE: ClassVar[str] = "DoubleWishbone"
     KIND: ClassVar[str] = "double_wishbone"
-    SOURCES: ClassVar[Mapping[str, str]] = {**PointsFile.SOURCES, **_SOURCES}
+    SOURCES: ClassVar[Mapping[str, str]] = {**SteeredPoints.SOURCES, **_SOURCES}
 
     template: Literal["DoubleWishbone"] = Field(alias="Template")
     upper: ArmPoints = Field(alias="Upper Control Arm")
@@ -60,11 +60,12 @@ class WishbonePoints(PointsFile):
         return points | {"spring_top": self.spring.chassis, "spring_seat": self.spring.arm}
 
 
-class DoubleWishbone(SuspensionFile, WishbonePoints):
+class DoubleWishbone(KnuckleFile, WishbonePoints):
     """Two arms; spring and damper act on the lower one."""
 
+    LINKED: ClassVar[str] = "lower_arm"
     SOURCES: ClassVar[Mapping[str, str]] = {
-        **SuspensionFile.SOURCES,
+        **KnuckleFile.SOURCES,
         **_SOURCES,
         "[bodies.lower_arm]": "Lower Control Arm",
         "[bodies.upper_arm]": "Upper Control Arm",

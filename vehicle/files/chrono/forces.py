@@ -62,7 +62,7 @@ class Element(Part):
         """Return its stops; Chrono has them where a spring has both lengths."""
         if self.shortest is None or self.longest is None or not self.springs():
             return None
-        return Stops(self.shortest, self.longest)
+        return Stops(self.shortest, self.longest, beside_a_curve=self.rate is None)
 
     def without_effect(self) -> list[Unread]:
         """Return the keys that Chrono does not use here, with their values."""
@@ -208,19 +208,14 @@ def _problems_of_stops(spring: Spring) -> list[str]:
     stops = spring.stops()
     if stops is None:
         return []
+    if LONGEST < stops.shortest < stops.longest:
+        return []
     given = f'"Spring > Minimum Length" = {stops.shortest} m and "Maximum Length" = {stops.longest}'
-    problem = ""
-    if not LONGEST < stops.shortest < stops.longest:
-        problem = (
-            f"{given} m are no stops: the first must be more than {LONGEST:g} m, by which a stop "
-            f"of Chrono can be pressed in, and less than the other. Correct them, or {POINTS_ONLY}."
-        )
-    elif spring.rate is None:
-        problem = (
-            f'{given} m are stops whose curves have no place beside "{spring.springs()[0]}". '
-            f"Remove them and add their forces to that curve, or {POINTS_ONLY}."
-        )
-    return [problem] if problem else []
+    problem = (
+        f"{given} m are no stops: the first must be more than {LONGEST:g} m, by which a stop of "
+        f"Chrono can be pressed in, and less than the other. Correct them, or {POINTS_ONLY}."
+    )
+    return [problem]
 
 
 def spring_law(spring: Spring) -> SpringLaw:
@@ -255,7 +250,8 @@ def damper_law(spring: Spring, shock: Shock) -> DamperLaw:
 def words_of_curves(stops: Stops | None, spring: SpringLaw, damper: DamperLaw) -> list[str]:
     """Return how curves go on at their ends, and which points of a spring are left out."""
     lines = [stops.words()] if stops else []
-    curves = {"spring": spring.curve if stops is None else (), "damper": damper.curve}
+    beside = stops is None or stops.beside_a_curve
+    curves = {"spring": spring.curve if beside else (), "damper": damper.curve}
     named = [name for name, curve in curves.items() if curve]
     if named:
         lines.append(

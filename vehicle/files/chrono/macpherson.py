@@ -11,7 +11,7 @@ from ....core.vectors import cross
 from .forces import Shock, Spring, damper_law, spring_law, words_of_curves
 from .keys import Part
 from .parts import DRAWING, ON_THE_LINE, POINTS_ONLY, ArmPoints, ControlArm, Point, millimetres
-from .suspension_file import PointsFile, SuspensionFile, arm_sources
+from .suspension_file import KnuckleFile, SteeredPoints, arm_sources
 
 _STROKE = 0.1
 """How much longer than at design the extended strut is assumed to be [m]."""
@@ -41,12 +41,12 @@ class _Strut(Part):
     UNREAD: ClassVar[frozenset[str]] = DRAWING | {"Mass", "Inertia"}
 
 
-class StrutPoints(PointsFile):
+class StrutPoints(SteeredPoints):
     """The points of a strut; its axis is that of the spring, as in Chrono's joint."""
 
     TEMPLATE: ClassVar[str] = "MacPhersonStrut"
     KIND: ClassVar[str] = "macpherson"
-    SOURCES: ClassVar[Mapping[str, str]] = {**PointsFile.SOURCES, **_SOURCES}
+    SOURCES: ClassVar[Mapping[str, str]] = {**SteeredPoints.SOURCES, **_SOURCES}
 
     template: Literal["MacPhersonStrut"] = Field(alias="Template")
     control_arm: ArmPoints = Field(alias="Control Arm")
@@ -63,11 +63,12 @@ class StrutPoints(PointsFile):
         }
 
 
-class MacPhersonStrut(SuspensionFile, StrutPoints):
+class MacPhersonStrut(KnuckleFile, StrutPoints):
     """A strut that guides the upright."""
 
+    LINKED: ClassVar[str] = "control_arm"
     SOURCES: ClassVar[Mapping[str, str]] = {
-        **SuspensionFile.SOURCES,
+        **KnuckleFile.SOURCES,
         **_SOURCES,
         "[bodies.control_arm]": "Control Arm",
         "[strut] spring_": "Spring",

@@ -1,5 +1,6 @@
 """What the files of Project Chrono's templates have in common."""
 
+from abc import abstractmethod
 from decimal import Decimal
 from typing import Annotated, Any, ClassVar
 
@@ -73,7 +74,7 @@ class Body(Centre):
             return [f'"{name} > Inertia" and "{other}" both give the inertia. Keep one of them.']
         if self.inertia is None and self.moments is None:
             return [f'"{name} > Inertia" or "Moments of Inertia" is missing. Add it, in kg m^2.']
-        reason = impossible_inertia(_elements(self._tensor()))
+        reason = impossible_inertia(elements(self._tensor()))
         if not reason:
             return []
         key = "Moments of Inertia" if self.inertia is None else "Inertia"
@@ -90,11 +91,11 @@ class Body(Centre):
         axes : ndarray, shape (3, 3)
             Axes of the body in which the file gives its inertia, in columns.
         """
-        elements = _elements(axes @ self._tensor() @ axes.T)
+        named = elements(axes @ self._tensor() @ axes.T)
         return {
             "mass_kg": self.mass,
             "com_mm": list(map(millimetres, self.com)),
-            **{f"inertia_{name}_kg_m2": value for name, value in elements.items()},
+            **{f"inertia_{name}_kg_m2": value for name, value in named.items()},
         }
 
     def _tensor(self) -> Array:
@@ -110,20 +111,32 @@ class Spindle(Centre):
     inertia: Point = Field(alias="Inertia")
 
 
-class ControlArm(ArmPoints, Body):
+class Arm(Body):
     """An arm as a body."""
 
-    UNREAD: ClassVar[frozenset[str]] = ArmPoints.UNREAD
+    @abstractmethod
+    def corners(self) -> tuple[Point, Point, Point]:
+        """Return the bearing that its x axis points to, the other one, and its end."""
 
     def axes(self) -> Array:
-        """Return Chrono's axes of the arm: x from its rear to its front bearing, z across it."""
-        front, back, upright = map(np.array, (self.front, self.back, self.upright))
-        z = cross(back - upright, front - upright)
-        x = front - back
+        """Return Chrono's axes of the arm: x between its bearings, z across it."""
+        to, off, end = map(np.array, self.corners())
+        z = cross(off - end, to - end)
+        x = to - off
         if not (np.linalg.norm(z) > 0.0 and np.linalg.norm(x) > 0.0):
             return np.eye(3)  # no triangle: the hardpoints are refused later, by name
         x, z = x / np.linalg.norm(x), z / np.linalg.norm(z)
         return np.column_stack((x, cross(z, x), z))
+
+
+class ControlArm(ArmPoints, Arm):
+    """An arm with two bearings and a joint on the upright."""
+
+    UNREAD: ClassVar[frozenset[str]] = ArmPoints.UNREAD
+
+    def corners(self) -> tuple[Point, Point, Point]:
+        """Return the front bearing, the rear one, and the joint on the upright."""
+        return self.front, self.back, self.upright
 
 
 class Axle(Part):
@@ -137,6 +150,26 @@ def millimetres(metres: float) -> float:
     return float(Decimal(repr(metres)).scaleb(3))
 
 
-def _elements(tensor: Array) -> dict[str, float]:
+def raised_moments(moments: Any) -> list[float]:
+    """Return moments of inertia whose largest is the other two together; empty if it is not more.
+
+    Parameters
+    ----------
+    moments : object
+        As a file has them. What is no list of three positive numbers is left to other checks.
+    """
+    if not (isinstance(moments, list) and len(moments) == len("xyz")):
+        return []
+    if not all(type(one) in (int, float) and 0.0 < one < np.inf for one in moments):
+        return []
+    largest = max(moments)
+    others = sum(moments) - largest
+    if largest <= others:
+        return []
+    return [one if one == largest else round(one * largest / others, 12) for one in moments]
+
+
+def elements(tensor: Array) -> dict[str, float]:
+    """Return the elements of a tensor by their names."""
     at = {"xx": (0, 0), "yy": (1, 1), "zz": (2, 2), "xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}
     return {name: float(tensor[place]) for name, place in at.items()}

@@ -51,7 +51,7 @@ def with_points(
     lines = [
         f"spring, damper, masses, tyre and vehicle: as in the packaged {starter}",
         *(["damper: between the points of the spring"] if kind == "double_wishbone" else []),
-        RACK,
+        *([RACK] if "rack" in document else []),
         *moved,
     ]
     return new, [*lines, *ground(new)]

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NoReturn
 
 from ....core.errors import InputError
 from ....core.validator import Validator
@@ -14,12 +14,17 @@ from .double_wishbone import DoubleWishbone, WishbonePoints
 from .keys import Unread, checked, listed, others, shown
 from .macpherson import MacPhersonStrut, StrutPoints
 from .points_only import with_points
+from .semi_trailing_arm import SemiTrailingArm, TrailingPoints
 from .suspension_file import PointsFile, SuspensionFile
-from .tires import USUAL, read_tire
+from .tires import USUAL, Tire, read_tire
 
 _TEMPLATES: Mapping[str, tuple[type[PointsFile], type[SuspensionFile]]] = {
     whole.TEMPLATE: (points, whole)
-    for points, whole in ((StrutPoints, MacPhersonStrut), (WishbonePoints, DoubleWishbone))
+    for points, whole in (
+        (StrutPoints, MacPhersonStrut),
+        (WishbonePoints, DoubleWishbone),
+        (TrailingPoints, SemiTrailingArm),
+    )
 }
 _REFUSED = {
     "MultiLink": (
@@ -58,7 +63,7 @@ def read(
     Parameters
     ----------
     path : str or Path
-        JSON file of the template "MacPhersonStrut" or "DoubleWishbone".
+        JSON file of the template "MacPhersonStrut", "DoubleWishbone" or "SemiTrailingArm".
     tire : str or Path, optional
         JSON file of a tire; radius, mass and inertia are read, of any template.
     points_only : bool, optional
@@ -82,13 +87,34 @@ def read(
         problem = "nothing of a tire is taken with points_only. Leave one of them out."
         raise InputError([problem], str(tire))
     data = content(path)
+    if points_only:
+        return _points_of(checked(_template(data, path)[0], data, path), data, path)
+    given, wheel = suspension_file(data, path), USUAL if tire is None else read_tire(tire)
+    found = imported(given, data, path, wheel)
+    alone = (*given.assumed_alone(wheel), *found.assumptions, *ground(found.suspension))
+    return found._replace(
+        assumptions=(*alone, *wheel.assumed), left_out=(*found.left_out, *wheel.left_out)
+    )
+
+
+def suspension_file(data: dict[str, Any], path: str | Path) -> SuspensionFile:
+    """Return the content of a suspension's file as a template.
+
+    Raises
+    ------
+    InputError
+        If it is of another kind, or something is missing.
+    """
+    return checked(_template(data, path)[1], data, path)
+
+
+def _template(
+    data: dict[str, Any], path: str | Path
+) -> tuple[type[PointsFile], type[SuspensionFile]]:
     template = data.get("Template")
     if not isinstance(template, str) or template not in _TEMPLATES:
         _refuse(data, path)
-    points, whole = _TEMPLATES[str(template)]
-    if points_only:
-        return _points_of(checked(points, data, path), data, path)
-    return _whole(checked(whole, data, path), data, path, tire)
+    return _TEMPLATES[str(template)]
 
 
 def _points_of(given: PointsFile, data: dict[str, Any], path: str | Path) -> Imported:
@@ -100,11 +126,24 @@ def _points_of(given: PointsFile, data: dict[str, Any], path: str | Path) -> Imp
     return Imported(suspension, tuple(assumed), _left_out(type(given), data))
 
 
-def _whole(
-    given: SuspensionFile, data: dict[str, Any], path: str | Path, tire: str | Path | None
+def imported(
+    given: SuspensionFile, data: dict[str, Any], path: str | Path, wheel: Tire
 ) -> Imported:
-    """Return the suspension of a file."""
-    wheel = USUAL if tire is None else read_tire(tire)
+    """Return the left suspension of a file, on a tire.
+
+    Parameters
+    ----------
+    given : SuspensionFile
+    data : dict
+        Its content, of which all that is not read is listed.
+    path : str or pathlib.Path
+    wheel : Tire
+
+    Raises
+    ------
+    InputError
+        If no suspension can be like this; by the keys of the file.
+    """
     problems = given.problems()
     if problems:
         raise InputError(problems, str(path))
@@ -112,9 +151,8 @@ def _whole(
         suspension = Suspension.from_dict(given.data(wheel), str(path))
     except InputError as error:
         raise _by_its_keys(error, given.SOURCES, path) from None
-    assumed = (*given.assumptions(wheel), *ground(suspension), *wheel.assumed)
-    left_out = (*_left_out(type(given), data, given.without_effect()), *wheel.left_out)
-    return Imported(suspension, assumed, left_out)
+    left_out = _left_out(type(given), data, given.without_effect())
+    return Imported(suspension, tuple(given.assumptions(wheel)), left_out)
 
 
 def _left_out(
@@ -138,12 +176,12 @@ def _by_its_keys(error: InputError, sources: Mapping[str, str], path: str | Path
     return InputError(problems, str(path))
 
 
-def _refuse(data: dict[str, object], path: str | Path) -> None:
+def _refuse(data: dict[str, object], path: str | Path) -> NoReturn:
     """Refuse a file of another template, or of something else."""
     if "Template" not in data:
         raise InputError(['"Template" is missing. Give a file of a suspension.'], str(path))
     template = data["Template"]
-    known = " and ".join(repr(name) for name in _TEMPLATES)
+    known = ", ".join(repr(name) for name in _TEMPLATES)
     why = _REFUSED.get(template, "") if isinstance(template, str) else ""
     problem = f'"Template" is {shown(template)}; only {known} can be read.{why}'
     raise InputError([problem], str(path))

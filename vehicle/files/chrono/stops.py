@@ -2,7 +2,9 @@
 
 In bump and in rebound Chrono has the same curve of force over the distance pressed in, straight
 between its points. What of it is linear from the first touch on is a stop here, too; where it
-becomes stiffer, the spring does.
+becomes stiffer, the spring does. Beside a spring that is a curve itself, which has no room for
+more points, a stop has the law of this project, ``rate x + progression x^3``, with Chrono's rate at
+the first touch and its force at 40 mm.
 """
 
 from typing import Any, NamedTuple
@@ -25,6 +27,10 @@ _STIFFER = tuple((x, force - _RATE * x) for x, force in _CURVE)
 # A curve has no room for the last point in rebound, where the spring would pull with tons.
 _IN_BUMP, _IN_REBOUND = _STIFFER, _STIFFER[:-1]
 
+_CUBED = _STIFFER[3][1] / _STIFFER[3][0] ** 3 * 1e-9
+_WITHIN = _CURVE[-2][0]
+_APART = max(abs(_RATE * x + 1e9 * _CUBED * x**3 - force) / force for x, force in _CURVE[:-1])
+
 LONGEST = _CURVE[-1][0]
 """How far Chrono's curve goes [m]."""
 
@@ -36,10 +42,13 @@ class Stops(NamedTuple):
     ----------
     shortest, longest : float
         Lengths of the spring at which it touches them [m].
+    beside_a_curve : bool
+        Whether the spring is a curve.
     """
 
     shortest: float
     longest: float
+    beside_a_curve: bool = False
 
     def sections(self, at_design: float) -> dict[str, Any]:
         """Return them as sections of a hardpoint file.
@@ -50,8 +59,13 @@ class Stops(NamedTuple):
             Length of the spring at the design position [m].
         """
         away = {"bump": at_design - self.shortest, "rebound": self.longest - at_design}
+        more = {"progression_N_per_mm3": round(_CUBED, 9)} if self.beside_a_curve else {}
         return {
-            f"{side}_stop": {"clearance_mm": round(millimetres(open_by), 9), "rate_N_per_m": _RATE}
+            f"{side}_stop": {
+                "clearance_mm": round(millimetres(open_by), 9),
+                "rate_N_per_m": _RATE,
+                **more,
+            }
             for side, open_by in away.items()
         }
 
@@ -63,10 +77,17 @@ class Stops(NamedTuple):
     def words(self) -> str:
         """Return how they are represented."""
         bump, rebound = (1e3 * side[-1][0] for side in (_IN_BUMP, _IN_REBOUND))
+        lengths = f"{millimetres(self.shortest):g} and {millimetres(self.longest):g} mm"
+        if self.beside_a_curve:
+            return (
+                f"spring: touches its stops at lengths of {lengths}; [bump_stop] and "
+                f"[rebound_stop] have a rate and a cubic term, by which the force is that of "
+                f"Chrono within {100.0 * _APART:.0f} % up to {1e3 * _WITHIN:g} mm pressed in; "
+                "beyond, Chrono's is stiffer"
+            )
         return (
-            f"spring: touches its stops at lengths of {millimetres(self.shortest):g} and "
-            f"{millimetres(self.longest):g} mm; [bump_stop] and [rebound_stop] have the rate of "
-            f"Chrono's, {_RATE / 1e3:g} N/mm, and the curve of [spring] what is more from "
-            f"{1e3 * _STIFFER[0][0]:g} mm on. Up to {bump:g} mm in bump and {rebound:g} mm in "
-            "rebound the force is that of Chrono; beyond, it goes on straight"
+            f"spring: touches its stops at lengths of {lengths}; [bump_stop] and [rebound_stop] "
+            f"have the rate of Chrono's, {_RATE / 1e3:g} N/mm, and the curve of [spring] what is "
+            f"more from {1e3 * _STIFFER[0][0]:g} mm on. Up to {bump:g} mm in bump and {rebound:g} "
+            "mm in rebound the force is that of Chrono; beyond, it goes on straight"
         )

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from .forces import Shock, Spring, problems_of
 from .keys import Part, Unread
-from .parts import Axle, Body, Centre, ControlArm, Ends, Finite, Point, Spindle, millimetres
+from .parts import Arm, Axle, Body, Centre, Ends, Finite, Point, Spindle, millimetres
 from .tires import TYRE_RATE, USUAL, Tire
 
 _ALIKE = 0.01  # moments across a wheel that differ by less are taken as one without a word
@@ -34,8 +34,6 @@ class PointsFile(Part):
     TEMPLATE: ClassVar[str]
     KIND: ClassVar[str]
     SOURCES: ClassVar[Mapping[str, str]] = {
-        "tie_rod_outer": "Tierod > Location Upright",
-        "tie_rod_inner": "Tierod > Location Chassis",
         "wheel_center": "Spindle > COM",
         "camber_deg": "Camber Angle (deg)",
         "toe_deg": "Toe Angle (deg)",
@@ -46,7 +44,6 @@ class PointsFile(Part):
     camber: Finite = Field(default=0.0, alias="Camber Angle (deg)")
     toe: Finite = Field(default=0.0, alias="Toe Angle (deg)")
     spindle: Centre = Field(alias="Spindle")
-    tie_rod: Ends = Field(alias="Tierod")
 
     @abstractmethod
     def own_points(self) -> dict[str, Point]:
@@ -54,11 +51,7 @@ class PointsFile(Part):
 
     def points(self) -> dict[str, Point]:
         """Return all hardpoints [m]."""
-        return self.own_points() | {
-            "tie_rod_outer": self.tie_rod.upright,
-            "tie_rod_inner": self.tie_rod.chassis,
-            "wheel_center": self.spindle.com,
-        }
+        return self.own_points() | {"wheel_center": self.spindle.com}
 
     def alignment(self) -> dict[str, float]:
         """Return camber and toe as seen from the front and from above [deg].
@@ -70,27 +63,54 @@ class PointsFile(Part):
         return {"camber_deg": projected, "toe_deg": self.toe}
 
 
+class SteeredPoints(PointsFile):
+    """The points of a suspension whose wheel is held by a tie rod."""
+
+    SOURCES: ClassVar[Mapping[str, str]] = {
+        **PointsFile.SOURCES,
+        "tie_rod_outer": "Tierod > Location Upright",
+        "tie_rod_inner": "Tierod > Location Chassis",
+    }
+
+    tie_rod: Ends = Field(alias="Tierod")
+
+    def points(self) -> dict[str, Point]:
+        """Return all hardpoints [m]."""
+        rod = {"tie_rod_outer": self.tie_rod.upright, "tie_rod_inner": self.tie_rod.chassis}
+        return super().points() | rod
+
+
 class SuspensionFile(PointsFile):
-    """Everything that a file has."""
+    """Everything that a file has.
+
+    Attributes
+    ----------
+    LINKED : str
+        The part that the drop link of an anti-roll bar is joined to, as this project calls it.
+    """
 
     UNREAD: ClassVar[frozenset[str]] = frozenset({"Name", "Output"})
     SOURCES: ClassVar[Mapping[str, str]] = {
         **PointsFile.SOURCES,
         "free_height_mm": "Spindle > COM",
-        "[bodies.knuckle]": "Upright",
         "[bodies.wheel]": 'Spindle" with "Axle',
     }
 
+    LINKED: ClassVar[str]
+
     vehicle_axes: bool = Field(default=False, strict=True, alias="Vehicle-Frame Inertia")
     spindle: Spindle = Field(alias="Spindle")
-    upright: Body = Field(alias="Upright")
     axle: Axle = Field(alias="Axle")
     spring: Spring = Field(alias="Spring")
     shock: Shock = Field(alias="Shock")
 
     @abstractmethod
-    def arms(self) -> dict[str, tuple[str, ControlArm]]:
+    def arms(self) -> Mapping[str, tuple[str, Arm]]:
         """Return the arms, with what the file calls them, by their names as bodies."""
+
+    def carriers(self) -> dict[str, tuple[str, Body]]:
+        """Return the bodies whose inertia is in the axes of the vehicle, in the same way."""
+        return {}
 
     @abstractmethod
     def forces(self) -> dict[str, Any]:
@@ -106,8 +126,8 @@ class SuspensionFile(PointsFile):
 
     def problems(self) -> list[str]:
         """Say what in the file has no place in a suspension of this project."""
-        bodies: dict[str, Body] = dict(self.arms().values()) | {"Upright": self.upright}
-        of_bodies = [text for name, body in bodies.items() for text in body.problems(name)]
+        bodies = [*self.arms().values(), *self.carriers().values()]
+        of_bodies = [text for name, body in bodies for text in body.problems(name)]
         return of_bodies + problems_of(self.spring, self.shock)
 
     def data(self, tire: Tire) -> dict[str, Any]:
@@ -118,7 +138,7 @@ class SuspensionFile(PointsFile):
         }
         radius = {} if tire.radius is None else {"radius_mm": millimetres(tire.radius)}
         arms = {name: arm.rigid(self._axes(arm)) for name, (_, arm) in self.arms().items()}
-        bodies = arms | {"knuckle": self.upright.rigid(np.eye(3)), "wheel": self._wheel(tire)}
+        others = {name: body.rigid(np.eye(3)) for name, (_, body) in self.carriers().items()}
         return {
             "suspension": self.KIND,
             "vehicle": {"side": "left"},
@@ -126,16 +146,14 @@ class SuspensionFile(PointsFile):
             "wheel": self.alignment(),
             **self.forces(),
             "tyre": touching | radius,
-            "rack": {"axis": [0.0, 1.0, 0.0]},
             "gravity": {"acceleration_m_per_s2": 9.81},
-            "bodies": bodies,
+            "bodies": arms | others | {"wheel": self._wheel(tire)},
         }
 
-    def assumptions(self, tire: Tire) -> list[str]:
-        """Return what the files leave open, a sentence each."""
-        lines = [RACK]
+    def assumed_alone(self, tire: Tire) -> list[str]:
+        """Return what is assumed of a suspension whose vehicle is not known, a sentence each."""
         given = "" if tire.rate is not None else f"{TYRE_RATE / 1e3:g} N/mm, "
-        lines.append(f"tyre: {given}just touching at design")
+        lines = [f"tyre: {given}just touching at design"]
         if tire.is_usual:
             lines.append(
                 f"wheel: {USUAL.mass:g} kg, {USUAL.inertia[1]:g} kg m^2 about its axis and "
@@ -146,6 +164,11 @@ class SuspensionFile(PointsFile):
                 f"tire: of the template {tire.template}, on a rim without mass, as the file of "
                 "Chrono's wheel is not read"
             )
+        return lines
+
+    def assumptions(self, tire: Tire) -> list[str]:
+        """Return what the files leave open besides, a sentence each."""
+        lines = []
         across, _, other = np.array(self.spindle.inertia) + tire.inertia
         if abs(across - other) > _ALIKE * max(across, other):
             lines.append(
@@ -154,7 +177,7 @@ class SuspensionFile(PointsFile):
             )
         return lines + self.left_open()
 
-    def _axes(self, arm: ControlArm) -> Any:
+    def _axes(self, arm: Arm) -> Any:
         return np.eye(3) if self.vehicle_axes else arm.axes()
 
     def _wheel(self, tire: Tire) -> dict[str, float]:
@@ -166,6 +189,32 @@ class SuspensionFile(PointsFile):
             "inertia_diametral_kg_m2": float(across + other) / 2.0,
             "inertia_shaft_kg_m2": self.axle.inertia,
         }
+
+
+class KnuckleFile(SuspensionFile, SteeredPoints):
+    """Everything that the file of a suspension with an upright and a tie rod has."""
+
+    SOURCES: ClassVar[Mapping[str, str]] = {
+        **SuspensionFile.SOURCES,
+        **SteeredPoints.SOURCES,
+        "[bodies.knuckle]": "Upright",
+    }
+
+    upright: Body = Field(alias="Upright")
+
+    def carriers(self) -> dict[str, tuple[str, Body]]:
+        """Return the upright."""
+        return {"knuckle": ("Upright", self.upright)}
+
+    def data(self, tire: Tire) -> dict[str, Any]:
+        """Return the hardpoint file of the left suspension, with a rack."""
+        found = super().data(tire)
+        bodies = found.pop("bodies")
+        return found | {"rack": {"axis": [0.0, 1.0, 0.0]}, "bodies": bodies}
+
+    def assumed_alone(self, tire: Tire) -> list[str]:
+        """Return what is assumed of a suspension whose vehicle is not known, a sentence each."""
+        return [RACK, *super().assumed_alone(tire)]
 
 
 RACK = "rack: moves along y; the file of the steering is not read"

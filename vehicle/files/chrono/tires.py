@@ -130,7 +130,11 @@ def read_tire(path: str | Path) -> Tire:
     InputError
         If it is of another kind, or a value is wrong; with all problems.
     """
-    data = content(path)
+    return tire_of(content(path), path)
+
+
+def tire_of(data: dict[str, Any], path: str | Path) -> Tire:
+    """Return the tire of the content of a file; see `read_tire`."""
     template = _template(data, path)
     places = _TEMPLATES[template]
     there = {n: p for n, p in places._asdict().items() if p and _at(data, p) is not None}

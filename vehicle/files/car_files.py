@@ -1,0 +1,48 @@
+"""The files that a car consists of: its own, those of its axles, and those of their sides."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..models.axle import Axle
+from ..models.car import Car
+
+
+@dataclass(frozen=True)
+class _Sections:
+    """Sections of an input file, as `kintrafo.vehicle.input.toml_writer` takes them."""
+
+    data: dict[str, Any]
+
+    def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
+        del exclude_defaults  # as they were made
+        return self.data
+
+
+def car_files(car: Car, path: str | Path) -> dict[Path, _Sections]:
+    """Return what the files of a car have, by their paths; each names the others.
+
+    Parameters
+    ----------
+    car : Car
+    path : str or pathlib.Path
+        Of the car's own file; the others lie beside it, with ``_front``, ``_rear_side`` and so on
+        behind its name.
+    """
+    own = Path(path)
+
+    def beside(words: str) -> Path:
+        return own.with_name(f"{own.stem}_{words}{own.suffix}")
+
+    data = car.to_dict(exclude_defaults=True)
+    found: dict[Path, _Sections] = {own: _Sections(data)}
+    for key, part in car.parts.items():
+        sections = data[key]
+        data[key] = beside(key).name
+        found[beside(key)] = _Sections(sections)
+        if isinstance(part, Axle):
+            for side in [name for name in ("side", "right", "left") if name in sections]:
+                file = beside(f"{key}_{side}")
+                found[file] = _Sections(sections[side])
+                sections[side] = file.name
+    return found
