@@ -23,10 +23,12 @@ from .events import Event, Events, events_of
 from .result import DenseOutput, Signals, Simulation, SimulationError
 from .signals import Segment, TimeInputs, time_inputs
 from .solvers import (
+    FIXED_STEP_METHODS,
     NATIVE_METHODS,
     SCIPY_METHODS,
     Options,
     Piece,
+    check_jacobian,
     native_available,
     native_methods,
     native_name,
@@ -45,6 +47,7 @@ Method = TypeAliasType(
         "Verner",
         "DormandPrince",
         "RK4",
+        "RODASP",
         "Tsitouras",
         "Radau",
         "LSODA",
@@ -98,11 +101,12 @@ def simulate(
     method : str, optional
         'BDF' (Gear's formulas) or 'Adams'; Runge-Kutta 'DormandPrince' (order 5, as in
         `ensemble`), 'Tsitouras' (order 5) or 'Verner' (8 stages, order 6); 'RK4', the classical
-        method of order 4 with a `step` of one length, as in real time; or SciPy's 'Radau', 'LSODA',
-        'RK45', 'DOP853'. Implicit methods use the exact Jacobian.
+        method of order 4 with a `step` of one length, as in real time; 'RODASP', of order 4 with
+        such a step too, for what is stiff; or SciPy's 'Radau', 'LSODA', 'RK45', 'DOP853'. Implicit
+        methods use the exact Jacobian.
     step : float, optional
-        Length of all steps of 'RK4' [s], which has no tolerances. One is shorter where an input
-        jumps or turns, and at the end; near a dead point more are.
+        Length of all steps of 'RK4' and 'RODASP' [s], which have no tolerances. One is shorter
+        where an input jumps or turns, and at the end; near a dead point more are.
     t_eval : array_like, optional
         Times of the output; every step by default. As in SciPy, the point of a terminal event is in
         ``t_events`` and not in the output then.
@@ -153,10 +157,15 @@ def simulate(
     The event 'strut_fully_extended' watches the former, a `SignalEvent` of ``strut_length`` the
     latter.
 
-    The error of 'RK4' is not estimated: halve `step` and compare, the error is 16 times smaller
-    then. Before each step the eigenvalues of the exact Jacobian are bounded; where one of them
-    times the step may be beyond 2.61, up to which the method is stable wherever motions do not
-    grow, it ends with the longest step that is stable.
+    The error of 'RK4' and 'RODASP' is not estimated: halve `step` and compare, the error is 16
+    times smaller then. Before each step of 'RK4' the eigenvalues of the exact Jacobian are bounded;
+    where one of them times the step may be beyond 2.61, up to which the method is stable wherever
+    motions do not grow, it ends with the longest step that is stable.
+
+    'RODASP' is L-stable: what is too fast for a step decays in it. Each step
+    takes six evaluations, one exact Jacobian and one factorisation, and two evaluations more where
+    inputs vary, for the derivative by time. Rates that jump to and fro from step to step, as those
+    of friction that sticks within less than a step, end it with an error.
 
     Examples
     --------
@@ -175,7 +184,8 @@ def simulate(
             state = _state(arguments, model, y0)
             span = span_of(arguments, t_span)
             times = None if t_eval is None else outputs_of(arguments, t_eval, span)
-            if method == "RK4" or step is not None:
+            check_jacobian(arguments, model, method)
+            if method in FIXED_STEP_METHODS or step is not None:
                 refused = {"rtol": rtol, "atol": atol, "first_step": first_step}
                 max_step = _fixed_step(arguments, method, step, max_step, refused)
             accuracy = accuracy_of(
@@ -187,7 +197,7 @@ def simulate(
                 first_step=first_step,
                 max_steps=max_steps,
             )
-            if method == "RK4" and not arguments.failed:
+            if method in FIXED_STEP_METHODS and not arguments.failed:
                 _check_count(arguments, span, accuracy)
             if not arguments.failed:
                 _check_memory(arguments, model, method, span, times, accuracy)
@@ -256,18 +266,20 @@ def _fixed_step(
     given: Validator, method: str, step: Any, max_step: Any, others: Mapping[str, Any]
 ) -> float:
     """Return the length of all steps, or refuse what says otherwise."""
-    if method != "RK4":
+    if method not in FIXED_STEP_METHODS:
         given.fail(
-            f"step is for method 'RK4', and {method!r} chooses its steps: give max_step, or the "
-            "other method."
+            f"step is for methods 'RK4' and 'RODASP', and {method!r} chooses its steps: give "
+            "max_step, or one of these methods."
         )
         return 1.0
     lines = [name for name, value in others.items() if value is not None]
     lines += [] if isinstance(max_step, float) and max_step == np.inf else ["max_step"]
     if lines:
-        given.fail(f"method 'RK4' has fixed steps: leave out {', '.join(lines)}.")
+        given.fail(f"method {method!r} has fixed steps: leave out {', '.join(lines)}.")
     if step is None:
-        given.fail("method 'RK4' needs step, the length of all steps in seconds, such as 1e-3.")
+        given.fail(
+            f"method {method!r} needs step, the length of all steps in seconds, such as 1e-3."
+        )
         return 1.0
     return given.number("step", step, "s", above=0.0)
 
@@ -290,7 +302,7 @@ def _check_memory(
 ) -> None:
     """Refuse more outputs than memory holds, as far as it is known how many there are."""
     count = 0.0 if times is None else times.size
-    if times is None and method == "RK4":
+    if times is None and method in FIXED_STEP_METHODS:
         count = abs(span[1] - span[0]) / accuracy.max_step
     # a table of times and states as it comes from C, its rows in order, and the inputs of each
     of_one = 2 * (1 + len(model.state_names)) + len(model.input_names)
@@ -353,7 +365,7 @@ def _what_else(model: System, backend: Backend, options: Options) -> str:
     in_c, method = _in_c(model), options.method
     other = [] if method in (in_c or SCIPY_METHODS) else ["method 'BDF'"]
     other += ["backend 'auto'"] if backend == ("scipy" if in_c else "sundials") else []
-    given = {"step": method == "RK4", "stop_at_outputs": options.stop_at_outputs}
+    given = {"step": method in FIXED_STEP_METHODS, "stop_at_outputs": options.stop_at_outputs}
     out = [] if in_c else [name for name, there in given.items() if there]
     words = [f"use {' and '.join(other)}"] if other else []
     words += [f"leave out {' and '.join(out)}"] if out else []
@@ -486,7 +498,12 @@ class _Run:
             "than the arithmetic has. Loosen them.",
             "unstable": f"steps of {options.max_step:g} s are not stable: the fastest motion here "
             f"needs steps of {0.99 * piece.longest_step:.3g} s or less. Give such a step, or "
-            "another method: BDF is for what is stiff.",
+            "another method: RODASP and BDF are for what is stiff.",
+            "jumps": f"rates jump to and fro within steps of {options.max_step:g} s, as those of "
+            "friction that sticks, and the result would be wrong. Give a shorter step, or method "
+            "'BDF'.",
+            "singular": f"the linear equations of a step of {options.max_step:g} s have no one "
+            "solution here. Give another step.",
             "bad_table": f"method {options.method!r} is not in SUNDIALS {native_version()}.",
             "flat_event": "the function of an event stays at zero. Watch another level, or another "
             "signal.",

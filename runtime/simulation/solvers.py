@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from ..core.validator import Validator
 from ..equations.errors import ModelError
 from ..systems.system import System
 from .accuracy import Accuracy
@@ -33,10 +34,11 @@ NATIVE_METHODS = {
     "Verner": "ARKODE_VERNER_8_5_6",
     "DormandPrince": "DormandPrince",
     "RK4": "RK4",
+    "RODASP": "RODASP",
     "Tsitouras": "ARKODE_TSITOURAS_7_4_5",
 }
-_OF_OUR_OWN = ("DormandPrince", "RK4")
-_OF_FIXED_STEP = ("RK4",)
+FIXED_STEP_METHODS = ("RK4", "RODASP")
+_OF_OUR_OWN = ("DormandPrince", *FIXED_STEP_METHODS)
 _FIRST_WITH_TSITOURAS = (7, 3)
 # What stands in for them without SUNDIALS; those without an equivalent need it.
 SCIPY_METHODS = {
@@ -48,6 +50,8 @@ SCIPY_METHODS = {
     "DOP853": "DOP853",
 }
 _IMPLICIT = ("BDF", "Radau", "LSODA")
+# What integrates with the exact Jacobian; RK4 checks by it whether a step is stable.
+_WITH_JACOBIAN = (*_IMPLICIT, "Adams", *FIXED_STEP_METHODS)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -158,8 +162,17 @@ def native_methods(*, fixed_step: bool = False) -> tuple[str, ...]:
 def _methods_of(version: str, fixed_step: bool) -> tuple[str, ...]:
     release = tuple(int(part) for part in version.split(".")[:2])
     missing = set() if release >= _FIRST_WITH_TSITOURAS else {"Tsitouras"}
-    missing |= set() if fixed_step else {*_OF_FIXED_STEP}
+    missing |= set() if fixed_step else {*FIXED_STEP_METHODS}
     return tuple(method for method in NATIVE_METHODS if method not in missing)
+
+
+def check_jacobian(given: Validator, model: System, method: str) -> None:
+    """Refuse a method that needs the Jacobian where the equations have none."""
+    if method in _WITH_JACOBIAN and not hasattr(model.equations, "rhs_jacobian"):
+        given.fail(
+            f"method {method!r} needs the Jacobian of the rates, and {model.equations.NAME} was "
+            "derived without derivatives: derive it with them, or use method 'DormandPrince'."
+        )
 
 
 # What solvers in C return, the arguments being checked, when an event's function stays at zero.

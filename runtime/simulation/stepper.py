@@ -17,10 +17,16 @@ from .accuracy import accuracy_of
 from .dead_points import meanings
 from .result import SimulationError
 from .simulate import simulate
-from .solvers import native_available, sundials, why_not_native
+from .solvers import (
+    FIXED_STEP_METHODS,
+    check_jacobian,
+    native_available,
+    sundials,
+    why_not_native,
+)
 
 Array = NDArray[np.float64]
-Method = Literal["RK4", "DormandPrince"]
+Method = Literal["RK4", "RODASP", "DormandPrince"]
 
 _TOLERANCE = (1e-6, 1e-9)
 _MOST_STEPS = 100_000
@@ -40,9 +46,10 @@ class Stepper:
     inputs : mapping or array_like, optional
         Inputs at the start, by name or in the order of ``model.input_names``, SI units. Others
         are those of `y0` where it comes from `equilibrium` or `state_at_height`, or else zero.
-    method : {'RK4', 'DormandPrince'}, optional
-        The classical Runge-Kutta method, four evaluations a step, as in real time; or steps within
-        each step that keep a tolerance.
+    method : {'RK4', 'RODASP', 'DormandPrince'}, optional
+        The classical Runge-Kutta method, four evaluations a step, as in real time; the linearly
+        implicit one for what is stiff, at a constant cost too; or steps within each step that keep
+        a tolerance.
     rtol, atol : float, array_like, optional
         Tolerances of 'DormandPrince', by default 1e-6 and 1e-9.
     t0 : float, optional
@@ -104,12 +111,13 @@ class Stepper:
     ) -> None:
         with Validator("Stepper") as given:
             given.instance("model", model, System, System.NEEDED)
-            given.among("method", method, ("RK4", "DormandPrince"))
+            given.among("method", method, (*FIXED_STEP_METHODS, "DormandPrince"))
             self._length = given.number("step", step, "s", above=0.0)
             if not given.failed:
                 _check_solver(given, model)
-            if method == "RK4" and not (rtol is None and atol is None):
-                given.fail("method 'RK4' has no tolerances: leave out rtol and atol.")
+                check_jacobian(given, model, method)
+            if method in FIXED_STEP_METHODS and not (rtol is None and atol is None):
+                given.fail(f"method {method!r} has no tolerances: leave out rtol and atol.")
             if not given.failed:
                 accuracy = accuracy_of(
                     given,
@@ -239,7 +247,7 @@ class Stepper:
     def _fail(self, start: float) -> None:
         """Raise the error of a step that cannot be taken: the one that `simulate` has for it."""
         span = start, start + self.length
-        how = {"step": self.length} if self._method == "RK4" else vars(self._accuracy)
+        how = {"step": self.length} if self._method in FIXED_STEP_METHODS else vars(self._accuracy)
         courses = _courses(self.model, self.inputs, span)
         simulate(self.model, span, self.state, inputs=courses, method=self._method, **how)
         state = self.state.copy()

@@ -103,11 +103,12 @@ class SolverOptions:
     method: Annotated[
         str,
         option(
-            "BDF, Adams, Verner, DormandPrince, RK4, Tsitouras, Radau, LSODA, RK45, DOP853.",
+            "BDF, Adams, Verner, DormandPrince, RK4, RODASP, Tsitouras, Radau, LSODA, RK45, "
+            "DOP853.",
             panel="Solver",
         ),
     ] = "BDF"
-    step: Annotated[_Number, option("Fixed step of RK4.", "MS", panel="Solver")] = None
+    step: Annotated[_Number, option("Fixed step of RK4 or RODASP.", "MS", panel="Solver")] = None
     rtol: Annotated[
         _Number,
         option("Relative tolerance. Default: 1e-8 for BDF, else 1e-6.", panel="Solver"),

@@ -95,11 +95,11 @@ cdef extern from "integrate.h" nogil:
     const char *kt_version()
 
 OUTCOMES = (
-    "done", "event", "state", "too_many_steps", "too_accurate", "caller", "unstable", "bad_table", "memory",
-    "failed",
+    "done", "event", "state", "too_many_steps", "too_accurate", "caller", "unstable", "jumps", "singular",
+    "bad_table", "memory", "failed",
 )
-METHODS = {"BDF": 0, "Adams": 1, "DormandPrince": 2, "RK4": 3}
-RUNGE_KUTTA = 4
+METHODS = {"BDF": 0, "Adams": 1, "DormandPrince": 2, "RK4": 3, "RODASP": 4}
+RUNGE_KUTTA = 5
 
 
 def version():

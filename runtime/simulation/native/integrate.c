@@ -36,11 +36,12 @@ static int append_state(kt_table *table, double time, const double *state, int c
 
 /* -- inputs ----------------------------------------------------------------------------------- */
 
-void kt_evaluate_inputs(worker *w, double time)
+/* Evaluate the inputs at a time by the polynomials of another one, which is near. */
+static void evaluate_inputs_near(worker *w, double other, double time)
 {
     for (int i = 0; i < w->problem->spline_count; ++i) {
         const kt_spline *s = &w->problem->splines[i];
-        int piece = w->piece[i] = kt_find_piece(s->breaks, s->pieces, w->piece[i], time);
+        int piece = w->piece[i] = kt_find_piece(s->breaks, s->pieces, w->piece[i], other);
         double x = time - s->breaks[piece];
         const double *c = s->coefficients + piece;
         double a = c[0], b = c[s->pieces], d = c[2 * s->pieces], e = c[3 * s->pieces];
@@ -56,6 +57,8 @@ void kt_evaluate_inputs(worker *w, double time)
         }
     }
 }
+
+void kt_evaluate_inputs(worker *w, double time) { evaluate_inputs_near(w, time, time); }
 
 /* -- the model -------------------------------------------------------------------------------- */
 
@@ -83,6 +86,25 @@ int kt_jacobian(worker *w, double time, const double *state, double *out)
     kt_evaluate_inputs(w, time);
     int status = p->jacobian(p->constants, state, w->inputs, out);
     return status ? refuse(w, status, time, state) : 0;
+}
+
+int kt_rates_by_time(worker *w, double time, const double *state, double lapse, double *out,
+                     double *scratch)
+{
+    const kt_problem *p = w->problem;
+    double *const rates[2] = {scratch, out};
+    for (int i = 0; i < 2; ++i) {
+        double moved = time + (i ? lapse : -lapse);
+        evaluate_inputs_near(w, time, moved);
+        int status = p->rhs(p->constants, state, w->inputs, rates[i]);
+        if (status) {
+            return refuse(w, status, moved, state);
+        }
+    }
+    for (int i = 0; i < p->state_count; ++i) {
+        out[i] = (out[i] - scratch[i]) / (2.0 * lapse);
+    }
+    return 0;
 }
 
 int kt_root_count(const worker *w) { return w->problem->event_count + w->problem->root_count; }
@@ -177,6 +199,12 @@ static int explain(worker *w, int code)
     }
     if (code == KT_UNSTABLE_STEP) {
         return KT_UNSTABLE;
+    }
+    if (code == KT_JUMPING_RATES) {
+        return KT_JUMPS;
+    }
+    if (code == KT_SINGULAR_MATRIX) {
+        return KT_SINGULAR_STEP;
     }
     if (code == w->solver->too_accurate) {
         return KT_TOO_ACCURATE;

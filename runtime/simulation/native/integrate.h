@@ -58,7 +58,7 @@ typedef struct {
     void *interrupted_data;
 } kt_problem;
 
-enum kt_method { KT_BDF, KT_ADAMS, KT_DORMAND_PRINCE, KT_RK4, KT_RUNGE_KUTTA };
+enum kt_method { KT_BDF, KT_ADAMS, KT_DORMAND_PRINCE, KT_RK4, KT_RODASP, KT_RUNGE_KUTTA };
 
 typedef struct {
     int method;
@@ -66,7 +66,7 @@ typedef struct {
     double rtol;
     const double *atol;
     double first_step; /* 0: chosen by the solver */
-    double max_step;   /* 0: unlimited; of KT_RK4 that of all steps */
+    double max_step;   /* 0: unlimited; of KT_RK4 and KT_RODASP that of all steps */
     long max_steps;
     int stop_at_outputs; /* step onto every output instead of interpolating */
     int dense;           /* keep the polynomial of every step */
@@ -92,6 +92,8 @@ enum kt_outcome {
     KT_TOO_ACCURATE,    /* the tolerances are below what the arithmetic can do */
     KT_CALLER,          /* a root function gave up, or the caller wants an end */
     KT_UNSTABLE,        /* steps of one length are too long: see longest_step */
+    KT_JUMPS,           /* rates jump to and fro within steps of one length */
+    KT_SINGULAR_STEP,   /* the linear equations of a step have no one solution */
     KT_BAD_TABLE,       /* the installed SUNDIALS has no such Runge-Kutta table */
     KT_MEMORY,
     KT_FAILED           /* anything else: see code */

@@ -7,6 +7,7 @@
  * eigenvalue of its Jacobian is bounded, and a step that is not stable is refused. Rates may also jump to and
  * fro between the stages, as those of friction that sticks, where no Jacobian says so: that is seen by them.
  */
+#include "fixed_step.h"
 #include "polynomial.h"
 #include "worker.h"
 
@@ -39,24 +40,13 @@
 /* Halvings of the way between two stages, to find where rates are steepest. */
 #define HALVINGS 30
 
-/* Part of a step that is not taken for one: rounding of times. */
-#define SLIVER 1.0e-9
-
-/* A code that is never returned: there are no tolerances. */
-#define NEVER 1
-
 typedef struct {
     double *memory;
     double *state, *end_state, *stage;
     double *rates, *end_rates; /* of the stages, 4 x states; at the end, which are those of the next begin */
     double *terms;             /* TERMS x states */
     double *jacobian, *matrix, *square; /* states x states */
-    double sign;               /* of the time's direction */
-    double time, reached;      /* the last step goes from the one to the other; equal before it is taken */
-    double origin;             /* times of the steps are counted from here, so that they do not drift */
-    long since;                /* steps since then */
-    double next;               /* how long the next one is at most: shorter where the model refused a state */
-    double stop;
+    kt_fixed_steps steps;
     int jumps, calm;           /* steps in which rates have jumped, and those in a row in which not */
     int fresh, fitted;         /* the rates at `time` are not known; the terms are those of the last step */
     kt_statistics counted;
@@ -64,19 +54,12 @@ typedef struct {
 
 /* -- begin and end ---------------------------------------------------------------------------- */
 
-static double longest(const worker *w)
-{
-    return w->options->max_step > 0.0 ? w->options->max_step : fabs(w->end - w->start);
-}
-
 static int begin_anew(worker *w, double time, double length)
 {
     method *m = w->own;
     memcpy(m->state, w->y, (size_t)w->problem->state_count * sizeof *m->state);
     memset(&m->counted, 0, sizeof m->counted);
-    m->time = m->reached = m->origin = time;
-    m->since = 0;
-    m->next = fabs(length);
+    kt_begin_steps(&m->steps, time, length);
     m->fresh = 1;
     m->fitted = 0;
     return 0;
@@ -102,9 +85,9 @@ static int open_method(worker *w, double start)
     m->jacobian = m->terms + TERMS * n;
     m->matrix = m->jacobian + n * n;
     m->square = m->matrix + n * n;
-    m->sign = w->end > w->start ? 1.0 : -1.0;
-    m->stop = w->end;
-    begin_anew(w, start, longest(w));
+    m->steps.sign = w->end > w->start ? 1.0 : -1.0;
+    m->steps.stop = w->end;
+    begin_anew(w, start, kt_longest_fixed(w));
     return KT_DONE;
 }
 
@@ -210,7 +193,7 @@ static int attempt(worker *w, double end, double step)
         for (int i = 0; i < n; ++i) {
             m->stage[i] = m->state[i] + NODES[s] * step * m->rates[(s - 1) * n + i];
         }
-        double time = s == 3 ? end : m->time + 0.5 * step;
+        double time = s == 3 ? end : m->steps.time + 0.5 * step;
         if (rates_at(w, time, m->stage, m->rates + s * n)) {
             return 1;
         }
@@ -267,7 +250,7 @@ static int refuse_jumps(worker *w, double step)
     method *m = w->own;
     int n = w->problem->state_count;
     double *low = m->terms, *high = low + n, *rates_low = high + n, *rates_high = rates_low + n;
-    double time = m->time + 0.5 * step;
+    double time = m->steps.time + 0.5 * step;
     for (int i = 0; i < n; ++i) {
         low[i] = m->state[i] + 0.5 * step * m->rates[i];
         high[i] = m->state[i] + 0.5 * step * m->rates[n + i];
@@ -305,13 +288,13 @@ static int go_on(worker *w)
 {
     method *m = w->own;
     size_t size = (size_t)w->problem->state_count * sizeof *m->state;
-    if (m->reached != m->time) {
+    if (m->steps.reached != m->steps.time) {
         memcpy(m->state, m->end_state, size);
         memcpy(m->rates, m->end_rates, size);
-        m->time = m->reached;
+        m->steps.time = m->steps.reached;
         m->fitted = 0;
     }
-    if (m->fresh && rates_at(w, m->time, m->state, m->rates)) {
+    if (m->fresh && rates_at(w, m->steps.time, m->state, m->rates)) {
         return KT_REFUSED;
     }
     m->fresh = 0;
@@ -325,29 +308,18 @@ static int take_step(worker *w)
     if (code) {
         return code;
     }
-    double most = longest(w), left = m->sign * (m->stop - m->time);
-    int whole = m->next >= most, lands = left <= fmin(m->next, most) * (1.0 + SLIVER);
-    double end = m->time + m->sign * m->next;
-    if (lands) {
-        end = m->stop;
-    } else if (whole) {
-        end = m->origin + m->sign * (double)(m->since + 1) * most;
-    }
-    double step = end - m->time;
-    code = check(w, m->time, m->state, fabs(step));
+    double most = kt_longest_fixed(w), end = kt_end_of_step(&m->steps, most), step = end - m->steps.time;
+    code = check(w, m->steps.time, m->state, fabs(step));
     if (!code && attempt(w, end, step)) {
         code = KT_REFUSED;
     }
     code = code ? code : see_jumps(w, step);
     if (code) {
-        m->next = fabs(step);
+        m->steps.next = fabs(step);
         return code;
     }
     ++m->counted.steps;
-    m->reached = end;
-    m->next = fmin(2.0 * m->next, most);
-    m->since = lands || !whole ? 0 : m->since + 1;
-    m->origin = lands || !whole ? end : m->origin;
+    kt_reach_end(&m->steps, end, most);
     return 0;
 }
 
@@ -358,7 +330,7 @@ static void fit(worker *w)
 {
     method *m = w->own;
     int n = w->problem->state_count;
-    double step = m->reached - m->time;
+    double step = m->steps.reached - m->steps.time;
     for (int i = 0; i < n; ++i) {
         double moved = m->end_state[i] - m->state[i];
         double begins = step * m->rates[i], ends = step * m->end_rates[i];
@@ -374,18 +346,18 @@ static int interpolate(worker *w, double time, int derivative, double *out)
 {
     method *m = w->own;
     int n = w->problem->state_count;
-    double step = m->reached - m->time;
+    double step = m->steps.reached - m->steps.time;
     if (derivative >= TERMS) {
         return 1;
     }
-    if (derivative == 0 && time == m->reached) {
+    if (derivative == 0 && time == m->steps.reached) {
         memcpy(out, m->end_state, (size_t)n * sizeof *out);
         return 0;
     }
     if (!m->fitted) {
         fit(w);
     }
-    kt_interpolate(m->terms, TERMS, n, (time - m->time) / step, step, derivative, out);
+    kt_interpolate(m->terms, TERMS, n, (time - m->steps.time) / step, step, derivative, out);
     return 0;
 }
 
@@ -397,7 +369,7 @@ static int step(worker *w, double goal, double *time)
     method *m = w->own;
     int code = take_step(w);
     if (!code) {
-        *time = m->reached;
+        *time = m->steps.reached;
         memcpy(w->y, m->end_state, (size_t)w->problem->state_count * sizeof *w->y);
     }
     return code;
@@ -406,14 +378,14 @@ static int step(worker *w, double goal, double *time)
 static int set_stop(worker *w, double time)
 {
     method *m = w->own;
-    m->stop = time;
+    m->steps.stop = time;
     return 0;
 }
 
 static double next_step(worker *w)
 {
     method *m = w->own;
-    return m->next;
+    return m->steps.next;
 }
 
 static void count(worker *w, kt_statistics *total)
@@ -427,5 +399,5 @@ static void count(worker *w, kt_statistics *total)
 
 const kt_solver kt_rk4 = {
     open_method, close_method, step, set_stop, interpolate, begin_anew,
-    next_step, count, NEVER, 0,
+    next_step, count, KT_NO_TOLERANCES, 0,
 };

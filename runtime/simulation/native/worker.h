@@ -10,7 +10,10 @@
 #include "roots.h"
 
 /* What solvers return where they give up: what SUNDIALS returns in the same cases, if it knows them. */
-enum { KT_TOO_SMALL = -3, KT_REFUSED = -8, KT_NO_ROOTS = -12, KT_FLAT = -22, KT_UNSTABLE_STEP = -1000 };
+enum {
+    KT_TOO_SMALL = -3, KT_REFUSED = -8, KT_NO_ROOTS = -12, KT_FLAT = -22, KT_UNSTABLE_STEP = -1000,
+    KT_JUMPING_RATES = -1001, KT_SINGULAR_MATRIX = -1002,
+};
 
 /*
  * A solver; w->own is its memory, and w->y the state at the time that it has returned last. Lengths of
@@ -33,7 +36,7 @@ typedef struct {
     int heeds_trust; /* whether it takes no step longer than `trusted`; others are stopped there */
 } kt_solver;
 
-extern const kt_solver kt_cvode, kt_erk, kt_dormand_prince, kt_rk4;
+extern const kt_solver kt_cvode, kt_erk, kt_dormand_prince, kt_rk4, kt_rodasp;
 
 /* Return the solver of a method; what has no SUNDIALS has a function of its own in place of `solvers.c`. */
 const kt_solver *kt_solver_of(int method);
@@ -68,6 +71,13 @@ int kt_rates(worker *w, double time, const double *state, double *out);
 
 /* Evaluate the Jacobian, row-major, likewise. */
 int kt_jacobian(worker *w, double time, const double *state, double *out);
+
+/*
+ * Evaluate how rates change with time by the inputs alone, as the central difference over so long a time to
+ * both sides; all within the polynomials of the inputs that hold at the time. Likewise.
+ */
+int kt_rates_by_time(worker *w, double time, const double *state, double lapse, double *out,
+                     double *scratch);
 
 /* How many functions there are whose zeros are events. */
 int kt_root_count(const worker *w);

@@ -91,7 +91,8 @@ int main(void)
             for (long max_steps = 5; max_steps < 1000000; max_steps *= 1000) {{
                 kt_options options = {{.method = method, .table = "ARKODE_VERNER_8_5_6",
                                       .rtol = 1e-6, .atol = atol, .max_steps = max_steps,
-                                      .max_step = method == KT_RK4 ? 1e-3 : 0.0,
+                                      .max_step = method == KT_RK4 || method == KT_RODASP
+                                          ? 1e-3 : 0.0,
                                       .stop_at_outputs = !every_step, .dense = 1}};
                 kt_result result;
                 int outcome = kt_integrate(&problem, &options, state, times, 101, every_step,

@@ -134,7 +134,8 @@ def test_its_coordinates_are_displacement_yaw_pitch_and_roll(block):
 
 
 @pytest.mark.parametrize(
-    ("method", "more"), [("DormandPrince", {}), ("BDF", {}), ("RK4", {"step": 1e-2})]
+    ("method", "more"),
+    [("DormandPrince", {}), ("BDF", {}), ("RK4", {"step": 1e-2}), ("RODASP", {"step": 1e-2})],
 )
 def test_the_norm_stays_one_for_long(block, method, more):
     """Ten minutes and a thousand turns at ordinary accuracy; the term that keeps it has 1 s."""
@@ -324,13 +325,13 @@ def test_the_scene_may_be_moved_and_turned(box):
     np.testing.assert_allclose(other, moved(end), atol=1e-9)
 
 
-@pytest.mark.parametrize("method", ["BDF", "Adams", "DOP853", "Radau", "RK4"])
+@pytest.mark.parametrize("method", ["BDF", "Adams", "DOP853", "Radau", "RK4", "RODASP"])
 def test_methods_agree(box, method):
     system = kintrafo.System(box.module)
     start = system.state(
         box_p=0.5, ball_v=0.2, ball_r=1.0, swing_angle_rate=0.4, spin_angle_rate=9.0
     )
-    how = {"step": 5e-4} if method == "RK4" else {"rtol": 1e-9, "atol": 1e-10}
+    how = {"step": 5e-4} if method in ("RK4", "RODASP") else {"rtol": 1e-9, "atol": 1e-10}
     found = kintrafo.simulate(system, (0.0, 0.5), start, method=method, **how).y[:, -1]
     expected = kintrafo.simulate(system, (0.0, 0.5), start, **FINE).y[:, -1]
     np.testing.assert_allclose(found, expected, atol=2e-6)
