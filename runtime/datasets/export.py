@@ -1,7 +1,7 @@
-"""Datasets as files: CSV and Excel for people, netCDF and Parquet for programs.
+"""Datasets as files: CSV and Excel for people, netCDF, Parquet and MATLAB for programs.
 
 CSV and Excel have one line of names with units, such as ``camber [deg]``, and values in display
-units. netCDF and Parquet keep SI units, all digits, and the description of every variable. All but
+units. The others keep SI units, all digits, and the description of every variable. All but
 netCDF are flat tables: what is over a dimension of names, as both wheels of an axle, has a column
 for each, ``camber_left`` and ``camber_right``.
 """
@@ -20,7 +20,7 @@ from ..core.legible import legible
 from ..core.optional import require
 from ..core.quantities import bracketed, display_of
 from ..core.validator import Validator, shown
-from . import workbook
+from . import matlab, workbook
 from .columns import flat
 
 # Enough for a micrometre in a kilometre, and still short enough to read.
@@ -49,7 +49,7 @@ def write(
     dataset : xarray.Dataset
         Variables over one dimension or more.
     path : str or pathlib.Path
-        ``.csv``, ``.xlsx`` (Excel), ``.nc`` (netCDF) or ``.parquet``.
+        ``.csv``, ``.xlsx`` (Excel), ``.nc`` (netCDF), ``.parquet`` or ``.mat`` (MATLAB).
     force : bool, optional
         Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
@@ -99,7 +99,10 @@ def check_format(path: str | Path) -> str:
     ending = Path(path).suffix.lower()
     if ending not in _FORMATS:
         found = f"{ending} is no format" if ending else "the name has no ending"
-        problem = f"{found} of data files. Use .csv, .xlsx (Excel), .nc (netCDF) or .parquet."
+        problem = (
+            f"{found} of data files. Use .csv, .xlsx (Excel), .nc (netCDF), .parquet or .mat "
+            "(MATLAB)."
+        )
         raise InputError([problem], str(path))
     if ending == ".parquet":
         require("pyarrow.parquet", purpose="Writing Parquet", extra="parquet")
@@ -207,6 +210,13 @@ def _write_parquet(dataset: xr.Dataset, path: Path) -> None:
         parquet.write_table(pyarrow.Table.from_arrays(columns, schema=schema), file)
 
 
+def _write_matlab(dataset: xr.Dataset, path: Path) -> None:
+    dataset = flat(dataset)
+    frame = _frame(dataset)
+    described = {name: dataset[name].attrs for name in frame.columns}
+    matlab.write(frame, described, dataset.attrs, path)
+
+
 def _texts(attrs: dict[Any, Any]) -> dict[str, str]:
     return {str(name): str(value) for name, value in attrs.items()}
 
@@ -215,5 +225,6 @@ _WRITERS: dict[str, Callable[[xr.Dataset, Path], None]] = {
     ".csv": _write_csv,
     ".nc": _write_netcdf,
     ".parquet": _write_parquet,
+    ".mat": _write_matlab,
 }
 _FORMATS = (*_WRITERS, ".xlsx")

@@ -37,8 +37,8 @@ class LoadOptions(BarOptions):
     out: Annotated[
         list[Path] | None,
         option(
-            "Write the data: .csv or .xlsx (mm), .nc or .parquet (SI); or load cards, a file for "
-            "each part: .bdf (Nastran), .inp (Abaqus). May be repeated.",
+            "Write the data: .csv or .xlsx (mm), .nc, .parquet or .mat (SI); or load cards, a file "
+            "for each part: .bdf (Nastran), .inp (Abaqus). May be repeated.",
             "PATH",
             "--out",
             "-o",

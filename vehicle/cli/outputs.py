@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 Out = Annotated[
     list[Path] | None,
     option(
-        "Write the data: .csv or .xlsx (mm, deg), .nc or .parquet (SI). May be repeated.",
+        "Write the data: .csv or .xlsx (mm, deg), .nc, .parquet or .mat (SI). May be repeated.",
         "PATH",
         "--out",
         "-o",

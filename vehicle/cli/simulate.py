@@ -67,7 +67,8 @@ def command(
     loads: Annotated[
         list[Path] | None,
         option(
-            "Write the loads on every part: .csv or .xlsx (mm), .nc or .parquet. May be repeated.",
+            "Write the loads on every part: .csv or .xlsx (mm), .nc, .parquet or .mat. May be "
+            "repeated.",
             "PATH",
             panel=OUTPUT,
         ),

@@ -9,6 +9,7 @@ import xarray as xr
 from kintrafo import InputError, Model, PositionError, compare, export, plots, sweep
 from kintrafo.core.files import replacing
 from matplotlib.image import imread
+from scipy.io import loadmat, whosmat
 
 MODEL = Model("reference_car")
 LINE = sweep.positions(MODEL, np.linspace(-0.06, 0.08, 8))
@@ -96,6 +97,34 @@ def test_what_is_no_number_stays_none_in_every_format(tmp_path):
     np.testing.assert_array_equal(pq.read_table(tmp_path / "a.parquet")["a"].to_numpy(), values)
 
 
+def test_matlab_keeps_values_and_descriptions(tmp_path):
+    labels = ["brake", "caf\u00e9"]
+    long = "a" * 70
+    values = np.array([[1.0, np.nan, np.inf], [-2.5, 1e-300, 0.1]])
+    dataset = xr.Dataset(
+        {
+            "2nd row": (("case", "i"), values, {"units": "N", "long_name": "force", "sign": "up"}),
+            f"{long}1": ("i", [1, 2, 3]),
+            f"{long}2": ("case", [True, False]),
+            "reason": ("case", ["", ""]),
+        },
+        {"case": labels, "i": range(3)},
+        {"title": "some"},
+    )
+    found = loadmat(export.write(dataset, tmp_path / "a.mat"), simplify_cells=True)
+    data = found["data"]
+    assert [*data] == ["xcase", "i", "x2nd_row", "a" * 63, f"{'a' * 61}_1", "reason"]
+    np.testing.assert_array_equal(data["x2nd_row"], values.ravel())
+    assert [*map(str.rstrip, data["xcase"])] == np.repeat(labels, 3).tolist()
+    assert data["a" * 63].tolist() == [1, 2, 3] * 2
+    assert data[f"{'a' * 61}_1"].tolist() == [1, 1, 1, 0, 0, 0]
+    assert found["units"]["x2nd_row"] == "N"
+    assert found["meanings"]["x2nd_row"] == "force, up"
+    assert found["names"][f"{'a' * 61}_1"] == f"{long}2"
+    assert found["about"] == {"title": "some"}
+    assert whosmat(tmp_path / "a.mat")[0] == ("data", (1, 1), "struct")
+
+
 def test_csv_is_in_the_units_of_people(tmp_path):
     path = export.write(GRID, tmp_path / "a.csv")
     with path.open(encoding="utf-8", newline="") as file:
@@ -107,7 +136,7 @@ def test_csv_is_in_the_units_of_people(tmp_path):
     assert camber == pytest.approx(np.degrees(GRID["camber"].values.ravel()), rel=1e-8, abs=1e-11)
 
 
-@pytest.mark.parametrize("name", ["a.csv", "a.nc", "a.parquet", "a.xlsx"])
+@pytest.mark.parametrize("name", ["a.csv", "a.nc", "a.parquet", "a.xlsx", "a.mat"])
 def test_same_data_same_bytes(tmp_path, name):
     first = export.write(GRID, tmp_path / "1" / name).read_bytes()
     assert export.write(GRID, tmp_path / "2" / name).read_bytes() == first
