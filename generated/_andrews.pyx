@@ -35,7 +35,7 @@ cdef extern from "andrews.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "29f2ba0c69d38a26"
+MECHANISM = "fa5843c7798a0e62"
 ADDRESSES = {
     "prepare": <uintptr_t> &andrews_prepare,
     "design_state": <uintptr_t> &andrews_design_state,

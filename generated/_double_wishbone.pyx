@@ -41,7 +41,7 @@ cdef extern from "double_wishbone.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "46709c3faaea000d"
+MECHANISM = "b56c0b393575885a"
 ADDRESSES = {
     "prepare": <uintptr_t> &double_wishbone_prepare,
     "design_state": <uintptr_t> &double_wishbone_design_state,

@@ -41,7 +41,7 @@ cdef extern from "double_wishbone_general.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "b34e29ec66262e45"
+MECHANISM = "cc943f0f69744739"
 ADDRESSES = {
     "prepare": <uintptr_t> &double_wishbone_general_prepare,
     "design_state": <uintptr_t> &double_wishbone_general_design_state,

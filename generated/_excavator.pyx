@@ -32,7 +32,7 @@ cdef extern from "excavator.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "03cb0d6122994975"
+MECHANISM = "7788e88824526a79"
 ADDRESSES = {
     "prepare": <uintptr_t> &excavator_prepare,
     "design_state": <uintptr_t> &excavator_design_state,

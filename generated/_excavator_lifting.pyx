@@ -38,7 +38,7 @@ cdef extern from "excavator_lifting.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "cbb9342accc7fdef"
+MECHANISM = "734c4a6e040176a6"
 ADDRESSES = {
     "prepare": <uintptr_t> &excavator_lifting_prepare,
     "design_state": <uintptr_t> &excavator_lifting_design_state,

@@ -35,7 +35,7 @@ cdef extern from "four_bar.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "550aec2c9d16a284"
+MECHANISM = "9a02b75b9ffe1589"
 ADDRESSES = {
     "prepare": <uintptr_t> &four_bar_prepare,
     "design_state": <uintptr_t> &four_bar_design_state,

@@ -41,7 +41,7 @@ cdef extern from "front_axle.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "d59dfd48f2232606"
+MECHANISM = "79409cd89f51729c"
 ADDRESSES = {
     "prepare": <uintptr_t> &front_axle_prepare,
     "design_state": <uintptr_t> &front_axle_design_state,

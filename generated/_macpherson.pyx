@@ -41,7 +41,7 @@ cdef extern from "macpherson.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "309d92226ef82642"
+MECHANISM = "bcc7592c6d3b2458"
 ADDRESSES = {
     "prepare": <uintptr_t> &macpherson_prepare,
     "design_state": <uintptr_t> &macpherson_design_state,

@@ -35,7 +35,7 @@ cdef extern from "macpherson_free_rack.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "112ef3e6a7f65fdd"
+MECHANISM = "7a687d194363ea34"
 ADDRESSES = {
     "prepare": <uintptr_t> &macpherson_free_rack_prepare,
     "design_state": <uintptr_t> &macpherson_free_rack_design_state,

@@ -41,7 +41,7 @@ cdef extern from "macpherson_general.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "3e0c04333a21c6af"
+MECHANISM = "9ef46ceaede6e9c3"
 ADDRESSES = {
     "prepare": <uintptr_t> &macpherson_general_prepare,
     "design_state": <uintptr_t> &macpherson_general_design_state,

@@ -41,7 +41,7 @@ cdef extern from "multi_link.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "15ac1cb50d292e46"
+MECHANISM = "7b52772494c56d7c"
 ADDRESSES = {
     "prepare": <uintptr_t> &multi_link_prepare,
     "design_state": <uintptr_t> &multi_link_design_state,

@@ -41,7 +41,7 @@ cdef extern from "pull_rod.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "3d163b099a26ad79"
+MECHANISM = "d676bf6e1f6fba59"
 ADDRESSES = {
     "prepare": <uintptr_t> &pull_rod_prepare,
     "design_state": <uintptr_t> &pull_rod_design_state,

@@ -41,7 +41,7 @@ cdef extern from "push_rod.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "4ac04afc1a6ed396"
+MECHANISM = "d87567cf53abc280"
 ADDRESSES = {
     "prepare": <uintptr_t> &push_rod_prepare,
     "design_state": <uintptr_t> &push_rod_design_state,

@@ -41,7 +41,7 @@ cdef extern from "quarter_macpherson.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "64715e7885cfe57f"
+MECHANISM = "1f0404cc0a8de229"
 ADDRESSES = {
     "prepare": <uintptr_t> &quarter_macpherson_prepare,
     "design_state": <uintptr_t> &quarter_macpherson_design_state,

@@ -35,7 +35,7 @@ cdef extern from "rigid_axle.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "aa50b735db466beb"
+MECHANISM = "e484b332bd3cee4c"
 ADDRESSES = {
     "prepare": <uintptr_t> &rigid_axle_prepare,
     "design_state": <uintptr_t> &rigid_axle_design_state,

@@ -32,7 +32,7 @@ cdef extern from "slider_crank.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "23e131275184ad34"
+MECHANISM = "c2d97ff7c1ff27b4"
 ADDRESSES = {
     "prepare": <uintptr_t> &slider_crank_prepare,
     "design_state": <uintptr_t> &slider_crank_design_state,

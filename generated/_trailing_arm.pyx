@@ -35,7 +35,7 @@ cdef extern from "trailing_arm.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "b7d92d496dbefd6e"
+MECHANISM = "b124f302ae87cba4"
 ADDRESSES = {
     "prepare": <uintptr_t> &trailing_arm_prepare,
     "design_state": <uintptr_t> &trailing_arm_design_state,

@@ -35,7 +35,7 @@ cdef extern from "twist_beam.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "5585ada0cf44f072"
+MECHANISM = "8ce1ce8611bc9f39"
 ADDRESSES = {
     "prepare": <uintptr_t> &twist_beam_prepare,
     "design_state": <uintptr_t> &twist_beam_design_state,

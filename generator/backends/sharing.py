@@ -10,11 +10,12 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass, field
 from itertools import chain, count
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
 import sympy as sp
 
+from ..program.functions import Guarded
 from ..program.signs import LOCAL
 from .schedule import Assignment, Operation, Schedule, ordered
 
@@ -26,7 +27,19 @@ if TYPE_CHECKING:
 _found: WeakKeyDictionary[Function | Stage, tuple[Schedule, dict[str, str]]] = WeakKeyDictionary()
 
 _COMMUTATIVE = ("add", "multiply")
+# Between the name of a step and the number of what is a part of it.
+_PART = "_part_"
 _LEAVES = ("symbol", "number")
+_SPOKEN = {
+    "add": "plus",
+    "subtract": "less",
+    "multiply": "times",
+    "divide": "over",
+    "negate": "minus",
+    "root": "root",
+}
+# Characters of a name that spells a formula; what would be longer is a part of what reads it.
+_LONGEST = 36
 
 
 def scheduled(emitted: Function | Stage) -> Schedule:
@@ -165,6 +178,28 @@ def symbols_in(operation: Operation) -> Iterator[str]:
         yield from symbols_in(operand)
 
 
+def _short_formula(kind: str, parts: Sequence[Operation], of: Any) -> str:
+    """Return the name of an operation on one or two symbols, in words; empty where it is long."""
+    names = [part.of.name if part.kind == "symbol" else "" for part in parts]
+    if any(_PART in name for name in names):
+        return ""  # the name of what reads a part says more than that of the part
+    if kind == "divide" and parts[0].kind == "number" and parts[0].of == 1:
+        found = f"{names[1]}_inverse" if names[1] else ""
+    elif kind == "selection" and of is Guarded:
+        found = f"{names[0]}_guarded" if names[0] else ""
+    elif not all(names):
+        found = ""
+    elif kind == "function":
+        found = "_".join([of.__name__.lower(), *names])
+    elif kind == "multiply" and names[0] == names[1]:
+        found = f"{names[0]}_squared"
+    elif kind in _SPOKEN:
+        found = "_".join([*names[:-1], _SPOKEN[kind], names[-1]])
+    else:
+        found = ""
+    return found if len(found) <= _LONGEST else ""
+
+
 @dataclass
 class _Values:
     """The values of several functions, each with a number.
@@ -205,7 +240,8 @@ class _Values:
             values._add(member, steps, results)
         if order:
             steps.sort(key=lambda step: order.get(step[1].within or step[1].name, len(order)))
-        values.schedule = values._written(steps, results)
+        sources = [member.name for member in members for _ in range(member.size)]
+        values.schedule = values._written(steps, results, sources)
         return values
 
     def names_in(self, function: Function | Stage) -> dict[str, str]:
@@ -246,6 +282,39 @@ class _Values:
             self.named[value] = next(n for n in names if n not in self.taken)
             self.taken.add(self.named[value])
 
+    def _name_shared(
+        self, value: int, kind: str, parts: tuple[Operation, ...], of: Any, owner: str
+    ) -> None:
+        """Name a value that several read: by a short formula, or as a part of the first of them."""
+        name = _short_formula(kind, parts, of)
+        if not name or name in self.taken:
+            name = next(n for i in count(1) if (n := f"{owner}{_PART}{i}") not in self.taken)
+        self._name(value, name)
+
+    def _owners(
+        self,
+        steps: Sequence[tuple[int, Assignment]],
+        results: Sequence[int],
+        sources: Sequence[str],
+    ) -> dict[int, str]:
+        """Return the step, or the function, that is the first to read each value without a name."""
+        found: dict[int, str] = {}
+
+        def claim(value: int, owner: str) -> None:
+            for operand in self.operations[value][1]:
+                if operand not in self.named and operand not in found:
+                    found[operand] = owner
+                    claim(operand, owner)
+
+        for value, step in steps:
+            if value in self.named:
+                claim(value, step.within or self.named[value])
+        for value, source in zip(results, sources, strict=True):
+            if value not in self.named and value not in found:
+                found[value] = source
+            claim(value, source)
+        return found
+
     def _repeated(self, results: Iterable[int]) -> set[int]:
         """Return the values that are read more than once."""
         uses = Counter(results)
@@ -253,10 +322,15 @@ class _Values:
             uses.update(operands)
         return {value for value, times in uses.items() if times > 1}
 
-    def _written(self, steps: Iterable[tuple[int, Assignment]], results: Sequence[int]) -> Schedule:
+    def _written(
+        self,
+        steps: Sequence[tuple[int, Assignment]],
+        results: Sequence[int],
+        sources: Sequence[str],
+    ) -> Schedule:
         assignments: dict[int, Assignment] = {}
         by_name: dict[int, Operation] = {}
-        repeated, numbers = self._repeated(results), count(1)
+        repeated, owners = self._repeated(results), self._owners(steps, results, sources)
 
         def place(value: int, section: str) -> Operation:
             """Return what represents a value, and put what has names before it."""
@@ -267,7 +341,7 @@ class _Values:
                 parts = tuple([place(operand, section) for operand in operands])
                 operation = Operation(operation.kind, parts, operation.of, operation.ready)
                 if value in repeated and value not in self.named:
-                    self._name(value, f"{LOCAL}{next(numbers)}")
+                    self._name_shared(value, operation.kind, parts, operation.of, owners[value])
                 if value not in self.named:
                     return operation
                 name = self.named[value]

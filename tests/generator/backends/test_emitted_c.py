@@ -364,3 +364,16 @@ def test_ranges_are_left_to_the_manifest(name: str) -> None:
     body = functions(name)["prepare"]
     tests = [body[i : body.index("{", i)] for i, token in enumerate(body) if token == "if"]
     assert all(test[2] in ("fabs", "!") for test in tests)
+
+
+@each_model
+def test_a_shared_value_is_named_after_a_formula_or_what_reads_it(name: str) -> None:
+    """No name is a mere number: a part has the name of a step, or of a function, in the file."""
+    for path in FOLDER.glob(f"{name}*.c"):
+        text = path.read_text(encoding="utf-8")
+        assert "shared_" not in text
+        names = set(re.findall(r"[A-Za-z]\w*", text))
+        parts = {n for n in names if re.search(r"_part_\d+$", n) and "_table_" not in n}
+        for part in parts:
+            owner = re.sub(r"(_part_\d+)+$", "", part)
+            assert any(n.lower().endswith(owner.lower()) for n in names - parts), part
