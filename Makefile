@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
 .PHONY: docs drawings help setup sundials generate build run test test-elsewhere golden fuzz package wheel lint tree types format baseline clean \
-	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-bushes benchmark-cluster benchmark-derivatives benchmark-ensemble benchmark-export benchmark-growth benchmark-loads benchmark-loops benchmark-page benchmark-peers benchmark-real-time benchmark-ride benchmark-speed benchmark-stiff benchmark-studies format-page front-axle-page report-assets
+	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-bushes benchmark-cluster benchmark-derivatives benchmark-ensemble benchmark-export benchmark-growth benchmark-loads benchmark-loops benchmark-microcontroller benchmark-page benchmark-peers benchmark-real-time benchmark-ride benchmark-speed benchmark-stiff benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/equations/*.pyx runtime/simulation/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
@@ -95,6 +95,9 @@ benchmark-ensemble: build ## Many cars at once, in lanes and on all cores, and i
 
 benchmark-export: build ## Units of FMI: sizes, seconds, and steps above their arithmetic
 	@$(PYTHON) -m benchmarks.export --page docs/simulation/export.md
+
+benchmark-microcontroller: build ## Exported C on an emulated Cortex-M7: bits, instructions, stack
+	@$(PYTHON) -m benchmarks.microcontroller --page docs/simulation/export.md
 
 benchmark-ride: build ## How fast cars ride: operations, and simulations over a rough road
 	@$(PYTHON) -m benchmarks.ride --page $(ARGS)
