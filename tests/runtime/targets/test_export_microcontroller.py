@@ -1,9 +1,10 @@
-"""Exported C on an emulated Cortex-M7: the bits of this machine, and instructions that are counted."""
+"""Exported C on an emulated Cortex-M7: the bits of this machine, and counted instructions."""
 
 import pytest
-from benchmarks.microcontroller.build import FUNCTIONS, UNITS, Program, missing
 from exported import system_named
 from kintrafo.systems.compile.compiler import find_compiler
+
+from benchmarks.microcontroller.build import FUNCTIONS, UNITS, Program, missing
 
 NEEDED = [*missing(), *([] if find_compiler() else ["a C compiler"])]
 
