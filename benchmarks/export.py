@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 from typing import Annotated
 
 import typer
-from kintrafo import Model, equilibrium, export_model
+from kintrafo import CompilerError, Model, equilibrium, export_model
 from kintrafo.core.folders import VARIABLE
 from kintrafo.systems.compile.compiler import FLAGS, find_compiler
 from rich.console import Console
@@ -41,6 +41,16 @@ def written(folder: Path) -> dict[int, tuple[float, float, int]]:
             archive.extractall(folder / f"fmi{version}")
         found[version] = (seconds[0], seconds[1], path.stat().st_size)
     return found
+
+
+def with_windows(folder: Path) -> str:
+    """Return how large a unit with both libraries is, where there is a compiler for Windows."""
+    path = folder / "both.fmu"
+    try:
+        export_model(Model(CAR), path, "fmu", platforms=["linux", "windows"])
+    except CompilerError as error:
+        return f"No library for Windows: {error}"
+    return f"With libraries for Linux and Windows a unit has {path.stat().st_size / 1e3:.0f} kB."
 
 
 def steps(folder: Path, rounds: int) -> list[float]:
@@ -84,6 +94,7 @@ def run(
         if not quick:
             os.environ[VARIABLE] = str(folder / "cache")  # nothing is compiled yet
         files = written(folder)
+        both = with_windows(folder)
         bare, *taken, memory = steps(folder, 1 if quick else 30)
     rows = [
         (
@@ -98,6 +109,7 @@ def run(
     )  # fmt: skip
     blocks = {
         "export": markdown_table(header, rows),
+        "windows": both,
         "instances": f"1,000 instances take {memory:.1f} MB.",
         "machine": machine_line(environment()).replace("Processor time on", "Measured on"),
     }

@@ -439,9 +439,14 @@ static double stop_of(worker *w, const course *c, double goal)
 /* By the clock on the wall, which is read faster than what a process has used; it may be put back. */
 static double seconds(void)
 {
+#ifdef _WIN32
+    /* timespec_get is not in every library of C for Windows; its clock is that on the wall */
+    return (double)clock() / CLOCKS_PER_SEC;
+#else
     struct timespec now;
     timespec_get(&now, TIME_UTC);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+#endif
 }
 
 static int interrupted(worker *w, long tried)

@@ -29,8 +29,8 @@ _NO_COMPILER = (
     "in CC; or export without libraries, platforms=(), for programs that compile the sources."
 )
 _NO_CROSS_COMPILER = (
-    "a library for Windows needs a compiler for it: pip install ziglang, or on Debian apt-get "
-    "install gcc-mingw-w64-x86-64. Or leave that platform out."
+    'a library for Windows needs a compiler for it: pip install "kintrafo[windows]", or on Debian '
+    "apt-get install gcc-mingw-w64-x86-64. Or leave that platform out."
 )
 
 

@@ -1,11 +1,13 @@
 """Functional mock-up units: what an importer sees and computes is what this package has."""
 
 import ctypes
+import os
 import shutil
 import subprocess
 import sys
 import zipfile
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 import kintrafo
 import numpy as np
@@ -22,6 +24,7 @@ from own_models import STRICT, UNOPTIMISED
 pytestmark = pytest.mark.skipif(
     find_compiler() is None or sys.platform != "linux", reason="no compiler for Linux"
 )
+MINGW = "x86_64-w64-mingw32-gcc"
 VERSIONS = (2, 3)
 NAMES = ("four_bar", "reference_car")
 KINDS = ("ModelExchange", "CoSimulation")
@@ -606,7 +609,10 @@ def test_a_platform_without_a_compiler(tmp_path, monkeypatch):
     monkeypatch.setattr(binaries.shutil, "which", lambda _: None)
     monkeypatch.setattr(binaries, "find_spec", lambda _: None)
     monkeypatch.setattr(binaries, "find_compiler", lambda: None)
-    for platform, words in (("windows", "pip install ziglang"), ("linux", "apt-get install gcc")):
+    for platform, words in (
+        ("windows", r"pip install .kintrafo\[windows\]"),
+        ("linux", "apt-get install gcc"),
+    ):
         with pytest.raises(kintrafo.CompilerError, match=words):
             kintrafo.export_model(system, path, "fmu", platforms=[platform])
     assert not [*tmp_path.iterdir()]
@@ -615,7 +621,7 @@ def test_a_platform_without_a_compiler(tmp_path, monkeypatch):
         assert not any(name.startswith("binaries") for name in archive.namelist())
 
 
-@pytest.mark.skipif(shutil.which("x86_64-w64-mingw32-gcc") is None, reason="no compiler for it")
+@pytest.mark.skipif(shutil.which(MINGW) is None, reason=f"{MINGW} is not installed")
 def test_a_library_for_windows(tmp_path):
     path = tmp_path / "a.fmu"
     kintrafo.export_model(system_named("four_bar"), path, "fmu", platforms=["linux", "windows"])
@@ -623,6 +629,40 @@ def test_a_library_for_windows(tmp_path):
         content = archive.read("binaries/win64/four_bar.dll")
     assert content[:2] == b"MZ"
     assert b"fmi2DoStep\0" in content
+    # with both libraries
+    assert path.stat().st_size < 400_000
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(
+    None in (shutil.which(MINGW), shutil.which("wine")), reason=f"{MINGW} or wine is not installed"
+)
+def test_windows_computes_the_same_bits(tmp_path):
+    """Every variable, at the start and after each step, by both kinds."""
+    path = tmp_path / "a.fmu"
+    system = system_named("four_bar")
+    kintrafo.export_model(system, path, "fmu", platforms=["linux", "windows"])
+    with zipfile.ZipFile(path) as archive:
+        archive.extractall(tmp_path)
+    root = ET.parse(tmp_path / "modelDescription.xml").getroot()
+    count = len(root.findall("ModelVariables/ScalarVariable"))
+    given = [root.attrib["guid"], str(len(system.state_names)), str(count)]
+    quiet = os.environ | {"WINEPREFIX": str(tmp_path / "prefix"), "WINEDEBUG": "-all"}
+    printed = []
+    for compiler, library, before in (
+        ("cc", "binaries/linux64/four_bar.so", []),
+        (MINGW, "binaries/win64/four_bar.dll", ["wine"]),
+    ):
+        program = tmp_path / f"{compiler}.exe"
+        files = [f"-I{tmp_path / 'sources'}", str(ROOT / "tests/unit_steps.c"), "-o", str(program)]
+        linked = ["-ldl"] if compiler == "cc" else []
+        subprocess.run([compiler, "-std=c11", *files, *linked], check=True)
+        command = [*before, str(program), str(tmp_path / library), *given]
+        done = subprocess.run(command, check=True, capture_output=True, env=quiet)
+        printed.append(done.stdout.decode().splitlines())
+    assert len(printed[0]) == 53
+    assert not any("0000000000000000 " * count in line for line in printed[0])
+    assert printed[0] == printed[1]
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
