@@ -23,10 +23,10 @@ from .backends.report.derivation import (
 from .backends.report.markdown import block_diagram
 from .equations.outputs import generate
 from .mechanisms import MODELS
-from .planning.plan import Plan
+from .planning.plan import CataloguePlan
 
 if TYPE_CHECKING:
-    from .loops.graph import Topology
+    from .loops.graph import JointGraph
 
 app = typer.Typer(help=__doc__, no_args_is_help=True, add_completion=False)
 console = Console(width=None if sys.stdout.isatty() else 110)
@@ -95,7 +95,7 @@ def topology(
     names = {known.name: known for known in MODELS}
     if model not in names:
         raise typer.BadParameter(f"there is no model {model!r}; there are {', '.join(names)}")
-    plan = Plan.of(names[model])
+    plan = CataloguePlan.of(names[model])
     show_topology(plan)
     if picture is not None:
         from .backends.report.picture import draw  # noqa: PLC0415 (matplotlib is slow to import)
@@ -109,9 +109,9 @@ def topology(
             console.print(f"  {path}")
 
 
-def show_topology(plan: Plan) -> None:
+def show_topology(plan: CataloguePlan) -> None:
     """Print the analysis of a mechanism as tables."""
-    graph: Topology = plan.topology
+    graph: JointGraph = plan.topology
     joints = Table(title=f"{graph.mechanism.title}: joints (Table 1)")
     for column in ("joint", "type", "first body", "second body", "freedoms", "leaves in common"):
         joints.add_column(column)

@@ -45,8 +45,8 @@ if TYPE_CHECKING:
     from .vehicle.models.car.equations import CarModel
     from .vehicle.models.model import Model
     from .vehicle.models.positions import (
+        AngleRange,
         PositionError,
-        Range,
         arm_angles,
         road_under_load,
         state_at_height,
@@ -58,6 +58,7 @@ if TYPE_CHECKING:
 __version__: str
 
 __all__ = [
+    "AngleRange",
     "Axle",
     "AxleModel",
     "Car",
@@ -75,7 +76,6 @@ __all__ = [
     "MotionSensitivity",
     "ParameterError",
     "PositionError",
-    "Range",
     "RigidAxle",
     "RigidAxleModel",
     "Samples",
@@ -140,7 +140,7 @@ _MODULES = {
     ),
     ".vehicle.models.positions": (
         "PositionError",
-        "Range",
+        "AngleRange",
         "arm_angles",
         "road_under_load",
         "state_at_height",

@@ -26,14 +26,14 @@ from kintrafo.generator.equations.dynamics import Dynamics
 from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.mechanisms import MODELS, chains, held_by_rods
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.program import ConstantStage, Function, Program, Step, ancestors
 from symbolic import python
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from kintrafo.generator.program.newton import Block
+    from kintrafo.generator.program.newton import IterationBlock
 
 DIGITS = 40
 COPIES = "a_", "b_"
@@ -77,7 +77,7 @@ class Moving:
     @classmethod
     def of(cls, model: Formulation) -> Moving:
         """Derive them."""
-        mechanism, plan = model.mechanism, Plan.of(model)
+        mechanism, plan = model.mechanism, CataloguePlan.of(model)
         driven = [c.name for c in mechanism.coordinates if c.joint in model.independent]
         stage = ConstantStage(
             tuple(sp.Symbol(p.name) for p in mechanism.parameters),
@@ -128,7 +128,7 @@ class Moving:
 
 
 def _function(
-    steps: Iterable[Step], results: Iterable[sp.Expr], blocks: Iterable[Block] = ()
+    steps: Iterable[Step], results: Iterable[sp.Expr], blocks: Iterable[IterationBlock] = ()
 ) -> Function:
     results = tuple(results)
     labels = tuple(map(str, range(len(results))))

@@ -217,9 +217,9 @@ def derived() -> Callable[[str], Derivation]:
 @pytest.fixture
 def coarse_report(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let reports have few positions, where the numbers between them do not matter."""
-    from kintrafo.vehicle.report.grid import Axis, Grid
+    from kintrafo.vehicle.report.grid import Grid, GridAxis
 
-    grid = Grid(Axis(-0.03, 0.015, 5), Axis(-0.03, 0.015, 5))
+    grid = Grid(GridAxis(-0.03, 0.015, 5), GridAxis(-0.03, 0.015, 5))
     monkeypatch.setattr("kintrafo.vehicle.report.page.reachable_grid", lambda _: grid)
 
 
@@ -255,18 +255,18 @@ def few_generations(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def one_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let chapters show their first picture again and again; drawing all of them takes seconds."""
-    from kintrafo.vehicle.report.chapters.chapter import Picture
+    from kintrafo.vehicle.report.chapters.chapter import ChapterPicture
 
     _draw_roughly(monkeypatch)
-    whole = Picture.of
-    drawn: list[Picture] = []
+    whole = ChapterPicture.of
+    drawn: list[ChapterPicture] = []
 
-    def first(figure: Any, words: str, ending: Any = "svg") -> Picture:
+    def first(figure: Any, words: str, ending: Any = "svg") -> ChapterPicture:
         if not drawn:
             drawn.append(whole(figure, words, ending))
         return replace(drawn[0], words=words)
 
-    monkeypatch.setattr(Picture, "of", first)
+    monkeypatch.setattr(ChapterPicture, "of", first)
 
 
 @pytest.fixture

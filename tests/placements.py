@@ -13,7 +13,7 @@ from kintrafo.generator.backends.numpy.dialect import NUMPY
 from kintrafo.generator.backends.words import blocks_of
 from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.kinematics.motion import from_axes, to_axes
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.program import ConstantStage, Program
 from kintrafo.generator.program.vectors import UNIT_X, UNIT_Y, UNIT_Z
 
@@ -50,7 +50,7 @@ class Placements:
 
     @classmethod
     def _derived(cls, model: Formulation) -> Placements:
-        plan = Plan.of(model)
+        plan = CataloguePlan.of(model)
         symbols = tuple(sp.Symbol(p.name) for p in model.mechanism.parameters)
         constants = ConstantStage(symbols)
         program = Program(constants)

@@ -18,7 +18,7 @@ from kintrafo.vehicle.models.reach import at_rest
 from oracle.continuation import Followed, Poses, Rods
 
 if TYPE_CHECKING:
-    from kintrafo.vehicle.models.positions import Range
+    from kintrafo.vehicle.models.positions import AngleRange
     from numpy.typing import NDArray
     from oracle.continuation import Array, Indices
 
@@ -88,7 +88,7 @@ class Asked:
     """What a model says of its range, and angles at which it has heights within."""
 
     model: Model
-    reach: Range
+    reach: AngleRange
     angles: Array
     wrong: list[str]
 
@@ -215,7 +215,7 @@ class Ways:
                 found.wrong.append(f"{k}: at {angle:.6g} rad the knuckle is turned by {off:.3g}")
         return found
 
-    def longer(self, k: int, model: Model, reach: Range) -> list[str]:
+    def longer(self, k: int, model: Model, reach: AngleRange) -> list[str]:
         """Return how much farther than a range the ways go, if that is said to be the links'."""
         found = []
         limits = (reach.lower_limit, 1.0), (reach.upper_limit, -1.0)

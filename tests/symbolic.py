@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from kintrafo.generator.equations.outputs import Derivation
     from kintrafo.generator.program import Function
-    from kintrafo.generator.program.newton import Block
+    from kintrafo.generator.program.newton import IterationBlock
 
 UNIT = mpmath.mpf(2) ** -53
 """Relative error of one operation in double precision."""
@@ -174,7 +174,7 @@ class _Printer(MpmathPrinter):
         return f"{call.args[0].name}[{int(call.args[1])}]"
 
 
-def _solved(block: Block) -> Any:
+def _solved(block: IterationBlock) -> Any:
     """Return a function that finds the results of a block to mpmath's precision.
 
     The path is that of the emitted code, straight from the design position, but its stages are all

@@ -11,7 +11,7 @@ import numpy as np
 from kintrafo import Suspension
 from kintrafo.generator.backends.report.figures import draw_figures
 from kintrafo.generator.mechanisms import MODELS
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.pictures.figures import BLUE, GREEN, ORANGE, STYLE
 from matplotlib import rc_context
 from matplotlib.axes import Axes
@@ -27,7 +27,7 @@ GREY = "#9a9a9a"
 def main() -> None:
     """Write all of them."""
     with tempfile.TemporaryDirectory() as folder:
-        for path in draw_figures(Plan.of(MODELS[0]), Path(folder)):
+        for path in draw_figures(CataloguePlan.of(MODELS[0]), Path(folder)):
             if path.suffix == ".svg":
                 name = path.name.replace("macpherson", "paper")
                 (FOLDER / name).write_bytes(path.read_bytes())

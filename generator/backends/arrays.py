@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     from ..equations.outputs import Derivation
-    from ..program.function import Block, Function, Stage
+    from ..program.function import Function, IterationBlock, Stage
     from .text import Dialect
 
 
@@ -153,7 +153,7 @@ def definition(
     return "\n".join(lines)
 
 
-def printed_blocks(blocks: Sequence[Block], dialect: Dialect) -> list[str]:
+def printed_blocks(blocks: Sequence[IterationBlock], dialect: Dialect) -> list[str]:
     """Return the equations of loops that are followed, and the call that follows them.
 
     Parameters
@@ -166,7 +166,7 @@ def printed_blocks(blocks: Sequence[Block], dialect: Dialect) -> list[str]:
     return [_block(block, dialect) for block in blocks]
 
 
-def _block(block: Block, dialect: Dialect) -> str:
+def _block(block: IterationBlock, dialect: Dialect) -> str:
     """Return one iteration, and the call that repeats it."""
     steps, results = _written(block.once, dialect)
     read = {s.name for s in block.once.free_symbols}

@@ -60,7 +60,7 @@ def _scheduled(emitted: Function | Stage) -> tuple[Schedule, dict[str, str]]:
 
 
 @dataclass(frozen=True)
-class Part:
+class OwnSteps:
     """What one of several functions has beside the steps of all.
 
     Attributes
@@ -97,7 +97,7 @@ class Together:
 
     reads: frozenset[str]
     steps: tuple[Assignment, ...]
-    parts: tuple[Part, ...]
+    parts: tuple[OwnSteps, ...]
 
     @property
     def names(self) -> set[str]:
@@ -132,7 +132,7 @@ def together(
         guarded = (names.get(g.quantity.name, g.quantity.name) for g in function.guards)
         alive = _behind([*chain(*map(symbols_in, results)), *guarded], reading)
         steps = tuple(s for s in values.schedule.steps if needed[s.name] and s.name in alive)
-        parts.append(Part(reads, steps, results, names))
+        parts.append(OwnSteps(reads, steps, results, names))
         start += function.size
     all_read = {s.name for function in functions for s in function.free_symbols}
     return Together(
@@ -153,7 +153,7 @@ def _behind(names: Iterable[str], reading: Mapping[str, Iterable[str]]) -> set[s
     return found
 
 
-def alive_in(function: Function | Stage, part: Part, steps: Iterable[Assignment]) -> set[str]:
+def alive_in(function: Function | Stage, part: OwnSteps, steps: Iterable[Assignment]) -> set[str]:
     """Return the names that a function of several needs for its results and guards.
 
     Parameters

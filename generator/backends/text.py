@@ -70,7 +70,7 @@ def text_of(
 
 
 @dataclass(frozen=True)
-class Written:
+class StepText:
     """A step as text: name and value, the part of the derivation, and what kind of operation."""
 
     name: str
@@ -82,7 +82,7 @@ class Written:
 
 def written(
     emitted: Function | Stage, dialect: Dialect, names: Mapping[str, str] | None = None
-) -> tuple[list[Written], list[str]]:
+) -> tuple[list[StepText], list[str]]:
     """Write the steps and the results of what is emitted.
 
     Parameters
@@ -96,7 +96,7 @@ def written(
 
 def written_steps(
     steps: Sequence[Assignment], dialect: Dialect, names: Mapping[str, str] | None = None
-) -> list[Written]:
+) -> list[StepText]:
     """Write some steps, with other names for what is called otherwise than it is.
 
     Parameters
@@ -110,7 +110,7 @@ def written_steps(
     """
     texts = written_values((step.value for step in steps), dialect, names)
     return [
-        Written((names or {}).get(s.name, s.name), text, s.section, s.value.kind, s.value.of)
+        StepText((names or {}).get(s.name, s.name), text, s.section, s.value.kind, s.value.of)
         for s, text in zip(steps, texts, strict=True)
     ]
 

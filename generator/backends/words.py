@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from ..equations.outputs import Derivation
-    from ..program.function import Block, Function, Stage
+    from ..program.function import Function, IterationBlock, Stage
 
 GENERATOR_VERSION = "0.1.0"
 
@@ -68,9 +68,9 @@ def iteration_note(derivation: Derivation) -> str:
     )
 
 
-def blocks_of(functions: Iterable[Function | Stage]) -> list[Block]:
+def blocks_of(functions: Iterable[Function | Stage]) -> list[IterationBlock]:
     """Return the iterations of some functions, each once, and behind those that it calls."""
-    found: dict[str, Block] = {}
+    found: dict[str, IterationBlock] = {}
     for block in (b for f in functions for b in f.blocks):
         found |= {inner.name: inner for inner in blocks_of([block.once])} | {block.name: block}
     return list(found.values())

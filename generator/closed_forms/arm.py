@@ -31,16 +31,16 @@ from ..kinematics.extent import extent_squared, require
 from ..program.floors import BRANCH, DIRECTION, LENGTH, ROOT
 from ..program.functions import SignOf
 from ..program.vectors import Vector
-from .constraints import Distance
+from .constraints import FixedDistance
 from .lines import axes_about
-from .solved_motion import Condition, TargetPoint, add_turn
+from .solved_motion import ClosureCondition, TargetPoint, add_turn
 
 if TYPE_CHECKING:
     from ..declare.geometry import Point
     from ..kinematics.extent import Spanning
     from ..kinematics.kinematics import Kinematics
     from ..kinematics.motion import Axes, PointMotion
-    from .leg import Leg, Rod
+    from .leg import Leg, RodLeg
     from .solved_motion import Unsolved
 
 
@@ -119,16 +119,18 @@ class Reach:
 
 
 @dataclass(frozen=True)
-class Fit:
+class ArmSolution:
     """The solution: body axes, D - E in them, the factor of the turning rate, and the rod."""
 
     axes: Axes
     rod_vector: Vector
     inverse_lever: sp.Expr
-    rod: Rod
+    rod: RodLeg
 
 
-def fit_rod(kin: Kinematics, step: Spanning, leg: Leg, arm: Arm, line: Vector, reach: Reach) -> Fit:
+def fit_rod(
+    kin: Kinematics, step: Spanning, leg: Leg, arm: Arm, line: Vector, reach: Reach
+) -> ArmSolution:
     """Turn an arm about a line until a leg fits, in the loop that a step closes.
 
     Parameters
@@ -179,11 +181,11 @@ def fit_rod(kin: Kinematics, step: Spanning, leg: Leg, arm: Arm, line: Vector, r
     height = program.define(f"{body}_rod_height", branch * root)
     rod_vector = program.vector(f"{body}_rod", Vector(-reach.axial, rho - k, height), "123")
     inverse_lever = program.define(f"{body}_inverse_lever", -branch / (rho * root))
-    return Fit(axes, rod_vector, inverse_lever, rod)
+    return ArmSolution(axes, rod_vector, inverse_lever, rod)
 
 
 def add_turn_of_rod(
-    kin: Kinematics, unsolved: Unsolved, fit: Fit, arm: Arm, anchor: PointMotion
+    kin: Kinematics, unsolved: Unsolved, fit: ArmSolution, arm: Arm, anchor: PointMotion
 ) -> None:
     """Record velocities and bias of a body that a rod from an anchor holds by an arm.
 
@@ -199,9 +201,9 @@ def add_turn_of_rod(
         Motion of the anchor.
     """
     end, rod = arm.local, fit.rod
-    length = Distance(fit.rod_vector, end - fit.rod_vector, end, rod.squared)
+    length = FixedDistance(fit.rod_vector, end - fit.rod_vector, end, rod.squared)
     target = TargetPoint(kin, unsolved.placed, anchor)
-    add_turn(kin, unsolved, Condition(length, target, end, rod), fit.inverse_lever)
+    add_turn(kin, unsolved, ClosureCondition(length, target, end, rod), fit.inverse_lever)
 
 
 def _require_reach(kin: Kinematics, leg: Leg, arm: Arm, extent: sp.Expr) -> None:
@@ -225,7 +227,7 @@ def _require_reach(kin: Kinematics, leg: Leg, arm: Arm, extent: sp.Expr) -> None
     )
 
 
-def _branch(kin: Kinematics, leg: Leg, arm: Arm, rod: Rod, extent: sp.Expr) -> sp.Expr:
+def _branch(kin: Kinematics, leg: Leg, arm: Arm, rod: RodLeg, extent: sp.Expr) -> sp.Expr:
     """Return on which side of the arm the rod is at the design position."""
     program, body = kin.program, leg.body
     height = program.define(f"{body}_rod_height_design", rod.design.dot(arm.design_axes[2]))

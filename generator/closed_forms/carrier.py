@@ -30,8 +30,8 @@ from .guided_pair import GuidedPair
 from .inverse import Inverse
 from .lines import place_rod
 from .rigid_rod import RigidRod
-from .solved_motion import Condition, TargetPoint, Unsolved, add_motion
-from .ups import Strut, is_strut
+from .solved_motion import ClosureCondition, TargetPoint, Unsolved, add_motion
+from .ups import StrutLeg, is_strut
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Sequence
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from ..loops.forms import Closing
     from ..loops.graph import Cycle
     from ..loops.known import Coordinate, Known
-    from .leg import Leg, Rod
+    from .leg import Leg, RodLeg
 
 # A rod is one equation; the pose of a body about a known point has three unknowns, else six.
 _RODS_ABOUT_A_POINT = 3
@@ -173,7 +173,7 @@ def _rod(known: Known, body: Body, joint: Joint) -> Leg | None:
     if guide is None or far is None:
         return RigidRod(body.name, rod, end, anchor, other.other(rod))
     pair = GuidedPair(guide, rod, anchor, other.other(rod), far, end, body.name)
-    return Strut.of(pair) if is_strut(pair, other, joint) and guide.first.name == rod else None
+    return StrutLeg.of(pair) if is_strut(pair, other, joint) and guide.first.name == rod else None
 
 
 def _beyond(known: Known, joint: Joint, link: str) -> Joint | None:
@@ -242,7 +242,7 @@ class _RodAtBody:
     """A rod: its length, the motion of where it starts, and its equation."""
 
     entry: Leg
-    rod: Rod
+    rod: RodLeg
     anchor: PointMotion
     equation: RodEquation
 
@@ -350,7 +350,7 @@ def _place(kin: Kinematics, held: _Held, solved: _Solved) -> None:
 def _add_motion(kin: Kinematics, held: _Held, solved: _Solved, placed: BodyMotion) -> None:
     """Add velocities and bias: every rod keeps its length, or has that of a known slide."""
     conditions = [
-        Condition(
+        ClosureCondition(
             replace(rod.equation.length(rod_vector), scale=sp.Integer(1)),
             TargetPoint(kin, placed, rod.anchor, f"{rod.entry.rod}_start"),
             rod.equation.end,

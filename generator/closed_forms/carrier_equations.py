@@ -28,15 +28,15 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..kinematics.motion import Axes, from_axes, to_axes
-from ..program.newton import Derivation, Found
+from ..program.newton import IterationDerivation, IterationResult
 from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vector
-from .constraints import STILL, Distance, Moving
+from .constraints import STILL, FixedDistance, Moving
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     from ..kinematics.hinge_angles import DrivenCoordinate
-    from ..program.function import Block, Estimate
+    from ..program.function import Estimate, IterationBlock
     from ..program.program import Program
 
 
@@ -80,10 +80,10 @@ class RodEquation:
         """Return the way from the start of the rod to its end, in body axes."""
         return self.end - to_axes(pose.axes, self.anchor - pose.shift)
 
-    def length(self, rod_vector: Vector) -> Distance:
+    def length(self, rod_vector: Vector) -> FixedDistance:
         """Return the equation, given the way along the rod."""
         start = self.end - rod_vector
-        return Distance(rod_vector, start, self.end, self.squared, self.scale)
+        return FixedDistance(rod_vector, start, self.end, self.squared, self.scale)
 
     def row(self, rod_vector: Vector) -> list[sp.Expr]:
         """Return the row of J."""
@@ -148,8 +148,8 @@ def block(
     rods: Mapping[str, RodEquation],
     size: sp.Expr,
     driven: Iterable[DrivenCoordinate],
-) -> Block:
-    """Return the iteration that finds the pose of a body held by some rods (`Derivation`).
+) -> IterationBlock:
+    """Return the iteration that finds the pose of a body held by some rods (`IterationDerivation`).
 
     Parameters
     ----------
@@ -162,10 +162,10 @@ def block(
     if name in program.constants.blocks:
         return program.constants.blocks[name]
     along = ((d.symbol, d.start, d.unit(size), d.turns) for d in driven)
-    derivation = Derivation(program, along)
+    derivation = IterationDerivation(program, along)
     pinned = all(rod.size is None for rod in rods.values())
 
-    def derive(own: Program, estimate: Estimate) -> Found:
+    def derive(own: Program, estimate: Estimate) -> IterationResult:
         own.section("what is placed before, at this stage")
         equations = [
             replace(
@@ -192,7 +192,9 @@ def block(
             for i, (e, rod_vector) in enumerate(zip(equations, rod_vectors, strict=True), 1)
         ]
         rows = [e.row(rod_vector) for e, rod_vector in zip(equations, rod_vectors, strict=True)]
-        return Found([*u, *([] if pinned else sigma)], left, rows, u.dot(u) + sigma.dot(sigma))
+        return IterationResult(
+            [*u, *([] if pinned else sigma)], left, rows, u.dot(u) + sigma.dot(sigma)
+        )
 
     unknowns = [f"{kind}_{a}" for kind in ("turn", "shift")[: 1 if pinned else 2] for a in "xyz"]
     found = derivation.block(

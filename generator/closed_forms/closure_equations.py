@@ -22,15 +22,15 @@ import sympy as sp
 from ..declare.joints import Prismatic, Revolute, Spherical, Universal
 from ..kinematics.motion import IDENTITY, Axes, from_axes
 from ..program.functions import Frozen
-from ..program.newton import Derivation, Found, Matrix
+from ..program.newton import IterationDerivation, IterationResult, Matrix
 from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
-from .constraints import STILL, Coincident, Constraint, Distance, Guided, Moving, Perpendicular
+from .constraints import STILL, Coincident, Constraint, FixedDistance, Guided, Moving, Perpendicular
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     from ..kinematics.hinge_angles import DrivenCoordinate
-    from ..program.function import Block, Estimate
+    from ..program.function import Estimate, IterationBlock
     from ..program.program import Program
     from .tree import CutJoint, Tree
 
@@ -200,7 +200,7 @@ def position(
         p2 = program.vector(f"{label}{held.rod}_end", two.at(geometry[f"{held.rod}_end"]))
         rod_vector = program.vector(f"{label}{held.rod}_rod_vector", p2 - p1)
         squared, scale = geometry[f"{held.rod}_squared"].x, geometry[f"{held.rod}_scale"].x
-        length = Distance(rod_vector, p1, p2, squared, scale)
+        length = FixedDistance(rod_vector, p1, p2, squared, scale)
         equations.append(Closure(held.anchor_body, held.body, length))
     return Position(tree, frames, screws, equations)
 
@@ -287,8 +287,8 @@ def block(
     tree: Tree,
     geometry: Geometry,
     driven: Iterable[DrivenCoordinate],
-) -> Block:
-    """Return the iteration that finds the unknowns (`Derivation`).
+) -> IterationBlock:
+    """Return the iteration that finds the unknowns (`IterationDerivation`).
 
     Parameters
     ----------
@@ -304,9 +304,9 @@ def block(
         return program.constants.blocks[name]
     size = geometry["size"].x
     along = ((d.symbol, d.start, d.unit(size), d.turns) for d in driven)
-    derivation = Derivation(program, along)
+    derivation = IterationDerivation(program, along)
 
-    def derive(own: Program, estimate: Estimate) -> Found:
+    def derive(own: Program, estimate: Estimate) -> IterationResult:
         own.section("what is placed before, at this stage")
         components = [c for vector in geometry.values() for c in vector]
         staged = iter(derivation.repeated(components))
@@ -331,7 +331,9 @@ def block(
             value**2 if isinstance(branch.joint, Prismatic) else 2 - 2 * sp.cos(value)
             for branch, value in zip(tree.unknowns, x, strict=True)
         ]
-        return Found(x, left, now.jacobian(), sp.Add(*apart), list(given.values()), now.by_driven())
+        return IterationResult(
+            x, left, now.jacobian(), sp.Add(*apart), list(given.values()), now.by_driven()
+        )
 
     found = derivation.block(
         name,

@@ -5,7 +5,7 @@ Every joint that closes a loop gives what it leaves in common, every rod its len
     Coincident      d . (p2 - p1) / c = 0                 hinge, cross, ball joint (in a plane too)
     Guided          d1 . (p2 - p1) / c = 0                guide: across it; d1 turns with the first
     Perpendicular   a1 . b2 = 0                           hinge, cross, guide: a right angle
-    Distance        (|p2 - p1|^2 - l^2) / (2 l c) = 0     rod
+    FixedDistance   (|p2 - p1|^2 - l^2) / (2 l c) = 0     rod
 
 Both bodies are seen from the same axes, whichever these are. The rate of an equation is linear in
 the motions of its two bodies: with a unit rate of an unknown as that motion it is an element of the
@@ -163,7 +163,7 @@ class Perpendicular(Constraint):
 
 
 @dataclass(frozen=True)
-class Distance(Constraint):
+class FixedDistance(Constraint):
     """A rod from p1 to p2 keeps its length."""
 
     rod_vector: Vector

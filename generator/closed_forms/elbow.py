@@ -40,8 +40,8 @@ from ..program.functions import SignOf
 from ..program.vectors import ZERO, Vector
 from .constraints import Coincident, Moving
 from .hinge import Hinge, place_on_hinge, report_angle
-from .leg import Leg, Rod
-from .solved_motion import Condition, TargetPoint, add_turn
+from .leg import Leg, RodLeg
+from .solved_motion import ClosureCondition, TargetPoint, add_turn
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -126,7 +126,7 @@ class Elbow(Leg):
         """What its length is, for the report."""
         return f"{' and '.join(self.links)} at {self.pair.joint.name}.angle"
 
-    def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> Rod:
+    def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> RodLeg:
         """Append its length, of known angle."""
         program, name = kin.program, self.rod
         bend = _Bend.of(kin, self.pair)
@@ -152,7 +152,7 @@ class Elbow(Leg):
         )
         slope = program.define(f"{name}_stretch", bend.skew * bend.cosine - reach * bend.sine)
         length = program.define(f"{name}_length_now", sp.sqrt(squared))
-        rod = Rod(f"pair of {' and '.join(self.links)}", design, length, squared)
+        rod = RodLeg(f"pair of {' and '.join(self.links)}", design, length, squared)
         return rod.driven(kin.coordinates, self.pair.joint, slope, -near)
 
 
@@ -203,7 +203,7 @@ class PlaceElbow(PlannedStep):
         unsolved = place_on_hinge(kin, hinge, axes)
         target = _BentEnd(kin, unsolved.placed, end, bend=pair.joint, reach=reach)
         meeting = Coincident(s, s, Vector(ZERO.x, -s.z, s.y))
-        add_turn(kin, unsolved, Condition(meeting, target, s), -inverse)
+        add_turn(kin, unsolved, ClosureCondition(meeting, target, s), -inverse)
         report_angle(kin, hinge, axes)
 
 

@@ -2,8 +2,8 @@
 
 A leg is a link of constant length, or several links with a joint of known coordinate between them:
 then it is a rod of known variable length. All that a closed form reads of it is its length at
-position level, l l' at velocity level, and (l l')' at acceleration level (`Rod`). The kinds of legs
-are in files of their own; one that is defined is tried wherever a leg may be.
+position level, l l' at velocity level, and (l l')' at acceleration level (`RodLeg`). The kinds of
+legs are in files of their own; one that is defined is tried wherever a leg may be.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Rod:
+class RodLeg:
     """A leg as a rod between two points, from the anchor to the end.
 
     Attributes
@@ -60,7 +60,7 @@ class Rod:
 
     def driven(
         self, coordinates: Coordinates, joint: Joint, slope: sp.Expr, curvature: sp.Expr
-    ) -> Rod:
+    ) -> RodLeg:
         """Return the rod with a length that the coordinate of a joint changes.
 
         Parameters
@@ -179,7 +179,7 @@ class Leg(ABC):
     # -- algebra --------------------------------------------------------------------------------
 
     @abstractmethod
-    def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> Rod:
+    def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> RodLeg:
         """Append its length and the derivatives of that.
 
         Parameters
@@ -190,7 +190,7 @@ class Leg(ABC):
             The square of the extent of the loop that it closes.
         """
 
-    def rod_of(self, kin: Kinematics, step: Spanning) -> Rod:
+    def rod_of(self, kin: Kinematics, step: Spanning) -> RodLeg:
         """Append the leg as a rod, in the loop that a step closes.
 
         Parameters

@@ -11,9 +11,9 @@ from ..kinematics.motion import Axes, BodyMotion, OffLine, OnLine, PointMotion
 from ..program.floors import BRANCH, NORMAL, ROOT
 from ..program.functions import SignOf
 from ..program.vectors import ZERO, Vector
-from .constraints import Distance
+from .constraints import FixedDistance
 from .lines import axes_about, place_rod
-from .solved_motion import Condition, TargetPoint, TurnOnLine, add_turn, place_at, projector
+from .solved_motion import ClosureCondition, TargetPoint, TurnOnLine, add_turn, place_at, projector
 
 if TYPE_CHECKING:
     from ..kinematics.extent import Spanning
@@ -230,9 +230,11 @@ class _OffsetTurn:
         lever = self.height * self.normal_squared
         inverse_lever = program.define(f"{body}_inverse_lever", -record.reach / lever)
         line = TurnOnLine(self.kin, self.placed, record.end_motion, record, inverse, sway)
-        length = Distance(self.rod_vector, self.arm - self.rod_vector, self.arm, self.rod_length**2)
+        length = FixedDistance(
+            self.rod_vector, self.arm - self.rod_vector, self.arm, self.rod_length**2
+        )
         target = TargetPoint(self.kin, self.placed, self.rod_anchor)
-        add_turn(self.kin, line, Condition(length, target, self.arm), inverse_lever)
+        add_turn(self.kin, line, ClosureCondition(length, target, self.arm), inverse_lever)
 
 
 def _aim(kin: Kinematics, record: OffLine, placed: BodyMotion) -> None:

@@ -18,7 +18,7 @@ from ..loops.forms import Placement
 from ..program.vectors import UNIT_Z
 from .constraints import Coincident
 from .hinge import Hinge, place_on_hinge, report_angle
-from .solved_motion import Condition, TargetPoint, add_turn
+from .solved_motion import ClosureCondition, TargetPoint, add_turn
 
 if TYPE_CHECKING:
     from ..declare.geometry import Point
@@ -57,5 +57,5 @@ class PlaceByPin(Placement):
         unsolved = place_on_hinge(kin, hinge, axes)
         arm = hinge.arm.local
         target = TargetPoint(kin, unsolved.placed, pin)
-        add_turn(kin, unsolved, Condition(Coincident(arm, arm, UNIT_Z), target, arm))
+        add_turn(kin, unsolved, ClosureCondition(Coincident(arm, arm, UNIT_Z), target, arm))
         report_angle(kin, hinge, axes)

@@ -23,14 +23,14 @@ from ..kinematics.extent import extent_squared, require
 from ..kinematics.motion import from_axes
 from ..program.floors import BRANCH, ROOT
 from ..program.functions import SignOf
-from .constraints import Distance
+from .constraints import FixedDistance
 from .held_by_leg import HeldOnJoint
 from .lines import place_rod
-from .solved_motion import Condition, SlideOnGuide, TargetPoint, add_turn, projector
+from .solved_motion import ClosureCondition, SlideOnGuide, TargetPoint, add_turn, projector
 
 if TYPE_CHECKING:
     from ..kinematics.kinematics import Kinematics
-    from .leg import Rod
+    from .leg import RodLeg
 
 
 @dataclass(frozen=True)
@@ -82,17 +82,17 @@ class PrismaticByLength(HeldOnJoint):
         placed = unsolved.placed
         arm = kin.local(placed, leg.end)
         rod_vector = projector(kin, placed)("rod", d * (branch * root) - across)
-        length = Distance(rod_vector, arm - rod_vector, arm, rod.squared)
+        length = FixedDistance(rod_vector, arm - rod_vector, arm, rod.squared)
         add_turn(
             kin,
             unsolved,
-            Condition(length, TargetPoint(kin, placed, anchor), arm, rod),
+            ClosureCondition(length, TargetPoint(kin, placed, anchor), arm, rod),
             program.define(f"{body}_inverse_lever", -branch / root),
         )
         if not leg.pinned:
             place_rod(kin, leg)
 
-    def _branch(self, kin: Kinematics, rod: Rod, extent: sp.Expr) -> sp.Expr:
+    def _branch(self, kin: Kinematics, rod: RodLeg, extent: sp.Expr) -> sp.Expr:
         """Return on which side of its foot on the guide the leg is at the design position."""
         leg, body = self.leg, self.leg.body
         along = rod.design.dot(kin.design_direction(self.joint.direction))

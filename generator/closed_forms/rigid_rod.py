@@ -11,7 +11,7 @@ from ..declare.joints import Joint, Revolute
 from ..kinematics.extent import require
 from ..loops.known import coordinates_of
 from ..program.floors import LENGTH
-from .leg import Leg, Rod
+from .leg import Leg, RodLeg
 from .pin import PlaceByPin
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ class RigidRod(Leg):
             known.steps.append(self.placing)
             known.placed.add(self.rod)
 
-    def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> Rod:
+    def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> RodLeg:
         """Append its length, a constant."""
         length = kin.program.define(f"{self.rod}_length", sp.sqrt(design.dot(design)))
         first, second = self.anchor, self.end
@@ -90,4 +90,4 @@ class RigidRod(Leg):
             "coincide",
             "move one of the two",
         )
-        return Rod(f"rod {self.rod}", design, length, length**2)
+        return RodLeg(f"rod {self.rod}", design, length, length**2)

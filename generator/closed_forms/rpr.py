@@ -41,8 +41,8 @@ from ..program.functions import Positive, SignOf
 from ..program.vectors import UNIT_Y, UNIT_Z, ZERO, Vector
 from .constraints import Guided
 from .guided_pair import GuidedPair
-from .leg import Leg, Rod
-from .solved_motion import Condition, TargetPoint, TurnOnHinge, add_turn, place_at
+from .leg import Leg, RodLeg
+from .solved_motion import ClosureCondition, TargetPoint, TurnOnHinge, add_turn, place_at
 from .turned_alike import place_turned_alike
 
 if TYPE_CHECKING:
@@ -176,14 +176,14 @@ class PinnedTelescope(Leg):
         """What its length is, for the report."""
         return f"{self.telescope.links} at {self.telescope.joint.name}.slide"
 
-    def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> Rod:
+    def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> RodLeg:
         """Append its length, of known slide."""
         telescope, near = self.telescope, self.rod
         guide = _Guide.of(kin, telescope, extent)
         extension = guide.known_extension(kin, extent)
         beside = guide.start.x**2 + guide.start.z**2
         squared = kin.program.define(f"{near}_length_squared", extension**2 + beside)
-        rod = Rod(f"telescope of {telescope.links}", design, sp.sqrt(squared), squared)
+        rod = RodLeg(f"telescope of {telescope.links}", design, sp.sqrt(squared), squared)
         slope = telescope.sense * extension
         return rod.driven(kin.coordinates, telescope.joint, slope, sp.Integer(1))
 
@@ -322,7 +322,7 @@ def _place(kin: Kinematics, pins: _Pins, extension: sp.Expr) -> None:
     at = telescope.anchor_body, telescope.anchor
     link = place_at(kin, near, at, axes, pins.guide.axes)
     guided, end = Guided(arm, arm, UNIT_Z, guide=UNIT_Y), TargetPoint(kin, link, pins.end)
-    add_turn(kin, TurnOnHinge(kin, link, *at), Condition(guided, end, arm, is_first=True))
+    add_turn(kin, TurnOnHinge(kin, link, *at), ClosureCondition(guided, end, arm, is_first=True))
     place_turned_alike(kin, telescope.far, link, telescope.end_body, telescope.end)
 
 

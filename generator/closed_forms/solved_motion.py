@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ..kinematics.kinematics import Kinematics
     from ..kinematics.motion import OffLine, OnLine
     from .constraints import Constraint
-    from .leg import Rod
+    from .leg import RodLeg
 
     Solve = Callable[[str, Sequence[sp.Expr]], Sequence[sp.Expr]]
     """Appends the unknowns that make up for the rates of residuals, with a name for the steps."""
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Target(ABC):
+class PlacedBody(ABC):
     """A placed body, in its own axes.
 
     Attributes
@@ -71,7 +71,7 @@ class Target(ABC):
         return projector(self.kin, self.placed)(f"{self.label}_{label}", v)
 
 
-class TargetPoint(Target):
+class TargetPoint(PlacedBody):
     """A point of known motion: its velocity and bias."""
 
     of: PointMotion
@@ -85,7 +85,7 @@ class TargetPoint(Target):
         return Moving(acceleration=self._seen("bias", self.of.bias))
 
 
-class TargetBody(Target):
+class TargetBody(PlacedBody):
     """A placed body: its rotation alone."""
 
     of: BodyMotion
@@ -126,7 +126,7 @@ class Unsolved(ABC):
         self,
         kin: Kinematics,
         placed: BodyMotion,
-        carriers: Sequence[Target],
+        carriers: Sequence[PlacedBody],
         screws: Sequence[Twist],
     ) -> None:
         self.kin, self.placed, self.carriers, self.screws = kin, placed, carriers, screws
@@ -306,7 +306,7 @@ class SlideOnGuide(Unsolved):
 
 
 @dataclass(frozen=True)
-class Condition:
+class ClosureCondition:
     """What determines an unknown.
 
     Attributes
@@ -324,9 +324,9 @@ class Condition:
     """
 
     constraint: Constraint
-    target: Target
+    target: PlacedBody
     at: Vector = ZERO
-    rod: Rod | None = None
+    rod: RodLeg | None = None
     is_first: bool = False
 
     @property
@@ -385,7 +385,7 @@ class Condition:
 def add_turn(
     kin: Kinematics,
     unsolved: Unsolved,
-    condition: Condition,
+    condition: ClosureCondition,
     inverse_lever: sp.Expr | None = None,
 ) -> None:
     """Record velocities and bias of a body with one unknown.
@@ -411,7 +411,7 @@ def add_turn(
 
 
 def add_motion(
-    kin: Kinematics, unsolved: Unsolved, conditions: Sequence[Condition], solve: Solve
+    kin: Kinematics, unsolved: Unsolved, conditions: Sequence[ClosureCondition], solve: Solve
 ) -> None:
     """Record velocities and bias of a body.
 

@@ -27,7 +27,7 @@ from ..loops.forms import Follower
 from ..program.floors import DIRECTION, LENGTH
 from ..program.vectors import UNIT_Y, ZERO, Vector
 from .constraints import Perpendicular
-from .solved_motion import Condition, TargetBody, TurnOnLine, add_turn, place_at
+from .solved_motion import ClosureCondition, TargetBody, TurnOnLine, add_turn, place_at
 
 if TYPE_CHECKING:
     from typing import Self
@@ -112,7 +112,7 @@ def turn_on_cross(
     add_turn(
         kin,
         TurnOnLine(kin, placed, record.anchor_motion, record, record.inverse_length),
-        Condition(Perpendicular(first, UNIT_Y), TargetBody(kin, placed, parent)),
+        ClosureCondition(Perpendicular(first, UNIT_Y), TargetBody(kin, placed, parent)),
     )
 
 

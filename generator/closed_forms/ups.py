@@ -17,7 +17,7 @@ from ..declare.joints import Spherical, Universal
 from ..loops.forms import ClosedForm, Follower
 from ..program.floors import LENGTH
 from .guided_pair import GuidedPair
-from .leg import Leg, Rod
+from .leg import Leg, RodLeg
 from .lines import line_of_ends
 from .turned_alike import place_turned_alike
 
@@ -125,7 +125,7 @@ class PlaceByGuide(Follower):
 
 
 @dataclass(frozen=True)
-class Strut(Leg):
+class StrutLeg(Leg):
     """A strut of known slide, as a leg."""
 
     strut: GuidedPair
@@ -157,7 +157,7 @@ class Strut(Leg):
         """Record the joint that it drives, and its own."""
         return known.add_all([joint]) | _accept(known, self.strut)
 
-    def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> Rod:
+    def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> RodLeg:
         """Append its length, l = l_0 + x or l_0 - x."""
         program, near, sense = kin.program, self.rod, _growth(self.strut)
         start = program.define(f"{near}_length_start", sp.sqrt(design.dot(design)))
@@ -169,7 +169,7 @@ class Strut(Leg):
             "m",
             LENGTH * sp.sqrt(extent),
         )
-        rod = Rod(f"strut {near}", design, length, length**2)
+        rod = RodLeg(f"strut {near}", design, length, length**2)
         return rod.driven(kin.coordinates, joint, sense * length, sp.Integer(1))
 
 

@@ -29,7 +29,7 @@ from ..program.functions import SignOf
 from ..program.vectors import Vector
 from .constraints import Perpendicular
 from .lines import axes_about
-from .solved_motion import Condition, TargetBody, TurnOnHinge, add_turn, place_at
+from .solved_motion import ClosureCondition, TargetBody, TurnOnHinge, add_turn, place_at
 from .universal_joint import second_of_cross
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     from ..declare.joints import Revolute, Universal
     from ..kinematics.kinematics import Kinematics
-    from ..kinematics.step import Step
+    from ..kinematics.step import KinematicStep
 
 
 @dataclass(frozen=True)
@@ -121,7 +121,7 @@ def second_axis(kin: Kinematics, cross: Universal, line: Vector) -> Vector:
 
 
 def turn_through_cross(
-    kin: Kinematics, step: Step, yoke: DrivenYoke, own: Vector, given: GivenAxis
+    kin: Kinematics, step: KinematicStep, yoke: DrivenYoke, own: Vector, given: GivenAxis
 ) -> None:
     """Turn a body on its hinge until both axes of a cross are at right angles.
 
@@ -140,11 +140,16 @@ def turn_through_cross(
     hinge = yoke.hinge.name if second and yoke.hinge.angle_to is None else None
     placed = place_at(kin, yoke.body, at, axes, design_axes, hinge=hinge)
     target = TargetBody(kin, placed, kin.placed[yoke.driving], "shaft")
-    add_turn(kin, TurnOnHinge(kin, placed, *at), Condition(Perpendicular(b, f), target))
+    add_turn(kin, TurnOnHinge(kin, placed, *at), ClosureCondition(Perpendicular(b, f), target))
 
 
 def _fitted(
-    kin: Kinematics, step: Step, yoke: DrivenYoke, design_axes: Axes, f: Vector, given: GivenAxis
+    kin: Kinematics,
+    step: KinematicStep,
+    yoke: DrivenYoke,
+    design_axes: Axes,
+    f: Vector,
+    given: GivenAxis,
 ) -> tuple[Axes, Vector]:
     """Return e, t and e x t, and b in these axes."""
     program, body, b = kin.program, yoke.body, given.now

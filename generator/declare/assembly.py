@@ -32,7 +32,7 @@ Named = TypeVar("Named", Body, Joint, Input)
 
 @declared
 @dataclass(frozen=True)
-class Assembly:
+class Parts:
     """The parts of a mechanism, before anything is checked that several of them must fulfil.
 
     Bodies, inputs and parameters are those that joints, forces and all else refer to,

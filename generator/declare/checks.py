@@ -22,10 +22,10 @@ from .world import WORLD
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator
 
-    from .assembly import Assembly
+    from .assembly import Parts
 
 
-def check_mechanism(mechanism: Assembly) -> None:
+def check_mechanism(mechanism: Parts) -> None:
     """Raise `DeclarationError` if a mechanism has names or numbers that cannot be."""
     strange = _force_problems(mechanism)
     if strange:
@@ -46,7 +46,7 @@ def check_mechanism(mechanism: Assembly) -> None:
         raise DeclarationError(mechanism.name, problems)
 
 
-def _force_problems(mechanism: Assembly) -> list[str]:
+def _force_problems(mechanism: Parts) -> list[str]:
     """See that forces, also those of somebody's own, can be distinguished."""
     problems = []
     for force in mechanism.forces:
@@ -60,7 +60,7 @@ def _force_problems(mechanism: Assembly) -> list[str]:
     return problems
 
 
-def _ground_problems(mechanism: Assembly) -> list[str]:
+def _ground_problems(mechanism: Parts) -> list[str]:
     """See that one body rests in the world, or that the world itself is what others move on."""
     grounds = [b.name for b in mechanism.bodies if isinstance(b, Ground)]
     fixed = [name for name in grounds if name != WORLD.name]
@@ -84,7 +84,7 @@ def _ground_problems(mechanism: Assembly) -> list[str]:
     return []
 
 
-def _repeated_problems(mechanism: Assembly) -> list[str]:
+def _repeated_problems(mechanism: Parts) -> list[str]:
     """Find different things of one name, and things that there must be once."""
     problems = []
     identities = [force.identity for force in mechanism.forces]
@@ -117,7 +117,7 @@ def _plural(kind: str) -> str:
     return "bodies" if kind == "body" else f"{kind}s"
 
 
-def _stranger_problems(mechanism: Assembly) -> list[str]:
+def _stranger_problems(mechanism: Parts) -> list[str]:
     """Find joints and bodies that forces and coordinates refer to, but that are not joined."""
     joined = {body for joint in mechanism.joints for body in (joint.first, joint.second)}
     problems = [
@@ -134,7 +134,7 @@ def _stranger_problems(mechanism: Assembly) -> list[str]:
     return problems
 
 
-def _weld_problems(mechanism: Assembly) -> list[str]:
+def _weld_problems(mechanism: Parts) -> list[str]:
     """See that nothing else is joined to what is welded: it is one with the first body."""
     welds = [joint for joint in mechanism.joints if isinstance(joint, Weld)]
     problems = [
@@ -152,7 +152,7 @@ def _weld_problems(mechanism: Assembly) -> list[str]:
     ]
 
 
-def _weight_problems(mechanism: Assembly) -> list[str]:
+def _weight_problems(mechanism: Parts) -> list[str]:
     """See that gravity is not along the normal of a plane in which all that is joined moves."""
     return [
         f"Weight pulls against {force.upward.name!r}, along the normal of the plane in which "
@@ -174,7 +174,7 @@ def _is_across(joint: Joint, normal: Direction) -> bool:
 
 
 def check_symbols(
-    name: str, used: Iterable[str], declared: Collection[str], mechanism: Assembly
+    name: str, used: Iterable[str], declared: Collection[str], mechanism: Parts
 ) -> None:
     """Raise `DeclarationError` if equations read what nobody declares.
 
@@ -194,7 +194,7 @@ def check_symbols(
         raise DeclarationError(name, problems)
 
 
-def _leaving_problems(mechanism: Assembly, unknown: Collection[str]) -> Iterator[str]:
+def _leaving_problems(mechanism: Parts, unknown: Collection[str]) -> Iterator[str]:
     """Yield planar bodies of which equations read more inertia, with what leaves their planes."""
     for body in mechanism.moving:
         axis, read = body.center.flat, any(n.startswith(f"{body.name}_inertia_") for n in unknown)

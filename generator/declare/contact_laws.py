@@ -28,7 +28,7 @@ _SMALL_DEFLECTION = sp.Rational(1, 10**9)  # added to that whose root is taken [
 
 
 @dataclass(frozen=True)
-class Rolling:
+class RollingState:
     """How a tyre rolls, at an instant.
 
     Attributes
@@ -109,7 +109,7 @@ class AnyContactLaw(Owner):
         """Return the speed of a freely rolling wheel over its rate of spin [m]."""
 
     @abstractmethod
-    def forces(self, a: Arithmetic, at: Rolling) -> Forces:
+    def forces(self, a: Arithmetic, at: RollingState) -> Forces:
         """Return forces and moments at the contact."""
 
     @abstractmethod
@@ -156,7 +156,7 @@ class LinearContact(AnyContactLaw):
         del a, load
         return self.symbol("effective_radius")
 
-    def forces(self, a: Arithmetic, at: Rolling) -> Forces:
+    def forces(self, a: Arithmetic, at: RollingState) -> Forces:
         """Return forces and moments at the contact."""
         p = {what: self.symbol(what) for what in linear_contact.COEFFICIENTS}
         contact = at.contact(pressure=sp.Integer(0))
@@ -275,7 +275,7 @@ class MagicFormulaContact(AnyContactLaw):
         part = self._coefficients["DREFF"] * a.atan(self._coefficients["BREFF"] * share)
         return self.radius - length * (part + self._coefficients["FREFF"] * share)
 
-    def forces(self, a: Arithmetic, at: Rolling) -> Forces:
+    def forces(self, a: Arithmetic, at: RollingState) -> Forces:
         """Return forces and moments at the contact."""
         given = {"speed": at.speed / self._coefficients["LONGVL"], "pressure": self._pressure}
         if self.angle:
@@ -346,7 +346,7 @@ class TMeasyContact(AnyContactLaw):
         found, _ = tmeasy.deflection_of(a, self._coefficients, load)
         return a.define("pressed_by_load", found)
 
-    def forces(self, a: Arithmetic, at: Rolling) -> Forces:
+    def forces(self, a: Arithmetic, at: RollingState) -> Forces:
         """Return forces and moments at the contact."""
         pressed = self._deflection(a, at.load) + _SMALL_DEFLECTION
         length = a.define("contact_length", 2 * a.sqrt(self.radius * pressed))

@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ..program.vectors import Vector
-    from .assembly import Assembly
+    from .assembly import Parts
 
 # What rounding may leave of a length or an angle that is none, relative to what it comes from.
 _ROUNDING = 1e-9
 
 
-def value_problems(mechanism: Assembly) -> list[str]:
+def value_problems(mechanism: Parts) -> list[str]:
     """Find defaults out of their ranges, impossible inertia, and lines without a direction."""
     values = {p.name: p.default for p in mechanism.parameters}
     problems = out_of_range(values, described(mechanism)) or [
@@ -33,7 +33,7 @@ def value_problems(mechanism: Assembly) -> list[str]:
     return problems + (list(_lost_directions(mechanism)) or _angle_problems(mechanism))
 
 
-def _lost_directions(mechanism: Assembly) -> Iterator[str]:
+def _lost_directions(mechanism: Parts) -> Iterator[str]:
     """Find points that coincide where a line is between them, and directions of length zero."""
     value = AtDefaults(mechanism)
     told: set[str] = set()
@@ -66,7 +66,7 @@ def _size(value: AtDefaults, *places: Vector) -> float:
     return max(float(np.linalg.norm(list(map(value, place)))) for place in places)
 
 
-def _angle_problems(mechanism: Assembly) -> list[str]:
+def _angle_problems(mechanism: Parts) -> list[str]:
     """Find hinges whose angle counts from, or to, what lies along the hinge."""
     value, problems = AtDefaults(mechanism), []
     for joint in mechanism.joints:

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 if TYPE_CHECKING:
-    from .assembly import Assembly
+    from .assembly import Parts
 
 
 class AtDefaults:
     """The default parameters of a mechanism, to be put into expressions."""
 
-    def __init__(self, mechanism: Assembly) -> None:
+    def __init__(self, mechanism: Parts) -> None:
         self._derived = {sp.Symbol(n): value for n, value in mechanism.derived.items()}
         self._values = {sp.Symbol(p.name): sp.Float(p.default) for p in mechanism.parameters}
 

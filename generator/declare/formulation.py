@@ -13,7 +13,7 @@ from .joints import Cylindrical, Free, Joint, Prismatic, Revolute, Spherical, Un
 from .known import repeated, strangers
 from .mechanism import Mechanism
 from .names import file_name_problems, input_name_problems, unwritable
-from .states import StateLayout
+from .states import DeclaredStates
 
 # what the right-hand side has beside its variants: rhs_jacobian, rhs_input_jacobian
 _FUNCTIONS = ("jacobian", "input_jacobian")
@@ -84,10 +84,10 @@ class Formulation:
         return (*self.driven, *self.mechanism.geared)
 
     @property
-    def states(self) -> StateLayout:
+    def states(self) -> DeclaredStates:
         """The layout of the state."""
         mechanism = self.mechanism
-        return StateLayout.of(
+        return DeclaredStates.of(
             self.independent,
             mechanism.coordinates,
             mechanism.internal_states,

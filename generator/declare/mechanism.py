@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .assembly import Assembly
+from .assembly import Parts
 from .checks import check_mechanism
 from .declared import declared
 
 
 @declared
 @dataclass(frozen=True)
-class Mechanism(Assembly):
+class Mechanism(Parts):
     """Joints between bodies, with everything that acts on them.
 
     The ground is the body that rests in the world, with its axes along those of the world at design

@@ -15,7 +15,7 @@ from .states import free_states
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from .assembly import Assembly
+    from .assembly import Parts
     from .inputs import Input
     from .outputs import Output
 
@@ -69,7 +69,7 @@ _ENDS_OF_COMMENTS = ("*/", '"""', "\\", "\n", "\r")
 _COUNTED = ("count",)  # an enumeration ends with the number of its elements
 
 
-def name_problems(mechanism: Assembly) -> list[str]:
+def name_problems(mechanism: Parts) -> list[str]:
     """Find names that code cannot have: reserved words, one name for two things."""
     coordinates = [c.name for c in mechanism.coordinates]
     forces = [force.identity for force in mechanism.forces]
@@ -110,7 +110,7 @@ def name_problems(mechanism: Assembly) -> list[str]:
     return problems
 
 
-def input_name_problems(mechanism: Assembly, inputs: Iterable[Input]) -> list[str]:
+def input_name_problems(mechanism: Parts, inputs: Iterable[Input]) -> list[str]:
     """Find names that inputs cannot have beside those of a mechanism.
 
     Parameters
@@ -144,7 +144,7 @@ def _reserved(kind: str, name: str) -> list[str]:
     return []
 
 
-def text_problems(mechanism: Assembly) -> list[str]:
+def text_problems(mechanism: Parts) -> list[str]:
     """Find units and meanings that comments and docstrings cannot have."""
     entries = [
         *((f"parameter {p.name!r}", (p.unit, p.meaning)) for p in mechanism.parameters),

@@ -136,7 +136,7 @@ class Parameter(Owner):
 
 @declared
 @dataclass(frozen=True)
-class Quantity(Parameter):
+class DimensionedParameter(Parameter):
     """A parameter whose class says its unit and its range.
 
     Parameters
@@ -164,93 +164,93 @@ class Quantity(Parameter):
                 object.__setattr__(self, bound, value)
 
 
-class Mass(Quantity, unit="kg", least=0.0):
+class Mass(DimensionedParameter, unit="kg", least=0.0):
     """A mass [kg], not negative."""
 
 
-class MomentOfInertia(Quantity, unit="kg m^2", least=0.0):
+class MomentOfInertia(DimensionedParameter, unit="kg m^2", least=0.0):
     """A moment of inertia [kg m^2], not negative."""
 
 
-class ProductOfInertia(Quantity, unit="kg m^2"):
+class ProductOfInertia(DimensionedParameter, unit="kg m^2"):
     """A product of inertia [kg m^2]."""
 
 
-class Displacement(Quantity, unit="m"):
+class Displacement(DimensionedParameter, unit="m"):
     """A coordinate or a height [m], of any sign."""
 
 
-class Length(Quantity, unit="m", least=0.0):
+class Length(DimensionedParameter, unit="m", least=0.0):
     """A length [m], not negative."""
 
 
-class Distance(Quantity, unit="m", above=0.0):
+class Distance(DimensionedParameter, unit="m", above=0.0):
     """A distance [m], more than zero."""
 
 
-class Angle(Quantity, unit="rad", of_angle=True):
+class Angle(DimensionedParameter, unit="rad", of_angle=True):
     """An angle [rad], of any sign."""
 
 
-class Speed(Quantity, unit="m/s", above=0.0):
+class Speed(DimensionedParameter, unit="m/s", above=0.0):
     """A speed [m/s], more than zero."""
 
 
-class AngularSpeed(Quantity, unit="rad/s", above=0.0, of_angle=True):
+class AngularSpeed(DimensionedParameter, unit="rad/s", above=0.0, of_angle=True):
     """An angular speed [rad/s], more than zero."""
 
 
-class TimeConstant(Quantity, unit="s", above=0.0, of_angle=None):
+class TimeConstant(DimensionedParameter, unit="s", above=0.0, of_angle=None):
     """The time of what follows with a lag [s], more than zero."""
 
 
-class Gravity(Quantity, unit="m/s^2", least=0.0):
+class Gravity(DimensionedParameter, unit="m/s^2", least=0.0):
     """The acceleration of gravity [m/s^2], not negative."""
 
 
-class ForceLevel(Quantity, unit="N", least=0.0):
+class ForceLevel(DimensionedParameter, unit="N", least=0.0):
     """The amount of a force [N], not negative."""
 
 
-class MomentLevel(Quantity, unit="N m", least=0.0, of_angle=True):
+class MomentLevel(DimensionedParameter, unit="N m", least=0.0, of_angle=True):
     """The amount of a moment [N m], not negative."""
 
 
-class SpringRate(Quantity, unit="N/m", least=0.0):
+class SpringRate(DimensionedParameter, unit="N/m", least=0.0):
     """The rate of a spring [N/m], not negative."""
 
 
-class TorsionRate(Quantity, unit="N m/rad", least=0.0, of_angle=True):
+class TorsionRate(DimensionedParameter, unit="N m/rad", least=0.0, of_angle=True):
     """The rate of a torsion spring [N m/rad], not negative."""
 
 
-class DamperRate(Quantity, unit="N s/m", least=0.0):
+class DamperRate(DimensionedParameter, unit="N s/m", least=0.0):
     """The rate of a damper [N s/m], not negative."""
 
 
-class TorsionDamperRate(Quantity, unit="N m s/rad", least=0.0, of_angle=True):
+class TorsionDamperRate(DimensionedParameter, unit="N m s/rad", least=0.0, of_angle=True):
     """The rate of a damper of rotation [N m s/rad], not negative."""
 
 
-class Progression(Quantity, unit="N/m^3", least=0.0):
+class Progression(DimensionedParameter, unit="N/m^3", least=0.0):
     """The cubic term of a stop [N/m^3], not negative."""
 
 
-class TorsionProgression(Quantity, unit="N m/rad^3", least=0.0, of_angle=True):
+class TorsionProgression(DimensionedParameter, unit="N m/rad^3", least=0.0, of_angle=True):
     """The cubic term of a stop of rotation [N m/rad^3], not negative."""
 
 
-class Ratio(Quantity, unit="1"):
+class Ratio(DimensionedParameter, unit="1"):
     """A ratio of two angles, or of two lengths, of any sign."""
 
 
-class Lead(Quantity, unit="m/rad"):
+class Lead(DimensionedParameter, unit="m/rad"):
     """What a thread, a rack or a rope moves for each radian of a turn [m/rad], of any sign."""
 
 
-class TurnPerTravel(Quantity, unit="rad/m"):
+class TurnPerTravel(DimensionedParameter, unit="rad/m"):
     """By how much something turns for each metre of a slide [rad/m], of any sign."""
 
 
-class Share(Quantity, unit="1", least=0.0, most=1.0):
+class Share(DimensionedParameter, unit="1", least=0.0, most=1.0):
     """A number between 0 and 1."""

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .assembly import Assembly
+    from .assembly import Parts
 
 _BOUNDS = ("least", "above", "most")
 
 
-def described(mechanism: Assembly) -> dict[str, dict[str, float | str]]:
+def described(mechanism: Parts) -> dict[str, dict[str, float | str]]:
     """Return unit, meaning and bounds of every parameter.
 
     Returns

@@ -65,7 +65,7 @@ class JointStates:
 
 
 @dataclass(frozen=True)
-class StateLayout:
+class DeclaredStates:
     """The state x = [q, v, z] of a formulation.
 
     Attributes
@@ -89,7 +89,7 @@ class StateLayout:
         coordinates: Sequence[RelativeCoordinate],
         internal: Iterable[InternalState],
         eliminated: tuple[str, ...],
-    ) -> StateLayout:
+    ) -> DeclaredStates:
         """Return the layout for independent joints, with the names of reported coordinates."""
         joints = tuple(_states_of(joint, coordinates) for joint in independent)
         return cls(joints, tuple(Entry(s.name, s.unit, s.meaning) for s in internal), eliminated)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Upright:
+class WheelAttitude:
     """Position and attitude of a wheel on the ground, in the axes of its carrier.
 
     Attributes
@@ -84,7 +84,7 @@ class Wheel:
             "123",
         )
 
-    def upright(self, at: Surroundings, prefix: str) -> Upright:
+    def upright(self, at: Surroundings, prefix: str) -> WheelAttitude:
         """Append position and attitude of the wheel; names of steps begin with the prefix.
 
         Parameters
@@ -106,7 +106,7 @@ class Wheel:
             "1",
             DIRECTION,
         )
-        return Upright(up, axis, pull, squared)
+        return WheelAttitude(up, axis, pull, squared)
 
     def signals(self, at: Surroundings, prefix: str) -> Iterator[Shown]:
         """Yield the signals of position, attitude and motion of the wheel, with a prefix.

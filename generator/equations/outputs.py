@@ -13,7 +13,7 @@ from ..declare.inputs import Input
 from ..declare.states import Entry
 from ..kinematics.motion import IDENTITY, BodyMotion, from_axes
 from ..memory import uncollected
-from ..planning.plan import Plan
+from ..planning.plan import CataloguePlan
 from ..program.constants import ConstantStage
 from ..program.function import Stage
 from ..program.narrow import narrowed
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from ..declare.joints import Joint
     from ..declare.mechanism import Mechanism
     from ..declare.shown import Shown
-    from ..declare.states import StateLayout
+    from ..declare.states import DeclaredStates
     from ..program.conditions import Assumption, Condition
     from ..program.function import Function
     from ..program.steps import Guard
@@ -120,8 +120,8 @@ class Derivation:
     """
 
     formulation: Formulation
-    plan: Plan
-    states: StateLayout
+    plan: CataloguePlan
+    states: DeclaredStates
     inputs: tuple[Input, ...]
     parameters: tuple[Entry, ...]
     relative: tuple[Entry, ...]
@@ -224,7 +224,7 @@ class _Builder:
         self.derivatives = derivatives
         self.mechanism: Mechanism = formulation.mechanism
         self.states = formulation.states
-        self.plan = Plan.of(formulation)
+        self.plan = CataloguePlan.of(formulation)
         self.assumed = find_assumptions(self.plan)
         self.constants = ConstantStage(
             tuple(sp.Symbol(p.name) for p in self.mechanism.parameters),

@@ -17,7 +17,7 @@ Ends = tuple[str, "Point", "Point"]
 """A link with two points of its line."""
 
 
-class Step(ABC):
+class KinematicStep(ABC):
     """What the kinematics of a mechanism is made of, in order."""
 
     @property

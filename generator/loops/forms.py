@@ -6,7 +6,7 @@ from abc import abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Protocol
 
-from ..kinematics.step import Step
+from ..kinematics.step import KinematicStep
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Sequence
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .known import Coordinate, Known
 
 
-class PlannedStep(Step):
+class PlannedStep(KinematicStep):
     """A step that says what it makes known."""
 
     @abstractmethod

@@ -63,7 +63,7 @@ class Cycle:
 
 
 @dataclass(frozen=True)
-class Topology:
+class JointGraph:
     """The joint graph of a mechanism and what follows from it."""
 
     mechanism: Mechanism
@@ -315,7 +315,7 @@ class CycleSpan:
     A cycle is a number with a bit for each of its joints.
     """
 
-    def __init__(self, topology: Topology) -> None:
+    def __init__(self, topology: JointGraph) -> None:
         self._bits = {j.name: 1 << i for i, j in enumerate(topology.mechanism.joints)}
         self._rows: dict[int, int] = {}  # by the place of their highest bit
 
@@ -344,7 +344,7 @@ class MinimalBasis:
     A cycle that is a sum of chosen ones remains so, and is not looked at again.
     """
 
-    def __init__(self, topology: Topology, chosen: Sequence[Cycle] = ()) -> None:
+    def __init__(self, topology: JointGraph, chosen: Sequence[Cycle] = ()) -> None:
         self._span = CycleSpan(topology)
         self._open = list(topology.candidate_cycles)
         for cycle in chosen:

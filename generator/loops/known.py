@@ -10,8 +10,8 @@ if TYPE_CHECKING:
 
     from ..declare.joints import Joint
     from ..declare.mechanism import Mechanism
-    from ..kinematics.step import Step
-    from .graph import Cycle, Topology
+    from ..kinematics.step import KinematicStep
+    from .graph import Cycle, JointGraph
 
 Coordinate = tuple[str, str]
 """A relative coordinate: its joint, and which of the joint's."""
@@ -38,12 +38,12 @@ class Known:
     """
 
     mechanism: Mechanism
-    topology: Topology
+    topology: JointGraph
     placed: set[str] = field(default_factory=set)
     on_line: set[str] = field(default_factory=set)
     coordinates: set[Coordinate] = field(default_factory=set)
-    steps: list[Step] = field(default_factory=list)
-    guided: dict[str, Step] = field(default_factory=dict)
+    steps: list[KinematicStep] = field(default_factory=list)
+    guided: dict[str, KinematicStep] = field(default_factory=dict)
     alike: set[frozenset[str]] = field(default_factory=set)
 
     @property

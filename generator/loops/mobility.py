@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ..declare.joints import Joint
     from ..declare.mechanism import Mechanism
     from ..program.vectors import Vector
-    from .graph import Topology
+    from .graph import JointGraph
     from .known import Coordinate
 
     Array = NDArray[np.float64]
@@ -51,7 +51,7 @@ class Mobility:
         Names of the joints whose coordinates are independent or prescribed.
     """
 
-    def __init__(self, topology: Topology, driven: Collection[str]) -> None:
+    def __init__(self, topology: JointGraph, driven: Collection[str]) -> None:
         self._topology = topology
         joints = topology.mechanism.joints
         self._coordinates = [(j.name, c) for j in joints for c in j.coordinates]

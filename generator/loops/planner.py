@@ -20,7 +20,7 @@ from .aimed import aimed
 from .crossed import between_crosses, crosses_turned
 from .cut import PairCandidate, pair_candidates, views
 from .errors import NoClosedFormError
-from .graph import Cycle, MinimalBasis, Topology
+from .graph import Cycle, JointGraph, MinimalBasis
 from .known import Known, coordinates_of
 from .redundant import redundant
 from .tilted import tilted
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     from ..declare.formulation import Formulation
     from ..declare.mechanism import Mechanism
-    from ..kinematics.step import Step
+    from ..kinematics.step import KinematicStep
     from .forms import Attempt, Catalogue, ClosedForm, Closing, Iteration, PlannedStep, Solution
     from .known import Coordinate
 
@@ -105,7 +105,7 @@ class Plan:
     catalogue: ClassVar[Catalogue]
 
     formulation: Formulation
-    topology: Topology
+    topology: JointGraph
     transformers: list[Transformer] = field(default_factory=list)
     _known: Known = field(init=False, repr=False)
 
@@ -115,7 +115,7 @@ class Plan:
     @classmethod
     def of(cls, formulation: Formulation) -> Self:
         """Analyse a model: choose the basis, the pairs and the order."""
-        plan = cls(formulation, Topology(formulation.mechanism))
+        plan = cls(formulation, JointGraph(formulation.mechanism))
         plan._known.placed.add(plan._mechanism.ground)
         plan._known.add_all(map(plan._mechanism.joint, plan._driven))
         plan._place_neighbours()
@@ -125,7 +125,7 @@ class Plan:
         return plan
 
     @property
-    def steps(self) -> list[Step]:
+    def steps(self) -> list[KinematicStep]:
         """Everything the kinematics has to do, in order."""
         return self._known.steps
 

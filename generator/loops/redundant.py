@@ -14,7 +14,7 @@ import networkx as nx
 
 from ..declare.declared import DeclarationError
 from .errors import TopologyError
-from .graph import Topology
+from .graph import JointGraph
 from .mobility import Mobility
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def redundant(mechanism: Mechanism, driven: Collection[str] = ()) -> str:
     driven
         Names of the joints that are independent or prescribed, which are left out nowhere.
     """
-    whole = Mobility(Topology(mechanism), driven)
+    whole = Mobility(JointGraph(mechanism), driven)
     if not whole.is_known:
         return ""
     needed = {*driven, *(j.name for j in mechanism.geared)}
@@ -80,7 +80,7 @@ def _freedoms_without(mechanism: Mechanism, joints: Collection[Joint]) -> int:
         return -1
     try:
         bare = replace(mechanism, joints=rest, forces=(), coordinates=(), outputs=())
-        topology = Topology(bare)
+        topology = JointGraph(bare)
     except (DeclarationError, TopologyError):  # it falls apart, or off the ground
         return -1
     return Mobility(topology, ()).freedoms

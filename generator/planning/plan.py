@@ -7,7 +7,7 @@ from ..loops import planner
 from ..loops.forms import Catalogue
 
 
-class Plan(planner.Plan):
+class CataloguePlan(planner.Plan):
     """The order of solution of a model."""
 
     catalogue: ClassVar[Catalogue] = CATALOGUE

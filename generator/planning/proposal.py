@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING
 from ..declare.formulation import Formulation
 from ..declare.joints import Free, Prismatic, Revolute
 from ..loops.errors import NoClosedFormError
-from ..loops.graph import Topology
+from ..loops.graph import JointGraph
 from ..loops.redundant import redundant
 from ..loops.tilted import tilted
-from .plan import Plan
+from .plan import CataloguePlan
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -62,7 +62,7 @@ def model_of(mechanism: Mechanism) -> Formulation:
     NoClosedFormError
         If there is no such set of coordinates.
     """
-    search = Search(_bare(mechanism))
+    search = CoordinateSearch(_bare(mechanism))
     closed = next(search.closed(_SECONDS_TO_FIND), None)
     if closed is None:
         raise NoClosedFormError(search.refusal())
@@ -84,7 +84,7 @@ def proposals(
     seconds
         How long to search.
     """
-    search = Search(declared if isinstance(declared, Formulation) else _bare(declared))
+    search = CoordinateSearch(declared if isinstance(declared, Formulation) else _bare(declared))
     closed = set()
     for proposal in search.closed(seconds):
         closed.add(proposal.independent)
@@ -100,7 +100,7 @@ def advice(refused: Formulation) -> str:
     str
         A sentence, or nothing.
     """
-    search = Search(refused)
+    search = CoordinateSearch(refused)
     if search.impossible:
         return ""
     closed = list(islice(search.closed(_SECONDS_TO_ADVISE), _CHOICES_SHOWN))
@@ -112,7 +112,7 @@ def advice(refused: Formulation) -> str:
     return f"Every loop closes with {_either(iterated)}." if iterated else search.summary()
 
 
-class Search:
+class CoordinateSearch:
     """Trials of all sets of reported coordinates that could be independent.
 
     Parameters
@@ -124,7 +124,7 @@ class Search:
     def __init__(self, formulation: Formulation) -> None:
         self._model = formulation
         mechanism = formulation.mechanism
-        self.mobility = Topology(mechanism).mobility - len(mechanism.passive_links)
+        self.mobility = JointGraph(mechanism).mobility - len(mechanism.passive_links)
         given = formulation.motions
         self._free = _free(mechanism)
         self.count = self.mobility - sum(j.freedoms for j in self._free) - len(given)
@@ -231,7 +231,7 @@ class Search:
             tried += 1
             self._tried = max(self._tried, tried)
             try:
-                Plan.of(self.model(independent, allow_iteration=allow_iteration))
+                CataloguePlan.of(self.model(independent, allow_iteration=allow_iteration))
             except NoClosedFormError as refusal:
                 self._note(independent, refusal)
             else:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from .function import Block, Function
+from .function import Function, IterationBlock
 from .functions import SignOf
 from .steps import Step, ancestors, first_free
 from .symbols import symbols_of
@@ -43,7 +43,7 @@ class ConstantStage:
     reserved: frozenset[str] = frozenset()
     derived: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
     steps: dict[sp.Symbol, Step] = field(default_factory=dict)
-    blocks: dict[str, Block] = field(default_factory=dict)
+    blocks: dict[str, IterationBlock] = field(default_factory=dict)
     conditions: dict[sp.Expr, Condition] = field(default_factory=dict)
     _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
     _varying: set[str] = field(default_factory=set)  # names of steps of the programs

@@ -51,7 +51,7 @@ class Function:
     shape: tuple[int, ...]
     guards: tuple[Guard, ...]
     part: str = ""
-    blocks: tuple[Block, ...] = ()
+    blocks: tuple[IterationBlock, ...] = ()
 
     @property
     def members(self) -> tuple[Function, ...]:
@@ -106,7 +106,7 @@ class Stage:
         return tuple(dict.fromkeys(guard for member in self.members for guard in member.guards))
 
     @property
-    def blocks(self) -> tuple[Block, ...]:
+    def blocks(self) -> tuple[IterationBlock, ...]:
         """The iterations that are called."""
         return tuple({block.name: block for m in self.members for block in m.blocks}.values())
 
@@ -160,7 +160,7 @@ class Estimate:
 
 
 @dataclass(frozen=True)
-class Block:
+class IterationBlock:
     """An iteration with a name.
 
     Attributes

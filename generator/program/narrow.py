@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     import sympy as sp
 
-    from .function import Block
+    from .function import IterationBlock
     from .steps import Guard, Step
 
 
@@ -23,7 +23,7 @@ def function_of(
     results: Mapping[str, sp.Expr],
     steps: Iterable[Step],
     guards: Iterable[Guard],
-    blocks: Iterable[Block],
+    blocks: Iterable[IterationBlock],
     *,
     shape: Sequence[int] | None = None,
     part: str = "",

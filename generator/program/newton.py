@@ -3,8 +3,8 @@
 A *block* is a function of its own that follows a solution: from the design position, where it is
 zero, to the coordinates of a call. What it repeats is straight-line code, written by the same
 printers as everything else: residuals g and their Jacobian J at one estimate, for one position of
-the driven coordinates, with all that is placed before the loops (`Block.once`). Around it is one
-loop that all blocks share, with a bounded number of iterations (``follow.c``, and
+the driven coordinates, with all that is placed before the loops (`IterationBlock.once`). Around it
+is one loop that all blocks share, with a bounded number of iterations (``follow.c``, and
 `kintrafo.equations.following`).
 
 *The way* goes straight from the coordinates of the design position to those of the call, in stages.
@@ -21,9 +21,9 @@ than that, g has one root, so that there is no other one to go to. Both are free
 tangents ``-J^-1 g_v`` at both ends of a stage have to lead where the unknowns go: the first one is
 where Newton's method starts, and what the last one misses is at most twice what the first one does,
 or half of itself. A stage over a gap comes back from a dead point, and its last tangent shows that.
-What is placed before in closed form has to close all the way, too (`Derivation._failing`). A stage
-that is not accepted is tried again, shorter. Where stages become as short as nothing, the branch
-ends: a dead point.
+What is placed before in closed form has to close all the way, too
+(`IterationDerivation._failing`). A stage that is not accepted is tried again, shorter. Where stages
+become as short as nothing, the branch ends: a dead point.
 
 After `ITERATIONS`, or where a branch ends, the block says that it is lost (`LOST`) and returns what
 it has, which is finite. Behind it, straight-line code evaluates the residuals again; its guard
@@ -43,7 +43,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from .function import Block, Driven, Estimate
+from .function import Driven, Estimate, IterationBlock
 from .functions import Frozen, Guarded, IsPositive, Positive
 from .program import Program
 from .steps import ancestors
@@ -56,7 +56,7 @@ Matrix = list[list[sp.Expr]]
 
 
 @dataclass(frozen=True)
-class Found:
+class IterationResult:
     """What one iteration finds.
 
     Attributes
@@ -81,7 +81,7 @@ class Found:
     by_given: Matrix = field(default_factory=list)
 
 
-class Derivation:
+class IterationDerivation:
     """The program of one iteration, with all that is placed before the loops at that stage.
 
     Parameters
@@ -140,8 +140,8 @@ class Derivation:
         doc: str,
         unknowns: Sequence[str],
         equations: int,
-        derive: Callable[[Program, Estimate], Found],
-    ) -> Block:
+        derive: Callable[[Program, Estimate], IterationResult],
+    ) -> IterationBlock:
         """Derive the block.
 
         Parameters
@@ -180,7 +180,7 @@ class Derivation:
         once = program.function(name, doc, outputs)
         read = once.free_symbols
         constants = program.constants
-        return Block(
+        return IterationBlock(
             name,
             doc,
             tuple(unknowns),

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from .constants import ConstantStage
-    from .function import Block, Function
+    from .function import Function, IterationBlock
 
 
 @dataclass
@@ -164,7 +164,7 @@ class Program:
             self.guards[symbol] = Guard(symbol, name, meaning, unit, least)
         return Guarded(symbol, self.guards[symbol].floor)
 
-    def iterated(self, name: str, block: Block) -> dict[str, sp.Expr]:
+    def iterated(self, name: str, block: IterationBlock) -> dict[str, sp.Expr]:
         """Append the call of a block that iterates, and return its results by name.
 
         Parameters

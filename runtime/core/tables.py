@@ -50,7 +50,7 @@ def key(name: str) -> str:
     return re.sub(r"[\W_]+", "", name.casefold())
 
 
-class Heading(NamedTuple):
+class ColumnHeading(NamedTuple):
     """The name of a column, and its unit as it is written; None where there is none."""
 
     text: str
@@ -58,7 +58,7 @@ class Heading(NamedTuple):
     unit: str | None
 
     @classmethod
-    def of(cls, cell: Any) -> "Heading":
+    def of(cls, cell: Any) -> "ColumnHeading":
         """Return what a cell of the first row says."""
         text = legible(" ".join(str("" if cell is None else cell).split()))
         found = _BRACKETS.fullmatch(text) if len(text) < 500 else None
@@ -104,7 +104,7 @@ class Table:
     ----------
     source : str
         Where it comes from, for messages.
-    headings : tuple of Heading
+    headings : tuple of ColumnHeading
     rows : list of (int, list)
         What follows, with the numbers of the lines.
     units : tuple of (str or None)
@@ -116,7 +116,7 @@ class Table:
     """
 
     source: str
-    headings: tuple[Heading, ...]
+    headings: tuple[ColumnHeading, ...]
     rows: list[Row]
     units: tuple[str | None, ...]
     stated: tuple[str, ...]
@@ -141,7 +141,7 @@ class Table:
         if len(names) > _MOST_COLUMNS:
             problem = f"the first line has {len(names)} columns; {_MOST_COLUMNS} are the most."
             raise InputError([problem], source)
-        headings = tuple(map(Heading.of, names))
+        headings = tuple(map(ColumnHeading.of, names))
         units: list[str | None] = [None] * len(headings)
         if others and (row := _units_row(others[0][1], len(headings))):
             units, others = row, others[1:]

@@ -24,7 +24,7 @@ _GEOMETRY = ("m", "rad", "1")
 _STEP = 1e-6
 
 
-class Behind:
+class WiderArrays:
     """What a derivative knows of its model: its arrays have more than values.
 
     Parameters

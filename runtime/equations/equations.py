@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..core.physical import inertia_of_no_body, out_of_range
-from .directions import ADJOINTS, TANGENTS, Behind, Directions
+from .directions import ADJOINTS, TANGENTS, Directions, WiderArrays
 from .errors import HEAVIER, WEIGHTLESS, ClosureError, ModelError, ParameterError, located, place_of
 from .layout import StateLayout
 from .residuals import Residuals
@@ -218,7 +218,7 @@ class Equations:
         shape = tuple(described.get("shape", [len(labels)]))
         operations = stages.get(stage, described)["operations"]
         return self._calls.Function(
-            Behind(self, behind) if behind else self,
+            WiderArrays(self, behind) if behind else self,
             name,
             self._code[stage],
             shape,

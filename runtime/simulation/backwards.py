@@ -23,7 +23,7 @@ from .accuracy import Accuracy, accuracy_of, outputs_of, span_of
 from .courses import Signal
 from .kinks import ended_at_kinks
 from .result import Simulation
-from .retraced import Steps
+from .retraced import RetracedSteps
 from .signals import TimeInputs, time_inputs
 from .simulate import simulate_inputs
 from .sweep import Sweep
@@ -157,7 +157,7 @@ def output_times_of(given: Validator, t_eval: Any, span: tuple[float, float]) ->
 
 def followed(
     system: System, courses: TimeInputs, state: Array, accuracy: Accuracy
-) -> tuple[Simulation, Steps]:
+) -> tuple[Simulation, RetracedSteps]:
     """Return a motion whose steps are fit for derivatives, and the steps."""
     begin = np.array([courses.segments[0].start])
     longest = min(accuracy.max_step, _longest(system, courses, accuracy.rtol, begin, state[None]))

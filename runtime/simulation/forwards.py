@@ -25,7 +25,7 @@ from .courses import Signal
 from .lanes.directions import Along
 from .lanes.directions import followed as in_lanes
 from .result import Simulation
-from .retraced import NODES, STAGES, Steps, weights_within
+from .retraced import NODES, STAGES, RetracedSteps, weights_within
 from .signals import time_inputs
 
 Array = NDArray[np.float64]
@@ -204,7 +204,7 @@ class _Tangents:
         )
         self._along = Along(constants, start, inputs)
 
-    def at(self, steps: Steps, times: Array, items: Sequence[int]) -> Array:
+    def at(self, steps: RetracedSteps, times: Array, items: Sequence[int]) -> Array:
         """Return how what is looked at changes, shape (directions, times, items).
 
         Items are places of signals, and behind the last of them elements of the state.
@@ -213,7 +213,7 @@ class _Tangents:
         # what cannot be done in lanes, or is refused there, which is told here
         return self._one_by_one(steps, times)[..., items] if found is None else found
 
-    def _one_by_one(self, steps: Steps, times: Array) -> Array:
+    def _one_by_one(self, steps: RetracedSteps, times: Array) -> Array:
         """Return how all signals and the state change, shape (directions, times, items)."""
         stages, after = self._through(steps)
         count, size = steps.length.size, self._along.start.shape[1]
@@ -231,7 +231,7 @@ class _Tangents:
     def _each(self) -> Iterator[tuple[Array, Array]]:
         return zip(self._along.constants, self._along.inputs, strict=True)
 
-    def _through(self, steps: Steps) -> tuple[Array, Array]:
+    def _through(self, steps: RetracedSteps) -> tuple[Array, Array]:
         """Return how rates at the stages, and states after steps, depend on what was before.
 
         The first columns are by the elements of the state before a step, one more for each

@@ -15,7 +15,7 @@ from ..core.errors import InputError
 from ..equations.errors import named
 from ..systems.system import System
 from .result import Simulation
-from .retraced import Steps
+from .retraced import RetracedSteps
 from .signals import TimeInputs
 
 Array = NDArray[np.float64]
@@ -42,7 +42,7 @@ def ended_at_kinks(
     courses: TimeInputs,
     again: Callable[[TimeInputs], Simulation],
     rtol: float,
-) -> tuple[Simulation, Steps]:
+) -> tuple[Simulation, RetracedSteps]:
     """Return a motion none of whose longer steps has a kink in it, and its steps.
 
     Parameters
@@ -62,7 +62,7 @@ def ended_at_kinks(
     InputError
         If the rates jump where a kink was looked for, or there are kinks without end.
     """
-    steps = Steps(system, motion, courses)
+    steps = RetracedSteps(system, motion, courses)
     if not hasattr(system.equations, _FUNCTION):
         return motion, steps
     shortest = float(np.sqrt(rtol) * steps.length.max())
@@ -72,7 +72,7 @@ def ended_at_kinks(
             return motion, steps
         courses = courses.with_milestones(_towards(times, reach, shortest))
         motion = again(courses)
-        steps = Steps(system, motion, courses)
+        steps = RetracedSteps(system, motion, courses)
     words = (
         f"around t = {times[0]:.6g} s the motion has one kink behind the other, such as of a "
         "stop that is only just touched, and its gradient is not known there. End the motion "
@@ -89,7 +89,7 @@ def _towards(times: Array, reach: Array, shortest: float) -> Array:
     return np.concatenate([(times[:, None] + sign * distances)[near] for sign in (-1.0, 1.0)])
 
 
-def _found(system: System, steps: Steps, short: float) -> tuple[Array, Array]:
+def _found(system: System, steps: RetracedSteps, short: float) -> tuple[Array, Array]:
     """Return where steps longer than some length have kinks, and their lengths."""
     within = system.evaluate(_FUNCTION, *steps.within(np.linspace(0.0, 1.0, _PARTS + 1)))
     at_stages = system.evaluate(_FUNCTION, steps.states, steps.inputs)
@@ -109,7 +109,9 @@ def _found(system: System, steps: Steps, short: float) -> tuple[Array, Array]:
     )
 
 
-def _roots(system: System, steps: Steps, step: Indices, part: Indices, which: Indices) -> Array:
+def _roots(
+    system: System, steps: RetracedSteps, step: Indices, part: Indices, which: Indices
+) -> Array:
     """Return where in its step each kink is, from 0 to 1."""
 
     def value(at: Array, step: Array, which: Array) -> Array:
@@ -123,7 +125,7 @@ def _roots(system: System, steps: Steps, step: Indices, part: Indices, which: In
     return np.asarray(found.x)
 
 
-def _refuse_jumps(system: System, steps: Steps, step: Indices, root: Array) -> None:
+def _refuse_jumps(system: System, steps: RetracedSteps, step: Indices, root: Array) -> None:
     """Refuse a kink at which the rates themselves jump: its time moves with the parameters."""
     sides = (steps.point(step, root + sign * _BESIDE) for sign in (-1.0, 1.0))
     before, behind = (system.evaluate("rhs", *side) for side in sides)

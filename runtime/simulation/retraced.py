@@ -33,7 +33,7 @@ _LAST = np.array(
 )  # fmt: skip
 
 
-class Steps:
+class RetracedSteps:
     """The steps of a motion, and what its stages were, evaluated again for all of them at once.
 
     Attributes

@@ -27,7 +27,7 @@ from .solvers import (
     NATIVE_METHODS,
     SCIPY_METHODS,
     Options,
-    Piece,
+    SolvedSegment,
     check_jacobian,
     native_available,
     native_methods,
@@ -310,7 +310,9 @@ def _check_memory(
     refuse_beyond(given, 8.0 * count * of_one, what, "Ask for fewer, by t_eval.")
 
 
-def _choose_backend(model: System, backend: Backend, options: Options) -> Callable[..., Piece]:
+def _choose_backend(
+    model: System, backend: Backend, options: Options
+) -> Callable[..., SolvedSegment]:
     """Return the solver for a method, and say once if it is not the one that was meant."""
     method = options.method
     with Validator("simulate") as given:
@@ -406,11 +408,11 @@ class _Run:
         options: Options,
         events: Events,
         times: Array | None,
-        solve: Callable[..., Piece],
+        solve: Callable[..., SolvedSegment],
     ) -> None:
         self._model, self._inputs, self._options = model, inputs, options
         self._events, self._times, self._solve = events, times, solve
-        self._pieces: list[tuple[Segment, Piece]] = []
+        self._pieces: list[tuple[Segment, SolvedSegment]] = []
         self._taken, self._passed = 0, [0] * len(events)  # steps, and times of each event, so far
 
     def over(self, state: Array) -> Simulation:
@@ -469,7 +471,7 @@ class _Run:
         inside = self._times[(self._times > low) & (self._times < high)]
         return np.concatenate(([segment.start], inside, [segment.end]))
 
-    def _fail(self, segment: Segment, piece: Piece) -> None:
+    def _fail(self, segment: Segment, piece: SolvedSegment) -> None:
         time, state = piece.reached_time, piece.reached_state
         # what overflows on the way may leave a state that is none
         refused = piece.refused_state
@@ -478,7 +480,7 @@ class _Run:
         reason = self._reason(segment, piece, time, state)
         raise SimulationError(reason, time, state, self._assembled(reason))
 
-    def _reason(self, segment: Segment, piece: Piece, time: float, state: Array) -> str:
+    def _reason(self, segment: Segment, piece: SolvedSegment, time: float, state: Array) -> str:
         options = self._options
         if piece.outcome == "state":
             try:
@@ -551,7 +553,7 @@ class _Run:
         )
         return simulation
 
-    def _rows(self, segment: Segment, piece: Piece) -> tuple[Array, Array, Array]:
+    def _rows(self, segment: Segment, piece: SolvedSegment) -> tuple[Array, Array, Array]:
         """Return times, states and inputs that belong to the output."""
         t, y = piece.t, piece.y
         if len(self._pieces) > 1 or not (self._times is None or np.array_equal(t, self._times)):

@@ -1,6 +1,7 @@
 """The solvers behind `simulate`: those in C, of SUNDIALS and our own, and SciPy.
 
-Both integrate one segment of time, in which the inputs are smooth, and return the same `Piece`.
+Both integrate one segment of time, in which the inputs are smooth, and return the same
+`SolvedSegment`.
 """
 
 from collections.abc import Callable
@@ -65,7 +66,7 @@ class Options(Accuracy):
 
 
 @dataclass
-class Piece:
+class SolvedSegment:
     """The integration of one segment.
 
     Attributes
@@ -197,7 +198,7 @@ def solve_native(
     every_step: bool,
     options: Options,
     events: Events,
-) -> Piece:
+) -> SolvedSegment:
     """Integrate a segment in C, from the first step to the last."""
     equations = model.equations
     names = (f"rhs{inputs.variant}", f"rhs_jacobian{inputs.variant}", "signals", "margins")
@@ -231,7 +232,7 @@ def solve_native(
     )
     counts = ("nfev", "njev", "nlu", "steps", "error_test_failures", "order")
     output = raw["output"] if len(raw["output"]) else np.array([[segment.start, *state]])
-    return Piece(
+    return SolvedSegment(
         t=output[:, 0].copy(),
         y=output[:, 1:].copy(),
         outcome="flat_event" if raw["code"] == _ILL_INPUT and len(events) else raw["outcome"],
@@ -324,7 +325,7 @@ def solve_scipy(
     every_step: bool,
     options: Options,
     events: Events,
-) -> Piece:
+) -> SolvedSegment:
     """Integrate a segment with SciPy's ``solve_ivp``."""
     # an explicit method evaluates at most twelve times a step, an implicit one fewer
     function = _RightHandSide(model, inputs, segment, 12.0 * options.max_steps)
@@ -356,7 +357,7 @@ def solve_scipy(
         )
     except (DeadPoint, ModelError, TooManySteps) as error:  # at the first state, or of an event
         started = steps or [(segment.start, state)]
-        piece = Piece(
+        piece = SolvedSegment(
             t=np.array([time for time, _ in started]),
             y=np.array([y for _, y in started]),
             outcome="failed",
@@ -374,7 +375,7 @@ def solve_scipy(
     return _checked_outputs(piece, approach)
 
 
-def _failed(piece: Piece, error: Exception, function: _RightHandSide) -> Piece:
+def _failed(piece: SolvedSegment, error: Exception, function: _RightHandSide) -> SolvedSegment:
     """Return a piece with the reason why it ends early."""
     dead = error if isinstance(error, DeadPoint) else None
     return replace(
@@ -391,7 +392,7 @@ def _within(step: float | None, segment: Segment) -> float | None:
     return None if step is None else min(step, abs(segment.end - segment.start))
 
 
-def _checked_outputs(piece: Piece, approach: Approach) -> Piece:
+def _checked_outputs(piece: SolvedSegment, approach: Approach) -> SolvedSegment:
     """End a piece before the first output at which the model could not be evaluated."""
     for place, (time, state) in enumerate(zip(piece.t, piece.y, strict=True)):
         guard = approach.crossed(approach.margins(time, state))
@@ -449,7 +450,7 @@ def _recorder(steps: list[tuple[float, Array]]) -> Callable[[float, Array], floa
 
 def _piece_of(
     result: Any, steps: list[tuple[float, Array]], events: Events, options: Options
-) -> Piece:
+) -> SolvedSegment:
     outcomes = {0: "done", 1: "event", -1: "failed"}
     crossings = [
         (index, float(time), state)
@@ -466,7 +467,7 @@ def _piece_of(
             )
         ]
     found = np.size(result.t) > 0  # SciPy has no array of outputs where the first step fails
-    return Piece(
+    return SolvedSegment(
         t=result.t if found else np.array([steps[0][0]]),
         y=result.y.T if found else steps[0][1][None],
         outcome=outcomes[result.status],

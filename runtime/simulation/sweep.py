@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ..systems.system import System
 from . import _steps
-from .retraced import NODES, STAGES, Steps, weights_within
+from .retraced import NODES, STAGES, RetracedSteps, weights_within
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -33,11 +33,11 @@ class Sweep:
     ----------
     system : System
         With derivatives by parameters.
-    steps : Steps
+    steps : RetracedSteps
         Of its motion.
     """
 
-    def __init__(self, system: System, steps: Steps) -> None:
+    def __init__(self, system: System, steps: RetracedSteps) -> None:
         self._system, self._steps = system, steps
 
     def backwards(
@@ -51,7 +51,7 @@ class Sweep:
         Parameters
         ----------
         places, point : tuple of ndarray
-            When the motion is looked at, and states and inputs there, see `Steps`.
+            When the motion is looked at, and states and inputs there, see `RetracedSteps`.
         weights : mapping
             Of signals and elements of the state at these times, by name.
         """

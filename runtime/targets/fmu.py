@@ -12,7 +12,7 @@ from ..core.files import Paths, replacing
 from ..core.validator import Validator
 from .emitted import Emitted
 from .fmi import binaries, fmi2, fmi3
-from .fmi.description import Description
+from .fmi.description import ModelDescription
 from .fmi.sources import HEADERS, source_files
 
 ENDING = ".fmu"
@@ -72,7 +72,7 @@ def write(
 def contents(emitted: Emitted, fmi: int, platforms: Sequence[str]) -> dict[str, bytes]:
     """Return what is in a unit, by path."""
     version: Any = VERSIONS[fmi]
-    known = Description(emitted)
+    known = ModelDescription(emitted)
     token = known.token(fmi)
     sources = source_files(known, [version.FRONT], token, known.values)
     # the library of a model is compiled once, for both versions and whatever its numbers

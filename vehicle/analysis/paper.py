@@ -36,7 +36,7 @@ PAPER_GEAR_S = 13.0  # IMSL DIVPAG, same machine
 
 
 @dataclass(frozen=True)
-class Kinematics:
+class PaperKinematics:
     """Figures 4 and 5: the wheel over its travel, rack held at zero.
 
     Attributes
@@ -61,7 +61,7 @@ class Kinematics:
 
 
 @dataclass(frozen=True)
-class Dynamics:
+class PaperDynamics:
     """Figure 6: one second from 0.325 m with the wheel spinning.
 
     Attributes
@@ -76,7 +76,7 @@ class Dynamics:
     seconds: float
 
 
-def kinematics(model: Model, points: int = 121) -> Kinematics:
+def kinematics(model: Model, points: int = 121) -> PaperKinematics:
     """Compute Figures 4 and 5.
 
     Parameters
@@ -87,7 +87,7 @@ def kinematics(model: Model, points: int = 121) -> Kinematics:
 
     Returns
     -------
-    Kinematics
+    PaperKinematics
     """
     ends = (REST_HEIGHT - TRAVEL, REST_HEIGHT + TRAVEL)
     design_height = float(model.signal("wheel_center_z", model.design_state))
@@ -95,7 +95,7 @@ def kinematics(model: Model, points: int = 121) -> Kinematics:
     # the design position is one of them: an equally spaced one where that is the same
     heights = np.union1d(heights[np.abs(heights - design_height) > 1e-9], design_height)
     signals = model.signals(*at_rest(model, arm_angles(model, heights)))
-    return Kinematics(
+    return PaperKinematics(
         x=signals["wheel_center_x"],
         y=signals["wheel_center_y"],
         z=signals["wheel_center_z"],
@@ -106,7 +106,7 @@ def kinematics(model: Model, points: int = 121) -> Kinematics:
     )
 
 
-def dynamics(model: Model) -> Dynamics:
+def dynamics(model: Model) -> PaperDynamics:
     """Compute Figure 6 by Gear's method.
 
     Parameters
@@ -115,7 +115,7 @@ def dynamics(model: Model) -> Dynamics:
 
     Returns
     -------
-    Dynamics
+    PaperDynamics
     """
     from ...simulation.simulate import simulate  # noqa: PLC0415 (slow to import)
 
@@ -123,11 +123,11 @@ def dynamics(model: Model) -> Dynamics:
     times = np.linspace(0.0, DURATION, round(DURATION / OUTPUT_INTERVAL) + 1)
     before = time.perf_counter()
     result = simulate(model, (0.0, DURATION), start, t_eval=times, rtol=1e-6, atol=1e-9)
-    return Dynamics(result, time.perf_counter() - before)
+    return PaperDynamics(result, time.perf_counter() - before)
 
 
 @dataclass(frozen=True)
-class Rest:
+class PaperRest:
     """The state of rest and how the suspension moves about it.
 
     Attributes
@@ -145,7 +145,7 @@ class Rest:
     hop: Mode
 
 
-def rest(model: Model) -> Rest:
+def rest(model: Model) -> PaperRest:
     """Find the equilibrium and the wheel-hop mode there.
 
     Parameters
@@ -154,8 +154,8 @@ def rest(model: Model) -> Rest:
 
     Returns
     -------
-    Rest
+    PaperRest
     """
     state = equilibrium(model, spin_rate=SPIN_RATE)
     height = float(model.signal("wheel_center_z", state))
-    return Rest(state, height, linearise(model, state).mode_of(model.names.arm))
+    return PaperRest(state, height, linearise(model, state).mode_of(model.names.arm))

@@ -13,7 +13,7 @@ from ..assembly.corner_kinematics import corner
 from ..assembly.equilibrium import equilibrium
 from ..models.model import Model
 from ..models.plausibility import plausibility
-from ..models.positions import PositionError, Range, design_height, travel_range
+from ..models.positions import AngleRange, PositionError, design_height, travel_range
 from . import paper
 
 Array = NDArray[np.float64]
@@ -72,7 +72,7 @@ class WheelFacts:
         'left' or 'right'.
     geometry : dict
         Lengths and angles at design, by name; those that end in ``_angle`` are angles.
-    reach : Range
+    reach : AngleRange
         Wheel heights that can be reached with the rack in its middle, and what ends them.
     travel : tuple of float
         The same as travel from design: lowest and highest.
@@ -89,7 +89,7 @@ class WheelFacts:
     title: str
     side: str
     geometry: dict[str, float]
-    reach: Range
+    reach: AngleRange
     travel: tuple[float, float]
     extension_travel: float | None
     equilibrium: RestFacts | None
@@ -211,7 +211,7 @@ def _geometry(model: Model) -> dict[str, float]:
     }
 
 
-def _extension_travel(model: Model, reach: Range) -> float | None:
+def _extension_travel(model: Model, reach: AngleRange) -> float | None:
     """Return the travel at which what the wheel hangs on is drawn out, looked up in a table.
 
     None if nothing is, or it never is.

@@ -12,7 +12,7 @@ from ...core.quantities import variable
 from ...core.validator import Validator
 from ..corner.bushes import Bush
 from ..corner.corner import Array
-from ..input.vehicle import Tyre
+from ..input.vehicle import TyreSection
 from ..models.axle.file import TorqueReaction
 from ..models.model import Model
 from ..models.plausibility import Plausibility
@@ -99,7 +99,7 @@ class Assembly(ABC):
 
     @property
     @abstractmethod
-    def tyres(self) -> Sequence[Tyre]:
+    def tyres(self) -> Sequence[TyreSection]:
         """The tyres, by wheel."""
 
     @property

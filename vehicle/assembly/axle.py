@@ -14,7 +14,7 @@ from ...core.validator import Validator
 from ...core.vectors import unit_vector
 from ..corner.bushes import described_bushings, mirrored_bushings, softness_of_rack
 from ..corner.corner import Array
-from ..input.vehicle import Tyre
+from ..input.vehicle import TyreSection
 from ..models.axle import Axle
 from ..models.axle.equations import AxleModel
 from ..models.axle.file import TorqueReaction
@@ -98,7 +98,7 @@ class AxleAssembly(Assembly):
         return self.axle.steered()
 
     @property
-    def tyres(self) -> Sequence[Tyre]:
+    def tyres(self) -> Sequence[TyreSection]:
         """The tyres, the left one first."""
         return [side.tyre for side in self.axle.sides.values()]
 

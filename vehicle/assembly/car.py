@@ -13,7 +13,7 @@ from ...equations.errors import ModelError
 from ...systems.rest import rest
 from ..corner.corner import Array
 from ..input.units import in_metres
-from ..input.vehicle import Tyre
+from ..input.vehicle import TyreSection
 from ..models.axle.axle import Axle
 from ..models.car.car import Car, center_of_gravity, masses
 from ..models.car.equations import CarModel
@@ -114,7 +114,7 @@ class CarAssembly(Assembly):
         return self.car.steered()
 
     @property
-    def tyres(self) -> Sequence[Tyre]:
+    def tyres(self) -> Sequence[TyreSection]:
         """The tyres, by wheel."""
         return [tyre for part in self.held.values() for tyre in part.tyres]
 

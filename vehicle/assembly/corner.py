@@ -10,7 +10,7 @@ from ...core.named_types import ArrayLike
 from ...core.validator import Validator
 from ..corner.bushes import described_bushings, softness_of_rack
 from ..corner.corner import Array, Corner
-from ..input.vehicle import Tyre
+from ..input.vehicle import TyreSection
 from ..kinds import Suspension
 from ..models.model import Model
 from ..models.positions import PositionError, arm_angles, design_height
@@ -59,7 +59,7 @@ class CornerAssembly(Assembly):
         return self.subject.steered()
 
     @property
-    def tyres(self) -> Sequence[Tyre]:
+    def tyres(self) -> Sequence[TyreSection]:
         """The tyre."""
         return (self.subject.tyre,)
 

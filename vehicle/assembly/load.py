@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..corner.structure import ForceElement
+from ..corner.structure import LineForce
 from .part_poses import PartPoses
 
 Array = NDArray[np.float64]
@@ -49,7 +49,7 @@ def known(poses: PartPoses) -> list[Load]:
     return loads
 
 
-def along_line(poses: PartPoses, line: ForceElement, force: Array) -> list[Load]:
+def along_line(poses: PartPoses, line: LineForce, force: Array) -> list[Load]:
     """Return forces along a line on both of its parts, positive when they push."""
     points = poses.points
     push = force[..., None] * line.direction(points)

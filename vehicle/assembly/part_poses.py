@@ -13,7 +13,7 @@ from ...systems.allowed import LengthLimit
 from ...systems.inputs import rates_of
 from ...systems.system import System
 from ..corner.corner import UP, RoadWheel
-from ..corner.structure import ForceElement, Structure
+from ..corner.structure import LineForce, Structure
 from ..models.model import Model
 from ..models.points import hardpoints
 from .corner_kinematics import design_axis, vehicle
@@ -80,10 +80,10 @@ class PartPoses(Protocol):
     def signals(self) -> Mapping[str, Array]:
         """Return the signals of the equations, (n,)."""
 
-    def parameters_of(self, line: ForceElement) -> Mapping[str, float]:
+    def parameters_of(self, line: LineForce) -> Mapping[str, float]:
         """Return the parameters of the spring or the stops on a line, as one wheel has them."""
 
-    def counted_by(self, line: ForceElement) -> str:
+    def counted_by(self, line: LineForce) -> str:
         """Return the signal by which the stops on a line count: a length."""
 
     def carried_by(self, part: str, point: str) -> Array:
@@ -190,12 +190,12 @@ class CornerParts:
         suspension = self.model.suspension
         return unit_vector(suspension.rack.axis) if suspension.steered() else None
 
-    def parameters_of(self, line: ForceElement) -> Mapping[str, float]:
+    def parameters_of(self, line: LineForce) -> Mapping[str, float]:
         """Return the parameters of the spring or the stops on a line."""
         del line
         return self.model.parameters
 
-    def counted_by(self, line: ForceElement) -> str:
+    def counted_by(self, line: LineForce) -> str:
         """Return the signal by which the stops on a line count: a length."""
         del line
         return f"{self.model.suspension.STOPPED}_length"

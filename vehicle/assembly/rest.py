@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ...core.named_types import ArrayLike
 from ...equations.errors import ModelError
 from ..models.positions import road_below
-from ..models.reach import PositionError, Range, refuse_beyond
+from ..models.reach import AngleRange, PositionError, refuse_beyond
 from .assembly import Assembly
 from .held import RestConditions
 
@@ -111,14 +111,14 @@ def _slopes(forces: Forces, coordinates: Array, step: float = 1e-6) -> Array:
     return np.stack(columns, -1) / (2.0 * step)
 
 
-def nearest(moment: Callable[[ArrayLike], Array], reach: Range, design: float) -> float:
+def nearest(moment: Callable[[ArrayLike], Array], reach: AngleRange, design: float) -> float:
     """Return the arm angle nearest to design at which a moment is zero and pushes back [rad].
 
     Parameters
     ----------
     moment : callable
         Moment about the arm's hinge by the arm angle.
-    reach : Range
+    reach : AngleRange
         In which it is looked for.
     design : float
         Angle at the design position [rad].

@@ -12,7 +12,7 @@ from ...core.validator import Validator
 from ..corner.bushes import described_bushings
 from ..corner.corner import Array
 from ..data.starter import words_of
-from ..input.vehicle import Tyre
+from ..input.vehicle import TyreSection
 from ..models.axle.file import TorqueReaction
 from ..models.plausibility import Plausibility
 from ..models.reach import PositionError
@@ -88,7 +88,7 @@ class WholeAxleAssembly(Assembly):
         return False
 
     @property
-    def tyres(self) -> Sequence[Tyre]:
+    def tyres(self) -> Sequence[TyreSection]:
         """The tyres."""
         return [self.axle.tyre] * len(SIDES)
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ...systems.allowed import LengthLimit
 from ..corner.corner import UP, RoadWheel
-from ..corner.structure import ForceElement, Structure
+from ..corner.structure import LineForce, Structure
 from ..corner.wheel_loads import UNITS
 from ..models.sides import SIDES
 from ..models.whole_axle import of_side
@@ -100,7 +100,7 @@ class WholeAxleParts(ABC):
         """No rack steers it."""
         return None
 
-    def parameters_of(self, line: ForceElement) -> Mapping[str, float]:
+    def parameters_of(self, line: LineForce) -> Mapping[str, float]:
         """Return the parameters of the spring or the stops on a line, as the right side's are."""
         return of_side(self.model.parameters, line.name.rpartition("_")[2])
 
@@ -108,7 +108,7 @@ class WholeAxleParts(ABC):
         """Return the signals of the equations, (n,)."""
         return self.model.signals(self.states, self.inputs)
 
-    def counted_by(self, line: ForceElement) -> str:
+    def counted_by(self, line: LineForce) -> str:
         """Return the signal by which the stops beside a damper count: its length."""
         name, _, side = line.name.rpartition("_")
         return f"{side}_{name}_length"

@@ -49,7 +49,7 @@ def command(
         say(f"  {file}")
 
 
-def summary(model: "Model", rest: "paper.Rest", dynamics: "paper.Dynamics") -> Table:
+def summary(model: "Model", rest: "paper.PaperRest", dynamics: "paper.PaperDynamics") -> Table:
     """Return the table of what was found."""
     from ..analysis.paper import PAPER_GEAR_S, PAPER_RUNGE_KUTTA_S
 
@@ -85,7 +85,7 @@ def _operations(equations: ModuleType) -> str:
     return f"{held.operations['total']} with the rack held, {total} with the rack moving"
 
 
-def _hop(model: "Model", rest: "paper.Rest") -> str:
+def _hop(model: "Model", rest: "paper.PaperRest") -> str:
     """Return the wheel-hop mode in words; smoothed friction is no damper of it."""
     from ..analysis.checkup import without_friction
     from ..analysis.paper import rest as at_rest

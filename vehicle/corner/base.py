@@ -39,11 +39,11 @@ from ..input.hardpoints import Hardpoints
 from ..input.messages import messages_of
 from ..input.places import reverse
 from ..input.spring import rate_key
-from ..input.stop import NO_STOP, Stop
+from ..input.stop import NO_STOP, StopSection
 from ..input.units import in_metres
-from ..input.vehicle import Gravity, Steering, Tyre, Vehicle, Wheel
+from ..input.vehicle import GravitySection, Steering, TyreSection, VehicleSection, WheelSection
 from .bushes import Bush, Bushings, bushes_of, mirrored_bushings, softness_of_rack
-from .corner import Array, CarrierMotion, Plane, Spring, Stroke
+from .corner import Array, CarrierMotion, Plane, SpringForce, Stroke
 from .drawing import Drawing
 from .facts import Extended, Names
 from .geometry import geometry_problems
@@ -112,15 +112,15 @@ class Suspension(DescribedSection):
     STOPPED: ClassVar[str]
 
     suspension: str = Field(description="the kind of suspension")
-    vehicle: Vehicle = Field(description="where the suspension is mounted")
+    vehicle: VehicleSection = Field(description="where the suspension is mounted")
     hardpoints: Hardpoints = Field(description="the points that define the geometry")
-    wheel: Wheel = Field(description="alignment of the wheel")
-    tyre: Tyre = Field(description="the tyre")
+    wheel: WheelSection = Field(description="alignment of the wheel")
+    tyre: TyreSection = Field(description="the tyre")
     rack: Steering = Field(description="the steering rack, where the wheel is steered")
-    gravity: Gravity = Field(description="gravity")
+    gravity: GravitySection = Field(description="gravity")
     bodies: Bodies = Field(description="masses and inertia")
-    bump_stop: Stop | None = Field(default=None, description="the stop in bump")
-    rebound_stop: Stop | None = Field(default=None, description="the stop in rebound")
+    bump_stop: StopSection | None = Field(default=None, description="the stop in bump")
+    rebound_stop: StopSection | None = Field(default=None, description="the stop in rebound")
     bushings: Bushings | None = Field(
         default=None, description="what deflects at hardpoints, for compliance: see Loads"
     )
@@ -337,14 +337,14 @@ class Suspension(DescribedSection):
         """
 
     @abstractmethod
-    def spring_at(self, strokes: Strokes) -> Spring:
+    def spring_at(self, strokes: Strokes) -> SpringForce:
         """Return the spring at many positions."""
 
     @abstractmethod
     def damper_at(self, strokes: Strokes) -> Stroke:
         """Return the stroke of the damper at many positions."""
 
-    def stops_at(self, strokes: Strokes) -> tuple[Spring, ...]:
+    def stops_at(self, strokes: Strokes) -> tuple[SpringForce, ...]:
         """Return what else pushes by its position, at many positions: the stops."""
         return tuple(strokes.spring(f"{side}_stop_force", self.STOPPED) for side in _sides(strokes))
 

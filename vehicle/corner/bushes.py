@@ -16,7 +16,7 @@ from ..input.bush_curve import curve_of
 from ..input.curve import Curve, Interpolation
 from ..input.toml_file import read_sections
 from ..input.units import unit_of
-from .structure import FixedJoint, Joint, Points, Structure, TelescopeJoint
+from .structure import FixedJoint, PartJoint, Points, Structure, TelescopeJoint
 
 Array = NDArray[np.float64]
 
@@ -383,7 +383,7 @@ def _axes(
     given: Validator,
     title: str,
     table: Mapping[str, Any],
-    joint: Joint,
+    joint: PartJoint,
     design: Points,
     spin: Array,
 ) -> Array:

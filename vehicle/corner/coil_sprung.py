@@ -13,11 +13,10 @@ from ..input.curve import WAYS, Interpolation, Numbers
 from ..input.damper import Damper, curve_problems
 from ..input.hardpoints import Pair
 from ..input.section import NonNegative, Positive, Section
-from ..input.spring import SEATS, Spring
+from ..input.spring import SEATS, SpringSection
 from ..input.units import in_metres
 from .base import Suspension
-from .corner import Spring as SpringStroke
-from .corner import Stroke
+from .corner import SpringForce, Stroke
 from .strokes import Strokes
 
 
@@ -147,7 +146,7 @@ class ApartDamper(CoilDamper):
 class CoilSprung(Suspension):
     """A suspension with a coil spring and a damper, each between two hardpoints."""
 
-    spring: Spring = Field(description="the spring")
+    spring: SpringSection = Field(description="the spring")
     damper: CoilDamper = Field(description="the damper")
 
     # -- its equations --------------------------------------------------------------------------
@@ -212,7 +211,7 @@ class CoilSprung(Suspension):
 
     # -- what its characteristics are computed from ---------------------------------------------
 
-    def spring_at(self, strokes: Strokes) -> SpringStroke:
+    def spring_at(self, strokes: Strokes) -> SpringForce:
         """Return the spring."""
         return strokes.spring("spring_force", "spring")
 

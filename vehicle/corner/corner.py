@@ -113,7 +113,7 @@ class Stroke:
 
 
 @dataclass(frozen=True)
-class Spring:
+class SpringForce:
     """A force that the position alone decides.
 
     Attributes
@@ -215,8 +215,8 @@ class Corner(RoadWheel):
         is held by the links in them: for a wishbone the plane of its three joints, for a strut the
         plane across it through its upper mount; for links in no plane any two planes through the
         axis about which it turns.
-    spring : Spring
-    stops : tuple of Spring
+    spring : SpringForce
+    stops : tuple of SpringForce
         What else pushes by its position.
     damper : Stroke
     arm_rotation : ndarray
@@ -227,7 +227,7 @@ class Corner(RoadWheel):
     travel: CarrierMotion
     steering: CarrierMotion | None
     links: tuple[Plane, Plane]
-    spring: Spring
-    stops: tuple[Spring, ...]
+    spring: SpringForce
+    stops: tuple[SpringForce, ...]
     damper: Stroke
     arm_rotation: Array

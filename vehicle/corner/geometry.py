@@ -9,7 +9,7 @@ from ...core.vectors import angle_between_lines
 from ..input.hardpoints import Hardpoints
 from ..input.messages import subsection
 from ..input.section import Section
-from ..input.vehicle import Vehicle, Wheel
+from ..input.vehicle import VehicleSection, WheelSection
 
 # A wheel nearer to the vehicle's centre plane than this is on neither side, in m.
 _SMALLEST_HALF_TRACK = 0.001
@@ -89,7 +89,7 @@ def problems_of_sections(
     return problems + further(sections)
 
 
-def _wrong_side(vehicle: Vehicle, hardpoints: Hardpoints) -> list[str]:
+def _wrong_side(vehicle: VehicleSection, hardpoints: Hardpoints) -> list[str]:
     """Compare the declared side with that of the wheel."""
     if vehicle.sign * hardpoints.metres("wheel_center")[1] >= _SMALLEST_HALF_TRACK:
         return []
@@ -104,7 +104,7 @@ def _wrong_side(vehicle: Vehicle, hardpoints: Hardpoints) -> list[str]:
 
 
 def _spin_axis_along_steering_axis(
-    vehicle: Vehicle, wheel: Wheel, hardpoints: Hardpoints
+    vehicle: VehicleSection, wheel: WheelSection, hardpoints: Hardpoints
 ) -> list[str]:
     """Refuse a wheel that would spin when it should steer."""
     axis = hardpoints.steering_axis()

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...systems.system import System
-from .corner import Array, Spring, Stroke
+from .corner import Array, SpringForce, Stroke
 
 
 class Strokes:
@@ -47,7 +47,7 @@ class Strokes:
             curvature=(change - slope * rise_change) / rise**2,
         )
 
-    def spring(self, force: str, path: str) -> Spring:
+    def spring(self, force: str, path: str) -> SpringForce:
         """Return the force of a signal's name that acts along a path."""
         slope = self._by_arm[force] / self._signals["wheel_velocity"]
-        return Spring(self.stroke(path), self._signals[force], slope)
+        return SpringForce(self.stroke(path), self._signals[force], slope)

@@ -25,7 +25,7 @@ FORCES_OF_A_DAMPER = ("damper_force", "friction_force", "bump_stop_force", "rebo
 
 
 @dataclass(frozen=True)
-class Joint(ABC):
+class PartJoint(ABC):
     """Two parts that touch at hardpoints.
 
     Attributes
@@ -101,7 +101,7 @@ class Joint(ABC):
 
 
 @dataclass(frozen=True)
-class SphericalJoint(Joint):
+class SphericalJoint(PartJoint):
     """A ball joint: a force.
 
     Attributes
@@ -122,7 +122,7 @@ class SphericalJoint(Joint):
         return _spread(np.eye(6)[:, :3], points[self.at[0]])
 
 
-class FixedJoint(Joint):
+class FixedJoint(PartJoint):
     """What holds in every direction, as a wheel bearing with its brake: force and moment."""
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
@@ -144,7 +144,7 @@ class FixedJoint(Joint):
 
 
 @dataclass(frozen=True)
-class UniversalJoint(Joint):
+class UniversalJoint(PartJoint):
     """A universal joint: a force, and a moment across both of its axes.
 
     Attributes
@@ -183,7 +183,7 @@ class UniversalJoint(Joint):
         return first, turned[self.second] @ cross(design[self.shaft] - design[center], first)
 
 
-class HingeJoint(Joint):
+class HingeJoint(PartJoint):
     """Two bearings on an axis: forces across it at each, and along it at both alike."""
 
     RULE = "two bearings on an axis share the force along it equally"
@@ -212,7 +212,7 @@ class HingeJoint(Joint):
 
 
 @dataclass(frozen=True)
-class TelescopeJoint(Joint):
+class TelescopeJoint(PartJoint):
     """A tube and a rod: forces and moments across their axis, about a point on it.
 
     Attributes
@@ -255,7 +255,7 @@ class TelescopeJoint(Joint):
 
 
 @dataclass(frozen=True)
-class ForceElement:
+class LineForce:
     """What pushes two parts apart along the line of two hardpoints: a spring, a damper, a stop.
 
     Attributes
@@ -293,15 +293,15 @@ class Structure:
 
     Attributes
     ----------
-    joints : sequence of Joint
-    lines : sequence of ForceElement
+    joints : sequence of PartJoint
+    lines : sequence of LineForce
         Those of springs and dampers.
     mounted : mapping of str to str
         Points on the chassis that belong to a mount at another point.
     """
 
-    joints: Sequence[Joint]
-    lines: Sequence[ForceElement]
+    joints: Sequence[PartJoint]
+    lines: Sequence[LineForce]
     mounted: Mapping[str, str] = field(default_factory=dict)
 
     @property
@@ -326,7 +326,7 @@ class Structure:
         return tuple(dict.fromkeys(joint.RULE for joint in self.joints if joint.RULE))
 
 
-def steered(*joints: Joint) -> tuple[Joint, ...]:
+def steered(*joints: PartJoint) -> tuple[PartJoint, ...]:
     """Return joints with those that every steered wheel has: tie rod and wheel bearing."""
     return (
         *joints,

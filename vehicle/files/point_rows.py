@@ -15,7 +15,7 @@ from ...core.excel import Page, pages_of
 from ...core.legible import legible, short
 from ...core.reading import MOST_OF_DATA, text_of
 from ...core.suggestions import suggestion
-from ...core.tables import Heading, Row, Table, csv_rows, key
+from ...core.tables import ColumnHeading, Row, Table, csv_rows, key
 from ...core.units import LENGTHS, unit_of
 from ..models.sides import SIDES
 from .vehicle_axes import ISO, REARWARD
@@ -36,7 +36,7 @@ _LOTUS = re.compile(
 _UNITS_OF_LOTUS = re.compile(r"\s*\((\w+)\)\s+\(\1\)\s+\(\1\)\s*")
 
 
-class Found(NamedTuple):
+class NamedColumns(NamedTuple):
     """A table in which the names of the columns were found.
 
     Attributes
@@ -62,7 +62,7 @@ class Found(NamedTuple):
     left_out: tuple[str, ...] = ()
 
 
-def found_in(file: Path, sheet: str | None) -> Found:
+def found_in(file: Path, sheet: str | None) -> NamedColumns:
     """Return the table of hardpoints of a file.
 
     Raises
@@ -84,7 +84,7 @@ def found_in(file: Path, sheet: str | None) -> Found:
     return _of_rows(str(file), rows, comments, commas=commas)
 
 
-def _of_workbook(file: Path, pages: Sequence[Page], wanted: str | None) -> Found:
+def _of_workbook(file: Path, pages: Sequence[Page], wanted: str | None) -> NamedColumns:
     """Return the table of the sheet that is wanted, or of the only one that has such."""
     names = [page.name for page in pages]
     if wanted is not None and wanted not in names:
@@ -125,11 +125,13 @@ def _heading(rows: Sequence[Row]) -> int | None:
 
 def _among(cell: Any) -> tuple[str, str | None]:
     """Return which column a cell of the first row names, and its unit."""
-    found = Heading.of(cell).among(_KEYS) if isinstance(cell, str) else None
+    found = ColumnHeading.of(cell).among(_KEYS) if isinstance(cell, str) else None
     return found or ("", None)
 
 
-def _of_rows(source: str, rows: Sequence[Row], comments: Iterable[Row], *, commas: bool) -> Found:
+def _of_rows(
+    source: str, rows: Sequence[Row], comments: Iterable[Row], *, commas: bool
+) -> NamedColumns:
     at = _heading(rows) or 0
     number, heading = rows[at][0], [*rows[at][1]]
     over = [*rows[at - 1][1]] if at else []
@@ -151,7 +153,7 @@ def _of_rows(source: str, rows: Sequence[Row], comments: Iterable[Row], *, comma
     read = {names[0], *(i for found in coordinates.values() for i in found)}
     left_out = [f"column {short(h.text)}" for i, h in enumerate(table.headings)
                 if i not in read and h.text]  # fmt: skip
-    return Found(
+    return NamedColumns(
         table, names[0], coordinates, tuple(_units_above(rows[:at])), left_out=tuple(left_out)
     )
 
@@ -198,7 +200,7 @@ def _units_above(rows: Sequence[Row]) -> Iterable[str]:
                 ]
 
 
-def _of_lotus(file: Path) -> Found | None:
+def _of_lotus(file: Path) -> NamedColumns | None:
     """Return the points of a text that Lotus Suspension Analysis prints; None if it is none."""
     lines = text_of(file).splitlines()
     rows: list[Row] = []
@@ -213,7 +215,7 @@ def _of_lotus(file: Path) -> Found | None:
         unit_of(found[1]) for line in lines if (found := _UNITS_OF_LOTUS.fullmatch(line[:100]))
     ]
     table = Table.of(str(file), [(0, ["point", *AXES]), *rows], commas=False)
-    return Found(
+    return NamedColumns(
         table,
         0,
         {"": (1, 2, 3)},

@@ -24,7 +24,7 @@ from ..data import find
 from ..kinds import Suspension
 from ..models.sides import SIDES
 from .point_names import known, listed, matched
-from .point_rows import AXES, Found, found_in
+from .point_rows import AXES, NamedColumns, found_in
 from .vehicle_axes import axes_of
 
 ENDINGS = (".csv", ".tsv", ".txt", ".xlsx")
@@ -157,7 +157,7 @@ def read_points(
     return PointTable(str(path), length, sides[first], right, turned.words, found.left_out)
 
 
-def _unit(found: Found, given: str | None) -> str:
+def _unit(found: NamedColumns, given: str | None) -> str:
     """Return the unit of x, y and z, which all of them have; refuse several, or none."""
     table = found.table
     read = {index for columns in found.coordinates.values() for index in columns}
@@ -188,7 +188,7 @@ def _unit(found: Found, given: str | None) -> str:
     return wanted or every.pop()
 
 
-def _points(found: Found, columns: Iterable[int]) -> dict[str, Point]:
+def _points(found: NamedColumns, columns: Iterable[int]) -> dict[str, Point]:
     """Return the points of one side by their names, in the axes of the table."""
     table, columns = found.table, [*columns]
     points: dict[str, Point] = {}

@@ -10,7 +10,7 @@ from pydantic_core import ErrorDetails
 
 from ...core.legible import short
 from ...core.suggestions import nearest, suggestion
-from .section import Range, Section
+from .section import AllowedRange, Section
 
 _MOST_LOOKED_AT = 200  # errors: nobody reads more, and each is compared with all known keys
 _EXPECTATIONS = {
@@ -93,12 +93,12 @@ class _Place:
         """Return the location of the known key that resembles this one most."""
         return (*self.sections, nearest(self.key, self.model.model_fields))
 
-    def allowed(self) -> Range:
+    def allowed(self) -> AllowedRange:
         """Return the range of the key's value."""
         field = self.model.model_fields[self.key]
         optional = (getattr(kind, "__metadata__", ()) for kind in get_args(field.annotation))
         metadata = chain(field.metadata, *optional)
-        return next(item for item in metadata if isinstance(item, Range))
+        return next(item for item in metadata if isinstance(item, AllowedRange))
 
 
 def subsection(model: type[Section], name: int | str) -> type[Section] | None:

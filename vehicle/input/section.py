@@ -13,7 +13,7 @@ from .units import unit_of
 
 
 @dataclass(frozen=True)
-class Range:
+class AllowedRange:
     """The range of a value in words, for the error message.
 
     Attributes
@@ -49,13 +49,15 @@ Flag = Annotated[bool, Strict()]
 NonNegative = Annotated[
     Number,
     Field(ge=0.0),
-    Range("0 {unit} or more", "Remove the minus sign, or enter 0 to leave it out of the model."),
+    AllowedRange(
+        "0 {unit} or more", "Remove the minus sign, or enter 0 to leave it out of the model."
+    ),
 ]
 
 Positive = Annotated[
     Number,
     Field(gt=0.0),
-    Range("more than 0 {unit}", "Enter a positive value: no wheel is without it."),
+    AllowedRange("more than 0 {unit}", "Enter a positive value: no wheel is without it."),
 ]
 
 Triple = Annotated[tuple[Number, Number, Number], BeforeValidator(_three_numbers)]

@@ -21,7 +21,7 @@ _FREE = ("free_length_mm", "force_at_design_N")
 _BY_CURVE = ("length_mm", "compression_mm", "force_N", "interpolation")
 
 
-class Spring(Section):
+class SpringSection(Section):
     """The spring.
 
     Its force, positive when it pushes its ends apart, is ``rate (free_length - length)``, and where
@@ -213,7 +213,7 @@ class Spring(Section):
         return at_design + compression
 
 
-def rate_key(part: str, spring: Spring | None) -> str:
+def rate_key(part: str, spring: SpringSection | None) -> str:
     """Return where the rate of a part, "spring" or "damper", is in a file, or its curve."""
     if part == "spring" and spring is not None and spring.by_curve:
         return "[spring] force_N: the rate at design"

@@ -6,7 +6,7 @@ from .section import NonNegative, Number, Section
 from .units import in_metres
 
 
-class Stop(Section):
+class StopSection(Section):
     """A progressive stop: ``rate x + progression x^3``, x being how far it is pressed in.
 
     The clearance is travel of the strut, or of the damper, from the design position until the stop
@@ -33,4 +33,4 @@ class Stop(Section):
         }
 
 
-NO_STOP = Stop(clearance_mm=0.0, rate_N_per_m=0.0)
+NO_STOP = StopSection(clearance_mm=0.0, rate_N_per_m=0.0)

@@ -15,7 +15,7 @@ _FREE = (
 )
 
 
-class Strut(Section):
+class StrutSection(Section):
     """Spring and damper in the strut.
 
     The slide of the strut is ``length_max - length``: it grows when the wheel rises. The force that

@@ -27,7 +27,7 @@ _OF_COMMENTS = ("comments", "comment_string")
 
 
 @dataclass(frozen=True)
-class Block:
+class FileBlock:
     """A block of a file, with what is in its parts.
 
     Attributes
@@ -97,7 +97,7 @@ def cells_of(line: str) -> list[str] | None:
     return cells
 
 
-def read_blocks(path: str | Path) -> list[Block]:
+def read_blocks(path: str | Path) -> list[FileBlock]:
     """Read the blocks of a file.
 
     Parameters
@@ -107,7 +107,7 @@ def read_blocks(path: str | Path) -> list[Block]:
 
     Returns
     -------
-    list of Block
+    list of FileBlock
         In the order of the file; a name may be there more than once.
 
     Raises
@@ -117,17 +117,17 @@ def read_blocks(path: str | Path) -> list[Block]:
     """
     with Validator("teim_orbit") as given:
         given.path("path", path)
-    blocks: list[Block] = []
+    blocks: list[FileBlock] = []
     name, start = "", 0
     lines: list[tuple[int, str]] = []
     for number, line in enumerate(_LINE_END.split(_text_of(Path(path))), start=1):
         found = _BLOCK.fullmatch(line)
         if found:
-            blocks.append(Block(name, start, tuple(lines)))
+            blocks.append(FileBlock(name, start, tuple(lines)))
             name, start, lines = found[1].strip().lower(), number, []
         else:
             lines.append((number, line))
-    blocks.append(Block(name, start, tuple(lines)))
+    blocks.append(FileBlock(name, start, tuple(lines)))
     if len(blocks) == 1:
         problem = (
             "there is no [BLOCK] in it, so that it is no file in the TeimOrbit format. Give the "

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from ...core.errors import InputError
 from ...core.legible import legible, short
-from .teim_orbit import Block
+from .teim_orbit import FileBlock
 
 MILLIMETRES = {
     **dict.fromkeys(("mm", "millimeter", "millimetre"), 1.0),
@@ -42,7 +42,7 @@ def number(cell: str) -> float:
 class Values:
     """The values of keys, each of which may be said once."""
 
-    def __init__(self, blocks: Iterable[Block], source: str) -> None:
+    def __init__(self, blocks: Iterable[FileBlock], source: str) -> None:
         self.source = source
         self._found: dict[tuple[str, str], list[str]] = {}
         for block in blocks:

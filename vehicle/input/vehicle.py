@@ -7,13 +7,13 @@ from pydantic import Field
 
 from ...core.columns import hypot, radians, tan
 from ...core.vectors import Vector, unit_vector
-from .section import Flag, NonNegative, Number, Positive, Range, Section, Triple
+from .section import AllowedRange, Flag, NonNegative, Number, Positive, Section, Triple
 from .units import in_metres
 
 Angle = Annotated[
     Number,
     Field(ge=-45.0, le=45.0),
-    Range(
+    AllowedRange(
         "-45 {unit} to 45 {unit}",
         "Enter the angle at design in degrees, with the sign that the file states.",
     ),
@@ -23,11 +23,11 @@ Angle = Annotated[
 Share = Annotated[
     Number,
     Field(ge=0.0, le=1.0),
-    Range("0 to 1", "Enter the part of the whole: 0.7 for 70 %."),
+    AllowedRange("0 to 1", "Enter the part of the whole: 0.7 for 70 %."),
 ]
 
 
-class Vehicle(Section):
+class VehicleSection(Section):
     """The side that the suspension is on, and data of the whole vehicle to its characteristics.
 
     Only the side enters the equations of motion.
@@ -53,7 +53,7 @@ class Vehicle(Section):
         return 1.0 if self.side == "left" else -1.0
 
 
-class Wheel(Section):
+class WheelSection(Section):
     """Alignment of the wheel at the design position.
 
     Camber is positive with the wheel's top outboard, toe is positive with its front inboard.
@@ -81,7 +81,7 @@ class Wheel(Section):
         return unit_vector([side_sign * tan(toe), 1.0, -side_sign * tan(camber)]) + 0.0
 
 
-class Tyre(Section):
+class TyreSection(Section):
     """The tyre as a vertical spring in the plane of the wheel; it may damp, and leave the road."""
 
     rate_N_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
@@ -136,7 +136,7 @@ class Steering(Section):
         return [problem]
 
 
-class Gravity(Section):
+class GravitySection(Section):
     """Gravity, which acts downward (-z)."""
 
     acceleration_m_per_s2: NonNegative = Field(description="acceleration of free fall")

@@ -21,8 +21,8 @@ from ..corner.drawing import Axis, Drawing
 from ..corner.facts import Names
 from ..corner.structure import (
     FORCES_OF_A_DAMPER,
-    ForceElement,
     HingeJoint,
+    LineForce,
     SphericalJoint,
     Structure,
     steered,
@@ -30,7 +30,7 @@ from ..corner.structure import (
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Triple
-from ..input.spring import Spring
+from ..input.spring import SpringSection
 
 _UP = np.array([0.0, 0.0, 1.0])
 
@@ -158,7 +158,7 @@ class UpperArm(RigidBody):
         return _centroid(points, _UPPER_ARM)
 
 
-class Upright(RigidBody):
+class UprightBody(RigidBody):
     """The knuckle between the ball joints."""
 
     def default_centre_of_mass(self, points: Hardpoints) -> Vector:
@@ -178,7 +178,7 @@ class DoubleWishboneBodies(Bodies):
 
     lower_arm: LowerArm = Field(description="the lower arm")
     upper_arm: UpperArm = Field(description="the upper arm")
-    knuckle: Upright = Field(description="the knuckle")
+    knuckle: UprightBody = Field(description="the knuckle")
     tie_rod: TieRod = Field(default=TieRod(mass_kg=0.0), description="the tie rod, without mass")
     rack: Rack = Field(default=Rack(mass_kg=0.0), description="the rack, without mass")
 
@@ -203,7 +203,7 @@ damper has a rate or a curve; the stops are touched by its length."""
 
     suspension: Literal["double_wishbone"] = Field(description="the kind of suspension")
     hardpoints: DoubleWishboneHardpoints = Field(description="the points that define the geometry")
-    spring: Spring = Field(description="the spring, between chassis and lower arm")
+    spring: SpringSection = Field(description="the spring, between chassis and lower arm")
     damper: CoilDamper = Field(description="the damper, on the spring's axis")
     bodies: DoubleWishboneBodies = Field(description="masses and inertia")
 
@@ -272,8 +272,8 @@ damper has a rate or a curve; the stops are touched by its length."""
         ends = ("chassis", "lower_arm", ("spring_top", "spring_seat"))
         damper = (*FORCES_OF_A_DAMPER, self.NAMES.actuator)
         lines = (
-            ForceElement("spring", ("spring_force",), *ends),
-            ForceElement("damper", damper, *ends),
+            LineForce("spring", ("spring_force",), *ends),
+            LineForce("damper", damper, *ends),
         )
         return Structure(steered(*arms), lines)
 

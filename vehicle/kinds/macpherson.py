@@ -19,15 +19,14 @@ from ...generated import macpherson, macpherson_free_rack, macpherson_general
 from ...systems.allowed import LengthLimit
 from ...systems.compile.build import compile_mechanism, require_generator
 from ..corner.base import Suspension
-from ..corner.corner import Array, CarrierMotion, Plane, Stroke
-from ..corner.corner import Spring as SpringStroke
+from ..corner.corner import Array, CarrierMotion, Plane, SpringForce, Stroke
 from ..corner.drawing import Axis, Drawing
 from ..corner.facts import Extended, Names
 from ..corner.strokes import Strokes
 from ..corner.structure import (
     FORCES_OF_A_DAMPER,
-    ForceElement,
     HingeJoint,
+    LineForce,
     SphericalJoint,
     Structure,
     TelescopeJoint,
@@ -38,8 +37,8 @@ from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.damper import Damper
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Number, Triple
-from ..input.spring import NO_CURVE, Spring
-from ..input.strut import Strut
+from ..input.spring import NO_CURVE, SpringSection
+from ..input.strut import StrutSection
 from ..input.units import in_metres
 
 # Where the knuckle's centre of mass lies on the strut axis, above the ball joint, if not given.
@@ -168,7 +167,7 @@ class MacPhersonHardpoints(Hardpoints):
         return [problem]
 
 
-class ControlArm(RigidBody):
+class ControlArmBody(RigidBody):
     """The control arm."""
 
     def default_centre_of_mass(self, points: Hardpoints) -> Vector:
@@ -214,7 +213,7 @@ class UpperStrut(RigidBody):
 class MacPhersonBodies(Bodies):
     """All bodies that may carry mass. Tie rod, rack and upper strut are massless if left out."""
 
-    control_arm: ControlArm = Field(description="the control arm")
+    control_arm: ControlArmBody = Field(description="the control arm")
     knuckle: Knuckle = Field(description="the knuckle with the lower tube of the strut")
     tie_rod: TieRod = Field(default=TieRod(mass_kg=0.0), description="the tie rod")
     rack: Rack = Field(default=Rack(mass_kg=0.0), description="the rack")
@@ -241,9 +240,9 @@ the spring, with a curve in `[spring]`."""
         default="macpherson", description="the kind of suspension"
     )
     hardpoints: MacPhersonHardpoints = Field(description="the points that define the geometry")
-    strut: Strut = Field(description="spring and damper")
+    strut: StrutSection = Field(description="spring and damper")
     bodies: MacPhersonBodies = Field(description="masses and inertia")
-    spring: Spring | None = Field(
+    spring: SpringSection | None = Field(
         default=None,
         description="the spring; in a MacPherson suspension it may be left out, as [strut] can say "
         "all of it",
@@ -374,10 +373,10 @@ the spring, with a curve in `[spring]`."""
         )
         damper = (*FORCES_OF_A_DAMPER, self.NAMES.actuator)
         lines = (
-            ForceElement(
+            LineForce(
                 "spring", ("spring_force",), "chassis", "knuckle", ("spring_top", "spring_seat")
             ),
-            ForceElement("damper", damper, "upper_strut", "knuckle", ("strut_top", "strut_lower")),
+            LineForce("damper", damper, "upper_strut", "knuckle", ("strut_top", "strut_lower")),
         )
         # one mount is bolted to the body for both
         return Structure(steered(*joints), lines, {"spring_top": "strut_top"})
@@ -391,7 +390,7 @@ the spring, with a curve in `[spring]`."""
         top, bottom = points["strut_top"], points["strut_lower"]
         return Plane(ball, cross(front - rear, ball - rear)), Plane(top, top - bottom)
 
-    def spring_at(self, strokes: Strokes) -> SpringStroke:
+    def spring_at(self, strokes: Strokes) -> SpringForce:
         """Return the spring, which may have an axis of its own."""
         return strokes.spring("spring_force", "spring" if "spring_length" in strokes else "strut")
 
@@ -449,7 +448,7 @@ def _general_free_rack() -> ModuleType:
     return compile_mechanism(GENERAL_FREE_RACK)
 
 
-def _strut_too_short(strut: Strut, hardpoints: MacPhersonHardpoints) -> list[str]:
+def _strut_too_short(strut: StrutSection, hardpoints: MacPhersonHardpoints) -> list[str]:
     """Refuse a strut that is shorter at design than when it is pressed in as far as it goes."""
     length = 1000.0 * hardpoints.distance("strut_lower", "strut_top")
     if strut.length_min_mm is None or strut.length_min_mm <= length:
@@ -463,7 +462,7 @@ def _strut_too_short(strut: Strut, hardpoints: MacPhersonHardpoints) -> list[str
     return [problem]
 
 
-def _damper_problems(strut: Strut, *, with_curve: bool) -> list[str]:
+def _damper_problems(strut: StrutSection, *, with_curve: bool) -> list[str]:
     """See that the damper is given once."""
     if (strut.damper_rate_N_s_per_m is None) == with_curve:
         return []
@@ -480,7 +479,7 @@ def _damper_problems(strut: Strut, *, with_curve: bool) -> list[str]:
     return [problem]
 
 
-def _strut_too_long(strut: Strut, hardpoints: MacPhersonHardpoints) -> list[str]:
+def _strut_too_long(strut: StrutSection, hardpoints: MacPhersonHardpoints) -> list[str]:
     """Refuse a strut that is longer at design than when it is fully extended."""
     length = 1000.0 * hardpoints.distance("strut_lower", "strut_top")
     lower = "ball_joint" if hardpoints.strut_lower is None else "strut_lower"

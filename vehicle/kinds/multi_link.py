@@ -21,7 +21,7 @@ from ..corner.drawing import Axis, Drawing
 from ..corner.facts import Names
 from ..corner.structure import (
     FORCES_OF_A_DAMPER,
-    ForceElement,
+    LineForce,
     SphericalJoint,
     Structure,
     UniversalJoint,
@@ -31,7 +31,7 @@ from ..corner.structure import (
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.hardpoints import Hardpoints, Pair
 from ..input.section import Triple
-from ..input.spring import Spring
+from ..input.spring import SpringSection
 
 LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_link")
 """The links on the chassis; the fifth is the toe link, which files of all kinds call tie rod."""
@@ -235,7 +235,7 @@ force at the design position (`force_at_design_N`). The stops are touched by the
 
     suspension: Literal["multi_link"] = Field(description="the kind of suspension")
     hardpoints: MultiLinkHardpoints = Field(description="the points that define the geometry")
-    spring: Spring = Field(description="the spring, between chassis and rear lower link")
+    spring: SpringSection = Field(description="the spring, between chassis and rear lower link")
     damper: ApartDamper = Field(description="the damper, between chassis and knuckle")
     bodies: MultiLinkBodies = Field(description="masses and inertia")
 
@@ -327,14 +327,14 @@ force at the design position (`force_at_design_N`). The stops are touched by the
                 UniversalJoint("chassis", link, (inner,), outer, (0.0, 0.0, 1.0)),
             )
         ]
-        spring = ForceElement(
+        spring = LineForce(
             "spring",
             ("spring_force", self.NAMES.actuator),
             "chassis",
             "rear_lower_link",
             ("spring_top", "spring_seat"),
         )
-        damper = ForceElement(
+        damper = LineForce(
             "damper", FORCES_OF_A_DAMPER, "chassis", "knuckle", ("damper_top", "damper_seat")
         )
         return Structure(steered(*links), (spring, damper))

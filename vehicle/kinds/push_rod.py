@@ -18,8 +18,8 @@ from ..corner.coil_sprung import CoilDamper
 from ..corner.drawing import Axis, Drawing
 from ..corner.structure import (
     FORCES_OF_A_DAMPER,
-    ForceElement,
     HingeJoint,
+    LineForce,
     SphericalJoint,
     Structure,
     UniversalJoint,
@@ -27,7 +27,7 @@ from ..corner.structure import (
 from ..input.bodies import Rack, RigidBody, TieRod
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Triple
-from ..input.spring import Spring
+from ..input.spring import SpringSection
 from .double_wishbone import DoubleWishbone, DoubleWishboneBodies, DoubleWishboneHardpoints
 
 _ROCKER = ("rocker_front", "rocker_rear")
@@ -117,7 +117,7 @@ class PushRodHardpoints(RockerHardpoints):
     push_rod_inner: Triple = Field(description="joint of push rod and rocker")
 
 
-class Rocker(RigidBody):
+class RockerBody(RigidBody):
     """The rocker."""
 
     def default_centre_of_mass(self, points: Hardpoints) -> Vector:
@@ -138,7 +138,7 @@ class PushRodBody(RigidBody):
 class RockerBodies(DoubleWishboneBodies):
     """The bodies of a double wishbone suspension with a rocker, without the rod that moves it."""
 
-    rocker: Rocker = Field(default=Rocker(mass_kg=0.0), description="the rocker")
+    rocker: RockerBody = Field(default=RockerBody(mass_kg=0.0), description="the rocker")
 
 
 class PushRodBodies(RockerBodies):
@@ -175,7 +175,7 @@ has a rate or a curve; the stops are touched by its length."""
         description="the kind of suspension"
     )
     hardpoints: PushRodHardpoints = Field(description="the points that define the geometry")
-    spring: Spring = Field(description="the spring, between chassis and rocker")
+    spring: SpringSection = Field(description="the spring, between chassis and rocker")
     damper: CoilDamper = Field(description="the damper, on the spring's axis")
     bodies: PushRodBodies = Field(description="masses and inertia")
 
@@ -253,7 +253,7 @@ has a rate or a curve; the stops are touched by its length."""
             UniversalJoint("rocker", rod, (inner,), outer, first_axis),
         )
         lines = (
-            ForceElement("spring", ("spring_force",), *ends),
-            ForceElement("damper", damper, *ends),
+            LineForce("spring", ("spring_force",), *ends),
+            LineForce("damper", damper, *ends),
         )
         return Structure(joints, lines)

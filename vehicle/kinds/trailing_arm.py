@@ -22,15 +22,15 @@ from ..corner.facts import Names
 from ..corner.structure import (
     FORCES_OF_A_DAMPER,
     FixedJoint,
-    ForceElement,
     HingeJoint,
+    LineForce,
     Structure,
     frame,
 )
 from ..input.bodies import Bodies, RigidBody
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Triple
-from ..input.spring import Spring
+from ..input.spring import SpringSection
 
 _BEARINGS = ("arm_inner", "arm_outer")
 _ARM = (*_BEARINGS, "wheel_center")
@@ -150,7 +150,7 @@ length."""
     hardpoints: TrailingArmHardpoints = Field(description="the points that define the geometry")
     # no section of a file, as nothing steers: `steered` is asked before it is
     rack: ClassVar[None] = None  # type: ignore[assignment, misc]
-    spring: Spring = Field(description="the spring, between chassis and arm")
+    spring: SpringSection = Field(description="the spring, between chassis and arm")
     damper: ApartDamper = Field(description="the damper, between chassis and arm")
     bodies: TrailingArmBodies = Field(description="masses and inertia")
 
@@ -209,8 +209,8 @@ length."""
             FixedJoint("trailing_arm", "wheel", ("wheel_center",)),
         )
         lines = (
-            ForceElement("spring", signals, *ends, ("spring_top", "spring_seat")),
-            ForceElement("damper", FORCES_OF_A_DAMPER, *ends, ("damper_top", "damper_seat")),
+            LineForce("spring", signals, *ends, ("spring_top", "spring_seat")),
+            LineForce("damper", FORCES_OF_A_DAMPER, *ends, ("damper_top", "damper_seat")),
         )
         return Structure(joints, lines)
 

@@ -17,7 +17,7 @@ from ...core.vectors import angle_between_lines
 from ..input.bodies import RigidBody, WheelBody
 from ..input.spring import SEATS
 from ..input.spring_table import ends_of_table, rate_at
-from ..input.vehicle import Tyre, Wheel
+from ..input.vehicle import TyreSection, WheelSection
 from ..kinds import Suspension
 from .typical import typical_ranges
 
@@ -314,7 +314,7 @@ def unlikely_vehicle(vehicle: WholeVehicle) -> Iterator[str]:
             yield f"[vehicle] {name} = {value:g} mm: cars have {usual} mm. Is it in metres?"
 
 
-def unusual_alignment(wheel: Wheel) -> Iterator[str]:
+def unusual_alignment(wheel: WheelSection) -> Iterator[str]:
     """Find wheels in positions that no car has."""
     for name in ("camber_deg", "toe_deg"):
         value = getattr(wheel, name)
@@ -322,7 +322,7 @@ def unusual_alignment(wheel: Wheel) -> Iterator[str]:
             yield f"[wheel] {name} = {value:g} deg: cars have some degrees. Is it right?"
 
 
-def unlikely_tyre(tyre: Tyre) -> Iterator[str]:
+def unlikely_tyre(tyre: TyreSection) -> Iterator[str]:
     """Compare the rates of a tyre along the ground with that of its springing; see its radius."""
     radius = tyre.radius_mm
     if radius is not None and not _RADII[0] <= 1e-3 * radius <= _RADII[1]:

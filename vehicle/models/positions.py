@@ -10,14 +10,14 @@ from ...core.errors import InputError
 from ...core.named_types import ArrayLike
 from ...core.validator import Validator
 from ...systems.state import State
-from ..input.vehicle import Tyre
+from ..input.vehicle import TyreSection
 from .model import Model
 from .model_batch import ModelBatch
 from .reach import (
     ARM_STEPS,
+    AngleRange,
     Branch,
     PositionError,
-    Range,
     at_rest,
     branch,
     height_and_slope,
@@ -30,8 +30,8 @@ from .reach import (
 from .swing import margins_stay
 
 __all__ = [
+    "AngleRange",
     "PositionError",
-    "Range",
     "arm_angles",
     "design_height",
     "road_under_load",
@@ -254,7 +254,7 @@ def road_under_load(
     return road_below(height, model.suspension.tyre, wheel_load)
 
 
-def road_below(height: Array, tyre: Tyre, load: float) -> Array:
+def road_below(height: Array, tyre: TyreSection, load: float) -> Array:
     """Return how high the road is that loads the tyre of a wheel at some heights so much [m].
 
     Raises

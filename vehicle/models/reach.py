@@ -20,7 +20,7 @@ from ...core.validator import Validator
 from ...systems.system import System
 from .attitudes import Attitudes, attitudes_at, iterates
 from .model import Model
-from .swing import GOAL, UNRESOLVED, Seen, march, margins_stay, resolved
+from .swing import GOAL, UNRESOLVED, PlacesAlong, march, margins_stay, resolved
 
 Array = NDArray[np.float64]
 
@@ -56,7 +56,7 @@ class PositionError(KintrafoError, ValueError):
 
 
 @dataclass(frozen=True)
-class Range:
+class AngleRange:
     """Arm angles over which the wheel height changes monotonically, the design position inside.
 
     Attributes
@@ -75,7 +75,7 @@ class Range:
     upper_limit: str
 
 
-def travel_range(model: Model, rack_position: float = 0.0) -> Range:
+def travel_range(model: Model, rack_position: float = 0.0) -> AngleRange:
     """Return the travel that the wheel can make from the design position.
 
     Parameters
@@ -86,7 +86,7 @@ def travel_range(model: Model, rack_position: float = 0.0) -> Range:
 
     Returns
     -------
-    Range
+    AngleRange
         Its ends are the last positions before the limit, to 1e-12 rad of the arm angle, or to 1e-9
         rad where loops are solved by iteration.
 
@@ -108,13 +108,13 @@ def travel_range(model: Model, rack_position: float = 0.0) -> Range:
 
 
 @lru_cache(maxsize=_KEPT)
-def _range(model: Model, rack_position: float) -> Range:
+def _range(model: Model, rack_position: float) -> AngleRange:
     """Look for the ends once: a request for one position at rest is followed by others."""
     racks = np.array([rack_position])
     _refuse_racks(model, racks)
     (low, low_limits), (high, high_limits) = (ends_of(model, racks, way) for way in (+1.0, -1.0))
     heights, _ = height_and_slope(model, np.append(low, high), rack_position)
-    return Range(
+    return AngleRange(
         (float(low[0]), float(high[0])),
         (float(heights[0]), float(heights[1])),
         _in_words(model, int(low_limits[0])),
@@ -238,7 +238,7 @@ def tabulated(model: Model, racks: Array, steps: tuple[int, int], *, to_the_end:
     return Branch(np.clip(grid, high, low), height, slope)
 
 
-def _connected(grid: Array, seen: Seen, design: int) -> Branch:
+def _connected(grid: Array, seen: PlacesAlong, design: int) -> Branch:
     """Return the part of a grid that nothing separates from design, its ends repeated."""
     fine = resolved(np.array(-ARM_STEP), seen)
     down = np.logical_and.accumulate(fine[:, :design][:, ::-1], axis=1).sum(axis=1)
@@ -386,7 +386,7 @@ def refuse_beyond(model: System, state: Array, inputs: Array) -> None:
         raise PositionError(message)
 
 
-def _look(model: Model, angles: Array, racks: Array) -> Seen:
+def _look(model: Model, angles: Array, racks: Array) -> PlacesAlong:
     """Return whether the loops close and the wheel rises as the arm does.
 
     The limit of what is not usable is the index of a margin, or `_TURNS_BACK`; behind the margins
@@ -404,7 +404,7 @@ def _look(model: Model, angles: Array, racks: Array) -> Seen:
     # the arm's angle falls as the wheel rises (Eq. 6)
     limits = np.where(fine, _TURNS_BACK, failed.argmax(axis=-1))
     heights, slopes = signals["wheel_center_z"], signals["wheel_velocity"]
-    return Seen(fine & (slopes < 0.0), limits, heights, slopes, margins, stand)
+    return PlacesAlong(fine & (slopes < 0.0), limits, heights, slopes, margins, stand)
 
 
 def _where_it_closes(

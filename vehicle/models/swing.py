@@ -43,7 +43,7 @@ _FASTER = 4.0
 _MOST_LOOKS = 400
 
 
-class Seen(NamedTuple):
+class PlacesAlong(NamedTuple):
     """What there is at some places; the last axis of the first four is along the coordinate.
 
     Attributes
@@ -68,14 +68,14 @@ class Seen(NamedTuple):
     attitudes: Attitudes
 
 
-def resolved(width: Array, seen: Seen) -> NDArray[np.bool_]:
+def resolved(width: Array, seen: PlacesAlong) -> NDArray[np.bool_]:
     """Return between which neighbours nothing can be that they do not show.
 
     Parameters
     ----------
     width : ndarray
         Signed distance of two neighbours, equal along the last axis; broadcast with it.
-    seen : Seen
+    seen : PlacesAlong
 
     Returns
     -------
@@ -131,7 +131,7 @@ def margins_stay(margins: Array) -> NDArray[np.bool_]:
 
 
 def march(
-    look: Callable[[Array, NDArray[np.int64]], Seen], start: Array, goal: Array, step: float
+    look: Callable[[Array, NDArray[np.int64]], PlacesAlong], start: Array, goal: Array, step: float
 ) -> tuple[Array, NDArray[np.int64]]:
     """Go from each start towards its goal until something ends.
 
@@ -150,7 +150,7 @@ def march(
     reached : ndarray, shape (starts,)
         The last place up to which everything is usable, to `_SMALLEST`.
     limit : ndarray of int
-        What ends there: as in `Seen`, or `GOAL` or `UNRESOLVED`.
+        What ends there: as in `PlacesAlong`, or `GOAL` or `UNRESOLVED`.
     """
     reached = start.copy()
     width = np.full(start.shape, step)

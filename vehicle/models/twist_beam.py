@@ -17,19 +17,19 @@ from ..corner.corner import Array
 from ..corner.structure import (
     FORCES_OF_A_DAMPER,
     FixedJoint,
-    ForceElement,
-    Joint,
+    LineForce,
+    PartJoint,
     Points,
     SphericalJoint,
     Structure,
 )
 from ..input.bodies import Bodies, RigidBody
 from ..input.hardpoints import Hardpoints
-from ..input.section import Number, Range, Section, Triple
-from ..input.spring import Spring
-from ..input.stop import Stop
+from ..input.section import AllowedRange, Number, Section, Triple
+from ..input.spring import SpringSection
+from ..input.stop import StopSection
 from ..input.units import in_metres
-from ..input.vehicle import Gravity, Tyre, Wheel
+from ..input.vehicle import GravitySection, TyreSection, WheelSection
 from .axle.file import Brakes, End
 from .plausibility import (
     stray_points,
@@ -65,7 +65,7 @@ _ARMS, _BEAM = "#4a525a", "#d55e00"
 _Rate = Annotated[
     Number,
     Field(ge=0.0, le=1e5),
-    Range("0 {unit} to 100,000 {unit}", "Check the unit of the value."),
+    AllowedRange("0 {unit} to 100,000 {unit}", "Check the unit of the value."),
 ]
 
 
@@ -94,7 +94,7 @@ class BeamSection(Section):
     )
 
 
-class Arm(RigidBody):
+class TwistBeamArmBody(RigidBody):
     """The right arm with hub, brake and half of the beam; the left one is its mirror image."""
 
     def default_centre_of_mass(self, points: Hardpoints) -> Vector:
@@ -106,7 +106,7 @@ class Arm(RigidBody):
 class TwistBeamBodies(Bodies):
     """The bodies; a half of the beam belongs to each arm."""
 
-    arm: Arm = Field(description="the right arm with hub, brake and half of the beam")
+    arm: TwistBeamArmBody = Field(description="the right arm with hub, brake and half of the beam")
 
 
 class TwistBeamAxle(WholeAxle):
@@ -148,17 +148,19 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
     )
     hardpoints: TwistBeamHardpoints = Field(description="the points of the right side")
     beam: BeamSection = Field(description="the beam between both arms")
-    wheel: Wheel = Field(
-        default=Wheel(camber_deg=0.0, toe_deg=0.0), description="alignment of the wheels"
+    wheel: WheelSection = Field(
+        default=WheelSection(camber_deg=0.0, toe_deg=0.0), description="alignment of the wheels"
     )
-    spring: Spring = Field(description="the springs, between chassis and arms")
+    spring: SpringSection = Field(description="the springs, between chassis and arms")
     damper: ApartDamper = Field(description="the dampers, between chassis and arms")
-    bump_stop: Stop | None = Field(default=None, description="the stops in bump, of the dampers")
-    rebound_stop: Stop | None = Field(
+    bump_stop: StopSection | None = Field(
+        default=None, description="the stops in bump, of the dampers"
+    )
+    rebound_stop: StopSection | None = Field(
         default=None, description="the stops in rebound, of the dampers"
     )
-    tyre: Tyre = Field(description="the tyres")
-    gravity: Gravity = Field(description="gravity")
+    tyre: TyreSection = Field(description="the tyres")
+    gravity: GravitySection = Field(description="gravity")
     bodies: TwistBeamBodies = Field(description="masses and inertia")
     brakes: Brakes = Field(default=Brakes(), description="reaction of the brake torque")
     drive: AxleDrive | None = Field(default=None, description="the drive of the axle")
@@ -206,14 +208,14 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
 
     def structure(self) -> Structure:
         """Return what holds its parts together."""
-        joints: list[Joint] = []
+        joints: list[PartJoint] = []
         for side in SIDES:
             arm = f"arm_{side}"
             joints.append(PivotJoint(CHASSIS, arm, (f"{PIVOT}_{side}",)))
             joints.append(FixedJoint(arm, f"wheel_{side}", (f"{CENTER}_{side}",)))
         joints.append(BeamJoint(f"arm_{RIGHT}", f"arm_{LEFT}", (SHEAR_CENTER,)))
         lines = [
-            ForceElement(
+            LineForce(
                 f"{name}_{side}",
                 tuple(f"{side}_{force}" for force in forces),
                 CHASSIS,
@@ -331,7 +333,7 @@ class PivotJoint(SphericalJoint):
         return np.broadcast_to(ACROSS, points[self.at[0]].shape)
 
 
-class BeamJoint(Joint):
+class BeamJoint(PartJoint):
     """Where both halves of the beam meet: all but the torque about the direction of the pivots.
 
     That is what the spring of the beam has. A force along the beam, and with it how the pivots

@@ -33,9 +33,9 @@ if TYPE_CHECKING:
     from ..corner.bushes import Bushings
     from ..corner.coil_sprung import ApartDamper
     from ..input.hardpoints import Hardpoints
-    from ..input.spring import Spring
-    from ..input.stop import Stop
-    from ..input.vehicle import Gravity, Tyre, Wheel
+    from ..input.spring import SpringSection
+    from ..input.stop import StopSection
+    from ..input.vehicle import GravitySection, TyreSection, WheelSection
     from .axle.file import Brakes, End
     from .whole_axle_file import AxleDrive, WholeAxleVehicle
 
@@ -83,13 +83,13 @@ class WholeAxle(DescribedSection):
         # sections that every class has, in places of its own
         vehicle: WholeAxleVehicle
         hardpoints: Hardpoints
-        wheel: Wheel
-        spring: Spring
+        wheel: WheelSection
+        spring: SpringSection
         damper: ApartDamper
-        bump_stop: Stop | None
-        rebound_stop: Stop | None
-        tyre: Tyre
-        gravity: Gravity
+        bump_stop: StopSection | None
+        rebound_stop: StopSection | None
+        tyre: TyreSection
+        gravity: GravitySection
         brakes: Brakes
         drive: AxleDrive | None
         bushings: Bushings | None

@@ -18,7 +18,7 @@ from ..corner.corner import Array
 from ..corner.wheel_loads import with_wheel_loads
 from .attitudes import attitudes
 from .reach import PositionError
-from .swing import GOAL, Seen, march
+from .swing import GOAL, PlacesAlong, march
 from .whole_axle import WholeAxle
 
 # What turns as far stands on its end [rad].
@@ -226,14 +226,14 @@ class WholeAxleModel(System):
         # of a way without length either is none
         senses = np.stack([lefts, rights]) / np.where(longest > 0.0, longest, 1.0)
 
-        def look(along: Array, which: NDArray[np.int64]) -> Seen:
+        def look(along: Array, which: NDArray[np.int64]) -> PlacesAlong:
             states = self.placed(*(senses[:, which, None] * along))
             states = self.moved(states, *senses[:, which, None])
             margins = self.margins(states)
             fine = np.asarray((margins > 0.0).all(axis=-1))
             stand = attitudes(self, states, None, fine)
             no_limits, even = np.zeros(fine.shape, dtype=int), np.ones(fine.shape)
-            return Seen(fine, no_limits, along, even, margins, stand)
+            return PlacesAlong(fine, no_limits, along, even, margins, stand)
 
         found, limits = march(look, np.zeros(lefts.size), longest, _STEP)
         with np.errstate(invalid="ignore"):

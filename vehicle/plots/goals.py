@@ -11,7 +11,7 @@ from ...core.errors import InputError
 from ...core.quantities import display_of
 from ..assembly.by_wheel import WHEEL
 from ..models.sides import SIDES
-from ..studies.goals import Goal, Limit, Target
+from ..studies.goals import Goal, Limit, TargetValue
 from ..studies.sweep_axes import sweep_axis
 
 _RED = "#aa0000"
@@ -107,7 +107,7 @@ def mark(
     whose = f", {side}" if side else ""
     for goal in goals:
         factor, step = display_of(goal.quantity.attributes()).factor, sweep_axis(goal.over).factor
-        if isinstance(goal, Target):
+        if isinstance(goal, TargetValue):
             axes.errorbar(
                 step * goal.at, factor * goal.value, factor * goal.within,
                 fmt="o", color=colour or "black", markersize=3, linewidth=1.0, capsize=2,

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ...core.files import refuse
 from ...core.legible import legible
 from ...pictures.figures import BLUE, GREEN, ORANGE, STYLE, save
-from ..analysis.paper import Dynamics, Kinematics
+from ..analysis.paper import PaperDynamics, PaperKinematics
 
 Array = NDArray[np.float64]
 
@@ -26,7 +26,12 @@ def figure_files(folder: Path) -> list[Path]:
 
 
 def write_figures(
-    kinematics: Kinematics, dynamics: Dynamics, folder: Path, data: str, *, force: bool = False
+    kinematics: PaperKinematics,
+    dynamics: PaperDynamics,
+    folder: Path,
+    data: str,
+    *,
+    force: bool = False,
 ) -> list[Path]:
     """Write the three figures.
 
@@ -58,7 +63,7 @@ def write_figures(
     return files
 
 
-def wheel_path(kinematics: Kinematics) -> Figure:
+def wheel_path(kinematics: PaperKinematics) -> Figure:
     """Draw Figure 4: the path of the wheel centre, seen from the side and from the front."""
     figure = Figure(figsize=(8.4, 4.4), layout="constrained")
     side, front = figure.subplots(1, 2, sharey=True)
@@ -75,7 +80,7 @@ def wheel_path(kinematics: Kinematics) -> Figure:
     return figure
 
 
-def wheel_angles(kinematics: Kinematics) -> Figure:
+def wheel_angles(kinematics: PaperKinematics) -> Figure:
     """Draw Figure 5: camber and steer angle over wheel height."""
     figure = Figure(figsize=(8.4, 4.4), layout="constrained")
     camber, steer = figure.subplots(1, 2)
@@ -93,13 +98,13 @@ def wheel_angles(kinematics: Kinematics) -> Figure:
     return figure
 
 
-def _mark_design(axes: Axes, x: Array, y: Array, kinematics: Kinematics) -> None:
+def _mark_design(axes: Axes, x: Array, y: Array, kinematics: PaperKinematics) -> None:
     index = kinematics.design
     axes.plot(x[index], y[index], "o", color="black", markersize=5, label="design position")
     axes.legend(frameon=False, fontsize=9, loc="best")
 
 
-def wheel_motion(dynamics: Dynamics) -> Figure:
+def wheel_motion(dynamics: PaperDynamics) -> Figure:
     """Draw Figure 6: height, velocity and acceleration of the wheel centre."""
     result = dynamics.result
     figure = Figure(figsize=(8.4, 7.6), layout="constrained")

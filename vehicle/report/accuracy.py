@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...core.vectors import cross
 from ..models.model import Model
-from .curves import Curve, curves
+from .curves import CharacteristicCurve, curves
 from .encode import rounded
 from .grid import Grid
 from .poses import Poses, poses
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Accuracy:
+class GridAccuracy:
     """Largest differences, measured between the grid's points, where they are largest.
 
     Attributes
@@ -42,12 +42,12 @@ def measure(
     model: Model,
     grid: Grid,
     sampled: Poses,
-    drawn: list[Curve],
+    drawn: list[CharacteristicCurve],
     gaps: list[Array],
     ranges: dict[str, tuple[float, float]],
     *,
     report: Callable[[str], None] = lambda _: None,
-) -> Accuracy:
+) -> GridAccuracy:
     """Compare interpolated with compiled values.
 
     Parameters
@@ -56,7 +56,7 @@ def measure(
     grid : Grid
     sampled : Poses
         The samples on the grid.
-    drawn : list of Curve
+    drawn : list of CharacteristicCurve
         The same of the characteristics.
     gaps : list of ndarray
         What is open of the stops, on the grid.
@@ -68,13 +68,13 @@ def measure(
 
     Returns
     -------
-    Accuracy
+    GridAccuracy
         With the rounding of the encoding.
     """
     travel, rack = grid.travel.between, grid.rack.between
     report("accuracy of the interpolation")
     exact = poses(model, travel, rack)
-    return Accuracy(
+    return GridAccuracy(
         points=max(
             _distance(grid, sampled.points[name], points) for name, points in exact.points.items()
         ),
@@ -103,9 +103,9 @@ def _angle(grid: Grid, samples: Array, exact: Array) -> float:
 
 def _of_curves(
     grid: Grid,
-    drawn: list[Curve],
+    drawn: list[CharacteristicCurve],
     gaps: list[Array],
-    exact: list[Curve],
+    exact: list[CharacteristicCurve],
     ranges: dict[str, tuple[float, float]],
 ) -> dict[str, float]:
     between = {curve.key: curve.values for curve in exact}

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Curve:
+class CharacteristicCurve:
     """One characteristic over wheel travel and rack displacement.
 
     Attributes
@@ -93,7 +93,7 @@ def printed(unit: str) -> str:
 
 def curves(
     model: Model, travel: Array, rack: Array, *, report: Callable[[str], None] = lambda _: None
-) -> list[Curve]:
+) -> list[CharacteristicCurve]:
     """Compute all characteristics at every combination of travels and rack displacements.
 
     Parameters
@@ -108,7 +108,7 @@ def curves(
 
     Returns
     -------
-    list of Curve
+    list of CharacteristicCurve
         Those over travel, then those over rack displacement; without those that are defined
         nowhere.
     """
@@ -141,7 +141,7 @@ def gaps_on(model: Model, grid: Grid) -> list[Array]:
     return [gap for gap in gaps(model, angles, rack) if gap.min() <= 0.0 < gap.max()]
 
 
-def only_over_rack(drawn: list[Curve]) -> set[str]:
+def only_over_rack(drawn: list[CharacteristicCurve]) -> set[str]:
     """Return the names of the characteristics that belong to steering alone."""
     along = {curve.name for curve in drawn if curve.over == "travel"}
     return {curve.name for curve in drawn} - along
@@ -149,7 +149,7 @@ def only_over_rack(drawn: list[Curve]) -> set[str]:
 
 def _stacked(
     cuts: "Sequence[Dataset]", coordinate: str, over: Literal["travel", "rack"]
-) -> list[Curve]:
+) -> list[CharacteristicCurve]:
     """Join the cuts through the grid to one array for each variable along the coordinate."""
     axis = 1 if over == "travel" else 0
     return [
@@ -163,11 +163,13 @@ def _stacked(
     ]
 
 
-def _curve(variable: "DataArray", over: Literal["travel", "rack"], values: Array) -> Curve:
+def _curve(
+    variable: "DataArray", over: Literal["travel", "rack"], values: Array
+) -> CharacteristicCurve:
     words = variable.attrs
     name = str(variable.name)
     unit = str(words.get("display_units", words.get("units", "1")))
-    return Curve(
+    return CharacteristicCurve(
         name=name,
         over=over,
         label=str(words.get("long_name", name.replace("_", " "))),

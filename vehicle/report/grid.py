@@ -20,7 +20,7 @@ _WORST = 0.5 * (3.0 - 5.0**0.5)
 
 
 @dataclass(frozen=True)
-class Axis:
+class GridAxis:
     """Equally spaced values of one coordinate.
 
     Attributes
@@ -36,7 +36,7 @@ class Axis:
     count: int
 
     @classmethod
-    def around_zero(cls, low: float, high: float, step: float) -> "Axis":
+    def around_zero(cls, low: float, high: float, step: float) -> "GridAxis":
         """Return the multiples of a step from a lower to an upper limit, zero among them.
 
         Parameters
@@ -48,7 +48,7 @@ class Axis:
 
         Returns
         -------
-        Axis
+        GridAxis
         """
         step = min(step, (high - low) / ORDER)
         # a limit that is a multiple but for rounding counts as one
@@ -138,14 +138,14 @@ class Grid:
 
     Attributes
     ----------
-    travel : Axis
+    travel : GridAxis
         Height of the wheel centre above its design height [m], positive in bump.
-    rack : Axis
+    rack : GridAxis
         Displacement of the rack along its axis [m].
     """
 
-    travel: Axis
-    rack: Axis
+    travel: GridAxis
+    rack: GridAxis
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -12,10 +12,10 @@ from ..assembly.by_wheel import WHEEL
 from ..models.axle import Axle
 from ..models.sides import SIDES
 from ..plots.goals import but_name
-from ..studies.goals import Goal, Limit, Target, words_of
+from ..studies.goals import Goal, Limit, TargetValue, words_of
 from ..studies.sweep_axes import sweep_axis
-from .curves import Curve
-from .grid import Axis, Grid
+from .curves import CharacteristicCurve
+from .grid import Grid, GridAxis
 
 Array = NDArray[np.float64]
 
@@ -45,7 +45,7 @@ class Mark:
     value: Array
     within: float = 0.0
 
-    def described(self, curve: Curve) -> dict[str, Any]:
+    def described(self, curve: CharacteristicCurve) -> dict[str, Any]:
         """Return it for the page's script, in the units that are drawn."""
         along = sweep_axis(curve.over).factor
         return {
@@ -90,16 +90,18 @@ class Marks:
         return sorted(found, reverse=True)
 
 
-def marks(drawn: Sequence[Curve], grid: Grid, goals: Sequence[Goal], side: str) -> Marks:
+def marks(
+    drawn: Sequence[CharacteristicCurve], grid: Grid, goals: Sequence[Goal], side: str
+) -> Marks:
     """Return what of targets and limits is marked in the charts of a suspension.
 
     Parameters
     ----------
-    drawn : sequence of Curve
+    drawn : sequence of CharacteristicCurve
         Those that have a chart.
     grid : Grid
         How far charts go.
-    goals : sequence of Target and Limit
+    goals : sequence of TargetValue and Limit
         Of the suspension; or of the axle of which it is one side, of which those over parallel
         travel about what a wheel has by itself belong here.
     side : {'left', 'right'}
@@ -131,7 +133,7 @@ def of_shown_side(axle: Axle, goals: Sequence[Goal], side: str) -> list[Goal]:
     Parameters
     ----------
     axle : Axle
-    goals : sequence of Target and Limit
+    goals : sequence of TargetValue and Limit
     side : {'left', 'right'}
         Which is shown.
     """
@@ -173,13 +175,13 @@ def _place(goal: Goal, side: str) -> tuple[str, str]:
     return goal.name, goal.over
 
 
-def _inside(at: Array, axis: Axis) -> NDArray[np.bool_]:
+def _inside(at: Array, axis: GridAxis) -> NDArray[np.bool_]:
     return (at >= axis.first - _ROUNDING) & (at <= axis.last + _ROUNDING)
 
 
 def _marks(goal: Goal, inside: NDArray[np.bool_]) -> list[Mark]:
     at = goal.at[inside]
-    if isinstance(goal, Target):
+    if isinstance(goal, TargetValue):
         return [Mark("target", at, goal.value[inside], goal.within)]
     assert isinstance(goal, Limit)
     bounds: list[tuple[Literal["least", "most"], float]]
@@ -188,7 +190,7 @@ def _marks(goal: Goal, inside: NDArray[np.bool_]) -> list[Mark]:
 
 
 def _kind(goal: Goal) -> str:
-    return "target" if isinstance(goal, Target) else "limit"
+    return "target" if isinstance(goal, TargetValue) else "limit"
 
 
 def _words(goal: Goal) -> str:

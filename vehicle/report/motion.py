@@ -12,7 +12,7 @@ from ..analysis.paper import DURATION, REST_HEIGHT, SPIN_RATE, START_HEIGHT
 from ..models.model import Model
 from ..models.positions import design_height, state_at_height
 from .curves import printed
-from .grid import Axis, Grid
+from .grid import Grid, GridAxis
 
 Array = NDArray[np.float64]
 
@@ -62,12 +62,12 @@ class TimeCurve:
 
 
 @dataclass(frozen=True)
-class Motion:
+class ReportedMotion:
     """One second of motion.
 
     Attributes
     ----------
-    time : Axis
+    time : GridAxis
         Times of the samples [s].
     travel, rack, spin : ndarray, shape (n,)
         Wheel travel [m], rack displacement [m], spin angle of the wheel [rad].
@@ -78,7 +78,7 @@ class Motion:
         What integrated.
     """
 
-    time: Axis
+    time: GridAxis
     travel: Array
     rack: Array
     spin: Array
@@ -100,7 +100,7 @@ class NoMotion:
     reason: str
 
 
-def simulated_second(model: Model, grid: Grid) -> Motion | NoMotion:
+def simulated_second(model: Model, grid: Grid) -> ReportedMotion | NoMotion:
     """Simulate a wheel that is released above its design position, with the paper's spin.
 
     Parameters
@@ -111,7 +111,7 @@ def simulated_second(model: Model, grid: Grid) -> Motion | NoMotion:
 
     Returns
     -------
-    Motion or NoMotion
+    ReportedMotion or NoMotion
     """
     try:
         return _shown(_simulate(model), grid)
@@ -119,7 +119,7 @@ def simulated_second(model: Model, grid: Grid) -> Motion | NoMotion:
         return NoMotion(f"The simulation could not be done: {error}")
 
 
-def _simulate(model: Model) -> Motion:
+def _simulate(model: Model) -> ReportedMotion:
     design = design_height(model)
     start = state_at_height(model, design + DROP, spin_rate=SPIN_RATE)
     times = np.linspace(0.0, DURATION, _FINER * round(DURATION / STEP) + 1)
@@ -130,10 +130,10 @@ def _simulate(model: Model) -> Motion:
         rack = result.y[model.state_names.index(model.names.rack)]
     elif model.suspension.steered():
         rack = result.inputs[:, model.input_names.index("rack_position")]
-    time = Axis(0.0, STEP, round(DURATION / STEP) + 1)
+    time = GridAxis(0.0, STEP, round(DURATION / STEP) + 1)
     kept = slice(None, None, _FINER)
     error = np.abs(time.interpolate(travel[kept], times) - travel).max()
-    return Motion(
+    return ReportedMotion(
         time=time,
         travel=travel[kept],
         rack=rack[kept],
@@ -161,7 +161,7 @@ def _time_curve(model: Model, name: str, values: Array) -> TimeCurve:
     )
 
 
-def _shown(motion: Motion, grid: Grid) -> Motion | NoMotion:
+def _shown(motion: ReportedMotion, grid: Grid) -> ReportedMotion | NoMotion:
     for what, values, axis in (
         ("wheel", motion.travel, grid.travel),
         ("rack", motion.rack, grid.rack),

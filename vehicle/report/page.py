@@ -23,12 +23,12 @@ from ..analysis.paper import SPIN_RATE
 from ..input.section import Section
 from ..models.model import Model
 from ..studies.goals import Goal, check_goals
-from .accuracy import Accuracy, measure
+from .accuracy import GridAccuracy, measure
 from .chapters.chapter import Chapter
-from .curves import Curve, curves, gaps_on, only_over_rack
+from .curves import CharacteristicCurve, curves, gaps_on, only_over_rack
 from .grid import Grid
 from .marks import Marks, marks
-from .motion import DROP, Motion, NoMotion, simulated_second
+from .motion import DROP, NoMotion, ReportedMotion, simulated_second
 from .payload import Look, page_data
 from .plotted import decimals, shown_range
 from .poses import Poses, poses, reachable_grid
@@ -48,12 +48,12 @@ class _Samples:
 
     grid: Grid
     poses: Poses
-    curves: list[Curve]
+    curves: list[CharacteristicCurve]
     gaps: list[Array]
-    accuracy: Accuracy
+    accuracy: GridAccuracy
     looks: dict[str, Look]
     marks: Marks
-    motion: Motion | NoMotion
+    motion: ReportedMotion | NoMotion
 
 
 def write(
@@ -259,7 +259,9 @@ def _sample(
     )
 
 
-def _look(curve: Curve, grid: Grid, shown: tuple[float, float], accuracy: Accuracy) -> Look:
+def _look(
+    curve: CharacteristicCurve, grid: Grid, shown: tuple[float, float], accuracy: GridAccuracy
+) -> Look:
     """Return how a curve is shown.
 
     Its decimals distinguish values through the design position, and say what the one at design is.
@@ -275,7 +277,7 @@ def _look(curve: Curve, grid: Grid, shown: tuple[float, float], accuracy: Accura
     )
 
 
-def _over_travel(drawn: list[Curve]) -> dict[str, list[Curve]]:
+def _over_travel(drawn: list[CharacteristicCurve]) -> dict[str, list[CharacteristicCurve]]:
     """Return the curves over travel under their headings, in the order of the page."""
     found = {
         name: [curve for curve in drawn if curve.over == "travel" and curve.group == name]
@@ -284,7 +286,9 @@ def _over_travel(drawn: list[Curve]) -> dict[str, list[Curve]]:
     return {name: group for name, group in found.items() if group}
 
 
-def _over_rack(drawn: list[Curve], marked: Marks) -> tuple[list[Curve], list[Curve]]:
+def _over_rack(
+    drawn: list[CharacteristicCurve], marked: Marks
+) -> tuple[list[CharacteristicCurve], list[CharacteristicCurve]]:
     """Return the curves over rack displacement that are in sight, and the others.
 
     Those are of steering, of the wheel, and with targets or limits.

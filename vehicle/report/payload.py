@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 
 from ...pages.embedded import embedded
 from ..kinds import Suspension
-from .curves import Curve
+from .curves import CharacteristicCurve
 from .encode import packed
-from .grid import Axis, Grid
+from .grid import Grid, GridAxis
 from .marks import Marks
-from .motion import Motion, NoMotion, TimeCurve
+from .motion import NoMotion, ReportedMotion, TimeCurve
 from .plotted import decimals, full_range, meaningful
 from .poses import Poses
 
@@ -44,11 +44,11 @@ def page_data(
     suspension: Suspension,
     grid: Grid,
     sampled: Poses,
-    drawn: list[Curve],
+    drawn: list[CharacteristicCurve],
     gaps: list[Array],
     looks: dict[str, Look],
     marks: Marks,
-    motion: Motion | NoMotion,
+    motion: ReportedMotion | NoMotion,
 ) -> str:
     """Return the data of the page as JSON that is safe inside an HTML element.
 
@@ -58,7 +58,7 @@ def page_data(
     grid : Grid
     sampled : Poses
         On the grid.
-    drawn : list of Curve
+    drawn : list of CharacteristicCurve
         Characteristics on the grid.
     gaps : list of ndarray
         What is open of the stops, on the grid.
@@ -66,7 +66,7 @@ def page_data(
         How each is shown, by its key.
     marks : Marks
         Targets and limits.
-    motion : Motion or NoMotion
+    motion : ReportedMotion or NoMotion
 
     Returns
     -------
@@ -90,13 +90,13 @@ def page_data(
             }
             for curve in drawn
         ],
-        "motion": _motion(motion) if isinstance(motion, Motion) else None,
+        "motion": _motion(motion) if isinstance(motion, ReportedMotion) else None,
         **_drawing(suspension, grid, sampled),
     }
     return embedded(data)
 
 
-def _stored_under(drawn: list[Curve]) -> dict[str, str]:
+def _stored_under(drawn: list[CharacteristicCurve]) -> dict[str, str]:
     """Return for each curve whose samples it has: over travel and rack they are often the same."""
     along = {curve.name: curve for curve in drawn if curve.over == "travel"}
     return {
@@ -113,7 +113,7 @@ def _on_grid(values: Array, grid: Grid) -> dict[str, Any]:
     return packed(values, values[grid.travel.zero, grid.rack.zero])
 
 
-def _motion(motion: Motion) -> dict[str, Any]:
+def _motion(motion: ReportedMotion) -> dict[str, Any]:
     return {
         "time": _axis(motion.time),
         "travel": packed(motion.travel),
@@ -129,7 +129,7 @@ def _time_curve(curve: TimeCurve) -> dict[str, Any]:
     return {"over": "time", **words, **packed(curve.values)}
 
 
-def _described(curve: Curve | TimeCurve, look: Look) -> dict[str, Any]:
+def _described(curve: CharacteristicCurve | TimeCurve, look: Look) -> dict[str, Any]:
     """Return how a curve is drawn and written."""
     return {
         "key": curve.key,
@@ -143,7 +143,7 @@ def _described(curve: Curve | TimeCurve, look: Look) -> dict[str, Any]:
     }
 
 
-def _axis(axis: Axis) -> dict[str, float]:
+def _axis(axis: GridAxis) -> dict[str, float]:
     return {"first": axis.first, "step": axis.step, "count": axis.count}
 
 

@@ -9,7 +9,7 @@ from ..models.model import Model
 from ..models.points import hardpoints
 from ..models.positions import PositionError, arm_angles, design_height, travel_range
 from ..models.reach import at_rest
-from .grid import Axis, Grid
+from .grid import Grid, GridAxis
 
 Array = NDArray[np.float64]
 
@@ -19,7 +19,7 @@ RACK = 0.060  # to either side of its middle position, where the mechanism reach
 RACK_STEP = 0.0025  # the wheel turns a degree in it [m]
 
 # Where there is no rack, every column is the same: as many as a cubic needs.
-_STILL = Axis.around_zero(-2.0 * RACK_STEP, 2.0 * RACK_STEP, RACK_STEP)
+_STILL = GridAxis.around_zero(-2.0 * RACK_STEP, 2.0 * RACK_STEP, RACK_STEP)
 # What the wheel must keep from the end of its reach, where its path turns back [m].
 _MARGIN = 0.002
 
@@ -73,7 +73,7 @@ def reachable_grid(model: Model) -> Grid:
             continue
         travel = _travel(ends, design)
         if travel is not None:
-            return Grid(travel, Axis.around_zero(-float(rack), float(rack), RACK_STEP))
+            return Grid(travel, GridAxis.around_zero(-float(rack), float(rack), RACK_STEP))
     message = (
         f"the wheel cannot travel {TRAVEL_STEP * 1e3:g} mm up and down with the rack "
         f"{RACK_STEP * 1e3:g} mm to either side, so there is nothing to report. Check the "
@@ -82,11 +82,11 @@ def reachable_grid(model: Model) -> Grid:
     raise PositionError(message)
 
 
-def _travel(ends: tuple[float, float], design: float) -> Axis | None:
+def _travel(ends: tuple[float, float], design: float) -> GridAxis | None:
     """Return the usual travel within a reach of the wheel; None if hardly any is."""
     low, high = max(ends[0] - design + _MARGIN, -TRAVEL), min(ends[1] - design - _MARGIN, TRAVEL)
     if low < -TRAVEL_STEP and high > TRAVEL_STEP:
-        return Axis.around_zero(low, high, TRAVEL_STEP)
+        return GridAxis.around_zero(low, high, TRAVEL_STEP)
     return None
 
 

@@ -8,7 +8,7 @@ from ..corner.bushes import BUSH_SCHEMA
 from ..input.section import Section
 from ..kinds import Suspension
 from ..models.typical import typical_ranges
-from .curves import Curve
+from .curves import CharacteristicCurve
 from .grid import Grid
 from .payload import Look
 
@@ -64,13 +64,13 @@ class InputTable:
 
 
 def summary(
-    drawn: list[Curve], grid: Grid, looks: dict[str, Look], suspension: Suspension
+    drawn: list[CharacteristicCurve], grid: Grid, looks: dict[str, Look], suspension: Suspension
 ) -> list[Row]:
     """Return the characteristics over travel at the design position.
 
     Parameters
     ----------
-    drawn : list of Curve
+    drawn : list of CharacteristicCurve
         All that are plotted.
     grid : Grid
     looks : dict
@@ -91,7 +91,9 @@ def summary(
     ]
 
 
-def _row(curve: Curve, value: float, decimals: int, usual: dict[str, Any] | None) -> Row:
+def _row(
+    curve: CharacteristicCurve, value: float, decimals: int, usual: dict[str, Any] | None
+) -> Row:
     shown = value * curve.factor
     plain = Row(curve.key, curve.group, curve.label, curve.unit, shown, decimals)
     # a range in another unit than the curve's would be compared wrongly

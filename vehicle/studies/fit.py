@@ -14,7 +14,7 @@ from ...core.validator import Validator
 from ..analysis.compliance.flexibility import HELD, WheelSupport
 from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
-from .goals import GREATEST, LEAST, Target, check_data
+from .goals import GREATEST, LEAST, TargetValue, check_data
 from .search import Search, in_words, least
 from .sweep_axes import SWEEP_AXES, UNDER_LOADS, sweep_axes_of
 from .tolerance import SIGMAS
@@ -199,7 +199,7 @@ def _targets(
     measured: xr.Dataset,
     names: Any,
     how: tuple[Mapping[str, Any], WheelSupport],
-) -> list[Target]:
+) -> list[TargetValue]:
     """Return the measured curves as targets, without the cells that are empty."""
     accuracies, held_by = how
     # parallel travel is the first of the ways over wheel travel
@@ -240,7 +240,7 @@ def _targets(
     ]
 
 
-def _target(given: Validator, curve: xr.DataArray, over: str, accuracy: Any) -> Target | None:
+def _target(given: Validator, curve: xr.DataArray, over: str, accuracy: Any) -> TargetValue | None:
     name = str(curve.name)
     fine = np.isfinite(curve.values)
     values, at = curve.values[fine], curve[str(curve.dims[0])].values[fine]
@@ -262,7 +262,7 @@ def _target(given: Validator, curve: xr.DataArray, over: str, accuracy: Any) -> 
                 f"Give its accuracy, in {shown.units or 'its unit'}."
             )
             return None
-    return Target(name, over, at, values, within * _repeated(values.size))
+    return TargetValue(name, over, at, values, within * _repeated(values.size))
 
 
 def _repeated(points: int) -> float:

@@ -70,7 +70,7 @@ class Goal:
 
 
 @dataclass(frozen=True)
-class Target(Goal):
+class TargetValue(Goal):
     """What a characteristic is wanted to be.
 
     Attributes
@@ -170,7 +170,7 @@ def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> lis
 
     Returns
     -------
-    list of Target and Limit
+    list of TargetValue and Limit
     """
     with Validator("goals") as given:
         sections = given.mapping("described", described, "sections and tables")
@@ -242,7 +242,7 @@ def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
     Parameters
     ----------
     suspension : Suspension, Model, Axle or RigidAxle
-    wanted : sequence of Target and Limit
+    wanted : sequence of TargetValue and Limit
         From `goals`.
 
     Returns
@@ -277,7 +277,7 @@ def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
 
 
 def _verdict(goal: Goal, values: Array) -> Verdict:
-    if isinstance(goal, Target):
+    if isinstance(goal, TargetValue):
         kind, beyond = "target", np.abs(values - goal.value) - goal.within
         met = bool((np.abs(values - goal.value) <= goal.within).all())
     else:
@@ -291,7 +291,7 @@ def _verdict(goal: Goal, values: Array) -> Verdict:
 def check_goals(given: Validator, name: str, wanted: Any) -> None:
     """Refuse what is no list of goals."""
     if not isinstance(wanted, list | tuple) or not all(
-        isinstance(one, Target | Limit) for one in wanted
+        isinstance(one, TargetValue | Limit) for one in wanted
     ):
         given.fail(f"{name}: a list of targets and limits, from `variation.goals`, is needed.")
 
@@ -344,7 +344,7 @@ def targets_of(
     ways: Sequence[str],
     *,
     weighed: bool = True,
-) -> list[Target]:
+) -> list[TargetValue]:
     """Read targets, by the names of characteristics; in millimetres and display units.
 
     A characteristic has a table, or several in a list: over travel and over the rack. Where targets
@@ -354,7 +354,7 @@ def targets_of(
     for name, table in _tables(given, described, ("targets", ways), {"value", "within"}):
         left_out = not weighed and "within" not in table.entries
         within = np.nan if left_out else table.number("within", least=LEAST)
-        found.append(Target(name, table.over, table.at, table.numbers("value"), within))
+        found.append(TargetValue(name, table.over, table.at, table.numbers("value"), within))
     return found
 
 

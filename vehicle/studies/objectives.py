@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...core.quantities import distinct
 from ...core.validator import Validator
-from .goals import Goal, Target, extremes_of, targets_of
+from .goals import Goal, TargetValue, extremes_of, targets_of
 from .sweep_axes import sweep_axis
 
 Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ class Objective:
         'deviation', the root mean square of what a target is missed by, and 'greatest', the
         greatest value at some positions, are to be small; 'least', the least value, is to be great.
     goal : Goal
-        What it is about; of a deviation a `Target`.
+        What it is about; of a deviation a `TargetValue`.
     """
 
     name: str
@@ -45,7 +45,7 @@ class Objective:
 
     def of(self, values: Array) -> float:
         """Return the number that some values of the characteristic make; SI units."""
-        if isinstance(self.goal, Target):
+        if isinstance(self.goal, TargetValue):
             return float(np.sqrt(np.mean((values - self.goal.value) ** 2)))
         return float(values.max() if self.kind == "greatest" else values.min())
 

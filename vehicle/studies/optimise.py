@@ -12,7 +12,7 @@ from ...core.errors import InputError
 from ...core.validator import Validator
 from .design_variables import DesignVariable, amounts
 from .evaluation import Subject, check_subject
-from .goals import Limit, Target, check_data, limits_of, targets_of
+from .goals import Limit, TargetValue, check_data, limits_of, targets_of
 from .search import MOST_STEPS, NOTHING_TO_GAIN, TOO_MANY_STEPS, Search, in_words, least
 from .sweep_axes import sweep_axes_of
 
@@ -43,7 +43,7 @@ class Optimum:
         The values that were free, as they were.
     moved : dict of str to float
         By how much each has moved, in the display unit.
-    targets : tuple of Target
+    targets : tuple of TargetValue
     limits : tuple of Limit
     success : bool
         Whether the solver has come to its end and all limits are kept. Targets may be missed, as
@@ -59,7 +59,7 @@ class Optimum:
     start: Subject
     places: tuple[DesignVariable, ...]
     moved: dict[str, float]
-    targets: tuple[Target, ...]
+    targets: tuple[TargetValue, ...]
     limits: tuple[Limit, ...]
     success: bool
     message: str

@@ -9,7 +9,7 @@ from scipy.optimize import least_squares
 from .candidates import Candidates
 from .design_variables import DesignVariable
 from .evaluation import Subject
-from .goals import Limit, Target
+from .goals import Limit, TargetValue
 from .sensitivity import step_of
 
 Array = NDArray[np.float64]
@@ -35,7 +35,7 @@ class Search(Candidates):
     suspension : Suspension, Axle or RigidAxle
     reach : mapping of DesignVariable to float
         How far values may move to either side [SI].
-    targets : sequence of Target
+    targets : sequence of TargetValue
     limits : sequence of Limit
     progress : callable or None
         Called after every step of a solver with the cost that is left, as a part of that at the
@@ -48,7 +48,7 @@ class Search(Candidates):
         self,
         suspension: Subject,
         reach: Mapping[DesignVariable, float],
-        targets: Sequence[Target],
+        targets: Sequence[TargetValue],
         limits: Sequence[Limit],
         progress: Callable[[float], None] | None,
         reluctance: float,

@@ -10,7 +10,7 @@ from ...core.errors import InputError
 from ...core.legible import legible, short
 from ...formulas.coefficients import ODD
 from ...formulas.magic_formula import Form
-from ..input.teim_orbit import Block, read_blocks
+from ..input.teim_orbit import FileBlock, read_blocks
 from ..input.teim_values import NEWTONS, number
 from . import coefficients as known
 
@@ -91,7 +91,7 @@ def read(path: str | Path) -> TirFile:
 
 
 class _Reader:
-    def __init__(self, blocks: list[Block], source: str) -> None:
+    def __init__(self, blocks: list[FileBlock], source: str) -> None:
         self._source = source
         self._problems: list[str] = []
         self._blocks = [(block.name.strip().upper(), block) for block in blocks]

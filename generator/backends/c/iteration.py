@@ -14,13 +14,13 @@ from .statements import in_all_lanes, printed
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ...program.function import Block
+    from ...program.function import IterationBlock
 
 _KEPT = "\N{NO-BREAK SPACE}"
 """Represents a space at which no line is broken."""
 
 
-def once(block: Block) -> str:
+def once(block: IterationBlock) -> str:
     """Print one iteration: straight-line code."""
     read = {s.name for s in block.once.free_symbols}
     arrays = {
@@ -52,7 +52,7 @@ def once(block: Block) -> str:
     return "\n".join([*lines, "}"])
 
 
-def call_of(block: Block) -> str:
+def call_of(block: IterationBlock) -> str:
     """Print the function that follows the loops of a block."""
     along = [(f"{d.now}_start", f"{d.now}_end", f"{d.now}_unit") for d in block.driven]
     names = [*map(str, block.constants), *(name for values in along for name in values)]

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from ...program.function import Function, Stage
     from ..schedule import Assignment, Operation
-    from ..sharing import Part, Together
+    from ..sharing import OwnSteps, Together
 
 LONG = 5_000
 """From how many operations on the functions of a file are cut. Up to there a compiler takes as long
@@ -82,7 +82,7 @@ def _weight(step: Assignment) -> int:
     return counted([step.value]).total() + 1
 
 
-def steps_of(function: Function | Stage, part: Part, whole: Together) -> list[Assignment]:
+def steps_of(function: Function | Stage, part: OwnSteps, whole: Together) -> list[Assignment]:
     """Return the steps that the results and the guards of a function need, in their order.
 
     Parameters

@@ -28,10 +28,10 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Mapping, Sequence
 
     from ...equations.outputs import Derivation
-    from ...program.function import Block, Function, Stage
+    from ...program.function import Function, IterationBlock, Stage
     from ...program.steps import Guard
     from ..schedule import Assignment
-    from ..sharing import Part, Together
+    from ..sharing import OwnSteps, Together
     from .pieces import Cut, Piece
 
 COMPUTE = (
@@ -117,7 +117,7 @@ class Source(CText):
         )
         return [f"{comment}\n#define ROUNDING {ROUNDING}"]
 
-    def _blocks(self, blocks: Sequence[Block]) -> list[str]:
+    def _blocks(self, blocks: Sequence[IterationBlock]) -> list[str]:
         """Print what follows loops, and the equations of each."""
         if not blocks:
             return []
@@ -289,7 +289,7 @@ class Source(CText):
         call = f"compute({', '.join(arguments)}, out)"
         return f"{self.signature(function, 'status_word')}\n{{\n    return {call};\n}}"
 
-    def _cut(self, function: Function | Stage, part: Part, whole: Together) -> list[str]:
+    def _cut(self, function: Function | Stage, part: OwnSteps, whole: Together) -> list[str]:
         """Print the pieces of a function, and what calls them."""
         steps, guards = steps_of(function, part, whole), self._guards_of(function, part)
         sizes = {block.name: len(block.results) for block in blocks_of([function])}
@@ -306,7 +306,7 @@ class Source(CText):
         return [*(printer.piece(k, bits[k]) for k in range(len(bits))), printer.caller()]
 
     def _guards_of(
-        self, function: Function | Stage, part: Part
+        self, function: Function | Stage, part: OwnSteps
     ) -> list[tuple[str, sp.Symbol, sp.Expr]]:
         """Return names of the guards that act, with what they compare."""
         acting = {guard.name: guard for guard in function.guards}
@@ -399,7 +399,9 @@ class Source(CText):
             ]
         )
 
-    def _part(self, function: Function | Stage, part: Part, names: Mapping[str, str]) -> list[str]:
+    def _part(
+        self, function: Function | Stage, part: OwnSteps, names: Mapping[str, str]
+    ) -> list[str]:
         """Print the results of a function, and the steps that it alone has."""
         lines = [*self.loads(part.reads), *printed(part.steps, names)]
         texts, start = written_values(part.results, FORMULA, names), 0
@@ -439,7 +441,7 @@ class Source(CText):
         return lines
 
     def _status_of(
-        self, function: Function | Stage, part: Part, names: Mapping[str, str]
+        self, function: Function | Stage, part: OwnSteps, names: Mapping[str, str]
     ) -> list[str]:
         """Collect the status: comparisons only, no branch.
 
@@ -465,7 +467,7 @@ class _Pieces:
         self,
         source: Source,
         function: Function | Stage,
-        part: Part,
+        part: OwnSteps,
         found: Cut,
         of_blocks: Mapping[str, str],
         wide: Mapping[str, int],

@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from ..text import Written, written_steps
+from ..text import StepText, written_steps
 from ..words import FORMULA
 from .common import unbroken
 
@@ -74,11 +74,11 @@ def wrapped(text: str, indent: int) -> list[str]:
     return unbroken(text, initial_indent=" " * indent, subsequent_indent=" " * (indent + 4))
 
 
-def _section(step: Written) -> str:
+def _section(step: StepText) -> str:
     return step.section
 
 
-def _kind(step: Written) -> str:
+def _kind(step: StepText) -> str:
     """Return how a step is declared: a number, what an iteration returns, or an element."""
     if step.kind == "iterate":
         return f"const struct {step.of}"

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ...declare.mechanism import Mechanism
     from ...declare.parameters import Parameter
     from ...declare.shown import Level, Shown
-    from ...declare.states import Entry, StateLayout
+    from ...declare.states import DeclaredStates, Entry
     from ...equations.outputs import Derivation
     from ...loops.planner import Transformer
     from ...program.function import Function, Stage
@@ -102,7 +102,7 @@ def _described(entries: Iterable[Entry]) -> dict[str, dict[str, str]]:
     return {e.name: {"unit": e.unit, "meaning": e.meaning} for e in entries}
 
 
-def _layout(states: StateLayout) -> dict[str, Any]:
+def _layout(states: DeclaredStates) -> dict[str, Any]:
     """Return where free bodies begin among the positions, and which speed goes with each position.
 
     That is null of the scalar part of a quaternion, and where constraints give the speed.

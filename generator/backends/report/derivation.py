@@ -9,20 +9,20 @@ from ...program.floors import ROUNDING
 from ..counting import OPERATIONS, operations_of
 from ..text import formula
 from ..words import FORMULA, iteration_note
-from .document import Heading, Paragraph, Picture, Table, Transformation
-from .motion import Equations, inline, motion_sections
+from .document import Heading, Paragraph, Picture, TextTable, Transformation
+from .motion import EquationNumbers, inline, motion_sections
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ...declare.mechanism import Mechanism
     from ...equations.outputs import Derivation
-    from ...loops.graph import Cycle, Topology
+    from ...loops.graph import Cycle, JointGraph
     from ...loops.planner import Transformer
     from .document import Block
 
 
-def bodies_of(topology: Topology, cycle: Cycle) -> str:
+def bodies_of(topology: JointGraph, cycle: Cycle) -> str:
     """Return a cycle as the numbers and names of its bodies.
 
     Parameters
@@ -40,7 +40,7 @@ def _numbered(mechanism: Mechanism, body: str) -> str:
     return body if body == WORLD.name else f"{mechanism.numbers[body]} {body}"
 
 
-def joint_rows(topology: Topology) -> list[tuple[str, ...]]:
+def joint_rows(topology: JointGraph) -> list[tuple[str, ...]]:
     """Return the rows of the joint table (Table 1)."""
     mechanism = topology.mechanism
     return [
@@ -55,7 +55,7 @@ def joint_rows(topology: Topology) -> list[tuple[str, ...]]:
     ]
 
 
-def path_rows(topology: Topology) -> list[tuple[str, ...]]:
+def path_rows(topology: JointGraph) -> list[tuple[str, ...]]:
     """Return the rows of the table of shortest paths (Table 2), ties included."""
     numbers = topology.mechanism.numbers.values()
     return [
@@ -64,7 +64,7 @@ def path_rows(topology: Topology) -> list[tuple[str, ...]]:
     ]
 
 
-def mobility_line(topology: Topology) -> str:
+def mobility_line(topology: JointGraph) -> str:
     """Return Eq. 1 with the numbers of the mechanism."""
     moving = len(topology.mechanism.moving)
     closed = [str(6 - j.freedoms) for j in topology.mechanism.joints]
@@ -79,7 +79,7 @@ def mobility_line(topology: Topology) -> str:
     return f"f = 6 x {moving} - ({' + '.join(closed)}){extra} = {topology.mobility}"
 
 
-def cycles_line(topology: Topology) -> str:
+def cycles_line(topology: JointGraph) -> str:
     """Say how many cycles Horton's construction tries, and what is left of them."""
     bodies, joints = len(topology.mechanism.bodies), len(topology.mechanism.joints)
     return (
@@ -104,7 +104,7 @@ def _cut(transformer: Transformer) -> str:
     )
 
 
-def transformation(topology: Topology, transformer: Transformer) -> Transformation:
+def transformation(topology: JointGraph, transformer: Transformer) -> Transformation:
     """Return a transformer as a block with its inputs and outputs.
 
     Parameters
@@ -125,7 +125,7 @@ def transformation(topology: Topology, transformer: Transformer) -> Transformati
     return Transformation(transformer.number, transformer.inputs, inside, transformer.outputs)
 
 
-def mermaid(topology: Topology) -> str:
+def mermaid(topology: JointGraph) -> str:
     """Return the joint graph as a Mermaid diagram, which forges draw as a picture."""
     numbers = topology.mechanism.numbers
     bodies = [f'    {body}(["{number} {body}"])' for body, number in numbers.items()]
@@ -136,7 +136,7 @@ def mermaid(topology: Topology) -> str:
     return "\n".join(["graph LR", *bodies, *joints])
 
 
-def preference(topology: Topology, transformer: Transformer) -> str:
+def preference(topology: JointGraph, transformer: Transformer) -> str:
     """Say why a loop was taken before others of the same length.
 
     Parameters
@@ -167,7 +167,7 @@ def preference(topology: Topology, transformer: Transformer) -> str:
 def derivation_report(derivation: Derivation) -> list[Block]:
     """Return the whole report."""
     topology = derivation.plan.topology
-    note, number = iteration_note(derivation), Equations()
+    note, number = iteration_note(derivation), EquationNumbers()
     return [
         Heading(1, derivation.formulation.title),
         Paragraph(_summary(derivation)),
@@ -210,13 +210,13 @@ def _counted(number: int, what: str) -> str:
     return f"{number or 'no'} {what}{'' if number == 1 else 's'}"
 
 
-def _structure(topology: Topology) -> list[Block]:
+def _structure(topology: JointGraph) -> list[Block]:
     """Return bodies and joints, mobility, paths and cycles."""
     mechanism = topology.mechanism
     return [
         Heading(2, "Bodies and joints"),
         Picture("bodies", "Bodies with their numbers, and joints, at the design position."),
-        Table(
+        TextTable(
             ("joint", "type", "first body", "second body", "freedoms", "leaves in common"),
             joint_rows(topology),
         ),
@@ -241,25 +241,25 @@ def _structure(topology: Topology) -> list[Block]:
             "equally short, "
             "all are listed."
         ),
-        Table(("", *map(str, mechanism.numbers.values())), path_rows(topology)),
+        TextTable(("", *map(str, mechanism.numbers.values())), path_rows(topology)),
         Heading(2, "Cycles"),
         *_cycles(topology),
     ]
 
 
-def _cycles(topology: Topology) -> list[Block]:
+def _cycles(topology: JointGraph) -> list[Block]:
     if not topology.candidate_cycles:
         return [Paragraph("The joint graph is a tree: there is no cycle in it.")]
     return [
         Paragraph(cycles_line(topology)),
-        Table(
+        TextTable(
             ("bodies", "length"),
             [(bodies_of(topology, c), str(c.length)) for c in topology.candidate_cycles],
         ),
     ]
 
 
-def _transformers(derivation: Derivation, number: Equations) -> Iterator[Block]:
+def _transformers(derivation: Derivation, number: EquationNumbers) -> Iterator[Block]:
     topology = derivation.plan.topology
     if not derivation.plan.transformers:
         yield Paragraph("There is no loop, and so nothing to close.")
@@ -288,12 +288,12 @@ def _transformers(derivation: Derivation, number: Equations) -> Iterator[Block]:
         yield Heading(3, f"Transformer {transformer.number}")
         yield transformation(topology, transformer)
         yield Paragraph(preference(topology, transformer))
-        yield Table(
+        yield TextTable(
             ("pair with a common distance", "unknowns eliminated", "equations left", ""), pairs
         )
 
 
-def _turns(derivation: Derivation, number: Equations) -> Iterator[Block]:
+def _turns(derivation: Derivation, number: EquationNumbers) -> Iterator[Block]:
     """Yield how the equation of an unknown angle is solved, where a loop has it."""
     steps = ((t.step, t.closing) for t in derivation.plan.transformers)
     if not any(step.words(closing)[1].startswith("a cos x") for step, closing in steps):
@@ -319,7 +319,7 @@ def _validity(derivation: Derivation) -> Iterator[Block]:
     """Yield where the formulas end, and which parameters are refused."""
     yield Heading(2, "Validity")
     yield Paragraph("Each function reports, by a status bit, which of these has left its range:")
-    yield Table(
+    yield TextTable(
         ("quantity", "floor", "unit", "meaning when it is not over the floor"),
         [
             (f"`{g.name}`", f"`{formula(g.floor, FORMULA)}`", g.unit, g.meaning)
@@ -331,7 +331,7 @@ def _validity(derivation: Derivation) -> Iterator[Block]:
             "Parameters are refused for which one of these is not zero (an angle by its sine; to "
             f"{ROUNDING}, of a distance relative to a length):"
         )
-        yield Table(
+        yield TextTable(
             ("quantity", "unit", "meaning when it is not zero"),
             [(f"`{a.quantity}`", a.unit, a.meaning) for a in derivation.assumptions],
         )
@@ -339,7 +339,7 @@ def _validity(derivation: Derivation) -> Iterator[Block]:
         yield Paragraph(
             "Parameters are refused for which one of these is not more than its least amount:"
         )
-        yield Table(
+        yield TextTable(
             ("quantity", "least", "unit", "meaning when it is less"),
             [
                 (f"`{c.quantity}`", f"`{formula(c.least, FORMULA)}`", c.unit, c.meaning)
@@ -348,7 +348,7 @@ def _validity(derivation: Derivation) -> Iterator[Block]:
         )
 
 
-def _counts(derivation: Derivation) -> Table:
+def _counts(derivation: Derivation) -> TextTable:
     rows = []
     for function in (derivation.prepare, derivation.design, *derivation.emitted.values()):
         counts = operations_of(function)
@@ -360,4 +360,4 @@ def _counts(derivation: Derivation) -> Table:
                 *(str(counts[name]) for name in OPERATIONS),
             )
         )
-    return Table(("function", "results", "operations", *OPERATIONS), rows)
+    return TextTable(("function", "results", "operations", *OPERATIONS), rows)

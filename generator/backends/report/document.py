@@ -35,7 +35,7 @@ class Paragraph:
 
 
 @dataclass(frozen=True)
-class Table:
+class TextTable:
     """Rows of texts below a header."""
 
     header: tuple[str, ...]
@@ -80,7 +80,7 @@ class Transformation:
     outputs: Sequence[str]
 
 
-Block = Heading | Paragraph | Table | Equation | Picture | Transformation
+Block = Heading | Paragraph | TextTable | Equation | Picture | Transformation
 
 
 def pieces(text: str) -> Iterator[tuple[str, str]]:

@@ -21,7 +21,7 @@ from .document import (
     Heading,
     Paragraph,
     Picture,
-    Table,
+    TextTable,
     Transformation,
     pieces,
 )
@@ -318,7 +318,7 @@ def _unbroken(text: str) -> Iterator[str]:
 
 
 @_set.register
-def _(block: Table) -> str:
+def _(block: TextTable) -> str:
     columns = [
         _Column(header, tuple(row[place] for row in block.rows))
         for place, header in enumerate(block.header)

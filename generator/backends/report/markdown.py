@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..words import mechanism_hash
 from .derivation import derivation_report
-from .document import Block, Equation, Heading, Paragraph, Picture, Table, Transformation
+from .document import Block, Equation, Heading, Paragraph, Picture, TextTable, Transformation
 
 if TYPE_CHECKING:
     from ...equations.outputs import Derivation
@@ -57,7 +57,7 @@ def _(block: Transformation) -> str:
 
 
 @_written.register
-def _(block: Table) -> str:
+def _(block: TextTable) -> str:
     """Return an aligned table."""
     rows = (block.header, *block.rows)
     widths = [max(len(row[i]) for row in rows) for i in range(len(block.header))]

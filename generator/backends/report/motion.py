@@ -16,7 +16,7 @@ from ...declare.joints import Cylindrical, Prismatic, Revolute, Universal, Weld
 from ...kinematics.chain import before_telescope, chain_to, reported
 from ...program.steps import ancestors
 from ...program.symbols import symbols_of
-from .document import Equation, Heading, Paragraph, Table
+from .document import Equation, Heading, Paragraph, TextTable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Screw:
+class ScrewFormula:
     """How a unit rate of a relative coordinate moves what follows in the chain.
 
     Attributes
@@ -43,7 +43,7 @@ class Screw:
     point: tuple[Point, str] | None
 
 
-class Equations:
+class EquationNumbers:
     """Numbers equations, and puts the paper's numbers beside them."""
 
     def __init__(self) -> None:
@@ -55,7 +55,7 @@ class Equations:
         return Equation(formula, self._count, paper)
 
 
-class Motion:
+class MotionFormulas:
     """Screws and chains of a model, as formulas.
 
     Attributes
@@ -118,7 +118,7 @@ class Motion:
     # -- screws ---------------------------------------------------------------------------------
 
     @cached_property
-    def screws(self) -> dict[str, Screw]:
+    def screws(self) -> dict[str, ScrewFormula]:
         """The screw of each coordinate that is not a copy and is in a chain, by its name."""
         names = {c.name for body in self.bodies for c in self.in_chain(body)}
         return {c.name: self._screw(c) for c in self.mechanism.coordinates if c.name in names}
@@ -138,22 +138,22 @@ class Motion:
             for kind in joint.coordinates
         ]
 
-    def _screw(self, coordinate: RelativeCoordinate) -> Screw:
+    def _screw(self, coordinate: RelativeCoordinate) -> ScrewFormula:
         joint = coordinate.joint
         frame = self._frame(joint.first.name)
         if isinstance(joint, Revolute):
-            return Screw(f"{frame}{along(joint)}", (joint.axis.through, joint.first.name))
+            return ScrewFormula(f"{frame}{along(joint)}", (joint.axis.through, joint.first.name))
         if isinstance(joint, Prismatic):
-            return Screw(f"{frame}{along(joint)}", None)
+            return ScrewFormula(f"{frame}{along(joint)}", None)
         if isinstance(joint, Universal):
             turned = "" if coordinate.kind == "azimuth" else f"{self._turn(joint, 'azimuth')}\\,"
             axis = r"\mathbf{e}_z" if coordinate.kind == "azimuth" else r"\mathbf{e}_x"
-            return Screw(f"{frame}{turned}{axis}", (joint.at, joint.first.name))
+            return ScrewFormula(f"{frame}{turned}{axis}", (joint.at, joint.first.name))
         assert isinstance(joint, Cylindrical)
         assert isinstance(joint.axis.towards, Point)
         holder = self._holder(joint)
         point = None if coordinate.kind == "slide" else (joint.axis.towards, joint.first.name)
-        return Screw(f"-{self.shaft(holder)}", point)
+        return ScrewFormula(f"-{self.shaft(holder)}", point)
 
     def shaft(self, joint: Universal) -> str:
         """Return the unit vector along the shaft of a universal joint, from its centre on."""
@@ -341,7 +341,7 @@ _SHAFTS = (
 )
 
 
-def motion_sections(derivation: Derivation, number: Equations) -> list[Block]:
+def motion_sections(derivation: Derivation, number: EquationNumbers) -> list[Block]:
     """Return the sections from the relative coordinates to M, B and Q.
 
     Parameters
@@ -351,7 +351,7 @@ def motion_sections(derivation: Derivation, number: Equations) -> list[Block]:
     number
         Numbers the equations.
     """
-    motion = Motion(derivation)
+    motion = MotionFormulas(derivation)
     return [
         *_coordinates(motion),
         *_relative(motion, number),
@@ -361,18 +361,18 @@ def motion_sections(derivation: Derivation, number: Equations) -> list[Block]:
     ]
 
 
-def _coordinates(motion: Motion) -> list[Block]:
+def _coordinates(motion: MotionFormulas) -> list[Block]:
     return [
         Heading(2, "Relative coordinates"),
         Paragraph(
             "The coordinates in which everything below is written, and where the value of each "
             "comes from."
         ),
-        Table(("", "name", "joint", "value", "meaning"), motion.coordinate_rows()),
+        TextTable(("", "name", "joint", "value", "meaning"), motion.coordinate_rows()),
     ]
 
 
-def _relative(motion: Motion, number: Equations) -> list[Block]:
+def _relative(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
     read = closure_reads(motion.derivation)
     rows = [
         (
@@ -388,7 +388,7 @@ def _relative(motion: Motion, number: Equations) -> list[Block]:
             "For each coordinate there is one closure equation (`residuals`). What it reads, "
             "beside hardpoints, is where its row of the derivative is not zero:"
         ),
-        Table(("equation", "relative coordinates", "independent and given"), rows),
+        TextTable(("equation", "relative coordinates", "independent and given"), rows),
         Paragraph(
             r"Differentiated with respect to time, where $`\mathbf{u}`$ are the inputs that "
             "prescribe a motion:"
@@ -431,13 +431,13 @@ def closure_reads(derivation: Derivation) -> dict[str, tuple[list[str], list[str
     return found
 
 
-def _absolute(motion: Motion, number: Equations) -> list[Block]:
+def _absolute(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
     cites = motion.formulation.cites
     sections: list[Block] = []
     if motion.bodies:
         sections += [
             Paragraph("The axes of the coordinates, and a point through which each passes:"),
-            Table(("coordinate", "axis a", "through p"), motion.screw_rows()),
+            TextTable(("coordinate", "axis a", "through p"), motion.screw_rows()),
             Paragraph(
                 "Position and velocity of a body follow from those of the body before it in its "
                 "chain. Each rate along the chain adds its share to the velocities."
@@ -457,7 +457,7 @@ def _absolute(motion: Motion, number: Equations) -> list[Block]:
             number(angular, cites.get(f"omega of {body}", "")),
             number(linear),
         ]
-    signs = Table(("sign", "what it is"), [*_signs(sections)])
+    signs = TextTable(("sign", "what it is"), [*_signs(sections)])
     sections = [Heading(2, "Absolute kinematics"), *([signs] if signs.rows else []), *sections]
     missing = [b for b in motion.derivation.massive_bodies if b not in motion.bodies]
     if missing:
@@ -487,13 +487,17 @@ def _absolute(motion: Motion, number: Equations) -> list[Block]:
 def _signs(blocks: list[Block]) -> Iterator[tuple[str, str]]:
     """Yield the signs that some blocks use, and what they represent."""
     cells = (
-        cell for block in blocks if isinstance(block, Table) for row in block.rows for cell in row
+        cell
+        for block in blocks
+        if isinstance(block, TextTable)
+        for row in block.rows
+        for cell in row
     )
     used = " ".join([*cells, *(b.formula for b in blocks if isinstance(b, Equation))])
     yield from (told for sign, told in _SIGNS.items() if sign in used)
 
 
-def _global(number: Equations) -> list[Block]:
+def _global(number: EquationNumbers) -> list[Block]:
     return [
         Heading(2, "Global Jacobian"),
         Paragraph(
@@ -512,7 +516,7 @@ def _global(number: Equations) -> list[Block]:
     ]
 
 
-def _dynamics(motion: Motion, number: Equations) -> list[Block]:
+def _dynamics(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
     numbers = motion.mechanism.numbers
     bodies = ", ".join(f"{numbers[b]} `{b}`" for b in motion.derivation.massive_bodies)
     inertia = r"\boldsymbol{\Theta}_b"
@@ -602,7 +606,7 @@ def _dynamics(motion: Motion, number: Equations) -> list[Block]:
             r"Each force that acts adds its share to $`\mathbf{Q}`$, the coefficient of its power "
             "in the rate of each independent coordinate:"
         ),
-        Table(("force", "acts", "share of Q", "paper"), rows),
+        TextTable(("force", "acts", "share of Q", "paper"), rows),
     ]
     return sections
 

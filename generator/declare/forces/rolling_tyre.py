@@ -10,7 +10,7 @@ import sympy as sp
 from ...program.formulas import Steps
 from ...program.functions import IsPositive, Positive
 from ...program.vectors import Vector
-from ..contact_laws import ContactLaw, Rolling
+from ..contact_laws import ContactLaw, RollingState
 from ..declared import DeclarationError, Name, declared
 from ..inputs import Input
 from ..internal_states import InternalState
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ..surroundings import Surroundings
-    from ..wheel import Upright
+    from ..wheel import WheelAttitude
 
 _SHORTEST = sp.Rational(1, 20)  # relaxation length [m]
 _TOUCH = 1e-3  # load at which a tyre touches [N]
@@ -195,7 +195,7 @@ class RollingTyre(Force):
     def _load(
         self,
         at: Surroundings,
-        upright: Upright,
+        upright: WheelAttitude,
         cosine: sp.Expr,
         moving: tuple[Vector, Vector, Vector],
     ) -> tuple[sp.Expr, sp.Expr]:
@@ -223,8 +223,8 @@ class RollingTyre(Force):
         steps: Steps,
         axes: tuple[Vector, Vector, Vector],
         load: sp.Expr,
-        moving: tuple[Vector, Vector, Vector, Upright],
-    ) -> Rolling:
+        moving: tuple[Vector, Vector, Vector, WheelAttitude],
+    ) -> RollingState:
         """Return how the tyre rolls."""
         (forward, left, _), (velocity, turning, arm, upright) = axes, moving
         ahead = steps.define("ahead", forward.dot(velocity))
@@ -234,7 +234,7 @@ class RollingTyre(Force):
         least = self.law.lowest_speed * self.law.lowest_speed
         size = steps.define("speed", sp.sqrt(ahead * ahead + least))
         both = steps.define("ground_speed", sp.sqrt(ahead * ahead + sideways * sideways + least))
-        return Rolling(
+        return RollingState(
             load=load,
             longitudinal=steps.define("slip", (radius * spin - ahead) / size),
             lateral=steps.define("lateral_slip", sideways / size),
@@ -245,7 +245,7 @@ class RollingTyre(Force):
             size=size,
         )
 
-    def _relaxed(self, steps: Steps, at: Rolling) -> tuple[Rolling, dict[str, sp.Expr]]:
+    def _relaxed(self, steps: Steps, at: RollingState) -> tuple[RollingState, dict[str, sp.Expr]]:
         """Return how the tyre rolls with slips that follow, and the rates of the deflections."""
         if self.deflections is None:
             return at, {}

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...systems.system import System
-from ..retraced import Steps, weights_within
+from ..retraced import RetracedSteps, weights_within
 from . import library
 from .run import usual_threads
 
@@ -65,7 +65,7 @@ class Along:
 
 def followed(
     system: System,
-    steps: Steps,
+    steps: RetracedSteps,
     times: Array,
     along: Along,
     items: Sequence[int],
@@ -78,7 +78,7 @@ def followed(
     Parameters
     ----------
     system : System
-    steps : Steps
+    steps : RetracedSteps
         Of its motion.
     times : ndarray
         When the motion is looked at, increasing [s].
@@ -120,7 +120,7 @@ def followed(
 
 
 def _described(
-    system: System, steps: Steps, times: Array, along: Along, items: Sequence[int]
+    system: System, steps: RetracedSteps, times: Array, along: Along, items: Sequence[int]
 ) -> dict[str, Any]:
     """Return everything of ``kt_motion`` but functions and what is found."""
     step, part = steps.places(times)

@@ -80,7 +80,7 @@ class Crossing:
 
 
 @dataclass(frozen=True)
-class Description:
+class ModelDescription:
     """What a unit is.
 
     Attributes

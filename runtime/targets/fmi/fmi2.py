@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from xml.etree import ElementTree as ET
 
-from .description import Description, Variable
+from .description import ModelDescription, Variable
 from .xml import element, log_categories, number, text_of, unit_definitions, units_of
 
 VERSION = 2
@@ -14,12 +14,12 @@ FOLDERS = {"linux": "linux64", "windows": "win64"}
 """Folders of libraries."""
 
 
-def model_description(known: Description, sources: Sequence[str]) -> str:
+def model_description(known: ModelDescription, sources: Sequence[str]) -> str:
     """Return ``modelDescription.xml``.
 
     Parameters
     ----------
-    known : Description
+    known : ModelDescription
     sources : sequence of str
         The C files.
     """
@@ -84,7 +84,7 @@ def _variable(parent: ET.Element, variable: Variable) -> None:
     )
 
 
-def _structure(root: ET.Element, known: Description) -> None:
+def _structure(root: ET.Element, known: ModelDescription) -> None:
     """Add what is computed, by places that count from 1."""
     structure = ET.SubElement(root, "ModelStructure")
     unknowns = sorted([*known.outputs, *known.rates], key=lambda v: v.reference)

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from xml.etree import ElementTree as ET
 
-from .description import Description, Variable
+from .description import ModelDescription, Variable
 from .xml import element, log_categories, number, text_of, unit_definitions, units_of
 
 VERSION = 3
@@ -14,7 +14,7 @@ FOLDERS = {"linux": "x86_64-linux", "windows": "x86_64-windows"}
 """Folders of libraries."""
 
 
-def model_description(known: Description, sources: Sequence[str]) -> str:
+def model_description(known: ModelDescription, sources: Sequence[str]) -> str:
     """Return ``modelDescription.xml``; `sources` are reported by the build description."""
     del sources
     root = ET.Element(
@@ -67,7 +67,7 @@ def _variable(parent: ET.Element, variable: Variable) -> None:
     )
 
 
-def _structure(root: ET.Element, known: Description) -> None:
+def _structure(root: ET.Element, known: ModelDescription) -> None:
     """Add what is computed, and what of: some importers need that to be said though it is all."""
     structure = ET.SubElement(root, "ModelStructure")
     moving = " ".join(str(v.reference) for v in (*known.states, *known.inputs))
@@ -84,12 +84,12 @@ def _structure(root: ET.Element, known: Description) -> None:
             row.set("dependencies", text.strip())
 
 
-def build_description(known: Description, sources: Sequence[str]) -> str:
+def build_description(known: ModelDescription, sources: Sequence[str]) -> str:
     """Return ``sources/buildDescription.xml``.
 
     Parameters
     ----------
-    known : Description
+    known : ModelDescription
     sources : sequence of str
         The C files.
     """

@@ -11,7 +11,7 @@ from ...simulation import native
 from ...simulation.dead_points import meanings
 from ..emitted import Emitted
 from ..text import environment, number, quoted
-from .description import Crossing, Description
+from .description import Crossing, ModelDescription
 
 MARK = "kintrafo: numbers of a model"
 EQUATIONS = "equations"
@@ -34,13 +34,13 @@ HEADERS = {
 
 
 def source_files(
-    known: Description, fronts: Iterable[str], token: str, values: list[float]
+    known: ModelDescription, fronts: Iterable[str], token: str, values: list[float]
 ) -> dict[str, str]:
     """Return all files, by path below ``sources``.
 
     Parameters
     ----------
-    known : Description
+    known : ModelDescription
     fronts : iterable of str
         Those of `HEADERS` that there are to be.
     token : str
@@ -67,7 +67,7 @@ def _text(file: Any) -> str:
     return text
 
 
-def _numbers(known: Description, token: str, values: list[float]) -> str:
+def _numbers(known: ModelDescription, token: str, values: list[float]) -> str:
     """Return the file of the numbers."""
     entries = {
         "title": known.emitted.title,
@@ -78,7 +78,7 @@ def _numbers(known: Description, token: str, values: list[float]) -> str:
     return template.render(entries, mark=MARK, token=token, values=values)
 
 
-def _model(known: Description) -> str:
+def _model(known: ModelDescription) -> str:
     """Return the tables of the model."""
     emitted, manifest = known.emitted, known.manifest
     equations = emitted.system.equations

@@ -20,7 +20,7 @@ from kintrafo.core.errors import KintrafoError
 from kintrafo.generator import DeclarationError
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import double_wishbone, four_bar, slider_crank
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.declaration import given_by, translated_errors
 from kintrafo.systems.compile.loader import load
@@ -60,7 +60,7 @@ def attempt(random):
         model = _mistaken(model, random, words)
     try:
         with translated_errors():
-            plan = Plan.of(model)
+            plan = CataloguePlan.of(model)
     except KintrafoError as error:
         _judge(error)
         raise

@@ -17,7 +17,7 @@ from kintrafo import generator as g
 from kintrafo.core.errors import KintrafoError
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.loops.errors import NoClosedFormError
-from kintrafo.generator.planning.proposal import Search
+from kintrafo.generator.planning.proposal import CoordinateSearch
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.declaration import translated_errors
 from kintrafo.systems.compile.loader import load
@@ -55,7 +55,7 @@ def attempt(random: Random) -> None:
 def _model_of(mechanism: g.Mechanism) -> g.Formulation:
     """Return the first proposed model, with iteration where there is no closed form."""
     every = tuple(c.joint for c in mechanism.coordinates)
-    search = Search(g.Formulation("planar", "t", mechanism, every))
+    search = CoordinateSearch(g.Formulation("planar", "t", mechanism, every))
     with translated_errors():
         found = next(search.closed(10.0), None)
         if found is not None:

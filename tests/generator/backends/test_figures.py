@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from kintrafo.generator.backends.report.figures import ELEMENTS, draw_figures
 from kintrafo.generator.mechanisms import MODELS
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 
 SHOWN = [m for m in MODELS if m.name in ("macpherson", "andrews")]
 
@@ -16,9 +16,9 @@ SHOWN = [m for m in MODELS if m.name in ("macpherson", "andrews")]
 @pytest.fixture(scope="module", params=SHOWN, ids=lambda model: model.name)
 def drawn(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
-) -> tuple[Plan, dict[str, list[str]], Path]:
+) -> tuple[CataloguePlan, dict[str, list[str]], Path]:
     """Return a plan and the words of each figure."""
-    plan, folder = Plan.of(request.param), tmp_path_factory.mktemp("figures")
+    plan, folder = CataloguePlan.of(request.param), tmp_path_factory.mktemp("figures")
     draw_figures(plan, folder)
     prefix = f"{plan.formulation.name}_"
     words = {p.stem.removeprefix(prefix): texts(p) for p in sorted(folder.glob("*.svg"))}
@@ -32,14 +32,16 @@ def texts(path: Path) -> list[str]:
     return [t.strip() for t in (*words, *re.findall(r"<!-- (.*?\$.*?) -->", written))]
 
 
-def test_every_body_has_its_number_once(drawn: tuple[Plan, dict[str, list[str]], Path]) -> None:
+def test_every_body_has_its_number_once(
+    drawn: tuple[CataloguePlan, dict[str, list[str]], Path],
+) -> None:
     plan, words, _ = drawn
     found = Counter(words["bodies"])
     assert {found[str(n)] for n in plan.formulation.mechanism.numbers.values()} == {1}
 
 
 def test_every_joint_and_fictitious_body_is_in_the_graph(
-    drawn: tuple[Plan, dict[str, list[str]], Path],
+    drawn: tuple[CataloguePlan, dict[str, list[str]], Path],
 ) -> None:
     plan, words, _ = drawn
     found, joints = Counter(words["graph"]), plan.formulation.mechanism.joints
@@ -49,7 +51,9 @@ def test_every_joint_and_fictitious_body_is_in_the_graph(
     assert found["P"] == sum(j.kind in ("prismatic", "cylindrical") for j in joints)
 
 
-def test_every_coordinate_is_a_wire_once(drawn: tuple[Plan, dict[str, list[str]], Path]) -> None:
+def test_every_coordinate_is_a_wire_once(
+    drawn: tuple[CataloguePlan, dict[str, list[str]], Path],
+) -> None:
     plan, words, _ = drawn
     names = [c.name for c in plan.formulation.mechanism.coordinates]
     written = " , ".join(words["transformers"])
@@ -59,7 +63,9 @@ def test_every_coordinate_is_a_wire_once(drawn: tuple[Plan, dict[str, list[str]]
         assert len(re.findall(rf"(?<![\w]){re.escape(shown)}(?![\w])", written)) == 1, name
 
 
-def test_letters_are_those_of_the_paper(drawn: tuple[Plan, dict[str, list[str]], Path]) -> None:
+def test_letters_are_those_of_the_paper(
+    drawn: tuple[CataloguePlan, dict[str, list[str]], Path],
+) -> None:
     """Figure 1 of the paper: O, A, B, C, D, E, and HG of the wheel's bearing."""
     plan, words, _ = drawn
     if plan.formulation.name != "macpherson":
@@ -69,7 +75,7 @@ def test_letters_are_those_of_the_paper(drawn: tuple[Plan, dict[str, list[str]],
 
 
 def test_figures_are_the_same_bytes_again(
-    drawn: tuple[Plan, dict[str, list[str]], Path], tmp_path: Path
+    drawn: tuple[CataloguePlan, dict[str, list[str]], Path], tmp_path: Path
 ) -> None:
     plan, _, folder = drawn
     if plan.formulation.name != "macpherson":

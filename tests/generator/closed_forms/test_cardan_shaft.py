@@ -15,7 +15,7 @@ from kintrafo.generator.closed_forms.cardan_shaft import CardanShaft
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.mechanisms import held_by_rods
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from oracle_check import check_with_the_oracle
 from own_mechanisms import cross, declare, guide, hinge, steering_shaft
 from own_models import Built, own
@@ -191,7 +191,7 @@ def series() -> Formulation:
 
 def test_shafts_in_a_row_go_round_as_the_oracle_says(tmp_path: Path) -> None:
     model = series()
-    steps = [type(transformer.step) for transformer in Plan.of(model).transformers]
+    steps = [type(transformer.step) for transformer in CataloguePlan.of(model).transformers]
     assert steps == [CardanShaft, CardanShaft]
     check_with_the_oracle(model, tmp_path, pi)
 
@@ -235,7 +235,7 @@ def test_what_is_no_such_shaft_is_told_what_to_do(
 ) -> None:
     """A shaft that cannot telescope, and a cross whose second body is not the shaft."""
     model = replace(column("other", 0.3, 0.3, 0.0, links=links), allow_iteration=allowed)
-    refused(NoClosedFormError, lambda: Plan.of(model))
+    refused(NoClosedFormError, lambda: CataloguePlan.of(model))
 
 
 def test_a_rod_with_two_crosses_holds_no_carrier_by_iteration() -> None:
@@ -244,6 +244,6 @@ def test_a_rod_with_two_crosses_holds_no_carrier_by_iteration() -> None:
     ball = model.mechanism.joint("toe_link_ball")
     way = model.mechanism.joint("toe_link_cross").shaft
     crossed = Universal(ball.name, ball.first, ball.second, ball.at, way, Direction("z", (0, 0, 1)))
-    Plan.of(model)
+    CataloguePlan.of(model)
     with pytest.raises(NoClosedFormError, match=BETWEEN.format("toe_link", "As a rod")):
-        Plan.of(changed(model, (ball, crossed)))
+        CataloguePlan.of(changed(model, (ball, crossed)))

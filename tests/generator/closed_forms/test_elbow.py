@@ -14,7 +14,7 @@ from kintrafo.generator.closed_forms.elbow import Elbow, PlaceElbow
 from kintrafo.generator.closed_forms.prismatic import PrismaticByLength
 from kintrafo.generator.closed_forms.revolute import RevoluteByLength
 from kintrafo.generator.mechanisms.slider_crank import MODELS as SLIDER_CRANKS
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from oracle_check import check_with_the_oracle
 from own_loops import KNEE, planar
 
@@ -55,7 +55,7 @@ def counted_to_a_point() -> Formulation:
     ids=lambda value: getattr(value, "name", ""),
 )
 def test_it_moves_as_the_oracle_says(model: Formulation, form: type, tmp_path: Path) -> None:
-    plan = Plan.of(model)
+    plan = CataloguePlan.of(model)
     (transformer,) = plan.transformers
     assert isinstance(transformer.step, form)
     assert isinstance(transformer.step.leg, Elbow)
@@ -85,7 +85,7 @@ def test_a_driven_elbow_may_hang_at_moving_bodies(tmp_path: Path) -> None:
         ("leftrod", (0.1, 0.25)),
     )
     bars = replace(bars, allow_iteration=False, massive=bars.mechanism.bodies[1:])
-    assert PlaceElbow in map(type, Plan.of(bars).steps)
+    assert PlaceElbow in map(type, CataloguePlan.of(bars).steps)
     check_with_the_oracle(bars, tmp_path, 0.2)
     left, pin = bars.independent
     given = replace(

@@ -30,7 +30,7 @@ from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.mechanisms import held_by_rods
 from kintrafo.generator.mechanisms.held_by_rods import CONTROL_ARM, FIVE_LINK, MODELS
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.program import ConstantStage, Program
 from kintrafo.generator.program.newton import adjugate
 from own_models import Built, needs_gcc, own
@@ -497,7 +497,7 @@ def design_angle(derived: Derivation) -> float:
 @pytest.mark.parametrize("model", MODELS, ids=lambda m: m.name)
 def test_without_permission_the_loop_is_refused(model: Any) -> None:
     with pytest.raises(NoClosedFormError) as told:
-        Plan.of(replace(model, allow_iteration=False))
+        CataloguePlan.of(replace(model, allow_iteration=False))
     text = str(told.value)
     assert "has no closed form in the catalogue" in text
     assert "leaves 1 equation(s)" in text
@@ -514,7 +514,7 @@ def test_a_hinge_in_place_of_a_ball_joint_has_no_block() -> None:
     hinge = Revolute("lower_ball", held_by_rods.LOWER_ARM, held_by_rods.CARRIER, axis=line)
     model = changed(ARM, (ball, hinge))
     with pytest.raises(NoClosedFormError, match="no closed") as told:
-        Plan.of(model)
+        CataloguePlan.of(model)
     assert "allow_iteration" not in str(told.value)
 
 

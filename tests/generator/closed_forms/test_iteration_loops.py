@@ -23,10 +23,10 @@ from kintrafo.generator.backends.report.markdown import markdown
 from kintrafo.generator.closed_forms.coupled_loops import MOST_UNKNOWNS, CoupledLoops, obstacle
 from kintrafo.generator.closed_forms.tree import JointOfTree
 from kintrafo.generator.loops.errors import NoClosedFormError
-from kintrafo.generator.loops.graph import Topology
+from kintrafo.generator.loops.graph import JointGraph
 from kintrafo.generator.loops.mobility import Mobility
 from kintrafo.generator.mechanisms.chains import AXES, BRICARD, PLACES, SEVEN_HINGES
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from own_mechanisms import askew, heading
 from own_models import Built, needs_gcc, own
 from scipy.optimize import root
@@ -352,7 +352,7 @@ def test_report_names_joints_and_equations(derive: Callable[[Formulation], Deriv
 )
 def test_without_permission_the_loop_is_refused(model: Formulation, words: str) -> None:
     with pytest.raises(NoClosedFormError, match=words) as told:
-        Plan.of(replace(model, allow_iteration=False))
+        CataloguePlan.of(replace(model, allow_iteration=False))
     assert "declared with allow_iteration=True" in str(told.value)
 
 
@@ -362,7 +362,7 @@ def test_six_hinges_in_general_cannot_move() -> None:
     with pytest.raises(
         NoClosedFormError, match="they cannot move from the design position"
     ) as told:
-        Plan.of(model)
+        CataloguePlan.of(model)
     assert "leave 5 equations for the 4 unknown coordinates" in str(told.value)
     assert "allow_iteration" not in str(told.value)
 
@@ -376,14 +376,14 @@ def test_a_dead_point_at_design_is_refused() -> None:
     }
     changes = {f"{n}_{a}": c for n, p in places.items() for a, c in zip("xyz", p, strict=True)}
     with pytest.raises(NoClosedFormError, match="a dead point, or something else must be driven"):
-        Plan.of(with_default(own_loops.PLATE_ON_A_SLOT, **changes))
+        CataloguePlan.of(with_default(own_loops.PLATE_ON_A_SLOT, **changes))
 
 
 def test_too_many_unknowns_are_refused() -> None:
     mechanism = SEVEN_HINGES.mechanism
     branch = JointOfTree(mechanism.joint("hinge_1"), "one", "two")
     action = CoupledLoops("two", (branch,) * (MOST_UNKNOWNS + 1), (), ())
-    told = obstacle(action, Mobility(Topology(mechanism), ("hinge_0",)))
+    told = obstacle(action, Mobility(JointGraph(mechanism), ("hinge_0",)))
     assert told == f"{MOST_UNKNOWNS + 1} unknowns are more than the {MOST_UNKNOWNS} of an iteration"
 
 
@@ -393,10 +393,10 @@ def test_too_many_unknowns_are_refused() -> None:
 def test_mobility_at_the_design_position() -> None:
     for model in MODELS.values():
         driven = [joint.name for joint in model.driven]
-        mobility = Mobility(Topology(model.mechanism), driven)
+        mobility = Mobility(JointGraph(model.mechanism), driven)
         assert mobility.driven_move()
         joints = [j for j in model.mechanism.joints if j.name not in driven]
         assert mobility.determines((j.name, c) for j in joints for c in j.coordinates)
-        assert not Mobility(Topology(model.mechanism), ()).determines(
+        assert not Mobility(JointGraph(model.mechanism), ()).determines(
             [(joints[0].name, joints[0].coordinates[0])]
         )

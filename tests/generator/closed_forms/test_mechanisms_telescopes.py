@@ -37,7 +37,7 @@ from kintrafo.generator.closed_forms.rpr import RPR, PlaceTelescope
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.mechanisms.slider_crank import MODELS as SLIDER_CRANKS
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from mpmath import mpf
 from own_models import Built, needs_gcc, own
 from symbolic import constants_of, python
@@ -321,7 +321,7 @@ def test_any_order_of_declaration(driven: str) -> None:
         flipped = changed(model, *turned)
         for order in permutations(flipped.mechanism.joints):
             mechanism = replace(flipped.mechanism, joints=order)
-            plan = Plan.of(replace(flipped, mechanism=mechanism))
+            plan = CataloguePlan.of(replace(flipped, mechanism=mechanism))
             kinds = [type(action) for action in plan.steps if type(action) in ANSWERS[driven]]
             assert kinds == ANSWERS[driven]
 
@@ -388,4 +388,4 @@ def test_known_telescope_in_space_is_refused_by_name() -> None:
     coordinates = tuple(c for c in model.mechanism.coordinates if c.joint.name == "bore")
     mechanism = replace(model.mechanism, coordinates=coordinates)
     with pytest.raises(NoClosedFormError, match="ground - barrel - piston - boom"):
-        Plan.of(changed(replace(model, mechanism=mechanism), *pins))
+        CataloguePlan.of(changed(replace(model, mechanism=mechanism), *pins))

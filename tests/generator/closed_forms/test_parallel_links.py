@@ -15,7 +15,7 @@ from kintrafo import generator as g
 from kintrafo.equations.errors import ParameterError
 from kintrafo.generator.closed_forms.parallel_links import ParallelLinks
 from kintrafo.generator.loops.errors import NoClosedFormError
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from oracle_check import check_with_the_oracle
 from own_models import derive, own
 from own_wheels import PINS, double_crank, locomotive, table_on_links
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 def test_it_moves_as_the_oracle_says(tmp_path: Path) -> None:
     model = locomotive("four_wheels", (0.0, 0.9, 1.7, 2.6))
-    plan = Plan.of(model)
+    plan = CataloguePlan.of(model)
     assert [type(t.step) for t in plan.transformers] == [ParallelLinks] * 3
     assert plan.topology.mobility == 2
     check_with_the_oracle(model, tmp_path, pi)
@@ -85,7 +85,7 @@ def test_links_of_bodies_that_another_loop_turns_are_refused(case, allow_iterati
     pins, more = LOCKED[case]
     model = replace(double_crank("locked", pins, **more), allow_iteration=allow_iteration)
     with pytest.raises(NoClosedFormError) as error:
-        Plan.of(model)
+        CataloguePlan.of(model)
     left = [f"link{i}" for i in range(2 if "same" in case else 1, len(pins))]
     text = str(error.value)
     assert f"Leave {', '.join(left)} out" in text
@@ -100,7 +100,7 @@ def test_in_whatever_order_links_are_declared_they_are_refused() -> None:
         for order in (joints, joints[::-1]):
             turned = replace(model, mechanism=replace(model.mechanism, joints=order))
             with pytest.raises(NoClosedFormError, match=r"Leave link\d, link\d out"):
-                Plan.of(turned)
+                CataloguePlan.of(turned)
 
 
 @pytest.mark.parametrize("also", ["crank_0", "axle_1", "crank_1", "axle_2", "crank_2"])
@@ -108,7 +108,7 @@ def test_what_the_links_determine_cannot_be_driven_too(also: str) -> None:
     model = locomotive("driven_twice")
     driven = tuple(map(model.mechanism.joint, ("swing", "axle_0", also)))
     with pytest.raises(NoClosedFormError) as error:
-        Plan.of(replace(model, independent=driven))
+        CataloguePlan.of(replace(model, independent=driven))
     if also == "crank_0":
         assert "or drive one of the hinges of wheel0 only" in str(error.value)
 
@@ -117,7 +117,7 @@ def test_what_the_links_determine_cannot_be_driven_too(also: str) -> None:
 def test_a_frame_that_is_one_more_parallel_link_moves_with_them(driven, tmp_path) -> None:
     """Behind the dead points, too, where a four-bar of one link would leave the parallelogram."""
     model = double_crank(f"by_{driven}", driven=("swing", driven))
-    plan = Plan.of(model)
+    plan = CataloguePlan.of(model)
     assert plan.topology.mobility == 2
     assert [type(t.step) for t in plan.transformers] == [ParallelLinks] * 3
     check_with_the_oracle(model, tmp_path, pi)
@@ -146,5 +146,5 @@ def test_links_whose_pins_are_no_longer_the_same_are_refused() -> None:
 
 def test_a_table_that_guides_keep_from_turning_has_links(tmp_path) -> None:
     model = table_on_links("table")
-    assert ParallelLinks in [type(t.step) for t in Plan.of(model).transformers]
+    assert ParallelLinks in [type(t.step) for t in CataloguePlan.of(model).transformers]
     check_with_the_oracle(model, tmp_path, 0.02)

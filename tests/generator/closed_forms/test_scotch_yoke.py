@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from kintrafo.generator import Motion
 from kintrafo.generator.closed_forms.scotch_yoke import ScotchYoke
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from oracle_check import check_with_the_oracle
 from own_yokes import yoke
 
@@ -24,7 +24,7 @@ CASES = (yoke("scotch_yoke"), yoke("turned_yoke", turned=True), yoke("carried_yo
 
 @pytest.mark.parametrize("model", CASES, ids=lambda model: model.name)
 def test_it_moves_as_the_oracle_says_all_around(model: Formulation, tmp_path: Path) -> None:
-    (transformer,) = Plan.of(model).transformers
+    (transformer,) = CataloguePlan.of(model).transformers
     assert type(transformer.step) is ScotchYoke
     built = check_with_the_oracle(model, tmp_path, np.pi)
     for angle in np.linspace(-np.pi, np.pi, 7):

@@ -14,7 +14,7 @@ from kintrafo.equations.errors import ClosureError, ParameterError
 from kintrafo.generator import Line, Point
 from kintrafo.generator.closed_forms.single_cross import SingleCross
 from kintrafo.generator.loops.errors import NoClosedFormError
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from oracle_check import check_with_the_oracle
 from own_loops import CROSSED_RING
 from own_mechanisms import shaft_angles
@@ -43,7 +43,7 @@ def test_it_turns_as_hooke_says(bend: float) -> None:
 
 def test_crosses_in_a_row_on_bodies_that_move(tmp_path: Path) -> None:
     model = crosses_in_a_row()
-    plan = Plan.of(model)
+    plan = CataloguePlan.of(model)
     assert [type(t.step) for t in plan.transformers] == [SingleCross, SingleCross]
     assert plan.topology.mobility == len(model.independent)
     check_with_the_oracle(model, tmp_path, 0.4)
@@ -63,7 +63,7 @@ def test_a_hinge_that_misses_the_center_is_refused() -> None:
     beside = Point("beside", (0.6, 0.21, 0.3))
     moved = replace(rolling, axis=Line(beside, rolling.axis.towards))
     with pytest.raises(NoClosedFormError):
-        Plan.of(changed(model, (rolling, moved)))
+        CataloguePlan.of(changed(model, (rolling, moved)))
 
 
 def test_numbers_that_take_a_hinge_off_the_center_are_refused() -> None:

@@ -21,7 +21,7 @@ from kintrafo.generator.declare.declared import declared
 from kintrafo.generator.equations.dynamics import Dynamics
 from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.mechanisms import macpherson
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.program import ConstantStage, Program
 from oracle.reference import perturbed_parameters
 from symbolic import python
@@ -42,7 +42,7 @@ def accelerations(model, parameters):
     symbols = tuple(Symbol(p.name) for p in model.mechanism.parameters)
     constants = ConstantStage(symbols)
     program = Program(constants)
-    dynamics = Dynamics(InMotion.of(program, Plan.of(model)))
+    dynamics = Dynamics(InMotion.of(program, CataloguePlan.of(model)))
     function = program.function("rhs", "", dict(dynamics.accelerations))
     prepare = constants.function([function])
     given = {name: mpmath.mpf(value) for name, value in parameters.items()}

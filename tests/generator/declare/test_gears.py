@@ -18,10 +18,10 @@ from kintrafo import generator as g
 from kintrafo.generator.backends.report.markdown import markdown
 from kintrafo.generator.closed_forms.coupled_loops import CoupledLoops
 from kintrafo.generator.closed_forms.elbow import PlaceElbow
-from kintrafo.generator.closed_forms.ups import Strut
+from kintrafo.generator.closed_forms.ups import StrutLeg
 from kintrafo.generator.declare.declared import DeclarationError
 from kintrafo.generator.loops.errors import NoClosedFormError
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.planning.proposal import model_of
 from oracle_check import check_with_the_oracle
 from own_loops import FIVE_BAR, planar
@@ -58,7 +58,7 @@ def counted_from_design(model: Formulation, joint: str) -> Formulation:
 
 
 CASES = {
-    "strut": (geared(turret("strut", "stroke"), "stroke", "slew", 0.13), Strut),
+    "strut": (geared(turret("strut", "stroke"), "stroke", "slew", 0.13), StrutLeg),
     "behind a rotor": (geared(oblique_four_bar(), "drive", "spinning", 0.4), None),
     "behind what is given": (
         geared(moving_slider_crank("given", prescribed=True), "drive", "tilt", -0.7),
@@ -76,7 +76,7 @@ CASES = {
 def test_what_follows_moves_as_the_oracle_says(case: str, tmp_path: Path) -> None:
     model, form = CASES[case]
     if form is not None:
-        plan = Plan.of(model)
+        plan = CataloguePlan.of(model)
         steps = [*plan.steps, *(t.step for t in plan.transformers)]
         assert any(isinstance(part, form) for s in steps for part in (s, getattr(s, "leg", s)))
     check_with_the_oracle(model, tmp_path, 0.05)
@@ -293,4 +293,4 @@ def test_a_gear_that_would_lock_what_it_joins_is_refused() -> None:
     drive, pivot = (model.mechanism.joint(name) for name in ("drive", "pivot"))
     gear = g.Gear(drive, g.Ratio("pivot_ratio", 1.3, "ratio"))
     with pytest.raises(NoClosedFormError):
-        Plan.of(changed(model, (pivot, replace(pivot, follows=gear))))
+        CataloguePlan.of(changed(model, (pivot, replace(pivot, follows=gear))))

@@ -19,7 +19,7 @@ from kintrafo.generator import (
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.backends.report.derivation import joint_rows, mobility_line
 from kintrafo.generator.closed_forms.free_body import PlaceFree
-from kintrafo.generator.loops.graph import Topology
+from kintrafo.generator.loops.graph import JointGraph
 from kintrafo.generator.loops.mobility import Mobility
 from kintrafo.generator.mechanisms.double_wishbone import (
     CHASSIS,
@@ -29,8 +29,8 @@ from kintrafo.generator.mechanisms.double_wishbone import (
     RACK,
 )
 from kintrafo.generator.mechanisms.suspension import RACK_MOTION
-from kintrafo.generator.planning.plan import Plan
-from kintrafo.generator.planning.proposal import Search, proposals
+from kintrafo.generator.planning.plan import CataloguePlan
+from kintrafo.generator.planning.proposal import CoordinateSearch, proposals
 from own_models import Built, derive, own
 
 FIXED = MODELS[0]
@@ -69,7 +69,7 @@ def free_model(**changes) -> Formulation:
 
 
 def test_a_free_body_has_six_freedoms_more():
-    fixed, free = Topology(DOUBLE_WISHBONE), Topology(freed())
+    fixed, free = JointGraph(DOUBLE_WISHBONE), JointGraph(freed())
     assert free.mobility == fixed.mobility + 6
     assert free.loop_count == fixed.loop_count
     assert {c.key for c in free.candidate_cycles} == {c.key for c in fixed.candidate_cycles}
@@ -78,7 +78,7 @@ def test_a_free_body_has_six_freedoms_more():
 
 
 def test_its_loops_are_solved_as_on_a_fixed_body():
-    fixed, free = Plan.of(FIXED), Plan.of(free_model())
+    fixed, free = CataloguePlan.of(FIXED), CataloguePlan.of(free_model())
     steps = tuple(t.step for t in fixed.transformers)
     assert tuple(t.step for t in free.transformers) == on_it(steps)
     first, *rest = free.steps
@@ -88,13 +88,13 @@ def test_its_loops_are_solved_as_on_a_fixed_body():
 
 def test_all_that_is_driven_can_move_whatever_the_others_do():
     model = free_model()
-    mobility = Mobility(Topology(model.mechanism), [joint.name for joint in model.driven])
+    mobility = Mobility(JointGraph(model.mechanism), [joint.name for joint in model.driven])
     assert mobility.is_known
     assert mobility.driven_move()
 
 
 def test_its_tables_name_the_world():
-    topology = Topology(freed())
+    topology = JointGraph(freed())
     assert joint_rows(topology)[-1] == ("body", "free", "world", "1 chassis", "6", "nothing")
     assert mobility_line(topology).endswith(f"= {topology.mobility}")
 
@@ -102,7 +102,7 @@ def test_its_tables_name_the_world():
 def test_proposals_keep_the_free_body():
     found = next(proposals(free_model()))
     assert set(found.independent) == {joint.name for joint in FIXED.independent}
-    model = Search(free_model()).model(found.independent)
+    model = CoordinateSearch(free_model()).model(found.independent)
     assert [joint.name for joint in model.independent] == ["body", *found.independent]
 
 
@@ -153,7 +153,7 @@ def test_a_pair_of_copies_shares_the_free_body():
     whole = combined("pair", "two sides", sides)
     assert [b.name for b in whole.bodies].count("chassis") == 1
     assert [j for j in whole.joints if isinstance(j, Free)] == [BODY]
-    assert Topology(whole).mobility == 6 + 2 * Topology(DOUBLE_WISHBONE).mobility
+    assert JointGraph(whole).mobility == 6 + 2 * JointGraph(DOUBLE_WISHBONE).mobility
 
 
 @pytest.mark.parametrize(
@@ -179,7 +179,7 @@ def test_any_body_can_rest_in_the_world():
     """What is fixed need not be what is fixed in a car: the mechanism held at its knuckle."""
     bench = instead((CHASSIS, MOVING), (KNUCKLE, Ground("knuckle")))
     assert "chassis" in [b.name for b in bench.moving]
-    assert Topology(bench).mobility == Topology(DOUBLE_WISHBONE).mobility
+    assert JointGraph(bench).mobility == JointGraph(DOUBLE_WISHBONE).mobility
     ball = next(j for j in bench.joints if isinstance(j, Spherical))
     assert "knuckle" in ball.bodies
-    assert np.isfinite(Topology(bench).loop_count)
+    assert np.isfinite(JointGraph(bench).loop_count)

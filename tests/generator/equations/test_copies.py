@@ -29,7 +29,7 @@ from kintrafo.generator.closed_forms.catalogue import STEPS
 from kintrafo.generator.closed_forms.free_body import PlaceFree
 from kintrafo.generator.closed_forms.passive_turn import PlacePassive
 from kintrafo.generator.mechanisms import chains
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.program import ConstantStage, Program
 from own_models import Built, needs_gcc, own
 
@@ -61,7 +61,7 @@ def test_a_copy_and_an_image_move_as_the_original_does(name: str) -> None:
 
 
 def test_the_sample_has_every_step_of_the_catalogue() -> None:
-    found = {type(action) for name in SAMPLE for action in Plan.of(EVERY[name]).steps}
+    found = {type(action) for name in SAMPLE for action in CataloguePlan.of(EVERY[name]).steps}
     # the one is in no model but test_struts', the other has no equations yet
     assert found >= STEPS - {PlacePassive, PlaceFree}
 

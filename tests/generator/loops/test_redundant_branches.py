@@ -10,7 +10,7 @@ from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.loops.redundant import redundant
 from kintrafo.generator.mechanisms.chains import MODELS as CHAINS
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.planning.proposal import model_of
 
 GROUND = g.Ground("ground")
@@ -71,7 +71,7 @@ def test_a_branch_that_is_there_twice_is_called_redundant(name, allow_iteration)
         independent=(mechanism.joints[0],),
         allow_iteration=allow_iteration,
     )
-    for refused in (lambda: Plan.of(model), lambda: model_of(mechanism)):
+    for refused in (lambda: CataloguePlan.of(model), lambda: model_of(mechanism)):
         with pytest.raises(NoClosedFormError) as error:
             refused()
         text = str(error.value)

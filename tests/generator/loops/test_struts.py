@@ -27,7 +27,7 @@ from kintrafo.generator import (
     Universal,
 )
 from kintrafo.generator.loops.errors import NoClosedFormError
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from own_mechanisms import spatial_four_bar, turret
 from own_models import Built, own
 
@@ -206,10 +206,10 @@ def test_a_strut_whose_direction_is_given_as_numbers_is_told_to_be_between(
     """What it says to do, done, closes in closed form."""
     words = re.escape("Direction('leg', between=(foot, head))")
     with pytest.raises(NoClosedFormError, match=words):
-        Plan.of(leg_on_a_plate(Direction("leg", fixed=numbers)))
+        CataloguePlan.of(leg_on_a_plate(Direction("leg", fixed=numbers)))
     with pytest.raises(NoClosedFormError, match=words):
-        Plan.of(leg_on_a_plate(Direction("leg", along=numbers)))
-    assert Plan.of(leg_on_a_plate(Direction("leg", between=(FOOT, HEAD)))).transformers
+        CataloguePlan.of(leg_on_a_plate(Direction("leg", along=numbers)))
+    assert CataloguePlan.of(leg_on_a_plate(Direction("leg", between=(FOOT, HEAD)))).transformers
     with pytest.raises(NoClosedFormError, match=r"has no closed form") as caught:
-        Plan.of(leg_on_a_plate(Direction("leg", fixed=(0.3, 0.05, 1.0))))
+        CataloguePlan.of(leg_on_a_plate(Direction("leg", fixed=(0.3, 0.05, 1.0))))
     assert "between=" not in str(caught.value), "it points elsewhere, and may be meant to"

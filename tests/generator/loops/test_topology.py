@@ -33,11 +33,11 @@ from kintrafo.generator.closed_forms.revolute import RevoluteByLength
 from kintrafo.generator.closed_forms.telescope import Telescope
 from kintrafo.generator.closed_forms.turn import TurnByLength
 from kintrafo.generator.loops.errors import NoClosedFormError, TopologyError
-from kintrafo.generator.loops.graph import Cycle, Topology
+from kintrafo.generator.loops.graph import Cycle, JointGraph
 from kintrafo.generator.loops.tilted import tilted
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 
 MODEL = MODELS[0]
 PAPER = MODELS[:2]  # the paper's suspension, its rack prescribed and free
@@ -46,13 +46,13 @@ SUSPENSION = MODEL.mechanism
 
 
 @pytest.fixture(scope="module")
-def topology() -> Topology:
-    return Topology(SUSPENSION)
+def topology() -> JointGraph:
+    return JointGraph(SUSPENSION)
 
 
 @pytest.fixture(scope="module", params=PAPER, ids=lambda model: model.name)
-def plan(request: pytest.FixtureRequest) -> Plan:
-    return Plan.of(request.param)
+def plan(request: pytest.FixtureRequest) -> CataloguePlan:
+    return CataloguePlan.of(request.param)
 
 
 def numbers(cycle: Cycle) -> set[int]:
@@ -62,7 +62,7 @@ def numbers(cycle: Cycle) -> set[int]:
 # -- the paper's suspension -----------------------------------------------------------------------
 
 
-def test_mobility_and_loops(topology: Topology) -> None:
+def test_mobility_and_loops(topology: JointGraph) -> None:
     """Eq. 1, f = 6 x 6 - (5 + 3 + 4 + 4 + 3 + 4 + 5 + 5) = 3, and section 4, 8 - (7 - 1) = 2."""
     freedoms = {joint.name: joint.freedoms for joint in SUSPENSION.joints}
     assert freedoms == {"OA": 1, "B": 3, "BC": 2, "C": 2, "D": 3, "E": 2, "y": 1, "HG": 1}
@@ -89,7 +89,7 @@ PATHS = {
 
 
 @pytest.mark.parametrize(("ends", "edges"), PATHS.items(), ids=str)
-def test_table_2(topology: Topology, ends: tuple[int, int], edges: str) -> None:
+def test_table_2(topology: JointGraph, ends: tuple[int, int], edges: str) -> None:
     """The paper shows one shortest path of each pair; it must be among all that we find."""
     by_number = {number: name for name, number in SUSPENSION.numbers.items()}
     steps = edges.split(",")
@@ -105,7 +105,7 @@ def test_table_2(topology: Topology, ends: tuple[int, int], edges: str) -> None:
     assert sorted(paths) == sorted(tuple(p) for p in simple if topology.path_length(p) == least)
 
 
-def test_three_cycles(topology: Topology) -> None:
+def test_three_cycles(topology: JointGraph) -> None:
     found = [(numbers(cycle), cycle.length) for cycle in topology.candidate_cycles]
     assert found[0] == ({1, 2, 3, 6}, 8)
     assert len(found) == 3
@@ -113,14 +113,14 @@ def test_three_cycles(topology: Topology) -> None:
     assert ({1, 2, 3, 4, 5}, 10) in found
 
 
-def test_basis(plan: Plan) -> None:
+def test_basis(plan: CataloguePlan) -> None:
     assert [(numbers(t.cycle), t.cycle.length) for t in plan.transformers] == [
         ({1, 6, 3, 2}, 8),
         ({1, 6, 3, 4, 5}, 10),
     ]
 
 
-def test_why_the_second_loop_is_preferred(plan: Plan) -> None:
+def test_why_the_second_loop_is_preferred(plan: CataloguePlan) -> None:
     """Of the two loops of length 10 the one with the strut has two unknowns fewer by then."""
     first, second = plan.transformers
     assert first.rivals == ()
@@ -129,7 +129,7 @@ def test_why_the_second_loop_is_preferred(plan: Plan) -> None:
     assert (second.unknowns, unknowns) == (6, 8)
 
 
-def test_characteristic_pairs(plan: Plan) -> None:
+def test_characteristic_pairs(plan: CataloguePlan) -> None:
     pairs = [{joint.name for joint in t.pair.joints} for t in plan.transformers]
     assert pairs == [{"B", "C"}, {"D", "E"}]
     for transformer in plan.transformers:
@@ -138,7 +138,7 @@ def test_characteristic_pairs(plan: Plan) -> None:
         assert transformer.pair.eliminated == max(c.eliminated for c in transformer.candidates)
 
 
-def test_blocks_hand_on_what_they_solve(plan: Plan) -> None:
+def test_blocks_hand_on_what_they_solve(plan: CataloguePlan) -> None:
     """Figure 3: the strut's slide and direction go from the first transformer to the second."""
     first, second = plan.transformers
     assert first.inputs == ("OA.angle",)
@@ -166,7 +166,7 @@ def test_loops_are_found_and_solved(
     name: str, mobility: int, loops: int, solutions: list[type]
 ) -> None:
     """The spatial count of Eq. 1 would give planar loops minus two freedoms each."""
-    plan = Plan.of(BY_NAME[name])
+    plan = CataloguePlan.of(BY_NAME[name])
     assert plan.topology.mobility == mobility
     assert plan.topology.planar_loop_count == loops
     assert [type(t.step) for t in plan.transformers] == solutions
@@ -174,13 +174,13 @@ def test_loops_are_found_and_solved(
 
 
 def test_strut_that_misses_the_ball_joint_gets_its_direction_from_the_rod() -> None:
-    first, second = Plan.of(BY_NAME["macpherson_general"]).transformers
+    first, second = CataloguePlan.of(BY_NAME["macpherson_general"]).transformers
     assert first.outputs == ("BC.slide",)
     assert {"BC.angle", "C.azimuth", "C.elevation"} <= set(second.outputs)
 
 
 def test_two_ball_joints_leave_the_turn_of_the_link_between_them_out() -> None:
-    first, _ = Plan.of(BY_NAME["double_wishbone"]).transformers
+    first, _ = CataloguePlan.of(BY_NAME["double_wishbone"]).transformers
     assert {joint.name for joint in first.pair.joints} == {"lower_ball", "upper_ball"}
     assert (first.pair.eliminated, first.unknowns) == (6, 7)
     assert first.outputs == ("upper_hinge.angle",)
@@ -188,15 +188,15 @@ def test_two_ball_joints_leave_the_turn_of_the_link_between_them_out() -> None:
 
 @pytest.mark.parametrize("count", [1, 2, 5])
 def test_chain_of_four_bars_has_one_freedom(count: int) -> None:
-    plan = Plan.of(n_four_bar(count))
+    plan = CataloguePlan.of(n_four_bar(count))
     assert plan.topology.mobility == 1
     assert len(plan.transformers) == plan.topology.planar_loop_count == count
 
 
 def test_hinges_along_lines_between_points_are_not_taken_for_parallel() -> None:
-    cycle = Topology(loop_of(*[Revolute] * 4).mechanism).minimal_next([])[0]
+    cycle = JointGraph(loop_of(*[Revolute] * 4).mechanism).minimal_next([])[0]
     assert not cycle.planar
-    planar = Topology(BY_NAME["four_bar"].mechanism).minimal_next([])[0]
+    planar = JointGraph(BY_NAME["four_bar"].mechanism).minimal_next([])[0]
     assert planar.planar
 
 
@@ -246,7 +246,7 @@ def mechanisms(draw: st.DrawFn) -> Mechanism:
 @settings(deadline=None, max_examples=60)
 def test_minimal_cycle_basis(mechanism: Mechanism, choice: random.Random) -> None:
     """Any choice among the shortest extensions ends at a basis as short as networkx's."""
-    topology = Topology(mechanism)
+    topology = JointGraph(mechanism)
     chosen: list[Cycle] = []
     while options := topology.minimal_next(chosen):
         chosen.append(choice.choice(options))
@@ -276,7 +276,7 @@ def in_order(graph: nx.Graph, cycles: list[list[str]]) -> list[list[str]]:
 @settings(deadline=None, max_examples=60)
 def test_sum_of_two_cycles_is_dependent(mechanism: Mechanism) -> None:
     """Independence is that of the edges modulo two."""
-    topology = Topology(mechanism)
+    topology = JointGraph(mechanism)
     for a, b in combinations(topology.candidate_cycles, 2):
         both = a.key ^ b.key
         third = [c for c in topology.candidate_cycles if c.key == both]
@@ -292,14 +292,14 @@ def test_unreachable_body() -> None:
     caliper, piston = (Body(name, 1.0, (0.0, 0.0, 0.0)) for name in ("caliper", "piston"))
     loose = joint_between(Spherical, "loose", caliper, piston)
     with pytest.raises(TopologyError, match=r"no joint path.*caliper"):
-        Topology(replace(SUSPENSION, joints=(*SUSPENSION.joints, loose)))
+        JointGraph(replace(SUSPENSION, joints=(*SUSPENSION.joints, loose)))
 
 
 def test_two_joints_between_the_same_bodies() -> None:
     bodies = (SUSPENSION.body(name) for name in ("control_arm", "chassis"))
     second = joint_between(Spherical, "second", *bodies)
     with pytest.raises(TopologyError, match=r"control_arm.*chassis.*two joints"):
-        Topology(replace(SUSPENSION, joints=(*SUSPENSION.joints, second)))
+        JointGraph(replace(SUSPENSION, joints=(*SUSPENSION.joints, second)))
 
 
 def loop_of(*kinds: type[Joint]) -> Formulation:
@@ -317,7 +317,7 @@ def loop_of(*kinds: type[Joint]) -> Formulation:
 def test_loop_without_closed_form() -> None:
     """Two universal joints leave two equations with three revolute joints: none in general."""
     with pytest.raises(NoClosedFormError) as caught:
-        Plan.of(loop_of(Revolute, Revolute, Universal, Universal, Revolute))
+        CataloguePlan.of(loop_of(Revolute, Revolute, Universal, Universal, Revolute))
     message = str(caught.value)
     assert "body_0 - body_1 - body_2 - body_3 - body_4" in message
     assert "j0, j1, j2, j3, j4" in message
@@ -327,14 +327,14 @@ def test_loop_without_closed_form() -> None:
 def test_loop_of_hinges_has_no_closed_form() -> None:
     """The seven hinges of a general loop are a polynomial of degree 16: nothing to cut at."""
     with pytest.raises(NoClosedFormError, match="none, since no two of its joints"):
-        Plan.of(loop_of(*[Revolute] * 7))
+        CataloguePlan.of(loop_of(*[Revolute] * 7))
 
 
 def test_undetermined_body() -> None:
     """Without the spin coordinate nothing says how the wheel is turned."""
     model = replace(MODEL, independent=MODEL.independent[:1])
     with pytest.raises(NoClosedFormError, match="nothing determines the pose of wheel"):
-        Plan.of(model)
+        CataloguePlan.of(model)
 
 
 def test_too_few_coordinates_for_a_loop() -> None:
@@ -342,7 +342,7 @@ def test_too_few_coordinates_for_a_loop() -> None:
     free = replace(SUSPENSION, forces=())  # none along the rack
     model = replace(MODEL, mechanism=free, prescribed={}, held={})
     with pytest.raises(NoClosedFormError, match="upper_strut - knuckle - tie_rod - rack"):
-        Plan.of(model)
+        CataloguePlan.of(model)
 
 
 @pytest.mark.parametrize(
@@ -359,7 +359,8 @@ def test_number_of_coordinates_is_compared_with_the_mobility(
     free = replace(four_bar.mechanism, forces=())  # none along the crank
     joints = tuple(map(free.joint, independent))
     refused(
-        NoClosedFormError, lambda: Plan.of(replace(four_bar, mechanism=free, independent=joints))
+        NoClosedFormError,
+        lambda: CataloguePlan.of(replace(four_bar, mechanism=free, independent=joints)),
     )
 
 
@@ -368,7 +369,7 @@ def test_driven_joint_declared_the_wrong_way_round() -> None:
     turned = replace(bearing, first=bearing.second, second=bearing.first)
     model = changed(MODEL, (bearing, turned))
     with pytest.raises(NoClosedFormError, match="'HG': declare 'knuckle' first and 'wheel' second"):
-        Plan.of(model)
+        CataloguePlan.of(model)
 
 
 def test_directions_and_points_are_values() -> None:
@@ -388,5 +389,5 @@ def test_a_hinge_that_is_nearly_parallel_is_named(degrees):
     told = tilted(other)
     assert told.startswith(f"Joint 'C' is tilted by {degrees:.3g} degrees from A, B, D")
     with pytest.raises(NoClosedFormError, match="Joint 'C' is tilted"):
-        Plan.of(replace(BY_NAME["four_bar"], mechanism=other))
+        CataloguePlan.of(replace(BY_NAME["four_bar"], mechanism=other))
     assert tilted(bar) == ""

@@ -13,7 +13,7 @@ from kintrafo.generator import Actuator, AlongLine, ForceElement, Point, Weight
 from kintrafo.generator.closed_forms.rpr import RPR
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms.excavator import EXCAVATOR, MODELS
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from own_models import Built
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
@@ -301,7 +301,7 @@ def test_loops_wait_for_those_that_they_hang_on(model: Any) -> None:
     turned = changed(mechanism, *backward)
     turned = replace(turned, joints=turned.joints[::-1])
     assert turned.bodies[1:] == mechanism.bodies[:0:-1]
-    plan, expected = Plan.of(replace(model, mechanism=turned)), Plan.of(model)
+    plan, expected = CataloguePlan.of(replace(model, mechanism=turned)), CataloguePlan.of(model)
     assert {t.cycle.key for t in plan.transformers} == {t.cycle.key for t in expected.transformers}
     assert plan.transformers[0].cycle.key == expected.transformers[0].cycle.key
 

@@ -22,7 +22,7 @@ from kintrafo.generator.equations.dynamics import Dynamics
 from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import front_axle as declaration
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from kintrafo.generator.program import ConstantStage, Program
 from oracle.maximal import Motion, Oracle
 from oracle.reference import perturbed_parameters
@@ -408,7 +408,7 @@ def accelerations(
         derived={sp.Symbol(n): value for n, value in mechanism.derived.items()},
     )
     program = Program(constants)
-    dynamics = Dynamics(InMotion.of(program, Plan.of(model)))
+    dynamics = Dynamics(InMotion.of(program, CataloguePlan.of(model)))
     function = program.function("rhs", "", dict(dynamics.accelerations))
     prepare = constants.function([function])
     known = dict(zip(prepare.labels, python(prepare)(given), strict=True))

@@ -10,7 +10,7 @@ from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.backends.numpy.printer import numpy_source
 from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from own_models import Built, derive, needs_gcc, own
 
 LONG = 16  # loops: more guards than a status word has bits
@@ -77,7 +77,7 @@ def test_operations_grow_by_the_same_for_every_loop() -> None:
 
 
 def test_long_chain_is_planned_loop_by_loop() -> None:
-    plan = Plan.of(n_four_bar(40))
+    plan = CataloguePlan.of(n_four_bar(40))
     assert plan.topology.mobility == 1
     names = [{f"rocker_{i - 1}", f"coupler_{i}", f"rocker_{i}"} for i in range(1, 41)]
     assert [set(t.cycle.bodies) - {"ground"} for t in plan.transformers] == names

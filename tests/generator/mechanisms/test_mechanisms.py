@@ -28,7 +28,7 @@ from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.mechanisms import MODELS as SHIPPED
 from kintrafo.generator.mechanisms import chains, held_by_rods
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
-from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.plan import CataloguePlan
 from oracle.constraints import Array
 from oracle.maximal import Jet, Motion, Oracle, Reduced
 from oracle.reference import completed, further_parameters, general_parameters, spring_parameters
@@ -341,7 +341,7 @@ def test_state_jacobian_of_the_right_hand_side_is_exact(
 def test_what_is_differentiated_has_every_step_of_the_catalogue() -> None:
     iterating = (*held_by_rods.MODELS, *chains.MODELS)  # looked at in tests of their own
     models = (*map(MODELS.get, DIFFERENTIATED), *iterating, MODELS["macpherson"])
-    found = {type(action) for model in models for action in Plan.of(model).steps}
+    found = {type(action) for model in models for action in CataloguePlan.of(model).steps}
     # two that have no test of their derivatives, two with nothing of their own to differentiate,
     # one that is in no model here, and one that has no equations yet
     without = {PlaceElbow, ScotchYoke, SingleCross, ParallelLinks, PlacePassive, PlaceFree}

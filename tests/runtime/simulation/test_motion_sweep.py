@@ -15,7 +15,7 @@ from kintrafo import ModelError, Samples
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.simulation import _steps
-from kintrafo.simulation.retraced import STAGES, Steps
+from kintrafo.simulation.retraced import STAGES, RetracedSteps
 from kintrafo.simulation.signals import time_inputs
 from kintrafo.simulation.sweep import Sweep
 from scipy.integrate import RK45
@@ -115,7 +115,7 @@ def test_what_is_refused_on_the_way_is_told() -> None:
     start = four_bar.state(crank_angle=ANGLE)
     motion = kintrafo.simulate(four_bar, SPAN, start, method="DormandPrince")
     courses = time_inputs(four_bar, None, SPAN)
-    steps = Steps(four_bar, motion, courses)
+    steps = RetracedSteps(four_bar, motion, courses)
     places = steps.places(TIMES)
     point = steps.point(*places)
     steps.states[2, 1, 0] = np.nan
@@ -123,7 +123,7 @@ def test_what_is_refused_on_the_way_is_told() -> None:
         Sweep(four_bar, steps).backwards(places, point, {"crank_angle": WEIGHTS})
     motion.y[0, 3] = np.nan
     with pytest.raises(ModelError, match=r"NaN or infinite: crank_angle.*3"):
-        Steps(four_bar, motion, courses)
+        RetracedSteps(four_bar, motion, courses)
 
 
 @pytest.mark.usefixtures("interruptible")

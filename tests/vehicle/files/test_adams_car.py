@@ -9,7 +9,7 @@ import pytest
 from adams_files import kind_of, rows_of, subsystem
 from folders import ROOT
 from kintrafo import InputError, Model, Suspension, characteristics
-from kintrafo.vehicle.files.adams_car import Imported, imported, read, read_names
+from kintrafo.vehicle.files.adams_car import ImportedSubsystem, imported, read, read_names
 from kintrafo.vehicle.files.point_table import write_merged
 from kintrafo.vehicle.kinds import KINDS
 
@@ -35,11 +35,11 @@ def written(folder: Path, text: str, encoding: str = "utf-8") -> Path:
     return path
 
 
-def taken(folder: Path, text: str, **how: Any) -> Imported:
+def taken(folder: Path, text: str, **how: Any) -> ImportedSubsystem:
     return imported(read(written(folder, text)), **how)
 
 
-def loaded(found: Imported, folder: Path) -> Suspension:
+def loaded(found: ImportedSubsystem, folder: Path) -> Suspension:
     return Suspension.load(write_merged(found, folder / "imported.toml", force=True))
 
 

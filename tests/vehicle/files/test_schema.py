@@ -35,8 +35,8 @@ def test_every_key_is_described_and_every_number_has_a_unit_or_none():
 @pytest.mark.parametrize(
     ("section", "key", "limits"),
     [
-        ("Strut", "spring_rate_N_per_m", {"minimum": 0.0}),
-        ("Wheel", "camber_deg", {"minimum": -45.0, "maximum": 45.0}),
+        ("StrutSection", "spring_rate_N_per_m", {"minimum": 0.0}),
+        ("WheelSection", "camber_deg", {"minimum": -45.0, "maximum": 45.0}),
         ("WheelBody", "mass_kg", {"exclusiveMinimum": 0.0}),
     ],
 )

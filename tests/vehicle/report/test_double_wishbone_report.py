@@ -9,7 +9,7 @@ import pytest
 from browser import Watched, needs_chromium, slide
 from kintrafo import Model, state_at_height
 from kintrafo.vehicle.models.points import hardpoints
-from kintrafo.vehicle.report.grid import Axis, Grid
+from kintrafo.vehicle.report.grid import Grid, GridAxis
 from kintrafo.vehicle.report.page import render
 from kintrafo.vehicle.report.poses import poses, reachable_grid
 
@@ -20,7 +20,7 @@ MODEL = Model("double_wishbone_car")
 def page():
     with pytest.MonkeyPatch.context() as patch:
         # few positions: the numbers between them do not matter here
-        grid = Grid(Axis(-0.05, 0.025, 5), Axis(-0.04, 0.02, 5))
+        grid = Grid(GridAxis(-0.05, 0.025, 5), GridAxis(-0.04, 0.02, 5))
         patch.setattr("kintrafo.vehicle.report.page.reachable_grid", lambda _: grid)
         return render(MODEL)
 

@@ -10,7 +10,7 @@ import pytest
 from kintrafo import Axle, InputError, Model, PositionError, System, characteristics, variation
 from kintrafo.generated import four_bar
 from kintrafo.vehicle.assembly.by_wheel import flat
-from kintrafo.vehicle.report.grid import Axis, Grid
+from kintrafo.vehicle.report.grid import Grid, GridAxis
 from kintrafo.vehicle.report.marks import of_shown_side
 from kintrafo.vehicle.report.page import render
 
@@ -35,7 +35,7 @@ DESCRIBED = {
 @pytest.fixture
 def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
     """Sample at few positions, to either side 100 mm of travel and 60 mm of rack."""
-    grid = Grid(Axis(-0.1, 0.05, 5), Axis(-0.06, 0.03, 5))
+    grid = Grid(GridAxis(-0.1, 0.05, 5), GridAxis(-0.06, 0.03, 5))
     monkeypatch.setattr("kintrafo.vehicle.report.page.reachable_grid", lambda _: grid)
 
 

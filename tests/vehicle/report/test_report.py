@@ -18,7 +18,7 @@ from kintrafo.vehicle.models.typical import typical_ranges
 from kintrafo.vehicle.report import compliance_chapter, elastokinematics_chapter, loads_chapter
 from kintrafo.vehicle.report.curves import curves
 from kintrafo.vehicle.report.encode import packed, rounded
-from kintrafo.vehicle.report.grid import Axis, Grid
+from kintrafo.vehicle.report.grid import Grid, GridAxis
 from kintrafo.vehicle.report.page import _upper_limit, render
 from kintrafo.vehicle.report.plotted import decimals, has_pole, shown_range
 from kintrafo.vehicle.report.poses import poses, reachable_grid
@@ -43,7 +43,7 @@ def data(page):
 @pytest.fixture
 def coarse(monkeypatch):
     """Sample at few positions, where the numbers do not matter."""
-    grid = Grid(Axis(-0.05, 0.025, 5), Axis(-0.04, 0.02, 5))
+    grid = Grid(GridAxis(-0.05, 0.025, 5), GridAxis(-0.04, 0.02, 5))
     monkeypatch.setattr("kintrafo.vehicle.report.page.reachable_grid", lambda _: grid)
 
 
@@ -62,7 +62,7 @@ def unpacked(array):
 
 
 def axis_of(given):
-    return Axis(given["first"], given["step"], given["count"])
+    return GridAxis(given["first"], given["step"], given["count"])
 
 
 # -- interpolation ------------------------------------------------------------------------------
@@ -78,7 +78,7 @@ def axis_of(given):
 def test_axis_interpolates_like_scipys_polynomial_through_four_neighbours(
     count, first, step, part, seed
 ):
-    axis = Axis(first, step, count)
+    axis = GridAxis(first, step, count)
     samples = np.random.default_rng(seed).uniform(-1.0, 1.0, count)
     where = first + part * (axis.last - first)
     start = int(np.clip(np.floor((where - first) / step) - 1, 0, count - 4))
@@ -89,7 +89,7 @@ def test_axis_interpolates_like_scipys_polynomial_through_four_neighbours(
 
 
 def test_grid_is_exact_for_cubics_in_both_directions():
-    grid = Grid(Axis(-0.1, 0.02, 11), Axis(-0.05, 0.025, 5))
+    grid = Grid(GridAxis(-0.1, 0.02, 11), GridAxis(-0.05, 0.025, 5))
 
     def function(t, r):
         return 1.0 + 2.0 * t - 30.0 * t**3 * r**2 + 7.0 * r**3 + t * r
@@ -103,7 +103,7 @@ def test_grid_is_exact_for_cubics_in_both_directions():
 
 @given(st.floats(-0.2, -0.001), st.floats(0.001, 0.2), st.floats(0.0005, 0.05))
 def test_axis_around_zero_keeps_zero_and_its_limits(low, high, step):
-    axis = Axis.around_zero(low, high, step)
+    axis = GridAxis.around_zero(low, high, step)
     assert axis.count >= 4
     assert axis.values[axis.zero] == pytest.approx(0.0, abs=1e-15)
     assert axis.first >= low - 1e-9 * step
@@ -111,7 +111,7 @@ def test_axis_around_zero_keeps_zero_and_its_limits(low, high, step):
 
 
 def test_interpolation_is_worst_where_it_is_measured():
-    axis = Axis(0.0, 1.0, 9)
+    axis = GridAxis(0.0, 1.0, 9)
     fine = np.linspace(0.0, 8.0, 8001)
     error = np.abs(axis.interpolate(axis.values**4, fine) - fine**4)
     measured = np.abs(axis.interpolate(axis.values**4, axis.between) - axis.between**4)

@@ -19,7 +19,7 @@ from browser import (
 )
 from kintrafo import Model, state_at_height
 from kintrafo.vehicle.models.points import hardpoints
-from kintrafo.vehicle.report.grid import Axis, Grid
+from kintrafo.vehicle.report.grid import Grid, GridAxis
 
 pytestmark = needs_chromium
 MODEL = Model("reference_car")
@@ -346,7 +346,7 @@ def test_wheel_rate_jumps_where_the_stops_begin_to_act(browser, tmp_path_factory
 
 def test_what_is_interpolated_says_so(browser, tmp_path, monkeypatch):
     """On a coarse grid: at its positions values are computed, between them they are in doubt."""
-    grid = Grid(Axis(-0.05, 0.025, 5), Axis(-0.04, 0.02, 5))
+    grid = Grid(GridAxis(-0.05, 0.025, 5), GridAxis(-0.04, 0.02, 5))
     monkeypatch.setattr("kintrafo.vehicle.report.page.reachable_grid", lambda _: grid)
     watched = Watched(browser, kintrafo.report.write(MODEL, tmp_path / "coarse.html"))
     told = {}

@@ -9,13 +9,13 @@ from kintrafo.vehicle.assembly.measures.corner import AT_STOPS
 from kintrafo.vehicle.models.positions import design_height
 from kintrafo.vehicle.report.accuracy import measure
 from kintrafo.vehicle.report.curves import curves, gaps_on
-from kintrafo.vehicle.report.grid import Axis, Grid
+from kintrafo.vehicle.report.grid import Grid, GridAxis
 from kintrafo.vehicle.report.plotted import shown_range
 from kintrafo.vehicle.report.poses import poses
 from scipy.optimize import brentq
 
 CAR = Model("offset_strut_car")  # with bump and rebound stops within its travel
-GRID = Grid(Axis(-0.1, 0.005, 38), Axis(-0.03, 0.01, 7))
+GRID = Grid(GridAxis(-0.1, 0.005, 38), GridAxis(-0.03, 0.01, 7))
 
 slope = st.floats(-1.0, 1.0)
 
@@ -23,7 +23,7 @@ slope = st.floats(-1.0, 1.0)
 @given(slope, slope, st.integers(0, 2**32 - 1))
 def test_cubics_on_either_side_of_a_jump_are_exact(lean, height, seed):
     """A cubic interpolates cubics, on whichever side, as far as there are four points of it."""
-    grid = Grid(Axis(-1.0, 0.1, 21), Axis(-1.0, 0.125, 17))
+    grid = Grid(GridAxis(-1.0, 0.1, 21), GridAxis(-1.0, 0.125, 17))
     t, r = np.meshgrid(grid.travel.values, grid.rack.values, indexing="ij")
     c = np.random.default_rng(seed).uniform(-1.0, 1.0, (2, 4, 4))
 
@@ -45,7 +45,7 @@ def test_cubics_on_either_side_of_a_jump_are_exact(lean, height, seed):
 
 
 def test_part_without_points_is_interpolated_plainly():
-    grid = Grid(Axis(0.0, 1.0, 5), Axis(0.0, 1.0, 5))
+    grid = Grid(GridAxis(0.0, 1.0, 5), GridAxis(0.0, 1.0, 5))
     t = np.broadcast_to(grid.travel.values[:, None], grid.shape)
     gaps = [t - 1.4, 1.6 - t]  # both closed nowhere, both open nowhere but between two lines
     near = grid.interpolate_apart(t, gaps, [1.5], [2.0])

@@ -13,7 +13,7 @@ from ...corner.corner import UP
 from ...models.axle.bar import HalfBar
 from .rigid_displacements import (
     Angles,
-    Measured,
+    BodyMeasures,
     RigidDisplacements,
     cross_matrix,
     second_by_rotation,
@@ -51,14 +51,14 @@ class Bars:
     left: Foot
     right: Foot
 
-    def at(self, places: RigidDisplacements) -> Measured:
+    def at(self, places: RigidDisplacements) -> BodyMeasures:
         """Return it somewhere [rad]; no number where a drop link does not reach."""
         (one, first, bent), (other, second, also) = (
             _turned(foot, places) for foot in (self.left, self.right)
         )
         bend = np.zeros((len(one), 1, 12, 12))
         bend[:, 0, :6, :6], bend[:, 0, 6:, 6:] = bent, -also
-        return Measured(
+        return BodyMeasures(
             np.array([[self.left.body, self.right.body]]),
             (one - other)[:, None],
             np.concatenate([first, -second], axis=-1)[:, None],
@@ -80,7 +80,7 @@ class Inclinations:
     body: int
     direction: Array
 
-    def at(self, places: RigidDisplacements) -> Measured:
+    def at(self, places: RigidDisplacements) -> BodyMeasures:
         """Return it somewhere [rad]."""
         upward = np.broadcast_to(UP, self.direction.shape)
         pair = np.array([[0, self.body]])
@@ -91,7 +91,7 @@ class Inclinations:
         outer = slope[..., :, None] * slope[..., None, :]
         bend = sine.bend + sine.value[..., None, None] * outer
         bend /= np.sqrt(square)[..., None, None]
-        return Measured(pair, np.arcsin(sine.value), slope, bend)
+        return BodyMeasures(pair, np.arcsin(sine.value), slope, bend)
 
 
 def _turned(foot: Foot, places: RigidDisplacements) -> tuple[Array, Array, Array]:

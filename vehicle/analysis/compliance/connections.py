@@ -14,16 +14,16 @@ from ....core.vectors import cross
 from ...assembly.anti_roll_bar import AnyBar, Bar, RollBar, TwistBar
 from ...assembly.part_poses import PartPoses
 from ...corner.bushes import RACK, Bush
-from ...corner.structure import FixedJoint, ForceElement, Joint, frame
+from ...corner.structure import FixedJoint, LineForce, PartJoint, frame
 from ...models.axle.bar import HalfBar
 from ...models.points import carried as placed
 from .bars import Bars, Foot, Inclinations
 from .laws import CurvedLaw, Law, LinearLaw, SpringLaw, StopLaw
 from .rigid_displacements import (
     Angles,
+    BodyMeasures,
     Distances,
     Lengths,
-    Measured,
     Radii,
     RigidDisplacements,
     Torsions,
@@ -137,9 +137,9 @@ class Connections:
         """Return which body it is; what does not move is the ground."""
         return self._sides[side].index(body)
 
-    def at(self, places: RigidDisplacements) -> Measured:
+    def at(self, places: RigidDisplacements) -> BodyMeasures:
         """Return all that is measured somewhere."""
-        return Measured.together([group.at(places) for group in self._groups])
+        return BodyMeasures.together([group.at(places) for group in self._groups])
 
     def given_way(self, places: RigidDisplacements) -> dict[str, Array]:
         """Return how far bushes are displaced from their hardpoints, the most in any direction [m].
@@ -179,8 +179,8 @@ class _Side:
     poses : PartPoses
     bodies : dict of str to int
         Those that move.
-    joints : list of Joint
-    lines : sequence of ForceElement
+    joints : list of PartJoint
+    lines : sequence of LineForce
     centers : ndarray, shape (n, bodies, 3)
         Of all bodies, with rigid joints [m].
     """
@@ -227,7 +227,7 @@ class _Side:
     # -- what is measured: bodies, vectors, and the law ------------------------------------------
 
     def distances(
-        self, joint: Joint
+        self, joint: PartJoint
     ) -> Iterator[tuple[Pair, tuple[Array, Array, Array], Law | None]]:
         parts = joint.first, joint.second
         kept = joint.directions(self.poses.points)
@@ -243,7 +243,7 @@ class _Side:
                 if not isinstance(law, CurvedLaw) or which < len(laws) - _ACROSS:
                     yield self._indices(*parts), (rows[:, which], start, end), law
 
-    def radii(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
+    def radii(self, joint: PartJoint) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
         """Yield what bushes measure across their axes that are curved there."""
         for bush in self._bushes(joint):
             curve = bush.curves[-1]
@@ -263,7 +263,7 @@ class _Side:
                 CurvedLaw(curve, bush=bush.point, start=far * size),
             )
 
-    def angles(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
+    def angles(self, joint: PartJoint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
         poses = self.poses
         wheels = poses.wheels
         # what else is held in every direction needs no axis of its own
@@ -283,7 +283,7 @@ class _Side:
                 law = LinearLaw(1.0 / bush.tilt[1 - which], -float(moment))
             yield self._indices(joint.first, joint.second), ways, law
 
-    def tilts(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
+    def tilts(self, joint: PartJoint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
         """Yield what of its axis leaves that of a bush which resists tilting."""
         for bush in self._bushes(joint):
             if any(bush.turning[1:]):
@@ -296,7 +296,7 @@ class _Side:
                         LinearLaw(stiffness),
                     )
 
-    def twists(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
+    def twists(self, joint: PartJoint) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
         """Yield the torsion of bushes that resist it."""
         for bush in self._bushes(joint):
             if stiffness := bush.turning[0]:
@@ -307,7 +307,7 @@ class _Side:
                     LinearLaw(stiffness),
                 )
 
-    def lengths(self, line: ForceElement) -> Iterator[tuple[Pair, tuple[Array, Array], Law]]:
+    def lengths(self, line: LineForce) -> Iterator[tuple[Pair, tuple[Array, Array], Law]]:
         """Yield the length of a spring, or of what is beside it."""
         poses = self.poses
         first, second = (poses.points[point] for point in line.at)
@@ -323,7 +323,7 @@ class _Side:
 
     # -- bushes -----------------------------------------------------------------------------------
 
-    def _bush(self, joint: Joint, point: str) -> Bush | None:
+    def _bush(self, joint: PartJoint, point: str) -> Bush | None:
         """Return what deflects at a point of a joint, if anything does."""
         if joint is not _RACK_IN_ITS_GUIDE:
             return self._soft.bushes.get(point)
@@ -334,7 +334,7 @@ class _Side:
         none = np.zeros(2), axes[1:], (0.0, 0.0, 0.0), (None, None, None)
         return Bush(point, axes, soft, *none)
 
-    def _bushes(self, joint: Joint) -> list[Bush]:
+    def _bushes(self, joint: PartJoint) -> list[Bush]:
         found = (self._bush(joint, point) for point in joint.at)
         return [bush for bush in found if bush is not None]
 
@@ -344,7 +344,7 @@ class _Side:
         rows = bush.axes @ np.swapaxes(turned, -1, -2)
         return np.broadcast_to(rows, (len(self.poses.states), 3, 3))
 
-    def _laws(self, bush: Bush, joint: Joint) -> list[Law | None]:
+    def _laws(self, bush: Bush, joint: PartJoint) -> list[Law | None]:
         """Return the force of a bush along each of its axes; none where it is rigid."""
         key = joint.first, joint.second, bush.point
         carried = -bush.axes @ self._soft.carried.get(key, np.zeros(6))[:3]

@@ -19,7 +19,7 @@ from ...assembly.wheel import lowest_point
 from ...corner.corner import UP
 from .connections import CompliantJoints, Connections
 from .flexibility import WheelSupport, rates_of_tyres
-from .rigid_displacements import Measured, RigidDisplacements, cross_matrix
+from .rigid_displacements import BodyMeasures, RigidDisplacements, cross_matrix
 
 Array = NDArray[np.float64]
 
@@ -309,7 +309,9 @@ class ElasticEquilibrium:
             matrix[:, own, own] = np.diag(_FORCE / self._rates)
         return matrix, np.concatenate([(outer - inner) / _FORCE, values], axis=1)
 
-    def _inner(self, state: ElasticState, measured: Measured, slopes: Array) -> tuple[Array, Array]:
+    def _inner(
+        self, state: ElasticState, measured: BodyMeasures, slopes: Array
+    ) -> tuple[Array, Array]:
         """Return what resists displacements and rotations of the parts, and its derivative."""
         laws = self._connections.laws
         forces, rates = np.zeros_like(measured.value), np.zeros_like(measured.value)

@@ -19,8 +19,8 @@ from ...assembly.part_poses import CONTACT, PartPoses, rotated, touching
 from ...assembly.soft_lines import SoftLines
 from ...corner.bushes import Bush
 from ...corner.corner import RoadWheel
-from ...corner.structure import GROUND, Joint
-from ...input.vehicle import Tyre
+from ...corner.structure import GROUND, PartJoint
+from ...input.vehicle import TyreSection
 from ..loads.reactions import BalanceEquations
 
 Array = NDArray[np.float64]
@@ -111,7 +111,7 @@ def rates_of_tyres(wheels: Sequence[RoadWheel]) -> Array:
     return np.array([wheel.vehicle.tyre_rate or 0.0 for wheel in wheels])
 
 
-def refuse_without_rate(given: Validator, held: WheelSupport, *tyres: Tyre) -> None:
+def refuse_without_rate(given: Validator, held: WheelSupport, *tyres: TyreSection) -> None:
     """Refuse to let a tyre hold its wheel that has no vertical rate."""
     if held == "tyre" and not all(tyre.rate_N_per_m > 0.0 for tyre in tyres):
         given.fail(
@@ -230,7 +230,9 @@ def _of_least_energy(on_bushes: Sequence[tuple[Bush, Array]], count: int) -> Arr
     return parts
 
 
-def _of_joint(joint: Joint, carried: Array, bushes: Mapping[str, Bush], poses: PartPoses) -> Array:
+def _of_joint(
+    joint: PartJoint, carried: Array, bushes: Mapping[str, Bush], poses: PartPoses
+) -> Array:
     """Return the energy of the bushes of a joint."""
     total = np.zeros((*carried.shape[:1], *2 * carried.shape[-1:]))
     for i, point in enumerate(joint.at):
@@ -240,7 +242,7 @@ def _of_joint(joint: Joint, carried: Array, bushes: Mapping[str, Bush], poses: P
     return total
 
 
-def _world_compliance(bush: Bush, joint: Joint, turned: Mapping[str, Array]) -> Array:
+def _world_compliance(bush: Bush, joint: PartJoint, turned: Mapping[str, Array]) -> Array:
     """Return a compliance in chassis axes, the joint's first part having turned, (..., 6, 6)."""
     if joint.first in GROUND:
         return bush.compliance

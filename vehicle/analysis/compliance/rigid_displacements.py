@@ -58,7 +58,7 @@ class RigidDisplacements:
 
 
 @dataclass(frozen=True)
-class Measured:
+class BodyMeasures:
     """Numbers that two bodies each decide, and their derivatives.
 
     Attributes
@@ -75,7 +75,7 @@ class Measured:
     bend: Array
 
     @classmethod
-    def together(cls, parts: Sequence["Measured"]) -> "Measured":
+    def together(cls, parts: Sequence["BodyMeasures"]) -> "BodyMeasures":
         """Return several one after the other."""
         return cls(
             np.concatenate([part.bodies for part in parts]),
@@ -121,7 +121,7 @@ class Distances:
     start: Array
     end: Array
 
-    def at(self, places: RigidDisplacements) -> Measured:
+    def at(self, places: RigidDisplacements) -> BodyMeasures:
         """Return them somewhere, [m]."""
         first, second = self.bodies.T
         along, start = places.of(first, self.along), places.of(first, self.start)
@@ -132,7 +132,7 @@ class Distances:
         bend += bend.mT
         bend[..., _ROTATED[0], _ROTATED[0]] += second_by_rotation(apart - start, along)
         bend[..., _ROTATED[1], _ROTATED[1]] += second_by_rotation(end, along)
-        return Measured(
+        return BodyMeasures(
             self.bodies,
             np.einsum("nfi,nfi->nf", along, apart),
             _times(turning, apart) + _times(parting, along),
@@ -162,7 +162,7 @@ class Radii:
     end: Array
     before: Array
 
-    def at(self, places: RigidDisplacements) -> Measured:
+    def at(self, places: RigidDisplacements) -> BodyMeasures:
         """Return them somewhere [m]."""
         both = [
             Distances(self.bodies, along, self.start, self.end).at(places)
@@ -181,7 +181,7 @@ class Radii:
             + offs[0][..., None, None] * one.bend
             + offs[1][..., None, None] * other.bend
         )
-        return Measured(self.bodies, radius, slope, bend / radius[..., None, None])
+        return BodyMeasures(self.bodies, radius, slope, bend / radius[..., None, None])
 
 
 @dataclass(frozen=True)
@@ -199,7 +199,7 @@ class Angles:
     first: Array
     second: Array
 
-    def at(self, places: RigidDisplacements) -> Measured:
+    def at(self, places: RigidDisplacements) -> BodyMeasures:
         """Return them somewhere."""
         one, other = (
             places.of(bodies, vectors)
@@ -210,7 +210,7 @@ class Angles:
         bend += bend.mT
         for part in _ROTATED:
             bend[..., part, part] += second_by_rotation(one, other)
-        return Measured(
+        return BodyMeasures(
             self.bodies,
             np.einsum("nfi,nfi->nf", one, other),
             _times(by_first, other) + _times(by_second, one),
@@ -238,16 +238,16 @@ class Torsions:
     second: Array
     second_other: Array
 
-    def at(self, places: RigidDisplacements) -> Measured:
+    def at(self, places: RigidDisplacements) -> BodyMeasures:
         """Return them somewhere [rad]."""
 
-        def both(a: Array, b: Array, c: Array, d: Array, sign: float) -> Measured:
+        def both(a: Array, b: Array, c: Array, d: Array, sign: float) -> BodyMeasures:
             one, other = Angles(self.bodies, a, b).at(places), Angles(self.bodies, c, d).at(places)
             sums = (
                 getattr(one, name) + sign * getattr(other, name)
                 for name in ("value", "slope", "bend")
             )
-            return Measured(self.bodies, *sums)
+            return BodyMeasures(self.bodies, *sums)
 
         sine = both(self.first_other, self.second, self.first, self.second_other, -1.0)
         cosine = both(self.first, self.second, self.first_other, self.second_other, 1.0)
@@ -263,7 +263,7 @@ class Torsions:
         bend = (c * sine.bend - s * cosine.bend) / square
         bend += 2.0 * s * c / square**2 * (outer[1] - outer[0])
         bend += (s**2 - c**2) / square**2 * (outer[2] + outer[2].mT)
-        return Measured(self.bodies, np.arctan2(sine.value, cosine.value), slope, bend)
+        return BodyMeasures(self.bodies, np.arctan2(sine.value, cosine.value), slope, bend)
 
 
 @dataclass(frozen=True)
@@ -281,7 +281,7 @@ class Lengths:
     start: Array
     end: Array
 
-    def at(self, places: RigidDisplacements) -> Measured:
+    def at(self, places: RigidDisplacements) -> BodyMeasures:
         """Return them somewhere [m]."""
         first, second = self.bodies.T
         start, end = places.of(first, self.start), places.of(second, self.end)
@@ -294,7 +294,7 @@ class Lengths:
         bend = across / length[..., None, None]
         bend[..., _ROTATED[0], _ROTATED[0]] -= second_by_rotation(start, along)
         bend[..., _ROTATED[1], _ROTATED[1]] += second_by_rotation(end, along)
-        return Measured(self.bodies, length, slope, bend)
+        return BodyMeasures(self.bodies, length, slope, bend)
 
 
 def cross_matrix(vectors: Array) -> Array:

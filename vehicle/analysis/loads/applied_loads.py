@@ -19,7 +19,7 @@ WHEEL = "wheel"
 
 
 @dataclass(frozen=True)
-class WheelLoads:
+class AppliedLoads:
     """What acts on k wheels in n load cases.
 
     Attributes
@@ -37,7 +37,7 @@ class WheelLoads:
     vectors: Array | None
 
     @classmethod
-    def of(cls, cases: Sequence[Sequence[Case]]) -> "WheelLoads":
+    def of(cls, cases: Sequence[Sequence[Case]]) -> "AppliedLoads":
         """Return the loads of cases, each with what it says of every wheel."""
         return cls(
             np.array([wheels[0].rack for wheels in cases]),
@@ -48,11 +48,11 @@ class WheelLoads:
         )
 
     @classmethod
-    def of_tyres(cls, wheels: int) -> "WheelLoads":
+    def of_tyres(cls, wheels: int) -> "AppliedLoads":
         """Return the loads of rest on the road."""
         return cls(np.zeros(1), np.full((1, wheels), np.nan), None)
 
-    def on(self, wheels: slice) -> "WheelLoads":
+    def on(self, wheels: slice) -> "AppliedLoads":
         """Return the loads on some of the wheels."""
         own = None if self.vectors is None else self.vectors[:, wheels]
         return replace(self, travels=self.travels[:, wheels], vectors=own)

@@ -9,7 +9,7 @@ from ....core.vectors import cross
 from ...assembly.load import Load, along_line
 from ...assembly.part_poses import CONTACT, PartPoses, touching, wrench_about
 from ...corner.corner import UP
-from ...corner.structure import GROUND, Joint
+from ...corner.structure import GROUND, PartJoint
 from ...models.reach import PositionError
 from .balance import DEAD_POINT, balanced, balanced_at_many, dense
 
@@ -169,7 +169,7 @@ class BalanceEquations:
             yield np.einsum("npru,nuc->nprc", units, carried)
 
 
-def _on_both(joint: Joint, point: str, wrench: Array, at: Array) -> list[Load]:
+def _on_both(joint: PartJoint, point: str, wrench: Array, at: Array) -> list[Load]:
     """Return what a joint carries at a point as loads on both parts."""
     force, moment = wrench[..., :3], wrench[..., 3:]
     return [

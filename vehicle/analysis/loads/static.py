@@ -16,7 +16,7 @@ from ...assembly.load import Load
 from ...assembly.of import given_assembly
 from ...assembly.part_poses import PartPoses
 from ...corner.corner import UP
-from .applied_loads import WheelLoads, road_and_drive, wheels_of
+from .applied_loads import AppliedLoads, road_and_drive, wheels_of
 from .balance import DEAD_POINT
 from .cases import GREATEST, cases_of, in_parts_of_it, standard_cases
 from .dataset import CASE, loads_of, over_cases, refuse_if_none
@@ -123,7 +123,7 @@ def static(
                 load = given.number("static_load", static_load, "N", above=0.0, below=GREATEST)
                 static_loads = [load] * len(assembly.wheels)
             wanted = cases_of(given, assembly, described, static_loads)
-    loads = WheelLoads.of(wanted)
+    loads = AppliedLoads.of(wanted)
     coordinates, reasons = static_equilibrium(assembly, loads)
     return _in_cases(assembly, [wheels[0].name for wheels in wanted], loads, coordinates, reasons)
 
@@ -134,7 +134,9 @@ def _at_rest_on_the_road(
     """Return the vertical forces on all wheels at rest, where a case needs them [N]."""
     if not in_parts_of_it(described):
         return [0.0] * len(assembly.wheels)
-    coordinates, (reason,) = static_equilibrium(assembly, WheelLoads.of_tyres(len(assembly.wheels)))
+    coordinates, (reason,) = static_equilibrium(
+        assembly, AppliedLoads.of_tyres(len(assembly.wheels))
+    )
     if reason:
         given.fail(f"static_load is needed, [N]: no stable rest on the road: {reason}")
         return [1.0] * len(assembly.wheels)
@@ -145,7 +147,7 @@ def _at_rest_on_the_road(
 def _in_cases(
     assembly: Assembly,
     names: Sequence[str],
-    loads: WheelLoads,
+    loads: AppliedLoads,
     coordinates: Array,
     reasons: list[str],
 ) -> xr.Dataset:
@@ -156,7 +158,7 @@ def _in_cases(
     assembly : Assembly
     names : sequence of str
         Of the cases.
-    loads : WheelLoads
+    loads : AppliedLoads
     coordinates : ndarray, shape (cases, wheels)
         Positions of the wheels, see `Assembly.at_wheel_coordinates`.
     reasons : list of str

@@ -19,7 +19,7 @@ from ...assembly.load import known
 from ...assembly.part_poses import PartPoses
 from ...assembly.rig import WheelReach
 from ...models.reach import PositionError
-from .applied_loads import WheelLoads, wheels_of
+from .applied_loads import AppliedLoads, wheels_of
 from .balance import DEAD_POINT
 from .virtual_work import VirtualWork
 
@@ -59,13 +59,13 @@ _UNSTABLE = (
 )
 
 
-def static_equilibrium(assembly: Assembly, loads: WheelLoads) -> tuple[Array, list[str]]:
+def static_equilibrium(assembly: Assembly, loads: AppliedLoads) -> tuple[Array, list[str]]:
     """Return the positions of wheels under loads, and why there is none.
 
     Parameters
     ----------
     assembly : Assembly
-    loads : WheelLoads
+    loads : AppliedLoads
 
     Returns
     -------
@@ -96,7 +96,7 @@ class _Search:
     Attributes
     ----------
     assembly : Assembly
-    loads : WheelLoads
+    loads : AppliedLoads
     coordinates, low, high : ndarray, shape (n, wheels)
         Where they are, and between which they stay.
     widths : ndarray, shape (n,)
@@ -106,7 +106,7 @@ class _Search:
     """
 
     assembly: Assembly
-    loads: WheelLoads
+    loads: AppliedLoads
     coordinates: Array
     low: Array
     high: Array
@@ -114,7 +114,7 @@ class _Search:
     reasons: list[str]
 
     @classmethod
-    def of(cls, assembly: Assembly, loads: WheelLoads) -> "_Search":
+    def of(cls, assembly: Assembly, loads: AppliedLoads) -> "_Search":
         """Begin at design, but with wheels that are held where they are."""
         count = len(loads.racks)
         coordinates = np.tile(assembly.design_wheel_coordinates, (count, 1))

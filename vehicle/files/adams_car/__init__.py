@@ -7,7 +7,7 @@
 """
 
 from ..point_names import read_names
-from .importing import Imported, imported
+from .importing import ImportedSubsystem, imported
 from .subsystem import Subsystem, read
 
-__all__ = ["Imported", "Subsystem", "imported", "read", "read_names"]
+__all__ = ["ImportedSubsystem", "Subsystem", "imported", "read", "read_names"]

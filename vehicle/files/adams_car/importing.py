@@ -16,8 +16,8 @@ from ...models.sides import SIDES
 from ..fitting import Point, Side, differences, fresh, ground, move_along, put, to_side
 from ..point_names import assumed_of, known, listed, matched, points_of
 from ..point_table import Merged, put_points
-from .rest import Rest, rest_of
-from .springs import Spring, force_at_design, put_spring, spring_of
+from .rest import TemplateFile, rest_of
+from .springs import AdamsSpring, force_at_design, put_spring, spring_of
 from .subsystem import ANGLES, Subsystem
 
 SMOOTH = "spring: a monotone cubic through the points of its curve, and straight beyond them"
@@ -25,7 +25,7 @@ _SCHEMA = "#:schema"  # editors look for it in the first line
 
 
 @dataclass(frozen=True)
-class Imported(Merged):
+class ImportedSubsystem(Merged):
     """An input file made from a subsystem; see `kintrafo.point_table.write_merged`.
 
     Attributes
@@ -35,7 +35,7 @@ class Imported(Merged):
     side : {'left', 'right'}
     angles : dict of str to float
         Camber and toe that come from the subsystem [deg], by the keys of ``[wheel]``.
-    spring : Spring or None
+    spring : AdamsSpring or None
         The spring that comes from it.
     assumed : tuple of str
         What the subsystem leaves open, one sentence each.
@@ -44,7 +44,7 @@ class Imported(Merged):
     kind: str
     side: Side
     angles: dict[str, float]
-    spring: Spring | None
+    spring: AdamsSpring | None
     assumed: tuple[str, ...]
 
     def words(self) -> list[tuple[str, str]]:
@@ -69,7 +69,7 @@ def imported(
     kind: str | None = None,
     base: str | Path | None = None,
     names: Mapping[str, str] | None = None,
-) -> Imported:
+) -> ImportedSubsystem:
     """Make an input file from a subsystem.
 
     Parameters
@@ -88,7 +88,7 @@ def imported(
 
     Returns
     -------
-    Imported
+    ImportedSubsystem
 
     Raises
     ------
@@ -123,7 +123,7 @@ def imported(
         *assumed_of(rest.kind),
         *moved,
     )
-    return Imported(
+    return ImportedSubsystem(
         text=_with_head(text, _head(subsystem, rest.title, assumed)),
         read=read,
         kept=kept,
@@ -136,7 +136,9 @@ def imported(
     )
 
 
-def _spring(subsystem: Subsystem, rest: Rest, side: Side) -> tuple[Spring | None, list[str]]:
+def _spring(
+    subsystem: Subsystem, rest: TemplateFile, side: Side
+) -> tuple[AdamsSpring | None, list[str]]:
     """Return the spring, and what of springs is left out: a file of the user has its own."""
     found, unread = spring_of(subsystem, side)
     if found is None:
@@ -206,7 +208,7 @@ def _assumed(
     new: Suspension,
     kept: Iterable[str],
     angles: Mapping[str, float],
-    spring: Spring | None,
+    spring: AdamsSpring | None,
     rest: str,
 ) -> list[str]:
     """Return what the subsystem leaves open."""

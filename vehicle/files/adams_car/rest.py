@@ -14,7 +14,7 @@ from ..point_names import kind_of, nearest_kinds
 from .subsystem import Subsystem
 
 
-class Rest(NamedTuple):
+class TemplateFile(NamedTuple):
     """The file that everything but the hardpoints is from.
 
     Attributes
@@ -37,7 +37,7 @@ class Rest(NamedTuple):
 
 def rest_of(
     subsystem: Subsystem, kind: str | None, base: str | Path | None, given: Mapping[str, str]
-) -> Rest:
+) -> TemplateFile:
     """Return the file that the rest is from: what the user names, or the packaged one of a kind."""
     if kind is not None and kind not in KINDS:
         problem = f"{kind!r} is no kind of suspension. {suggestion(kind, KINDS)}"
@@ -46,12 +46,12 @@ def rest_of(
         return _users(subsystem, kind, base, given)
     found = kind or kind_of(subsystem.points, given, subsystem.source)
     starter, text, suspension = packaged(found)
-    return Rest(found, f"packaged {starter}", text, suspension, packaged=True)
+    return TemplateFile(found, f"packaged {starter}", text, suspension, packaged=True)
 
 
 def _users(
     subsystem: Subsystem, kind: str | None, base: str | Path, given: Mapping[str, str]
-) -> Rest:
+) -> TemplateFile:
     """Return the file of a user, if the subsystem is of its kind."""
     suspension = Suspension.load(base)
     title = legible(f"file {Path(base).name}")
@@ -67,4 +67,4 @@ def _users(
         )
         raise InputError([problem], subsystem.source)
     text = find(base).read_text(encoding="utf-8-sig")
-    return Rest(own, title, text, suspension, packaged=False)
+    return TemplateFile(own, title, text, suspension, packaged=False)

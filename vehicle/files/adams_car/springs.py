@@ -16,7 +16,7 @@ import tomlkit
 
 from ....core.errors import InputError
 from ...input.curve import SEGMENTS
-from ...input.teim_orbit import Block, read_blocks
+from ...input.teim_orbit import FileBlock, read_blocks
 from ...input.teim_values import MILLIMETRES, NEWTONS, Values, number, shown, unit_of
 from ..fitting import Side, fewer
 from .subsystem import Subsystem
@@ -27,7 +27,7 @@ _NAME = "usage"  # key with what the template calls it
 _FORCE = ("value_type", "user_value")
 
 
-class Spring(NamedTuple):
+class AdamsSpring(NamedTuple):
     """A spring.
 
     Attributes
@@ -61,7 +61,7 @@ class Spring(NamedTuple):
         return not self.curve or self.curve[0][1] < force < self.curve[-1][1]
 
 
-def spring_of(subsystem: Subsystem, side: Side) -> tuple[Spring | None, list[str]]:
+def spring_of(subsystem: Subsystem, side: Side) -> tuple[AdamsSpring | None, list[str]]:
     """Return the spring of a side; and what of the springs is not read.
 
     Parameters
@@ -71,7 +71,7 @@ def spring_of(subsystem: Subsystem, side: Side) -> tuple[Spring | None, list[str
 
     Returns
     -------
-    spring : Spring or None
+    spring : AdamsSpring or None
     unread : list of str
         Springs that are left out, with the reason, and keys of the spring, with their values.
     """
@@ -106,7 +106,7 @@ def _words(values: Mapping[str, str]) -> str:
     return ", ".join(f"{shown(k.upper())} = {shown(v)}" for k, v in values.items() if k != _NAME)
 
 
-def _spring(values: Mapping[str, str], subsystem: Subsystem) -> Spring:
+def _spring(values: Mapping[str, str], subsystem: Subsystem) -> AdamsSpring:
     """Return the spring of a block; say why if it cannot be read."""
     name = re.split(r"[\\/:>]", values.get("property_file", ""))[-1]
     file = _beside(Path(subsystem.source).parent, name)
@@ -125,7 +125,7 @@ def force_at_design(document: Any) -> float:
     return float(section["spring_force_at_design_N" if in_strut else "force_at_design_N"])
 
 
-def put_spring(document: Any, spring: Spring) -> None:
+def put_spring(document: Any, spring: AdamsSpring) -> None:
     """Put a spring into the text of an input file that gives a force at design."""
     prefix = "spring_" if "strut" in document else ""
     section = document["strut" if prefix else "spring"]
@@ -150,7 +150,7 @@ def _beside(folder: Path, name: str) -> Path | None:
     return next((p / name for p in places if name and os.path.isfile(p / name)), None)  # noqa: PTH113
 
 
-def _law(file: Path) -> Spring:
+def _law(file: Path) -> AdamsSpring:
     """Return the rate of a spring whose curve is straight, or its curve."""
     blocks = read_blocks(file)
     values = Values(blocks, str(file))
@@ -165,12 +165,12 @@ def _law(file: Path) -> Spring:
     if not (slope > 0.0 and all(b[1] >= a[1] for a, b in pairwise(points))):
         raise InputError(["its curve falls."])
     if off <= _STRAIGHT * max(abs(f) for _, f in points):
-        return Spring(_rounded(1e3 * slope * force / length), None, "")
+        return AdamsSpring(_rounded(1e3 * slope * force / length), None, "")
     curve = [(_rounded(length * x), _rounded(force * f)) for x, f in points]
     kept = fewer(curve)
     if len(kept) > SEGMENTS + 1:
         raise InputError([f"its curve has {len(points)} points; {SEGMENTS + 1} are the most."])
-    return Spring(None, None, "", kept, tuple(curve[: -len(kept)]))
+    return AdamsSpring(None, None, "", kept, tuple(curve[: -len(kept)]))
 
 
 def _rounded(value: float) -> float:
@@ -178,7 +178,7 @@ def _rounded(value: float) -> float:
     return float(f"{value:.12g}")
 
 
-def _points(blocks: list[Block]) -> list[tuple[float, float]]:
+def _points(blocks: list[FileBlock]) -> list[tuple[float, float]]:
     """Return deflections and forces of the curve."""
     rows = [cells for b in blocks if b.name == "curve" for _, _, cells in b.rows()]
     points = [tuple(map(number, cells or ())) for cells in rows]

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import NamedTuple, TypeVar
 
 from ....core.errors import InputError
-from ...input.teim_orbit import Block, read_blocks
+from ...input.teim_orbit import FileBlock, read_blocks
 from ...input.teim_values import DEGREES, MILLIMETRES, Values, number, shown, unit_of
 from ..fitting import Point, Side
 
@@ -184,7 +184,7 @@ _POINTS = _Table("hardpoint", ("hardpoint_name", "symmetry", "x_value", "y_value
 _PARAMETERS = _Table("parameter", ("parameter_name", "symmetry", "type", "value"), 1, (*ANGLES,))
 
 
-def _rows(blocks: Iterable[Block], table: _Table, problems: list[str]) -> Iterator[_Row]:
+def _rows(blocks: Iterable[FileBlock], table: _Table, problems: list[str]) -> Iterator[_Row]:
     """Yield the rows of a table that are right, and say what is wrong with others."""
     for block in blocks:
         if block.name != table.block:
@@ -222,7 +222,7 @@ def _problem_of(cells: list[str] | None, count: int, order: list[int], numbers: 
     return f"{shown(wrong[0])!r} is no number" if wrong else ""
 
 
-def _other_parameters(blocks: Iterable[Block]) -> list[str]:
+def _other_parameters(blocks: Iterable[FileBlock]) -> list[str]:
     """Return the parameters that are not read, with their values."""
     rows = [row for block in blocks if block.name == _PARAMETERS.block for row in block.rows()]
     return [
@@ -232,7 +232,7 @@ def _other_parameters(blocks: Iterable[Block]) -> list[str]:
     ]
 
 
-def _twice(block: Block) -> list[str]:
+def _twice(block: FileBlock) -> list[str]:
     """Say which keys a block has more than once."""
     counts = Counter(key for key, _ in block.values())
     return [
@@ -256,7 +256,7 @@ def _put(rows: dict[str, dict[str, _Value]], row: _Row, value: _Value, problems:
         there[row.symmetry] = value
 
 
-def _others(blocks: Iterable[Block]) -> list[str]:
+def _others(blocks: Iterable[FileBlock]) -> list[str]:
     """Return what of blocks is not read, each with its keys, its rows and their values."""
     found = []
     for block in blocks:

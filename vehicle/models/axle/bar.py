@@ -20,7 +20,7 @@ from pydantic import Field
 
 from ....core.vectors import angle_between_lines, cross, distance_from_line, unit_vector
 from ...input.hardpoints import SMALLEST_DISTANCE
-from ...input.section import NonNegative, Number, Range, Section, Triple
+from ...input.section import AllowedRange, NonNegative, Number, Section, Triple
 from ...input.units import LengthUnit, in_metres
 
 Array = NDArray[np.float64]
@@ -38,30 +38,34 @@ _REMEDY = "Check the unit of the value."
 _Rate = Annotated[
     Number,
     Field(gt=0.0, le=1e5),
-    Range("more than 0 {unit}, at most 100,000 {unit}", _REMEDY),
+    AllowedRange("more than 0 {unit}, at most 100,000 {unit}", _REMEDY),
 ]
 _Diameter = Annotated[
     Number,
     Field(gt=0.0, le=500.0),
-    Range("more than 0 {unit}, at most 500 {unit}", _REMEDY),
+    AllowedRange("more than 0 {unit}, at most 500 {unit}", _REMEDY),
 ]
 _Length = Annotated[
     Number,
     Field(gt=0.0, le=1e4),
-    Range("more than 0 {unit}, at most 10,000 {unit}", _REMEDY),
+    AllowedRange("more than 0 {unit}, at most 10,000 {unit}", _REMEDY),
 ]
 _Modulus = Annotated[
     Number,
     Field(gt=0.0, le=1e3),
-    Range("more than 0 {unit}, at most 1,000 {unit}", _REMEDY),
+    AllowedRange("more than 0 {unit}, at most 1,000 {unit}", _REMEDY),
 ]
 _Stiffness = Annotated[
     Number,
     Field(gt=0.0, le=1e7),
-    Range("more than 0 {unit}, at most 10,000,000 {unit}", "Leave the key out for what is rigid."),
+    AllowedRange(
+        "more than 0 {unit}, at most 10,000,000 {unit}", "Leave the key out for what is rigid."
+    ),
 ]
 _Twist = Annotated[
-    Number, Field(ge=-60.0, le=60.0), Range("-60 {unit} to 60 {unit}", "Check its sign and unit.")
+    Number,
+    Field(ge=-60.0, le=60.0),
+    AllowedRange("-60 {unit} to 60 {unit}", "Check its sign and unit."),
 ]
 
 

@@ -14,10 +14,10 @@ from ...corner.bushes import Bush, Bushings, bushes_of
 from ...corner.coil_sprung import ApartDamper
 from ...corner.corner import Array
 from ...corner.structure import Structure
-from ...input.spring import Spring
-from ...input.stop import Stop
+from ...input.spring import SpringSection
+from ...input.stop import StopSection
 from ...input.units import in_metres
-from ...input.vehicle import Gravity, Tyre, Wheel
+from ...input.vehicle import GravitySection, TyreSection, WheelSection
 from ..axle.file import Brakes, End
 from ..plausibility import (
     stray_points,
@@ -30,7 +30,7 @@ from ..plausibility import (
 from ..sides import LEFT, RIGHT, SIDES
 from ..whole_axle import SHORTEST, WholeAxle
 from ..whole_axle_file import AxleDrive, WholeAxleHardpoints, WholeAxleVehicle
-from .file import LeftHardpoints, RigidAxleBodies, Rod, RollBar
+from .file import LeftHardpoints, RigidAxleBodies, RodSection, RollBarSection
 from .rods import NEEDED, Ends, Hold
 from .structure import CENTER, CHASSIS, of_a_file, structure_of
 
@@ -93,22 +93,24 @@ are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center
     left_hardpoints: LeftHardpoints = Field(
         default=LeftHardpoints(), description="points of the left side that are not mirror images"
     )
-    rods: dict[str, Rod] = Field(
+    rods: dict[str, RodSection] = Field(
         description="four rods between chassis and axle, by names of any choice; or five, with "
         "bushings"
     )
-    wheel: Wheel = Field(
-        default=Wheel(camber_deg=0.0, toe_deg=0.0), description="alignment of the wheels"
+    wheel: WheelSection = Field(
+        default=WheelSection(camber_deg=0.0, toe_deg=0.0), description="alignment of the wheels"
     )
-    spring: Spring = Field(description="the springs, between chassis and axle")
+    spring: SpringSection = Field(description="the springs, between chassis and axle")
     damper: ApartDamper = Field(description="the dampers, between chassis and axle")
-    anti_roll_bar: RollBar | None = Field(default=None, description="the anti-roll bar")
-    bump_stop: Stop | None = Field(default=None, description="the stops in bump, of the dampers")
-    rebound_stop: Stop | None = Field(
+    anti_roll_bar: RollBarSection | None = Field(default=None, description="the anti-roll bar")
+    bump_stop: StopSection | None = Field(
+        default=None, description="the stops in bump, of the dampers"
+    )
+    rebound_stop: StopSection | None = Field(
         default=None, description="the stops in rebound, of the dampers"
     )
-    tyre: Tyre = Field(description="the tyres")
-    gravity: Gravity = Field(description="gravity")
+    tyre: TyreSection = Field(description="the tyres")
+    gravity: GravitySection = Field(description="gravity")
     bodies: RigidAxleBodies = Field(description="masses and inertia")
     brakes: Brakes = Field(default=Brakes(), description="reaction of the brake torque")
     drive: AxleDrive | None = Field(default=None, description="the drive of the axle")
@@ -283,7 +285,8 @@ are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center
         given = {points.text(n): points.metres(n) for n in points.given() if n != "wheel_center"}
         for name, ends in self.ends().items():
             given |= {
-                f"[rods.{name}] {end}": at for end, at in zip(Rod.model_fields, ends, strict=True)
+                f"[rods.{name}] {end}": at
+                for end, at in zip(RodSection.model_fields, ends, strict=True)
             }
         yield from stray_points(given, unit)
         yield from unlikely_vehicle(self.vehicle)

@@ -7,12 +7,12 @@ from pydantic import Field
 from ....core.vectors import Vector
 from ...input.bodies import Bodies, RigidBody
 from ...input.hardpoints import Hardpoints
-from ...input.section import Number, Range, Section, Triple
+from ...input.section import AllowedRange, Number, Section, Triple
 
 _Rate = Annotated[
     Number,
     Field(gt=0.0, le=1e5),
-    Range("more than 0 {unit}, at most 100,000 {unit}", "Check the unit of the value."),
+    AllowedRange("more than 0 {unit}, at most 100,000 {unit}", "Check the unit of the value."),
 ]
 
 
@@ -28,14 +28,14 @@ class LeftHardpoints(Section):
     damper_seat: Triple | None = Field(default=None, description="as of the right side")
 
 
-class Rod(Section):
+class RodSection(Section):
     """A rod of fixed length: a link, or a Panhard rod."""
 
     chassis: Triple = Field(description="its end on the chassis, in the unit of [hardpoints]")
     axle: Triple = Field(description="its end on the axle")
 
 
-class RollBar(Section):
+class RollBarSection(Section):
     """An anti-roll bar, by what it does to the axle."""
 
     rate_Nm_per_deg: _Rate = Field(  # noqa: N815 (N is the newton)

@@ -9,8 +9,8 @@ from collections.abc import Iterable
 from ...corner.structure import (
     FORCES_OF_A_DAMPER,
     FixedJoint,
-    ForceElement,
-    Joint,
+    LineForce,
+    PartJoint,
     SphericalJoint,
     Structure,
     UniversalJoint,
@@ -39,7 +39,7 @@ def structure_of(rods: Iterable[str]) -> Structure:
     """
     bearings = [FixedJoint(BEAM, f"wheel_{side}", (f"{CENTER}_{side}",)) for side in SIDES]
     lines = [
-        ForceElement(
+        LineForce(
             f"{name}_{side}",
             tuple(f"{side}_{force}" for force in forces),
             CHASSIS,
@@ -58,7 +58,7 @@ def of_a_file(rods: Iterable[str]) -> Structure:
     return Structure((*_of_rods(rods), FixedJoint(BEAM, "wheel", (CENTER,))), ())
 
 
-def _of_rods(rods: Iterable[str]) -> list[Joint]:
+def _of_rods(rods: Iterable[str]) -> list[PartJoint]:
     """Return a cross at the chassis and a ball joint at the axle for each rod."""
     return [
         joint

@@ -17,7 +17,7 @@ from ...assembly.by_wheel import WHEEL
 from ...assembly.of import given_assembly
 from ...plots.whole_axle import views
 from ...studies.goals import Goal, check_goals
-from .chapter import Chapter, Picture
+from .chapter import Chapter, ChapterPicture
 from .curves import pictures, positions_of, with_wanted
 
 # The curves of each motion; those that an axle does not have are left out.
@@ -105,7 +105,7 @@ def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
 
 def _of_a_beam(
     assembly: Assembly,
-) -> tuple[tuple[str, ...], tuple[Tabulated, ...], tuple[Picture, ...]]:
+) -> tuple[tuple[str, ...], tuple[Tabulated, ...], tuple[ChapterPicture, ...]]:
     """Return a first look at an axle that nothing on the page moves: words, tables, drawings."""
     found = checkup(assembly)
     assert found.axle is not None
@@ -113,7 +113,7 @@ def _of_a_beam(
     words += [f"Note: {text}" for text in found.notes]
     look = Tabulated("First look", ("", "value"), tuple(found.axle.rows.items()), frozenset({0, 1}))
     with rc_context(STYLE):
-        drawing = Picture.of(
+        drawing = ChapterPicture.of(
             views(assembly.subject), "The axle from above, from the left and from behind"
         )
     return tuple(words), (look,), (drawing,)
@@ -141,7 +141,7 @@ def _input_data(assembly: Assembly) -> Iterator[Tabulated]:
 
 def _pictures(
     assembly: Assembly, curves: Mapping[str, xr.Dataset], goals: Sequence[Goal]
-) -> Iterator[Picture]:
+) -> Iterator[ChapterPicture]:
     for motion, found in curves.items():
         own = [goal for goal in goals if goal.over == motion]
         # what the motion goes over, as the rack where no ratio is known, is no curve of it

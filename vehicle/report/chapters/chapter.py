@@ -13,7 +13,7 @@ from ....pictures.figures import METADATA, lay_out
 
 
 @dataclass(frozen=True)
-class Picture:
+class ChapterPicture:
     """A picture of a chapter.
 
     Attributes
@@ -28,7 +28,9 @@ class Picture:
     words: str
 
     @classmethod
-    def of(cls, figure: Figure, words: str, ending: Literal["svg", "png"] = "svg") -> "Picture":
+    def of(
+        cls, figure: Figure, words: str, ending: Literal["svg", "png"] = "svg"
+    ) -> "ChapterPicture":
         """Return a figure as a picture: of sharp lines, or of points where it has many letters."""
         drawn = BytesIO()
         # letters stay letters: they can be searched for, and take a tenth of the room
@@ -48,10 +50,10 @@ class Chapter:
     words : tuple of str
         Paragraphs.
     tables : tuple of Tabulated
-    pictures : tuple of Picture
+    pictures : tuple of ChapterPicture
     """
 
     title: str
     words: tuple[str, ...]
     tables: tuple[Tabulated, ...]
-    pictures: tuple[Picture, ...]
+    pictures: tuple[ChapterPicture, ...]

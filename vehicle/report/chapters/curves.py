@@ -15,7 +15,7 @@ from ...models.sides import SIDES
 from ...plots.curves import figure
 from ...studies.evaluation import usual_positions
 from ...studies.goals import Goal
-from .chapter import Picture
+from .chapter import ChapterPicture
 
 # So few beside each other are read on the width of a phone, too; and so many fill a sheet.
 _COLUMNS, _MOST = 2, 8
@@ -30,7 +30,7 @@ def pictures(
     words: str,
     *,
     goals: Sequence[Goal] = (),
-) -> tuple[Picture, ...]:
+) -> tuple[ChapterPicture, ...]:
     """Return curves in as many pictures as they need, all of which are read on any width.
 
     Parameters
@@ -55,7 +55,7 @@ def pictures(
                 dataset, [names[i] for i in part], title=f"{first}{which}{line}{others}",
                 alone=False, columns=_COLUMNS, goals=goals,
             )  # fmt: skip
-            found.append(Picture.of(drawn, f"{words}{which}"))
+            found.append(ChapterPicture.of(drawn, f"{words}{which}"))
     return tuple(found)
 
 

@@ -11,7 +11,7 @@ from ...analysis.compliance.tables import deflections
 from ...assembly.by_wheel import WHEEL, flat
 from ...assembly.quantity import RACK
 from ...studies.goals import Goal, check_goals
-from .chapter import Chapter, Picture
+from .chapter import Chapter, ChapterPicture
 from .curves import pictures
 
 
@@ -44,7 +44,7 @@ def elastokinematics_chapter(*found: xr.Dataset, goals: Sequence[Goal] = ()) -> 
         if not given.failed:
             wanted = [_about(given, flat(dataset), goals) for dataset in found]
     sheets = []
-    drawn: list[Picture] = []
+    drawn: list[ChapterPicture] = []
     for dataset, own in zip(found, wanted, strict=True):
         columns, over = flat(dataset), _over(dataset)
         title = f"Kinematic and elastokinematic, over {over}"

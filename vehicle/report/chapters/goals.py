@@ -12,7 +12,7 @@ from ...assembly.of import given_assembly
 from ...studies.evaluation import curves_over
 from ...studies.goals import Goal, Verdict, judge, words_of
 from ...studies.sweep_axes import sweep_axis
-from .chapter import Chapter, Picture
+from .chapter import Chapter, ChapterPicture
 from .curves import pictures, positions_of, with_wanted
 
 _MEANING = (
@@ -52,7 +52,7 @@ def goals_chapter(subject: Any, goals: Sequence[Goal]) -> Chapter:
     return Chapter("Targets and limits", (words, _MEANING), (table,), tuple(drawn))
 
 
-def _drawn(assembly: Assembly, goals: Sequence[Goal], over: str) -> tuple[Picture, ...]:
+def _drawn(assembly: Assembly, goals: Sequence[Goal], over: str) -> tuple[ChapterPicture, ...]:
     """Return the curves that goals over something are about, with these."""
     own = [goal for goal in goals if goal.over == over]
     dataset = curves_over(assembly, over, positions_of(assembly, over, own))

@@ -7,7 +7,7 @@ from ....core.validator import Validator
 from ....pictures.figures import STYLE
 from ...analysis.loads.sheets import overview
 from ...plots.loads import free_bodies
-from .chapter import Chapter, Picture
+from .chapter import Chapter, ChapterPicture
 
 
 def loads_chapter(found: xr.Dataset) -> Chapter:
@@ -35,6 +35,6 @@ def loads_chapter(found: xr.Dataset) -> Chapter:
         with rc_context(STYLE):
             drawn = free_bodies(found, case, title=f"Forces on the parts: {case}")
             # its letters have a halo, which would be drawn as lines
-            pictures.append(Picture.of(drawn, f"Free bodies in the load case {case}", "png"))
+            pictures.append(ChapterPicture.of(drawn, f"Free bodies in the load case {case}", "png"))
     sizes = overview(found, "Sizes of the forces [N]")
     return Chapter("Load cases", tuple(words), (sizes,), tuple(pictures))
