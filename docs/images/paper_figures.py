@@ -80,8 +80,8 @@ def _assemblies(axes: Axes) -> None:
         axes.annotate(name, place, shift, textcoords="offset points")
     axes.set(xlabel="forward, across the strut [mm]", ylabel="to the left [mm]", aspect="equal")
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
-    told = f"the knuckle is turned\nby {abs(np.rad2deg(turned)):.0f}° about BC"
-    axes.annotate(told, (0.97, 0.97), xycoords="axes fraction", ha="right", va="top")
+    caption = f"the knuckle is turned\nby {abs(np.rad2deg(turned)):.0f}° about BC"
+    axes.annotate(caption, (0.97, 0.97), xycoords="axes fraction", ha="right", va="top")
 
 
 if __name__ == "__main__":

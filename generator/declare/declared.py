@@ -124,7 +124,9 @@ def _checked(function: Callable[..., Any], name: str, annotated: Any) -> Callabl
         values = [_with_tuples(value) for value in given]
         keywords = {key: _with_tuples(value) for key, value in named.items()}
         arguments = dict(zip(names, values, strict=False)) | keywords
-        problems = [f"{key}: {told}" for key, item in arguments.items() if (told := strange(item))]
+        problems = [
+            f"{key}: {problem}" for key, item in arguments.items() if (problem := strange(item))
+        ]
         what = type(given[0]).__name__ if is_method else name
         if problems:
             raise DeclarationError(what, problems)

@@ -36,7 +36,7 @@ def value_problems(mechanism: Parts) -> list[str]:
 def _lost_directions(mechanism: Parts) -> Iterator[str]:
     """Find points that coincide where a line is between them, and directions of length zero."""
     value = AtDefaults(mechanism)
-    told: set[str] = set()
+    named: set[str] = set()
     for part in mechanism.every((AlongLine, Line, Direction)):
         if isinstance(part, AlongLine):
             ends = [point for _, point in part.ends]
@@ -52,8 +52,8 @@ def _lost_directions(mechanism: Parts) -> Iterator[str]:
             )
         else:
             continue
-        if what not in told and np.linalg.norm(list(map(value, vector))) <= 1e-12 * size:
-            told.add(what)
+        if what not in named and np.linalg.norm(list(map(value, vector))) <= 1e-12 * size:
+            named.add(what)
             yield f"{what} at the design position; check the defaults of its parameters"
 
 

@@ -159,9 +159,9 @@ def text_problems(mechanism: Parts) -> list[str]:
 
 def _texts(output: Output) -> Iterator[str]:
     """Yield what an output says of itself in words."""
-    for told in (getattr(output, field.name) for field in fields(output)):
-        if isinstance(told, str):
-            yield told
+    for text in (getattr(output, field.name) for field in fields(output)):
+        if isinstance(text, str):
+            yield text
 
 
 def unwritable(what: str, text: str) -> list[str]:

@@ -120,7 +120,7 @@ def _refused_parameters(model: System, variants: Variants, place: int) -> str:
         model.equations.prepare(model.parameters | own)
     except ModelError as error:
         return str(error)
-    return "the parameters are those of no system"  # which only rounding can tell from others
+    return "the parameters are those of no system"  # only rounding distinguishes these
 
 
 def _in_words(model: System, end: End, code: int, max_steps: int) -> str:

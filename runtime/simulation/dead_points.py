@@ -53,7 +53,7 @@ def refuse(model: System, guard: int, state: Array, inputs: Array) -> NoReturn:
     raise ClosureError(where, [meaning], {name: margin}, values, (), units, described)
 
 
-class DeadPoint(Exception):  # noqa: N818 (it ends an integration, and is told as another error)
+class DeadPoint(Exception):  # noqa: N818 (it ends an integration, and is raised as another error)
     """The motion has come to a dead point.
 
     Attributes

@@ -210,7 +210,7 @@ class _Tangents:
         Items are places of signals, and behind the last of them elements of the state.
         """
         found = in_lanes(self._system, steps, times, self._along, items)
-        # what cannot be done in lanes, or is refused there, which is told here
+        # what cannot be done in lanes, and refusals, which are raised here
         return self._one_by_one(steps, times)[..., items] if found is None else found
 
     def _one_by_one(self, steps: RetracedSteps, times: Array) -> Array:

@@ -56,7 +56,7 @@ class RetracedSteps:
         self.inputs = self._inputs_at(self.begin[:, None] + NODES * self.length[:, None])
         self.states = np.repeat(motion.y.T[:-1, None], NODES.size, axis=1)
         self.rates = np.empty_like(self.states)
-        # functions over NumPy arrays; and what is refused, which is told here
+        # functions over NumPy arrays; and refusals, which are raised here
         if not self._compiled(system):
             self._at_once(system)
 

@@ -65,7 +65,7 @@ class Sweep:
                 pushed[:, system.state_names.index(name)] = row
         constants, by_states, held = self._summed("signals", states, inputs, of_signals)
         pushed_within = self._within(*places, pushed + by_states)
-        # functions over NumPy arrays; and what is refused, which is told here
+        # functions over NumPy arrays; and refusals, which are raised here
         found = self._compiled(*pushed_within) or self._at_once(*pushed_within)
         return constants + found[0], found[1], held + found[2]
 

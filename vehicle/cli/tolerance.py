@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from rich.table import Table
     from xarray import Dataset
 
-# Where the cars deviate by more or less than that much of what they do to first order, shares tell
-# nothing. Twenty cars tell their deviation to 1 / sqrt(40) = 0.16, so that this is three of it.
+# Where the cars deviate by more or less than that much of what they do to first order, shares say
+# nothing. Twenty cars give their deviation to 1 / sqrt(40) = 0.16, so that this is three of it.
 _NOT_OF_FIRST_ORDER = 0.5
 
 EXAMPLES = (

@@ -51,7 +51,7 @@ _NO_DAMPING = (
     "The damping of a bush does nothing here: loads and compliance are at rest, and motions have "
     "rigid joints. Leave it out; enter the dynamic stiffnesses where you want those of a frequency."
 )
-# Two directions nearer to each other than this angle [rad] tell no plane.
+# Two directions nearer to each other than this angle [rad] define no plane.
 _LEAST_ANGLE = 1e-3
 
 

@@ -174,7 +174,7 @@ def march(
         factor = np.where(stuck, 1.0 / _TOGETHER, np.where(all_fine, _FASTER, 1.0))
         width[rows] = np.minimum(np.abs(steps) * factor, step)
         done = stuck & (width[rows] < _SMALLEST)
-        # of what is just behind, if nothing can be told of the step before it
+        # of what is just behind, if nothing is known of the step before it
         wrong = ~seen.usable
         first = seen.limit[np.arange(rows.size), wrong.argmax(axis=1)]
         limit[rows[done]] = np.where(wrong.any(axis=1), first, UNRESOLVED)[done]

@@ -25,7 +25,7 @@ from ..studies.tolerance import QUANTILE
 from .goals import mark, of_curve
 from .panels import write_panels
 
-# Before and after, told apart in black and white too.
+# Before and after: they differ in black and white, too.
 _PAIR = ((BLUE, "-"), (ORANGE, "--"))
 # More bars than this are no ranking any more.
 _MOST_BARS = 10

@@ -17,7 +17,7 @@ from .poses import Poses
 
 Array = NDArray[np.float64]
 
-# Of the drawing only [m]; the radius where the data do not tell it.
+# Of the drawing only [m]; the radius where the data have none.
 TYRE_WIDTH = 0.205
 TYRE_RADIUS = 0.3
 

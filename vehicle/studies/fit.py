@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 _USUAL_ACCURACY = 0.02
 # Points of a curve that count as if their errors were independent: neighbours on a rig err alike.
 _INDEPENDENT = 10
-# Of what a value may be off by, a measurement that tells less than this part tells nothing.
+# Of what a value may be off by, a measurement that explains less than this part explains nothing.
 _LEAST_DETERMINED = 0.1
 # A curve of a car whose errors are found is farther off than this once in a hundred times.
 _CHANCE = 0.01

@@ -30,7 +30,7 @@ MEMBER = "member"
 _LEAST_MEMBERS, _MOST_MEMBERS = 4, 10_000
 # They take some minutes.
 _MOST_CARS = 100_000
-# Of more than this hardly a car is beaten in all of them, so that a front tells nothing.
+# Of more than this hardly a car is beaten in all of them, so that a front means nothing.
 _MOST_OBJECTIVES = 6
 # What a suspension that cannot be exceeds its limits by, in parts of them.
 _IMPOSSIBLE = 1e6

@@ -210,13 +210,15 @@ def _scales(rows: Measured, accuracy: Mapping[str, float] | None) -> dict[str, f
     with Validator("fit") as given:
         for name in accuracy or {}:
             given.among("accuracy", name, rows.forces)
-        told = {
+        given_accuracy = {
             k: given.number(f"accuracy[{k!r}]", v, above=0.0) for k, v in (accuracy or {}).items()
         }
         missing = [name for name in rows.forces if accuracy and name not in accuracy]
         for name in missing:
             given.fail(f"accuracy: {name} is missing. Give one for each force.")
-    return {k: told.get(k, 0.1 * (float(np.std(v)) or 1.0)) for k, v in rows.forces.items()}
+    return {
+        k: given_accuracy.get(k, 0.1 * (float(np.std(v)) or 1.0)) for k, v in rows.forces.items()
+    }
 
 
 def _chosen(
@@ -255,11 +257,11 @@ def _see_determined(problem: _Problem, names: tuple[str, ...]) -> None:
             f"{name}{f' (not distinguished from {others})' if (others := ', '.join(rest)) else ''}"
             for name, rest in doubtful.items()
         )
-        told = (
+        undetermined = (
             f"the data do not determine {words}. Leave them out, or measure where they matter: at "
             "other loads, slips, cambers or pressures."
         )
-        raise InputError([told], "fit")
+        raise InputError([undetermined], "fit")
 
 
 def _doubtful(problem: _Problem, names: tuple[str, ...]) -> dict[str, list[str]]:

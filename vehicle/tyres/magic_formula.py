@@ -169,8 +169,10 @@ class MagicFormula(Tyre):
         left = frozenset(without)
         lost = [k for k in left if self.coefficients.get(k) != known.DEFAULTS.get(k)]
         if lost:
-            told = (f"{k} = {self.coefficients.get(k)}: the equations leave it out." for k in lost)
-            raise InputError(sorted(told), self.source or self.name)
+            problems = (
+                f"{k} = {self.coefficients.get(k)}: the equations leave it out." for k in lost
+            )
+            raise InputError(sorted(problems), self.source or self.name)
         first, second = vertical.rates(ARRAYS, self.coefficients)
         found = {key: self.coefficients[key] for key in IN_EQUATIONS}
         found |= {

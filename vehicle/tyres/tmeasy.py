@@ -94,8 +94,8 @@ class TMeasy(Tyre):
         """
         data = content(path)
         if data.get("Template") != "TMeasyTire":
-            told = short(legible(repr(data.get("Template"))))
-            problem = f'"Template" is {told}; of JSON files "TMeasyTire" can be read.'
+            found = short(legible(repr(data.get("Template"))))
+            problem = f'"Template" is {found}; of JSON files "TMeasyTire" can be read.'
             raise InputError([problem], str(path))
         if not isinstance(data.get("Parameters"), dict):
             problem = (
@@ -243,8 +243,8 @@ class _Reader:
         return float(value)
 
     def _refuse(self, place: tuple[str, ...], value: Any, needed: str) -> None:
-        told = "is missing" if value is None else f"= {short(legible(repr(value)))}"
-        problem = f'"{" > ".join(place)}" {told}: {needed}.'
+        state = "is missing" if value is None else f"= {short(legible(repr(value)))}"
+        problem = f'"{" > ".join(place)}" {state}: {needed}.'
         if problem not in self.problems:
             self.problems.append(problem)
 

@@ -105,11 +105,11 @@ def latex(derivation: Derivation, pictures: Mapping[str, str]) -> str:
         for block in group:
             text = _picture(block, pictures) if isinstance(block, Picture) else _set(block)
             body += f"\n\n{text}" if text else ""
-    told = f"Derived by kintrafo. Mechanism {mechanism_hash(derivation)}."
+    author = f"Derived by kintrafo. Mechanism {mechanism_hash(derivation)}."
     head = [
         _HEAD,
         rf"\title{{{escaped(title.text)}}}",
-        rf"\author{{\normalsize {told}}}",
+        rf"\author{{\normalsize {author}}}",
         r"\date{}",
         "",
         r"\begin{document}",

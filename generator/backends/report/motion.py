@@ -494,7 +494,7 @@ def _signs(blocks: list[Block]) -> Iterator[tuple[str, str]]:
         for cell in row
     )
     used = " ".join([*cells, *(b.formula for b in blocks if isinstance(b, Equation))])
-    yield from (told for sign, told in _SIGNS.items() if sign in used)
+    yield from (meaning for sign, meaning in _SIGNS.items() if sign in used)
 
 
 def _global(number: EquationNumbers) -> list[Block]:

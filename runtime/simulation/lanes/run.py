@@ -18,7 +18,7 @@ Finish = Callable[[int, int, NDArray[np.float64], Callable[[], bool]], None]
 _FEWEST, _MOST, _PARTS = 64, 2048, 8
 # Samples that a thread holds at a time, with which many systems would fill the memory [bytes].
 SAMPLES = 2**23
-# How long the main thread waits before it looks at signals and tells how far it is [s].
+# How long the main thread waits before it looks at signals and reports progress [s].
 _PATIENCE = 0.1
 
 

@@ -141,14 +141,14 @@ def _by_malloc() -> int:
 def _elsewhere(way: str, seed: int) -> str:
     """Return the digest of what another process computes."""
     context = multiprocessing.get_context(way)
-    told, tells = context.Pipe(duplex=False)
+    reported, tells = context.Pipe(duplex=False)
     process = context.Process(target=_told, args=(seed, tells))
     process.start()
     tells.close()
     try:
-        if not told.poll(0.5 * SECONDS):
+        if not reported.poll(0.5 * SECONDS):
             raise WrongError(f"a process by {way} does not end")
-        fine, text = told.recv()
+        fine, text = reported.recv()
     except EOFError:
         process.join()
         raise WrongError(f"a process by {way} ends with {process.exitcode}") from None

@@ -77,7 +77,9 @@ LARGE = {
 @pytest.mark.parametrize("what", LARGE)
 def test_large_ensembles_are_refused_at_once(what):
     given, words = LARGE[what]
-    with pytest.raises(InputError, match=r"need .* [MGT]B, and 1 MB are free. Take fewer") as told:
+    with pytest.raises(
+        InputError, match=r"need .* [MGT]B, and 1 MB are free. Take fewer"
+    ) as reported:
         ensemble(
             CAR,
             given["variants"],
@@ -85,7 +87,7 @@ def test_large_ensembles_are_refused_at_once(what):
             START,
             **{k: v for k, v in given.items() if k != "variants"},
         )
-    assert words in str(told.value)
+    assert words in str(reported.value)
 
 
 @needs_lanes

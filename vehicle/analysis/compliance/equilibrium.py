@@ -325,7 +325,7 @@ class ElasticEquilibrium:
         bent = measured.bent(forces, self._count)[:, 1:, :, 1:].reshape(n, size, size)
         stiffness = bent + slopes.mT @ (rates[..., None] * slopes)
         total = np.einsum("nf,nfx->nx", forces, slopes)
-        # a moment is told in axes that stay, in which a rotation after another is no sum
+        # a moment is given in axes that stay, in which a rotation after another is no sum
         for begin in range(3, size, 6):
             rows = slice(begin, begin + 3)
             stiffness[:, rows, rows] -= 0.5 * cross_matrix(total[:, rows])

@@ -146,7 +146,7 @@ def put_spring(document: Any, spring: AdamsSpring) -> None:
 def _beside(folder: Path, name: str) -> Path | None:
     """Return the property file: beside the subsystem, or in the folder of a database."""
     places = (folder, folder / _FOLDER, folder.parent / _FOLDER)
-    # os.path tells of names that no file can have that there is none
+    # os.path finds no file for names that no file can have
     return next((p / name for p in places if name and os.path.isfile(p / name)), None)  # noqa: PTH113
 
 
