@@ -21,9 +21,7 @@ EMITTED = {
 STRAIGHT = {
     name: module
     for name, module in EMITTED.items()
-    if not any(
-        "iterates" in reported for reported in module.equations.manifest["functions"].values()
-    )
+    if not any("iterates" in told for told in module.equations.manifest["functions"].values())
 }
 """Those whose loops are all closed in closed form: straight lines."""
 

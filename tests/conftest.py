@@ -174,7 +174,7 @@ def kintrafo(
 
 
 @pytest.fixture
-def reported(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Callable[..., None]]:
+def told(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Callable[..., None]]:
     """Compare errors or texts with the messages that are stored for this test."""
     so_far = messages.StoredMessages(
         request.node, update=request.config.getoption("--update-messages")
@@ -189,7 +189,7 @@ def reported(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Callabl
 
 
 @pytest.fixture
-def refused(reported: Callable[..., None]) -> Callable[..., Any]:
+def refused(told: Callable[..., None]) -> Callable[..., Any]:
     """Let calls fail with one kind of error, and compare what they say with what is stored."""
 
     def compare(error: type[Exception], *calls: Callable[[], object]) -> Any:
@@ -198,7 +198,7 @@ def refused(reported: Callable[..., None]) -> Callable[..., Any]:
             with pytest.raises(error) as found:
                 call()
             caught.append(found.value)
-        reported(*caught)
+        told(*caught)
         return caught[0]
 
     return compare

@@ -1,6 +1,6 @@
 """Messages as they were stored: one file has all, and no test repeats their sentences.
 
-A test says by its name what it gives; what it is reported is in `golden/messages.json` under that name.
+A test says by its name what it gives; what it is told is in `golden/messages.json` under that name.
 ``pytest --update-messages`` stores what is said now: the difference is what a person reads.
 """
 
@@ -30,7 +30,7 @@ def key_of(item: pytest.Item) -> str:
 
 
 class StoredMessages:
-    """What one test is reported, compared with what is stored, one message after the other.
+    """What one test is told, compared with what is stored, one message after the other.
 
     Parameters
     ----------
@@ -44,18 +44,18 @@ class StoredMessages:
         self.key, self.update = key_of(item), update
         known = stored().get(self.key, [])
         self.known = [known] if isinstance(known, str) else known
-        self.reported: list[str] = []
+        self.told: list[str] = []
 
     def hear(self, text: str) -> None:
         """Compare one more message."""
-        self.reported.append(text)
+        self.told.append(text)
         if not self.update:
-            so_far = self.known[: len(self.reported)]
-            assert self.reported == so_far, "if on purpose: pytest --update-messages"
+            so_far = self.known[: len(self.told)]
+            assert self.told == so_far, "if on purpose: pytest --update-messages"
 
     def end(self) -> None:
         """Store what was heard, if it is to be stored."""
-        if self.update and self.reported:
-            stored()[self.key] = self.reported[0] if len(self.reported) == 1 else self.reported
+        if self.update and self.told:
+            stored()[self.key] = self.told[0] if len(self.told) == 1 else self.told
             text = json.dumps(stored(), indent=1, sort_keys=True, ensure_ascii=False)
             FILE.write_text(f"{text}\n", encoding="utf-8")

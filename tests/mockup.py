@@ -185,8 +185,8 @@ class Instance:
             self.call("GetRealStatus", None, 2, ct.byref(self.reached))
             return status
         flags = [ct.c_bool() for _ in range(3)]
-        reported = (*map(ct.byref, flags), ct.byref(self.reached))
-        return self.call("DoStep", None, *at, ct.c_bool(True), *reported)
+        told = (*map(ct.byref, flags), ct.byref(self.reached))
+        return self.call("DoStep", None, *at, ct.c_bool(True), *told)
 
     def slopes(self, orders: Any, values: Any) -> int:
         """Set derivatives of inputs, by name."""
@@ -217,8 +217,8 @@ class Instance:
             self.status = self.call("NewDiscreteStates", None, ct.byref(info))
             return bool(info.terminate)
         flags = [ct.c_bool() for _ in range(5)]
-        reported = (*map(ct.byref, flags), ct.byref(ct.c_double()))
-        self.status = self.call("", "UpdateDiscreteStates", *reported)
+        told = (*map(ct.byref, flags), ct.byref(ct.c_double()))
+        self.status = self.call("", "UpdateDiscreteStates", *told)
         return flags[1].value
 
     # -- saved ----------------------------------------------------------------------------------

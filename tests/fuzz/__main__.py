@@ -31,7 +31,7 @@ def main() -> int:
     campaigns = []
     for name in options.doors:
         count = options.attempts or options.rounds * short(name)
-        found = campaign(name, count, first=options.first, reported=_progress)
+        found = campaign(name, count, first=options.first, told=_progress)
         campaigns.append(found)
         for one in found.defects:
             print(f"{name}, seed {one.seed}: {one.outcome}: {one.text}")

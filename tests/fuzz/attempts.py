@@ -1,4 +1,4 @@
-"""What one attempt at a door may come to, and how it is reported.
+"""What one attempt at a door may come to, and how it is told.
 
 A door is a module of `fuzz.doors` with a docstring whose first line says what is tried,
 and with a function ``attempt(random)`` that tries it once with what it draws from a

@@ -60,7 +60,7 @@ class Campaign:
 
 
 def campaign(
-    name: str, count: int, *, first: int = 0, reported: Callable[[Campaign], None] | None = None
+    name: str, count: int, *, first: int = 0, told: Callable[[Campaign], None] | None = None
 ) -> Campaign:
     """Try a door with so many seeds.
 
@@ -72,7 +72,7 @@ def campaign(
         Number of attempts.
     first
         The first seed.
-    reported
+    told
         Called after every attempt with what there is so far.
     """
     found = Campaign(name, what_is_tried(name))
@@ -81,15 +81,15 @@ def campaign(
         for one in _worked(name, seed, end - seed):
             found.note(one)
             seed = one.seed + 1
-            if reported:
-                reported(found)
+            if told:
+                told(found)
     return found
 
 
 def _worked(name: str, first: int, count: int) -> Iterator[Tried]:
     """Yield what one process tells, and at the end what the seed that ended it came to."""
     seed = first
-    reported, tells = _PROCESSES.Pipe(duplex=False)
+    told, tells = _PROCESSES.Pipe(duplex=False)
     # a file, since a pipe that nobody reads from would fill up
     with NamedTemporaryFile("r", encoding="utf-8", errors="replace") as complaints:
         process = _PROCESSES.Process(
@@ -99,7 +99,7 @@ def _worked(name: str, first: int, count: int) -> Iterator[Tried]:
         tells.close()
         with suppress(EOFError):
             while True:
-                one = reported.recv()
+                one = told.recv()
                 seed = one.seed + 1
                 yield one
         process.join()

@@ -1,7 +1,7 @@
-"""Try a door with a row of seeds, each reported as it comes: what processes of `fuzz.campaign` run.
+"""Try a door with a row of seeds, each told as it comes: what processes of `fuzz.campaign` run.
 
 A seed that hangs ends the process by a timer that no Python code can stop; the seed that was begun
-and not reported is the one. Time is that of the processor, which a busy machine does not make longer;
+and not told is the one. Time is that of the processor, which a busy machine does not make longer;
 what waits for something is given ten times as much on the clock.
 """
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
 
-def main(name: str, first: int, count: int, reported: Connection, complaints: str) -> None:
+def main(name: str, first: int, count: int, told: Connection, complaints: str) -> None:
     """Try the seeds from `first` on.
 
     Parameters
@@ -27,7 +27,7 @@ def main(name: str, first: int, count: int, reported: Connection, complaints: st
         Of the door.
     first, count
         The seeds.
-    reported
+    told
         Where what came of each is sent.
     complaints
         Path of the file for what goes to standard error.
@@ -43,7 +43,7 @@ def main(name: str, first: int, count: int, reported: Connection, complaints: st
         found = tried(module, seed)
         signal.setitimer(signal.ITIMER_PROF, 0.0)
         faulthandler.cancel_dump_traceback_later()
-        reported.send(found)
+        told.send(found)
 
 
 def _lead(path: str, stream: int) -> None:

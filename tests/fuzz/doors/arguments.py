@@ -56,7 +56,7 @@ _BAR = {
 }  # fmt: skip
 _RIGID = kintrafo.RigidAxle.load("rigid_axle")
 _RIDE, _ = scenario.run(kintrafo.RigidAxleModel(_RIGID), scenario.Scenario(duration=0.01))
-# On these two goals of compliance are reported, with what holds the wheels as one of their keys.
+# On these two goals of compliance are told, with what holds the wheels as one of their keys.
 _BUSHES = {"arm_rear": {"radial_N_per_mm": 1e3}}
 _SOFT = _CAR.suspension.with_changes({"bushings": _BUSHES})
 _SOFT_AXLE = kintrafo.Axle.from_dict({"axle": "front", "side": _SOFT})
@@ -571,9 +571,9 @@ def attempt(random):
             _check_words(name, str(error))
             raise
         except Exception as error:
-            reported = {key: value for key, value in given.items() if value is not right[key]}
-            error.add_note(f"{name}: {reported}")
-            raise RawError(f"{name}({reported}): {type(error).__name__}: {error}") from error
+            told = {key: value for key, value in given.items() if value is not right[key]}
+            error.add_note(f"{name}: {told}")
+            raise RawError(f"{name}({told}): {type(error).__name__}: {error}") from error
     _check_finite(name, found)
 
 

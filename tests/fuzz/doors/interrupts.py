@@ -87,28 +87,28 @@ def attempt(random: Generator) -> None:
         folder = _filled(Path(name))
         before = contents(folder / "work")
         code, said, took = interrupted(folder, command, after, whole_group=whole_group)
-        reported = (
+        told = (
             f"{' '.join(command)} after {after:.3f} s, {took:.2f} s more: {code}, {said[-900:]!r}"
         )
         left = contents(folder / "work")
         strange = [path.name for path in folder.rglob(".*")]
     if code is None:
-        raise WrongError(f"{reported}: runs on")
+        raise WrongError(f"{told}: runs on")
     if took > _SOON:
-        raise WrongError(f"{reported}: too late")
+        raise WrongError(f"{told}: too late")
     if code not in (0, _INTERRUPTED):
-        raise WrongError(reported)
+        raise WrongError(told)
     if said.replace(_STOPPED, "").strip():
-        raise RawError(reported)
+        raise RawError(told)
     if strange:
-        raise WrongError(f"{reported}: left {strange}")
+        raise WrongError(f"{told}: left {strange}")
     changed = {path for path in left if left[path] != before.get(path)}
     if changed and any(left[path] != whole(command).get(path) for path in changed):
-        raise WrongError(f"{reported}: half written: {changed}")
+        raise WrongError(f"{told}: half written: {changed}")
     if code == 0:  # what comes after the end of a command does not interrupt it
         if left != whole(command):
-            raise WrongError(f"{reported}: not done")
-        raise UnjudgedError(f"{reported}: done before")
+            raise WrongError(f"{told}: not done")
+        raise UnjudgedError(f"{told}: done before")
 
 
 _INTERRUPTED = 130

@@ -141,14 +141,14 @@ def _by_malloc() -> int:
 def _elsewhere(way: str, seed: int) -> str:
     """Return the digest of what another process computes."""
     context = multiprocessing.get_context(way)
-    reported, tells = context.Pipe(duplex=False)
+    told, tells = context.Pipe(duplex=False)
     process = context.Process(target=_told, args=(seed, tells))
     process.start()
     tells.close()
     try:
-        if not reported.poll(0.5 * SECONDS):
+        if not told.poll(0.5 * SECONDS):
             raise WrongError(f"a process by {way} does not end")
-        fine, text = reported.recv()
+        fine, text = told.recv()
     except EOFError:
         process.join()
         raise WrongError(f"a process by {way} ends with {process.exitcode}") from None

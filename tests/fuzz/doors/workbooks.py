@@ -59,11 +59,11 @@ def _saved(random: Generator, path: Path) -> tuple[dict[str, Any], str, bool]:
     sheet = book.active
     assert sheet is not None
     sheet.title = "points"
-    reported, unit = list(UNITS.items())[random.integers(len(UNITS))]
+    told, unit = list(UNITS.items())[random.integers(len(UNITS))]
     above = int(random.integers(0, 4))
     for _ in range(above):
         sheet.append(["a title", None, "another"] if random.random() < 0.5 else [None])
-    sheet.append(["Point", *(f"{axis} [{reported.strip('[]()')}]" for axis in "xyz")])
+    sheet.append(["Point", *(f"{axis} [{told.strip('[]()')}]" for axis in "xyz")])
     points = {}
     for name in random.permutation(NAMES[:4])[: random.integers(1, 5)]:
         place = random.normal(0.0, 300.0, 3).round(int(random.integers(0, 5)))

@@ -14,7 +14,7 @@ from kintrafo.simulation.dead_points import meanings
 from kintrafo.simulation.solvers import native_available, native_version
 
 # without optimisation, which takes most of the time and hides what it removes; of what a debugger
-# is reported, lines are enough
+# is told, lines are enough
 FLAGS = ["-std=gnu11", "-O0", "-g1", "-fno-math-errno", "-fsanitize=address,undefined"]
 FLAGS += ["-fno-sanitize-recover=all", "-Wall", "-Wextra", "-Werror"]
 SUNDIALS = ["cvode", "arkode", "nvecserial", "sunmatrixdense", "sunlinsoldense"]

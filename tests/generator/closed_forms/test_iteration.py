@@ -348,12 +348,10 @@ def test_out_of_reach_is_an_error_with_the_loop(name: str, built: Callable[[str]
     state = np.array([*model.design, 0.0, 0.0])
     inputs = np.array([1.5, 0.0, 0.0, 0.0])  # the rack: no toe link is that long
     rods = ", ".join(RODS[name])
-    with pytest.raises(
-        ClosureError, match=f"loops of carrier through {rods} cannot close"
-    ) as reported:
+    with pytest.raises(ClosureError, match=f"loops of carrier through {rods} cannot close") as told:
         model("rhs", state, inputs)
-    assert reported.value.margins["carrier_closure"] < 0.0
-    assert str(ITERATIONS) in str(reported.value)
+    assert told.value.margins["carrier_closure"] < 0.0
+    assert str(ITERATIONS) in str(told.value)
 
 
 @MODEL_NAMES
@@ -498,9 +496,9 @@ def design_angle(derived: Derivation) -> float:
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda m: m.name)
 def test_without_permission_the_loop_is_refused(model: Any) -> None:
-    with pytest.raises(NoClosedFormError) as reported:
+    with pytest.raises(NoClosedFormError) as told:
         CataloguePlan.of(replace(model, allow_iteration=False))
-    text = str(reported.value)
+    text = str(told.value)
     assert "has no closed form in the catalogue" in text
     assert "leaves 1 equation(s)" in text
     count = len(RODS[model.name])
@@ -515,9 +513,9 @@ def test_a_hinge_in_place_of_a_ball_joint_has_no_block() -> None:
     ball, line = held_by_rods.LOWER_BALL, Line(held_by_rods.ARM_BALL, held_by_rods.SPIN_AXIS)
     hinge = Revolute("lower_ball", held_by_rods.LOWER_ARM, held_by_rods.CARRIER, axis=line)
     model = changed(ARM, (ball, hinge))
-    with pytest.raises(NoClosedFormError, match="no closed") as reported:
+    with pytest.raises(NoClosedFormError, match="no closed") as told:
         CataloguePlan.of(model)
-    assert "allow_iteration" not in str(reported.value)
+    assert "allow_iteration" not in str(told.value)
 
 
 def test_rods_on_the_ground_only_cannot_move() -> None:

@@ -351,9 +351,9 @@ def test_report_names_joints_and_equations(derive: Callable[[Formulation], Deriv
     ],
 )
 def test_without_permission_the_loop_is_refused(model: Formulation, words: str) -> None:
-    with pytest.raises(NoClosedFormError, match=words) as reported:
+    with pytest.raises(NoClosedFormError, match=words) as told:
         CataloguePlan.of(replace(model, allow_iteration=False))
-    assert "declared with allow_iteration=True" in str(reported.value)
+    assert "declared with allow_iteration=True" in str(told.value)
 
 
 def test_six_hinges_in_general_cannot_move() -> None:
@@ -361,10 +361,10 @@ def test_six_hinges_in_general_cannot_move() -> None:
     model = with_default(BRICARD, place_3_x=-0.25)
     with pytest.raises(
         NoClosedFormError, match="they cannot move from the design position"
-    ) as reported:
+    ) as told:
         CataloguePlan.of(model)
-    assert "leave 5 equations for the 4 unknown coordinates" in str(reported.value)
-    assert "allow_iteration" not in str(reported.value)
+    assert "leave 5 equations for the 4 unknown coordinates" in str(told.value)
+    assert "allow_iteration" not in str(told.value)
 
 
 def test_a_dead_point_at_design_is_refused() -> None:
@@ -383,11 +383,8 @@ def test_too_many_unknowns_are_refused() -> None:
     mechanism = SEVEN_HINGES.mechanism
     branch = JointOfTree(mechanism.joint("hinge_1"), "one", "two")
     action = CoupledLoops("two", (branch,) * (MOST_UNKNOWNS + 1), (), ())
-    reported = obstacle(action, Mobility(JointGraph(mechanism), ("hinge_0",)))
-    assert (
-        reported
-        == f"{MOST_UNKNOWNS + 1} unknowns are more than the {MOST_UNKNOWNS} of an iteration"
-    )
+    told = obstacle(action, Mobility(JointGraph(mechanism), ("hinge_0",)))
+    assert told == f"{MOST_UNKNOWNS + 1} unknowns are more than the {MOST_UNKNOWNS} of an iteration"
 
 
 # -- mobility in numbers --------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""The most natural mistakes in a declaration: each is reported by its name, its value and a remedy.
+"""The most natural mistakes in a declaration: each is told by its name, its value and a remedy.
 
 Every row is what somebody may write. Nothing is derived.
 """
@@ -420,7 +420,7 @@ def test_macros_around_the_emitted_code_are_reserved(in_lanes):
 
 
 def test_files_of_the_generated_code_are_no_names_of_models():
-    """Its files lie beside others, also where capital letters are not reported from small ones."""
+    """Its files lie beside others, also where capital letters are not told from small ones."""
     headers = {Path(name).stem for name in (ELEMENTARY, *own_lanes.HEADERS)}
     for name in (*sorted(headers), "Vectors"):
         with pytest.raises(DeclarationError, match=f"needs is called {name.lower()}; rename"):

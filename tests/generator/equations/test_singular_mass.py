@@ -24,8 +24,8 @@ MASSES = np.random.default_rng(0).uniform(0.1, 100.0, 50)  # kg
 
 
 def compiled(name: str, first, second) -> kintrafo.System:
-    reported = [j.slide if isinstance(j, Prismatic) else j.angle for j in (first, second)]
-    shown = tuple(tell(j.name, j.name) for tell, j in zip(reported, (first, second), strict=True))
+    told = [j.slide if isinstance(j, Prismatic) else j.angle for j in (first, second)]
+    shown = tuple(tell(j.name, j.name) for tell, j in zip(told, (first, second), strict=True))
     mechanism = Mechanism(name, "Two bodies in a row", (first, second), (Weight(),), shown)
     model = Formulation(name, "Two bodies in a row", mechanism, (first, second))
     return kintrafo.System(kintrafo.compile(model))

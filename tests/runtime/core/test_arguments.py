@@ -1,4 +1,4 @@
-"""Arguments that cannot be used are reported by name, with what would be right."""
+"""Arguments that cannot be used are told by name, with what would be right."""
 
 import re
 from contextlib import suppress

@@ -77,9 +77,7 @@ LARGE = {
 @pytest.mark.parametrize("what", LARGE)
 def test_large_ensembles_are_refused_at_once(what):
     given, words = LARGE[what]
-    with pytest.raises(
-        InputError, match=r"need .* [MGT]B, and 1 MB are free. Take fewer"
-    ) as reported:
+    with pytest.raises(InputError, match=r"need .* [MGT]B, and 1 MB are free. Take fewer") as told:
         ensemble(
             CAR,
             given["variants"],
@@ -87,7 +85,7 @@ def test_large_ensembles_are_refused_at_once(what):
             START,
             **{k: v for k, v in given.items() if k != "variants"},
         )
-    assert words in str(reported.value)
+    assert words in str(told.value)
 
 
 @needs_lanes

@@ -534,18 +534,18 @@ def test_a_model_without_signals() -> None:
 
 
 def test_progress_is_told(car: Model, start: Any, monkeypatch: Any) -> None:
-    reported: list[int] = []
+    told: list[int] = []
     monkeypatch.setattr(run, "_FEWEST", 10)
     real = run._wait_for
 
     def noted(waiting: Any, report: Callable[[int], None] | None) -> None:
         assert report is not None
-        real(waiting, lambda done: (reported.append(done), report(done)))
+        real(waiting, lambda done: (told.append(done), report(done)))
 
     monkeypatch.setattr(run, "_wait_for", noted)
     ensemble(car, some_cars(50), (0.0, 0.01), start, progress=True)
-    assert reported == sorted(reported)
-    assert reported[-1] == 50
+    assert told == sorted(told)
+    assert told[-1] == 50
 
 
 @pytest.mark.usefixtures("interruptible")
@@ -747,11 +747,9 @@ def test_levels_are_told_with_their_unit(car: Model) -> None:
     }
     wanted = {name: ("above", level) for name, (level, _) in levels.items()}
     found = ensemble(car, None, (0.0, 0.01), reductions=wanted)
-    reported = [
-        str(data.attrs["long_name"]) for name, data in found.items() if "_above_" in str(name)
-    ]
+    told = [str(data.attrs["long_name"]) for name, data in found.items() if "_above_" in str(name)]
     for name, (_, words) in levels.items():
-        assert f"time for which {name.replace('_', ' ')} is above {words}" in reported
+        assert f"time for which {name.replace('_', ' ')} is above {words}" in told
 
 
 def test_levels_that_look_alike_have_names_of_their_own(car: Model) -> None:

@@ -194,9 +194,9 @@ class TestInABrowser:
 def test_where_it_does_not_stay_is_told(tmp_path):
     """The excavator rests where modes grow; a four-bar swings about its lowest position."""
     grows = "It does not stay there"
-    for module, reported in ((excavator, True), (four_bar, False)):
-        page = kintrafo.report.write(kintrafo.System(module), tmp_path / f"{reported}.html")
-        assert (grows in page.read_text(encoding="utf-8")) == reported
+    for module, told in ((excavator, True), (four_bar, False)):
+        page = kintrafo.report.write(kintrafo.System(module), tmp_path / f"{told}.html")
+        assert (grows in page.read_text(encoding="utf-8")) == told
 
 
 def test_a_motion_of_another_mechanism_is_refused(spun, tmp_path):

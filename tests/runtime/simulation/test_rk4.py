@@ -127,16 +127,16 @@ def damped(rate):
 
 @pytest.mark.parametrize("rate", [0.0, 1500.0, 1e5])
 def test_the_longest_stable_step_is_told(rate) -> None:
-    """Eigenvalues across, slanting and along the axis: what is reported is stable, much more is not."""
+    """Eigenvalues across, slanting and along the axis: what is told is stable, much more is not."""
     model, start = damped(rate), np.array(START)
     longest = 2.61 / fastest(model, start)
     with pytest.raises(SimulationError, match="not stable") as caught:
         run(1.02 * 2.83 / 2.61 * longest, model=model, start=start)
-    reported = float(caught.value.reason.split("steps of ")[2].split(" s")[0])
+    told = float(caught.value.reason.split("steps of ")[2].split(" s")[0])
     # the bound of the power 256 is some per cent above the eigenvalue, and 1 % is left
-    assert 0.9 * longest < reported < longest
+    assert 0.9 * longest < told < longest
     assert caught.value.time == 0.0
-    found = run(reported, model=model, start=start, span=(0.0, 2e-3))
+    found = run(told, model=model, start=start, span=(0.0, 2e-3))
     assert found.success
 
 
@@ -175,11 +175,11 @@ def test_a_motion_that_becomes_stiff_ends_there() -> None:
         run(1e-4, model=model, start=start)
     assert caught.value.time > 1e-3
     assert caught.value.partial.t.size > 10
-    reported = float(caught.value.reason.split("steps of ")[2].split(" s")[0])
+    told = float(caught.value.reason.split("steps of ")[2].split(" s")[0])
     held = np.array(equilibrium(model))
     # where the strut sticks the Jacobian is that of the friction at rest, wherever that is
-    assert reported == pytest.approx(0.99 * 2.61 / fastest(model, held, 1e-9), rel=0.1)
-    assert run(reported, model=model, start=start, span=(0.0, 0.02)).success
+    assert told == pytest.approx(0.99 * 2.61 / fastest(model, held, 1e-9), rel=0.1)
+    assert run(told, model=model, start=start, span=(0.0, 0.02)).success
 
 
 def test_dead_points_are_those_of_other_methods() -> None:

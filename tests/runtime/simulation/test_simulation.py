@@ -484,10 +484,10 @@ def test_without_sundials_the_user_is_told_once(monkeypatch):
 
     monkeypatch.setattr(solvers, "sundials", None)
     monkeypatch.setattr(simulation, "_warned", False)
-    with pytest.warns(RuntimeWarning, match="built without SUNDIALS") as reported:  # noqa: PT031
+    with pytest.warns(RuntimeWarning, match="built without SUNDIALS") as told:  # noqa: PT031
         first = simulate(MODEL, (0, 0.1), START)
         second = simulate(MODEL, (0, 0.1), START)
-    assert len(reported) == 1
+    assert len(told) == 1
     assert first.solver == second.solver == "SciPy"
     with pytest.raises(InputError, match="needs SUNDIALS"):
         simulate(MODEL, (0, 0.1), START, method="Adams")

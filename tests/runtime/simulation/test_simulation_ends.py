@@ -127,22 +127,22 @@ def test_who_follows_the_advice_is_not_refused(
     try:
         choose(backend, method, stop)
     except InputError as error:
-        (reported,) = error.problems
-        others = dict(re.findall(r"(method|backend) '(\w+)'", advice(reported)))
-        out = re.findall(r"leave out (.*):", advice(reported).lower())
+        (told,) = error.problems
+        others = dict(re.findall(r"(method|backend) '(\w+)'", advice(told)))
+        out = re.findall(r"leave out (.*):", advice(told).lower())
         left = out[0].split(" and ") if out else []
         other = others.get("method", method)
         found = choose(
             others.get("backend", backend), other, stop and "stop_at_outputs" not in left
         )
         in_c = found is simulation.solve_native
-        assert in_c == ("in C then" in reported) == (compiled and moves and linked is not None)
+        assert in_c == ("in C then" in told) == (compiled and moves and linked is not None)
         assert other == "RK4" or method != "RK4" or "step" in left
 
 
-def advice(reported):
+def advice(told):
     """Return the last sentence."""
-    return re.search(r"[.] ([^.]*)[.]$", reported)[1]
+    return re.search(r"[.] ([^.]*)[.]$", told)[1]
 
 
 def run(*arguments):

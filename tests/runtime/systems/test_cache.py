@@ -56,7 +56,7 @@ def forget():
 
 
 def check_healing(cache, made):
-    """It is reported and made again, and what comes out is what a fresh one computes."""
+    """It is told and made again, and what comes out is what a fresh one computes."""
     (target,) = cache.iterdir()
     with pytest.warns(RuntimeWarning, match="damaged, and is made again"):
         module = kintrafo.compile(FOUR_BAR, folder=cache)
@@ -227,7 +227,7 @@ class TestLeftovers:
         assert young.exists()
 
     def test_many_processes_at_a_time(self, tmp_path):
-        """Each removes what the others remove, fill and move: nobody is reported of an error."""
+        """Each removes what the others remove, fill and move: nobody is told of an error."""
         context = multiprocessing.get_context("spawn")
         with ProcessPoolExecutor(2, mp_context=context) as pool:
             list(pool.map(cache_stress.stress, [tmp_path] * 2, [1, 2]))

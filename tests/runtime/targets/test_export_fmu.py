@@ -155,12 +155,10 @@ def test_the_description_tells_units_starts_and_meanings(unit, version):
     known = unit("reference_car", version)
     system = system_named("reference_car")
     for name, entry in system.equations.PARAMETERS.items():
-        reported = f"parameters.{name}"
-        assert float(known.attribute(reported, "start")) == system.parameters[name]
-        assert known.attribute(reported, "description") == entry["meaning"]
-        assert known.attribute(reported, "unit") == (
-            None if entry["unit"] == "1" else entry["unit"]
-        )
+        told = f"parameters.{name}"
+        assert float(known.attribute(told, "start")) == system.parameters[name]
+        assert known.attribute(told, "description") == entry["meaning"]
+        assert known.attribute(told, "unit") == (None if entry["unit"] == "1" else entry["unit"])
     assert known.attribute("tyre_force", "causality") == "output"
     assert known.attribute("road_height", "displayUnit") == "mm"
     reference = known.references["rack_position"] + (version == 2)

@@ -282,7 +282,7 @@ def test_a_motion_of_another_is_refused(name: str, other: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("file", "part", "reported", "load"),
+    ("file", "part", "told", "load"),
     [
         ("reference_axle", "rack,knuckle_left", "steering",
          "anti_roll_bar at bar_bush_left by chassis"),
@@ -290,7 +290,7 @@ def test_a_motion_of_another_is_refused(name: str, other: Any) -> None:
     ],
 )  # fmt: skip
 def test_the_command_tells_both_sides(
-    request: pytest.FixtureRequest, tmp_path: Any, file: str, part: str, reported: str, load: str
+    request: pytest.FixtureRequest, tmp_path: Any, file: str, part: str, told: str, load: str
 ) -> None:
     forces = {"left": "[0, 0.5, 0.7]", "right": "[0, 1, 1.3]"}
     text = "".join(f"[cases.turn.{side}]\ncontact_g = {g}\n" for side, g in forces.items())
@@ -300,6 +300,6 @@ def test_the_command_tells_both_sides(
     command = request.getfixturevalue("kintrafo")
     code, out, err = command(*f"{line} -o loads.csv --plot bodies.png".split())
     assert code == 0, err
-    assert all(word in out for word in (reported, *part.split(",")[1:]))
+    assert all(word in out for word in (told, *part.split(",")[1:]))
     assert f"{load},turn" in (tmp_path / "loads.csv").read_text(encoding="utf-8")
     assert (tmp_path / "bodies_turn.png").stat().st_size > 1000

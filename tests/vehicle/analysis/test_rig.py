@@ -252,9 +252,9 @@ def test_compliance_of_several_is_compared(name: str) -> None:
         found = compare.compare(subjects, travels, held=held)
         for label, subject in subjects.items():
             expected = compliance.linear(subject, None, travels, held=held)
-            reported = [n for n in expected.drop_dims(["moved", "by"]) if "_by_" in str(n)]
-            assert len(reported) > 5
-            for quantity in reported:
+            told = [n for n in expected.drop_dims(["moved", "by"]) if "_by_" in str(n)]
+            assert len(told) > 5
+            for quantity in told:
                 np.testing.assert_array_equal(
                     found[quantity].sel(data_set=label), expected[quantity]
                 )
@@ -285,7 +285,7 @@ def test_compliance_that_there_is_not(models: Any, changes: Any, refused: Any) -
 
 
 def test_an_axle_of_two_corners_is_compared_with_a_rigid_one() -> None:
-    """What both have is reported; a suspension has no motion in common with them."""
+    """What both have is told; a suspension has no motion in common with them."""
     found = compare.compare({"two corners": AXLE, "rigid": RIGID_AXLE}, over="roll")
     assert {"camber", "roll_stiffness", "roll_center_height"} <= {*found}
     assert found["camber"].dims == ("data_set", "wheel", "roll_angle")
@@ -329,13 +329,13 @@ def test_compliance_by_the_command(kintrafo: Any, tmp_path: Path) -> None:
     (tmp_path / "rig.csv").write_text(
         "wheel_travel [mm],toe_by_lateral [deg/kN]\n-10,0.05\n10,0.06\n", encoding="utf-8"
     )
-    reported = {}
+    told = {}
     for files in ("a.toml b.toml", "rig.csv a.toml"):
         for held in ("height", "locked"):
             line = f"compare {files} --of toe_by_lateral --held {held} --json"
-            code, reported[files, held], err = kintrafo(*line.split())
+            code, told[files, held], err = kintrafo(*line.split())
             assert code == 0, err
-        assert reported[files, "height"] != reported[files, "locked"]
+        assert told[files, "height"] != told[files, "locked"]
     code, _, err = kintrafo("compare", "reference_car", "a.toml", "--held", "height")
     assert (code, "has no [bushings]" in err) == (2, True)
     code, _, err = kintrafo("compare", "reference_axle", "reference_axle", "--held", "height")

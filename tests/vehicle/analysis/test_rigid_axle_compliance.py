@@ -228,12 +228,12 @@ def test_the_axle_gives_way_as_springs_do(
     ]
     line, change = left - right, centers[0] - centers[1]
     steer = (change[1] * line[0] - change[0] * line[1]) / (line[:2] @ line[:2])
-    reported = {name: float(found[f"{name}_by_lateral_parallel"][0])
+    told = {name: float(found[f"{name}_by_lateral_parallel"][0])
             for name in ("axle_steer", "axle_lateral", "axle_longitudinal")}  # fmt: skip
     middle = np.mean(centers, axis=0)
     want = {"axle_steer": steer, "axle_lateral": middle[1], "axle_longitudinal": middle[0]}
     for name, value in want.items():
-        assert reported[name] == pytest.approx(value, rel=1e-5, abs=1e-6 * abs(theirs).max())
+        assert told[name] == pytest.approx(value, rel=1e-5, abs=1e-6 * abs(theirs).max())
 
 
 def test_springs_that_carry_the_axle_are_as_soft_as_its_wheel_rate_and_roll_stiffness() -> None:
@@ -546,8 +546,8 @@ def test_a_file_has_its_bushes(kintrafo: Any, tmp_path: Path) -> None:
     code, out, err = kintrafo("sheet", *soft, "-o", "sheet.csv")
     assert code == 0, err
     assert "COMPLIANCE, THE CONTACT STAYS AT ITS HEIGHT" in out
-    reported = (tmp_path / "sheet.csv").read_text(encoding="utf-8")
-    assert "axle_lateral_by_lateral_parallel" in reported
+    told = (tmp_path / "sheet.csv").read_text(encoding="utf-8")
+    assert "axle_lateral_by_lateral_parallel" in told
     for more in (["--over", "roll"], ["--under", "aligning", "--wheels", "opposed"]):
         code, out, err = kintrafo("compliance", *soft, "--nonlinear", *more)
         assert code == 0, err

@@ -122,8 +122,8 @@ def test_measured_loads_are_driven(kintrafo, tmp_path: Path, of: str) -> None:
     assert set(measured(file).values) == {"contact_force_x", "hub_torque"}
     out = tmp_path / "loads.nc"
     command = f"simulate {of} --measured {file} --loads {out} --json"
-    code, reported, _ = kintrafo(*command.split())
-    assert code == 0, reported
+    code, told, _ = kintrafo(*command.split())
+    assert code == 0, told
     found = xr.load_dataset(out)
     point, part = ("contact", "wheel") if of == "reference_car" else ("contact_left", "wheel_left")
     by_road = found.isel(load=((found["point"] == point) & (found["part"] == part)).values)

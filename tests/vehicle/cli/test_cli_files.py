@@ -1,4 +1,4 @@
-"""The command line and the disk: nobody's file is lost, and what cannot be printed is reported."""
+"""The command line and the disk: nobody's file is lost, and what cannot be printed is told."""
 
 import json
 import os

@@ -188,13 +188,13 @@ def test_axes_of_other_programs(words: tuple[str, ...], tmp_path: Path) -> None:
     x, y, z = (np.array(POINTING[word]) for word in words)
     hand = int(np.cross(x, y) @ z)
     left_handed = {1: False, -1: True}.get(hand)
-    for reported in (False, True):
-        if reported == left_handed:
-            found = read_points(path, axes=" ".join(words), left_handed=reported)
+    for told in (False, True):
+        if told == left_handed:
+            found = read_points(path, axes=" ".join(words), left_handed=told)
             assert found.points["a"] == tuple((1.0 * x + 2.0 * y + 3.0 * z).tolist())
         else:
             with pytest.raises(InputError, match=r"-handed axes|on one line"):
-                read_points(path, axes=" ".join(words), left_handed=reported)
+                read_points(path, axes=" ".join(words), left_handed=told)
 
 
 def test_axes_that_are_none(tmp_path: Path) -> None:
@@ -334,12 +334,12 @@ def test_a_table_of_another_car_is_doubted(kintrafo: Any, tmp_path: Path) -> Non
     other = HEAD + "wheel_center,5,-750,310\nlower_arm_front,1,2,3\nlower_arm_rear,1,2,4\n"
     table(tmp_path, other, "other.csv")
     code, _, err = kintrafo("import", "other.csv", "new.toml", "--from", "reference_car")
-    reported = " ".join(err.split())
+    told = " ".join(err.split())
     assert code == 0
-    assert "2 of 3 rows are no hardpoints: lower_arm_front, lower_arm_rear; and " in reported
-    assert "arm_front, arm_rear, ball_joint, " in reported
-    assert " stay as in the file. " in reported
-    assert "--name arm_front=lower_arm_front" in reported
+    assert "2 of 3 rows are no hardpoints: lower_arm_front, lower_arm_rear; and " in told
+    assert "arm_front, arm_rear, ball_joint, " in told
+    assert " stay as in the file. " in told
+    assert "--name arm_front=lower_arm_front" in told
     assert kintrafo("export", "reference_car", "--to", "points", "-o", "all.csv")[0] == 0
     whole = (tmp_path / "all.csv").read_text(encoding="utf-8")
     for text in (HEAD + "wheel_center,5,-750,310\n", whole + "cad_origin,0,0,0\n"):

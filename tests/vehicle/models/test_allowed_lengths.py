@@ -157,10 +157,8 @@ def test_an_axle_says_so_of_the_side():
     raised = {"left_road_height": STEP["road_height"]}
     found = simulate(model, (0.0, 0.3), equilibrium(model), inputs=raised)
     # the bar also lifts the other wheel from its road
-    reported = [str(one) for one in found.validity if "length_min_mm" in one.bound.words]
-    assert reported[0].startswith(
-        "the left strut is beyond its least length, [strut] length_min_mm"
-    )
+    told = [str(one) for one in found.validity if "length_min_mm" in one.bound.words]
+    assert told[0].startswith("the left strut is beyond its least length, [strut] length_min_mm")
 
 
 def test_a_rigid_axle_says_so_and_does_not_rest_beyond():

@@ -1,4 +1,4 @@
-"""What people get wrong in hardpoint files, one mistake at a time: reported, and reported as what it is."""
+"""What people get wrong in hardpoint files, one mistake at a time: told, and told as what it is."""
 
 import pytest
 from kintrafo import Model, Suspension
@@ -88,8 +88,8 @@ MISTAKES = [
 
 @pytest.mark.parametrize(("name", "changes", "what", "why"), MISTAKES)
 def test_a_mistake_is_a_problem(name, changes, what, why):
-    reported = plausibility(changed(name, changes)).problems
-    assert any(what in text and why in text for text in reported), reported
+    told = plausibility(changed(name, changes)).problems
+    assert any(what in text and why in text for text in told), told
 
 
 def test_a_strut_on_the_other_side_is_told_by_its_sign():

@@ -72,8 +72,8 @@ def test_characteristics_and_compare_tell_and_draw(goals: Path, tmp_path: Path) 
     assert shown.exit_code == 0, shown.output
     assert "target: toe angle" in shown.output
     assert "missed by" in shown.output
-    reported = json.loads(called(*asked, "--json").output)
-    assert [(goal["name"], goal["met"]) for goal in reported["goals"]] == [
+    told = json.loads(called(*asked, "--json").output)
+    assert [(goal["name"], goal["met"]) for goal in told["goals"]] == [
         ("toe", False),
         ("scrub_radius", False),
     ]
@@ -423,8 +423,8 @@ def test_where_goals_mean_nothing_they_are_refused(
     goals.write_text("[[limits" + GOALS.partition("[[limits")[2], encoding="utf-8")
     shown = called("characteristics", *words, "--goals", str(goals))
     assert shown.exit_code != 0
-    reported = f"{shown.output} {shown.exception}"
-    assert text in " ".join(reported.replace("│", " ").split())
+    told = f"{shown.output} {shown.exception}"
+    assert text in " ".join(told.replace("│", " ").split())
 
 
 def test_goals_have_a_door() -> None:

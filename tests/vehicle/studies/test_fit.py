@@ -62,14 +62,12 @@ def test_small_errors_are_those_of_linear_regression() -> None:
     ours = [found.moved[place] for place in order]
     np.testing.assert_allclose(ours, mean, rtol=5e-3, atol=5e-4)
     np.testing.assert_allclose([found.uncertainty[p] for p in order], deviations, rtol=5e-3)
-    reported = [
-        1.0 - (3.0 * d / tolerances[p]) ** 2 for p, d in zip(order, deviations, strict=True)
-    ]
-    np.testing.assert_allclose([found.determined[p] for p in order], reported, atol=5e-3)
+    told = [1.0 - (3.0 * d / tolerances[p]) ** 2 for p, d in zip(order, deviations, strict=True)]
+    np.testing.assert_allclose([found.determined[p] for p in order], told, atol=5e-3)
 
 
 def test_noise_leaves_what_is_told() -> None:
-    """Errors, in parts of the deviation that is reported, are normal: the mean of 16 squares near 1."""
+    """Errors, in parts of the deviation that is told, are normal: the mean of 16 squares near 1."""
     random, squares = np.random.default_rng(3), []
     for _ in range(8):
         off = random.normal(size=2)

@@ -261,14 +261,10 @@ def test_the_chosen_member_is_written(kintrafo: Any, tmp_path: Path) -> None:
         assert words in " ".join(out.split()), out
     written = Suspension.load(tmp_path / "car.toml")
     code, out, _ = kintrafo("pareto", "reference_car", "s.toml", *QUICK, "--json", "--member", 2)
-    reported = json.loads(out)
-    values = {name: data["values"][1] for name, data in reported["variables"].items()}
+    told = json.loads(out)
+    values = {name: data["values"][1] for name, data in told["variables"].items()}
     assert numbers_of(written)[:2] == pytest.approx([*values.values()][:2], rel=1e-9)
-    assert (reported["chosen"], reported["success"], set(reported["before"])) == (
-        2,
-        True,
-        {*values} - {*FREE},
-    )
+    assert (told["chosen"], told["success"], set(told["before"])) == (2, True, {*values} - {*FREE})
 
 
 @pytest.mark.parametrize("member", [0, 5, 4])

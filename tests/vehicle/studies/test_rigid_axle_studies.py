@@ -138,8 +138,8 @@ def test_a_front_of_axles_and_many_of_them() -> None:
     assert front.success
     member = front.suspension(1)
     assert isinstance(member, RigidAxle)
-    reported = float(front.dataset["axle_steer_over_roll_least"][0])
-    assert reported == pytest.approx(steer(member)[1], abs=1e-12)
+    told = float(front.dataset["axle_steer_over_roll_least"][0])
+    assert told == pytest.approx(steer(member)[1], abs=1e-12)
     many = variation.cars(
         AXLE, {"rods.panhard_rod.axle.z": [390.0, 410.0]}, over="roll", positions=ROLLS,
         names=["axle_steer"],
@@ -223,9 +223,9 @@ most = 0.1
         ["characteristics", "--goals", "goals.toml", "--over", "bump,roll"],
     ]
     words = ["at 2 deg of roll", "5 of 5 cars", "found", "limit: steer angle of the axle"]
-    for (command, *rest), reported in zip(lines, words, strict=True):
+    for (command, *rest), told in zip(lines, words, strict=True):
         code, out, err = kintrafo(command, "rigid_axle", *rest)
         assert code == 0, err
-        assert reported in " ".join(out.split())
+        assert told in " ".join(out.split())
     better = characteristics.over(RigidAxle.load("better.toml"), "bump", [0.0])
     assert float(better["roll_center_height"][0]) == pytest.approx(0.42, abs=1e-5)

@@ -68,11 +68,11 @@ def test_stiffnesses_of_tmeasy_are_slopes_however_flat_the_file_says(load, axis)
     tyre = load(changed(("Parameters", section, key), [12e3, 20e3]))
     slip = 1e-4 * np.array([1.0, -1.0])
     if axis == "x":
-        (more, less), reported = tyre.evaluate(3500.0, slip=slip).fx, "slip_stiffness"
+        (more, less), told = tyre.evaluate(3500.0, slip=slip).fx, "slip_stiffness"
     else:
-        (less, more), reported = tyre.evaluate(3500.0, slip).fy, "cornering_stiffness"
+        (less, more), told = tyre.evaluate(3500.0, slip).fy, "cornering_stiffness"
     # to some 1e-3: the part of the maximum's slip that the step is
-    assert getattr(tyre.evaluate(3500.0), reported) == pytest.approx((more - less) / 2e-4, rel=2e-3)
+    assert getattr(tyre.evaluate(3500.0), told) == pytest.approx((more - less) / 2e-4, rel=2e-3)
 
 
 def test_tmeasy_rolls_backward():
