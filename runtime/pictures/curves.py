@@ -141,13 +141,15 @@ def draw(
                 _narrow(axes)
     for axes in panels[len(names) :]:
         axes.remove()
-    if _marks_of_goals(panels[: len(names)]):
-        result.set_size_inches(size[0], size[1] + _BELOW)
-    shape = np.array(size) / (columns, rows) - _AROUND
     curves = [dataset[name] for name in names]
-    if vertical and _named_inside(panels, curves):
-        _legend_below(result, _Named(), _marks_of_goals(panels[: len(names)]))
+    once = _named_once(panels, curves) if vertical else None
+    marks = _marks_of_goals(panels[: len(names)])
+    if marks or once:
+        result.set_size_inches(size[0], size[1] + _BELOW)
+    if once:
+        _legend_below(result, once, marks)
     else:
+        shape = np.array(size) / (columns, rows) - _AROUND
         _name_lines(result, panels, curves, shape, alone=alone)
     result.suptitle("\n".join(line for line in (title, _held(dataset)) if line), fontsize=11)
     return written_plainly(result)
@@ -366,6 +368,15 @@ def _typeset(text: str) -> str:
     return text.replace("^2", "\u00b2")
 
 
+@dataclass(frozen=True)
+class _Named:
+    """What a legend has: lines, their names, and what these are."""
+
+    handles: Sequence[Any] = ()
+    labels: Sequence[str] = ()
+    title: str | None = None
+
+
 def _name_lines(
     result: Figure, panels: Array, curves: Sequence[xr.DataArray], shape: Array, *, alone: bool
 ) -> None:
@@ -387,34 +398,17 @@ def _name_lines(
         _legend_below(result, lines, marks)
 
 
-def _named_inside(panels: Array, curves: Sequence[xr.DataArray]) -> bool:
-    """Name few lines in a legend of each panel that has several; return whether they are few."""
-    families = {id(data): _family(data) for data in curves}
-    sizes = [data.sizes[name] for data in curves if (name := families[id(data)]) is not None]
-    if (
-        not sizes
-        or max(sizes) > _FEW_NAMES
-        or any(data.ndim > 1 and families[id(data)] is None for data in curves)
-    ):
-        return False
-    for axes, data in zip(panels, curves, strict=False):
-        if families[id(data)] is not None:
-            named = _named_lines(axes, data)
-            axes.legend(named.handles, named.labels, loc="best", fontsize=8, framealpha=0.7)
-    return True
+def _named_once(panels: Array, curves: Sequence[xr.DataArray]) -> _Named | None:
+    """Return the names of the lines of all panels; none where some have others."""
+    found = [(axes, data) for axes, data in zip(panels, curves, strict=False) if data.ndim > 1]
+    if not found or any(_family(data) is None for _, data in found):
+        return None
+    named = [_named_lines(axes, data) for axes, data in found]
+    return named[0] if all(one.labels == named[0].labels for one in named) else None
 
 
 def _drawn_lines(axes: Axes, count: int) -> list[Line2D]:
     return [line for line in axes.get_lines() if line.get_linestyle() != "None"][:count]
-
-
-@dataclass(frozen=True)
-class _Named:
-    """What a legend has: lines, their names, and what these are."""
-
-    handles: Sequence[Any] = ()
-    labels: Sequence[str] = ()
-    title: str | None = None
 
 
 def _named_lines(axes: Axes, data: xr.DataArray) -> _Named:

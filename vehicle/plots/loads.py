@@ -22,13 +22,19 @@ from .curves import check_formats
 _VIEWS = {"from behind": (1, 2, -1.0), "from the right": (0, 2, 1.0)}
 # The longest arrow of a part, as a part of the part's greatest extent, and the least extent [m].
 _LONGEST, _LEAST_EXTENT = 0.6, 0.15
-# Forces below this part of the greatest on a part are not drawn.
-_SMALL = 0.03
+# The shortest arrow, as a part of the longest. A force of which a view has less than this part
+# points out of the drawing or into it: a dot in a circle, or a cross.
+_SHORTEST, _ACROSS = 0.12, 0.2
+# Width of a part [points], and of its outline.
+_THICK, _EDGE = 6.0, 1.2
 # A part with more loads than this has a row for each view. Labels are at both sides of a drawing,
 # in room that is this part of its width.
-_MANY, _ASIDE, _ASIDE_NARROW = 4, 0.35, 0.7
-# Couples below this have no label [N m].
-_SMALL_MOMENT = 1.0
+_MANY, _ASIDE, _ASIDE_NARROW = 4, 0.35, 0.9
+# Least height of a row; what it needs beside its labels, and for each of them in a column [in].
+_ROW, _FRAME, _LABEL = 2.7, 0.8, 0.45
+# Forces and couples below these are not drawn [N], [N m].
+_SMALL_FORCE, _SMALL_MOMENT = 0.5, 1.0
+_FROM_OUTSIDE = ("road", "drive", "gravity")
 
 
 def write_free_bodies(
@@ -85,9 +91,14 @@ def free_bodies(
     shown = parts or [str(part) for part in here["moving_part"].values if part not in rods]
     chosen = {part: here.isel(load=(here["part"] == part).values) for part in shown}
     # a view stands alone in its row where many labels are beside it
-    rows = sum(len(_VIEWS) if _crowded(loads) else 1 for loads in chosen.values())
-    figure = Figure(figsize=(7.4, 0.6 + 2.7 * rows), layout="constrained")
-    grid, row = figure.add_gridspec(rows, len(_VIEWS)), 0
+    heights = [
+        max(_ROW, _FRAME + _LABEL * -(-len(_drawn(loads)) // 2))
+        for loads in chosen.values()
+        for _ in (_VIEWS if _crowded(loads) else (0,))
+    ]
+    figure = Figure(figsize=(7.4, 0.6 + sum(heights)), layout="constrained")
+    grid = figure.add_gridspec(len(heights), len(_VIEWS), height_ratios=heights)
+    row = 0
     labels = {}
     for part, loads in chosen.items():
         for column, view in enumerate(_VIEWS):
@@ -103,9 +114,16 @@ def free_bodies(
     return written_plainly(figure)
 
 
+def _drawn(loads: xr.Dataset) -> np.ndarray:
+    """Return the indices of the loads that are drawn: forces, and couples that mean something."""
+    sizes = np.linalg.norm(loads["force"].values, axis=1)
+    couples = np.linalg.norm(loads["moment"].values, axis=1)
+    return np.flatnonzero((sizes > _SMALL_FORCE) | (couples > _SMALL_MOMENT))
+
+
 def _crowded(loads: xr.Dataset) -> bool:
     """Return whether so many loads are on a part that their labels would lie on each other."""
-    return loads.sizes["load"] > _MANY
+    return len(_drawn(loads)) > _MANY
 
 
 def _draw(axes: Axes, loads: xr.Dataset, view: str) -> list[Annotation]:
@@ -114,33 +132,26 @@ def _draw(axes: Axes, loads: xr.Dataset, view: str) -> list[Annotation]:
     places = 1e3 * loads["at"].values[:, [across, upward]] * [sense, 1.0]
     forces = loads["force"].values[:, [across, upward]] * [sense, 1.0]
     sizes = np.linalg.norm(loads["force"].values, axis=1)
-    couples = np.linalg.norm(loads["moment"].values, axis=1)
-    held = places[loads["point"].values != "mass"]
-    outline = held[_around(held)]
-    axes.fill(*outline.T, facecolor="#eeeeee", edgecolor="#888888", joinstyle="round")
-    axes.plot(*held.T, "o", color="black", markersize=3)
+    _draw_part(axes, loads, places)
     extent = max(float(np.ptp(places, axis=0).max()), 1e3 * _LEAST_EXTENT)
     scale = _LONGEST * extent / max(float(sizes.max()), 1.0)
-    halo = [withStroke(linewidth=2.5, foreground="white")]
-    strong = sizes > _SMALL * sizes.max()
     labels = []
-    for i in np.flatnonzero(strong | (couples > _SMALL_MOMENT)):
-        place, push, by = places[i], forces[i], loads["by"].values[i]
-        colour = ORANGE if without_side(by) in ("road", "drive", "gravity") else BLUE
-        tail = place - scale * push
-        style: dict[str, Any] = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.4}
-        axes.annotate("", xy=(place[0], place[1]), xytext=(tail[0], tail[1]), arrowprops=style)
-        amounts = [f"{sizes[i]:.0f} N"] if strong[i] else []
-        amounts += [f"{couples[i]:.0f} N m"] if couples[i] > _SMALL_MOMENT else []
-        point = str(loads["point"].values[i])
-        where = "" if point == "mass" else f"\nat {point.replace('_', ' ')}"
-        words = f"{by.replace('_', ' ')}{where}\n" + ", ".join(amounts)
-        label = axes.annotate(
-            words, (tail[0], tail[1]), (0.0, 0.0), textcoords="offset points", fontsize=7.5,
-            color=colour, ha="center", path_effects=halo,
-            va="bottom" if push[1] <= 0.0 else "top",
-        )  # fmt: skip
-        labels.append(label)
+    for i in _drawn(loads):
+        colour = ORANGE if without_side(loads["by"].values[i]) in _FROM_OUTSIDE else BLUE
+        strength = float(np.linalg.norm(forces[i]))
+        if strength < _ACROSS * sizes[i]:
+            # seen from behind and from the right, what is positive goes away from the viewer
+            away = float(loads["force"].values[i, 1 - across]) > 0.0
+            _draw_across(axes, places[i], colour, away=away)
+            tail = places[i]
+        elif strength:
+            length = max(scale * strength, _SHORTEST * _LONGEST * extent)
+            tail = places[i] - length * forces[i] / strength
+            style: dict[str, Any] = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.4}
+            axes.annotate("", xy=tuple(places[i]), xytext=tuple(tail), arrowprops=style)
+        else:
+            tail = places[i]
+        labels.append(_labelled(axes, loads.isel(load=i), tail, colour))
         axes.plot(*tail, alpha=0.0)  # so that arrows are within the axes
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(_ASIDE if _crowded(loads) else _ASIDE_NARROW, 0.15)
@@ -151,9 +162,47 @@ def _draw(axes: Axes, loads: xr.Dataset, view: str) -> list[Annotation]:
     return labels
 
 
-def _around(places: np.ndarray) -> list[int]:
-    """Return the points in the order of their directions from the middle."""
-    distinct = {tuple(place): i for i, place in enumerate(places.round(3).tolist())}
-    rows = [*distinct.values()]
-    arms = places[rows] - places[rows].mean(axis=0)
-    return [rows[i] for i in np.argsort(np.arctan2(arms[:, 1], arms[:, 0]), kind="stable")]
+def _labelled(axes: Axes, load: xr.Dataset, tail: np.ndarray, colour: str) -> Annotation:
+    """Label a load with its neighbour, its point and its size."""
+    size, couple = (float(np.linalg.norm(load[name].values)) for name in ("force", "moment"))
+    amounts = [f"{size:.0f} N"] if size > _SMALL_FORCE else []
+    amounts += [f"{couple:.0f} N m"] if couple > _SMALL_MOMENT else []
+    point = str(load["point"].values)
+    where = "" if point == "mass" else f"\nat {point.replace('_', ' ')}"
+    words = f"{str(load['by'].values).replace('_', ' ')}{where}\n" + ", ".join(amounts)
+    return axes.annotate(
+        words, (float(tail[0]), float(tail[1])), (0.0, 0.0), textcoords="offset points",
+        fontsize=7.5, color=colour, ha="center", va="center",
+        path_effects=[withStroke(linewidth=2.5, foreground="white")],
+    )  # fmt: skip
+
+
+def _draw_across(axes: Axes, place: np.ndarray, colour: str, *, away: bool) -> None:
+    """Draw a force that points out of the drawing, or into it."""
+    axes.plot(*place, "o", markersize=9, markerfacecolor="white", color=colour, zorder=4)
+    axes.plot(*place, "x" if away else ".", markersize=6, color=colour, zorder=5)
+
+
+def _draw_part(axes: Axes, loads: xr.Dataset, places: np.ndarray) -> None:
+    """Draw what connects the points of a part: each with the nearest of those before it."""
+    held = np.flatnonzero(loads["point"].values != "mass")
+    at = loads["at"].values[held]
+    for first, second in _connected(at):
+        line = places[held[[first, second]]]
+        for width, colour, order in ((_THICK + _EDGE, "#888888", 1), (_THICK, "#eeeeee", 1.1)):
+            axes.plot(*line.T, color=colour, linewidth=width, solid_capstyle="round", zorder=order)
+    axes.plot(*places[held].T, "o", color="black", markersize=3)
+
+
+def _connected(at: np.ndarray) -> list[tuple[int, int]]:
+    """Return the pairs of points whose connections are the shortest that hold all together."""
+    distances = np.linalg.norm(at[:, None] - at, axis=2)
+    reached, pairs = [0], []
+    while len(reached) < len(at):
+        open_ = [i for i in range(len(at)) if i not in reached]
+        first, second = min(
+            ((i, k) for i in reached for k in open_), key=lambda pair: distances[pair]
+        )
+        reached.append(second)
+        pairs.append((first, second))
+    return pairs

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 _POINTS = 241
 _COLOURS = (BLUE, ORANGE, GREEN, "#cc79a7")
+_LENGTHS = "#7b4ea3"  # of what has the axis at the right
 _LOADS = (0.5, 1.0, 1.5)
 _ANGLES = (0.0, 2.0, 4.0, 8.0)  # of combined slip [deg]
 _CAMBERS = (-4.0, 0.0, 4.0)  # [deg]
@@ -137,17 +138,22 @@ class _Curves:
         loads = loads[(loads >= low) & (loads <= high)]
         found = self._tyre.evaluate(loads)
         per_degree = np.pi / 180.0
-        axes.plot(
+        lines = axes.plot(
             1e-3 * loads, per_degree * found.cornering_stiffness, color="black",
-            label="cornering stiffness [N/deg]",
+            label="cornering stiffness",
         )  # fmt: skip
         axes.set_xlabel("load [kN]")
         axes.set_ylabel("cornering stiffness [N/deg]")
-        if np.isfinite(found.relaxation_y).all():
-            axes.plot(
-                1e-3 * loads, 1e3 * found.relaxation_y, "--", color="black",
-                label="lateral relaxation length [mm]",
-            )  # fmt: skip
-            axes.set_ylabel("stiffness [N/deg], length [mm]")
         axes.set_ylim(bottom=0.0)
-        axes.legend(fontsize=8)
+        if np.isfinite(found.relaxation_y).all():
+            lengths = axes.twinx()
+            lines += lengths.plot(
+                1e-3 * loads, 1e3 * found.relaxation_y, "--", color=_LENGTHS,
+                label="lateral relaxation length (right axis)",
+            )  # fmt: skip
+            lengths.set_ylabel("lateral relaxation length [mm]", color=_LENGTHS)
+            lengths.tick_params(axis="y", colors=_LENGTHS)
+            lengths.spines["right"].set(visible=True, color=_LENGTHS)
+            lengths.set_ylim(bottom=0.0)
+            lengths.grid(visible=False)
+        axes.legend(handles=lines, fontsize=8, loc="lower right")

@@ -72,16 +72,18 @@ def test_a_figure_calls_a_file_by_its_name():
 
 
 def test_wheel_travel_is_on_the_vertical_axis():
-    """With its design position, its names in the panel, and the samples of a measurement marked."""
+    """With its design position, names once below the panels, and the samples of a measurement."""
     shown = curves(0.02 + TRAVEL, 0.03 + TRAVEL, names=("rig", "car"))
     shown["data_set"].attrs["measured"] = 1
-    (axes,) = figure(shown, ["one"], alone=False).axes
+    drawn = figure(shown, ["one"], alone=False)
+    (axes,) = drawn.axes
     measured, car, *_ = axes.get_lines()
     np.testing.assert_allclose(measured.get_ydata(), 1e3 * TRAVEL)
     np.testing.assert_allclose(car.get_xdata(), 1e3 * (0.03 + TRAVEL))
     assert (measured.get_marker(), car.get_marker()) == ("o", "None")
     assert axes.get_ylabel().startswith("wheel travel [mm]")
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["rig", "car"]
+    assert axes.get_legend() is None
+    assert [text.get_text() for text in drawn.legends[0].get_texts()] == ["rig", "car"]
 
 
 def test_no_curve_is_drawn_twice():

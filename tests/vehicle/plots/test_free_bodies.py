@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import combinations
 from typing import Any
 
+import numpy as np
 import pytest
 from kintrafo import Model, loads
 from kintrafo.vehicle.plots.loads import free_bodies
@@ -40,3 +41,18 @@ def test_labels_do_not_overlap(of: Any, case: str) -> None:
         words = {text.get_text().splitlines()[1] for text in shown if "N" in text.get_text()}
         assert all(word.startswith("at ") or word.endswith(" N") for word in words)
     assert count > 20
+
+
+def test_every_force_is_drawn_and_the_part_connects_its_points() -> None:
+    """An arrow, or a symbol where it is across the drawing; the right link has 4 N of 12,000."""
+    found = loads.static(STOPPED, {"corner": loads.standard_cases(STOPPED)["corner"]})
+    of_beam = found.sel(case="corner").isel(load=(found["part"] == "beam").values)
+    forces = np.linalg.norm(of_beam["force"].values, axis=1) > 0.5
+    points = len({str(name) for name in of_beam["point"].values} - {"mass"})
+    for axes in free_bodies(found, "corner", ["beam"]).axes:
+        arrows = [text for text in axes.texts if getattr(text, "arrowprops", None)]
+        heads = [text for text in arrows if text.arrowprops["arrowstyle"] == "-|>"]
+        across = [line for line in axes.get_lines() if line.get_markersize() == 9]
+        assert len(heads) + len(across) == forces.sum()
+        members = [line for line in axes.get_lines() if line.get_linewidth() == 6.0]
+        assert len(members) == points - 1
