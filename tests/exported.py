@@ -33,8 +33,8 @@ def _prescribed() -> Formulation:
 
 
 def compiled(folder: Path, *flags: str) -> Path:
-    """Compile all C files of a folder into a program."""
+    """Compile all C files of a folder that need no other library into a program."""
     program = folder.with_suffix(".exe")
-    files = sorted(map(str, folder.glob("*.c")))
+    files = sorted(str(file) for file in folder.glob("*.c") if not file.stem.endswith("_ffi"))
     subprocess.run([*CC, *flags, *files, "-o", str(program), "-lm"], check=True)
     return program

@@ -10,6 +10,7 @@ from ..core.errors import InputError
 from ..core.files import Paths, as_input_errors, replacing
 from .casadi_external import externals
 from .emitted import Emitted
+from .jax_ffi import handlers
 from .text import environment
 
 STEPS, STEP = 100, 1e-4
@@ -20,6 +21,8 @@ _TEMPLATES = {
     "{name}_values.c": "values.c.jinja",
     "{name}_example.c": "example.c.jinja",
     "{name}_casadi.c": "casadi.c.jinja",
+    "{name}_ffi.c": "ffi.c.jinja",
+    "{name}_ffi.py": "ffi.py.jinja",
     "CMakeLists.txt": "CMakeLists.txt.jinja",
     "README.txt": "README.txt.jinja",
 }
@@ -99,6 +102,7 @@ def _known(emitted: Emitted) -> dict[str, Any]:
         "iterates": _stages_of(iterating, manifest),
         "stack": _stack(costs.values()),
         "externals": externals(emitted),
+        "handlers": handlers(emitted),
         "steps": STEPS,
         "step": STEP,
     }

@@ -5,11 +5,11 @@ from typing import Any
 
 from .emitted import Emitted
 
-# Each with its derivatives by state and by inputs.
-_FUNCTIONS = {
+FUNCTIONS = {
     "rhs": ("rhs_jacobian", "rhs_input_jacobian"),
     "signals": ("signals_jacobian", "signals_input_jacobian"),
 }
+"""What other libraries call, each with its derivatives by state and by inputs."""
 
 
 def externals(emitted: Emitted) -> list[dict[str, Any]]:
@@ -18,7 +18,7 @@ def externals(emitted: Emitted) -> list[dict[str, Any]]:
     Where a mechanism has no derivatives there is no such function, and CasADi refuses to
     differentiate.
     """
-    return [made for name in _FUNCTIONS for made in _made(emitted, name)]
+    return [made for name in FUNCTIONS for made in _made(emitted, name)]
 
 
 def _made(emitted: Emitted, name: str) -> Iterator[dict[str, Any]]:
@@ -30,10 +30,10 @@ def _made(emitted: Emitted, name: str) -> Iterator[dict[str, Any]]:
     names, shapes = ["state", "inputs"], [(size, 1) for size in sizes]
     parts = [_part(emitted, name, 0, rows, 1)]
     yield _function(function, names, [name], shapes, parts)
-    if any(sizes) and all(emitted.result(derivative) for derivative in _FUNCTIONS[name]):
+    if any(sizes) and all(emitted.result(derivative) for derivative in FUNCTIONS[name]):
         parts = [
             _part(emitted, derivative, place, rows, sizes[place])
-            for place, derivative in enumerate(_FUNCTIONS[name])
+            for place, derivative in enumerate(FUNCTIONS[name])
         ]
         blocks = [f"jac_{name}_{by}" for by in names]
         behind = ([*names, f"out_{name}"], blocks, [*shapes, (rows, 1)], parts)

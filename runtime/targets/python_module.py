@@ -81,7 +81,7 @@ def _refuse_iterations(library: str, emitted: Emitted) -> None:
         problem = (
             f"{', '.join(sorted(loops))}: Newton's method solves a loop of these equations. "
             f"{library!r} has equations in closed form only. Export to 'c', whose functions "
-            "casadi.external calls with their derivatives, or to 'fmu'."
+            "casadi.external and jax.ffi call with their derivatives, or to 'fmu'."
         )
         raise InputError([problem], emitted.name)
 

@@ -6,12 +6,13 @@ the Jacobians that are compared with were derived by the generator and are C.
 
 import importlib.util
 import re
+import subprocess
 from functools import cache
 
 import kintrafo
 import numpy as np
 import pytest
-from exported import compiled, system_named
+from exported import CC, compiled, system_named
 from folders import ROOT
 from free_bodies import thrown
 from kintrafo.generator.backends.arrays import differentiable
@@ -248,6 +249,49 @@ def test_jax_has_nan_where_a_loop_cannot_close(jax, module_of):
     assert np.isnan(slopes[1]).any(axis=-1).all()
     margins = jax.jit(module.margins)(states, module.inputs(), constants)
     assert margins[1, [*module.MARGINS].index("rocker_closure")] < 0.0
+
+
+@pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
+def test_jax_calls_the_compiled_c(jax, tmp_path):
+    """Values and derivatives, forward and backward, have the bits of the C."""
+    system = kintrafo.System(system_named(CLOSED).equations, OPEN)
+    folder = kintrafo.export_model(system, tmp_path / "c", "c")
+    ends = ("", "_derivatives", "_values", "_ffi")
+    files = [str(folder / f"four_bar{end}.c") for end in ends]
+    library = tmp_path / "four_bar.so"
+    headers = ["-isystem", jax.ffi.include_dir()]
+    made = [*CC, "-shared", "-fPIC", *headers, *files, "-o", str(library), "-lm"]
+    subprocess.run(made, check=True)
+    module = loaded(folder / "four_bar_ffi.py")
+    assert system.input_names == module.INPUT_NAMES
+    with pytest.raises(RuntimeError, match=r"call load\(...\) with the library of four_bar_ffi.c"):
+        module.rhs(module.STATE, module.INPUTS)
+    module.load(library)
+    with pytest.raises(RuntimeError, match=r"four_bar\.so is loaded already"):
+        module.load(library)
+    states = np.array([[0.2, 3.0], [0.3, -1.0]])
+    inputs = np.array([2.0])
+    for name in ("rhs", "signals"):
+        function = getattr(module, name)
+        assert np.array_equal(
+            jax.jit(function)(states, inputs), system.evaluate(name, states, inputs)
+        )
+        assert np.array_equal(
+            jax.vmap(function, (0, None))(states, inputs), system.evaluate(name, states, inputs)
+        )
+        for by, own in ((0, f"{name}_jacobian"), (1, f"{name}_input_jacobian")):
+            for way in (jax.jacfwd, jax.jacrev):
+                slopes = way(function, by)(states[0], inputs)
+                assert np.array_equal(slopes, system.evaluate(own, states[0], inputs)), own
+    dead = np.stack([states[0], system.state(**AT_THE_DEAD_POINT)])
+    assert np.isnan(module.rhs(dead, inputs)).tolist() == [[False, False], [True, True]]
+    with pytest.raises(ValueError, match="cannot be differentiated"):
+        jax.hessian(lambda state: module.rhs(state, inputs)[1])(states[0])
+    with pytest.raises(ValueError, match="the last dimension of inputs must be 1"):
+        module.rhs(states, np.zeros(2))
+    jax.config.update("jax_enable_x64", False)
+    with pytest.raises(TypeError, match="four_bar needs double precision"):
+        module.rhs(states, inputs)
 
 
 def test_jax_refuses_single_precision_and_other_shapes(jax, module_of):
