@@ -12,6 +12,10 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 
+# A motion that takes part less than that in an eigenvalue has no part in it.
+_LEAST_SHARE = 1e-6
+
+
 @dataclass(frozen=True)
 class Mode:
     """One eigenvalue, or two that belong together: a conjugate pair, or an overdamped one.
@@ -176,10 +180,11 @@ def mode_of_states(
 def modes_of_motions(
     matrix: Array, names: tuple[str, ...], motions: Sequence[Sequence[int]]
 ) -> tuple[Mode, ...]:
-    """Return the mode of each motion, and no oscillating one twice.
+    """Return the mode of each motion, and none of them twice.
 
     As `mode_of_states` for each. Where two motions take part most in the same mode, as wheels of
-    equal axles do, modes are shared out so that the sum of all participations is greatest.
+    equal axles do, modes are shared out so that the sum of all participations is greatest; so are
+    the real eigenvalues, two for each overdamped motion.
 
     Parameters
     ----------
@@ -190,18 +195,30 @@ def modes_of_motions(
     """
     from scipy.optimize import linear_sum_assignment  # noqa: PLC0415 (slow to import)
 
-    found = [mode_of_states(matrix, names, places) for places in motions]
-    oscillating = [i for i, mode in enumerate(found) if mode.oscillates]
     values, left, right = _decompose(matrix)
+    parts = _participation(left, right)
+    shares = np.array([parts[list(places)].sum(axis=0) for places in motions])
     upper = np.flatnonzero(values.imag > 0.0)
-    parts = _participation(left, right)[:, upper]
-    shares = np.array([parts[list(motions[i])].sum(axis=0) for i in oscillating])
-    rows, columns = linear_sum_assignment(
-        shares.reshape(len(oscillating), upper.size), maximize=True
+    # none of those in which no motion takes part, such as the zeros of wheels that spin freely
+    real = np.flatnonzero((values.imag == 0.0) & (shares.max(axis=0) > _LEAST_SHARE))
+    # a motion that does not oscillate takes part most in two of the real eigenvalues
+    in_two = np.sort(shares[:, real], axis=1)[:, -2:].sum(axis=1, keepdims=True)
+    options = np.hstack([2.0 * shares[:, upper], np.repeat(in_two, real.size // 2, axis=1)])
+    rows, columns = linear_sum_assignment(options, maximize=True)
+    damped = rows[columns >= upper.size]
+    _, chosen = linear_sum_assignment(np.repeat(shares[damped][:, real], 2, axis=0), maximize=True)
+    own = dict(zip(damped.tolist(), real[chosen].reshape(-1, 2).tolist(), strict=True))
+    found = {}
+    for row, column in zip(rows.tolist(), columns.tolist(), strict=True):
+        if row in own:
+            pair = sorted(own[row], key=lambda k: values[k].real)
+            found[row] = _mode(tuple(values[k] for k in pair), right[:, pair[0]], names)
+        else:
+            k = upper[column]
+            found[row] = _mode((values[k], values[k].conjugate()), right[:, k], names)
+    return tuple(
+        found.get(i) or mode_of_states(matrix, names, places) for i, places in enumerate(motions)
     )
-    for row, k in zip(rows, upper[columns], strict=True):
-        found[oscillating[row]] = _mode((values[k], values[k].conjugate()), right[:, k], names)
-    return tuple(found)
 
 
 def _mode(values: tuple[complex, ...], shape: Complex, names: tuple[str, ...]) -> Mode:

@@ -386,3 +386,21 @@ def test_motions_that_only_creep_have_their_modes_too():
     found = modes_of_motions(matrix, ("a", "b", "a_rate", "b_rate"), [[0, 2], [1, 3]])
     wanted = [np.sqrt(value) / (2.0 * np.pi) for value in (1.0, 2.0)]
     np.testing.assert_allclose([mode.natural_frequency for mode in found], wanted, rtol=1e-12)
+
+
+def test_motions_share_out_what_oscillates_and_what_creeps():
+    """Four oscillators by themselves, two of them overdamped, beside a coordinate that is free."""
+    rates, damping = np.array([1.0, 4.0, 9.0, 2.0, 0.0]), np.array([0.2, 5.0, 1.0, 9.0, 0.0])
+    matrix = np.block([[np.zeros((5, 5)), np.eye(5)], [-np.diag(rates), -np.diag(damping)]])
+    # motions that are each a little of the next one
+    turn = np.kron(np.eye(2), np.eye(5) + 0.1 * np.eye(5, k=1))
+    names = tuple("abcde") + tuple(f"{name}_rate" for name in "abcde")
+    found = modes_of_motions(
+        turn @ matrix @ np.linalg.inv(turn), names, [[i, i + 5] for i in range(4)]
+    )
+    roots = np.sqrt(rates[:4])
+    np.testing.assert_allclose(
+        [mode.natural_frequency for mode in found], roots / (2.0 * np.pi), rtol=1e-9
+    )
+    ratios = [mode.damping_ratio for mode in found]
+    np.testing.assert_allclose(ratios, damping[:4] / (2.0 * roots), rtol=1e-9)
