@@ -5,6 +5,7 @@ from .composition import Copy, combined
 from .constraints import NoSlip, Rolling
 from .contact_laws import LinearContact, MagicFormulaContact, TMeasyContact
 from .declared import DeclarationError
+from .forces.air_forces import AirForces
 from .forces.applied_force import AppliedForce
 from .forces.applied_moment import AppliedMoment
 from .forces.force import Action, Force
@@ -12,6 +13,7 @@ from .forces.force_element import ForceElement
 from .forces.joint_force import JointForce
 from .forces.linear_tyre import LinearTyre
 from .forces.rolling_tyre import RollingTyre
+from .forces.shaft_torque import ShaftTorque
 from .forces.weight import Weight
 from .forces.wheel_loads import WheelLoads
 from .formulation import Formulation
@@ -86,6 +88,7 @@ __all__ = [
     "AccelerationOf",
     "Action",
     "Actuator",
+    "AirForces",
     "AlongGuide",
     "AlongHinge",
     "AlongLine",
@@ -143,6 +146,7 @@ __all__ = [
     "Rolling",
     "RollingTyre",
     "Rotor",
+    "ShaftTorque",
     "Share",
     "Shown",
     "Speed",

@@ -9,15 +9,15 @@ import sympy as sp
 
 from ..program.floors import DIRECTION
 from ..program.functions import SignOf
+from ..program.vectors import Vector
 from .bodies import Body
 from .declared import declared
-from .geometry import Direction, Point
+from .geometry import FORWARD, Direction, Point
 from .shown import Shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from ..program.vectors import Vector
     from .surroundings import Surroundings
 
 
@@ -55,11 +55,15 @@ class Wheel:
         The wheel centre.
     spin
         Direction of the spin axis, fixed in the carrier; it points to the left.
+    heading
+        Body whose x axis, seen from above, is ahead in camber, toe and steer; without it that of
+        the world is.
     """
 
     carrier: Body
     center: Point
     spin: Direction
+    heading: Body | None = None
 
     turns_about: ClassVar[tuple[str, ...]] = ("spin",)
 
@@ -146,6 +150,8 @@ class Wheel:
 
     def _angles(self, at: Surroundings, prefix: str) -> Iterator[Shown]:
         axis = at.in_world(self._body, at.direction(self._body, self.spin))
+        if self.heading is not None:
+            axis = self._ahead(at, prefix, self.heading.name, axis)
         a = at.program.vector(f"{prefix}spin_axis_now", axis)
         side = at.program.define(f"{prefix}wheel_side", SignOf(self.center.position.y))
         camber, toe = sp.atan2(-side * a.z, a.y), sp.atan2(side * a.x, a.y)
@@ -154,3 +160,15 @@ class Wheel:
         yield Shown(f"{prefix}toe", toe, "rad", "toe angle, positive toe-in")
         steer = sp.atan2(-a.x, a.y)
         yield Shown(f"{prefix}steer", steer, "rad", "steer angle, positive to the left")
+
+    @staticmethod
+    def _ahead(at: Surroundings, prefix: str, body: str, vector: Vector) -> Vector:
+        """Return a vector in axes that have turned about the vertical with a body."""
+        ahead = at.in_world(body, at.direction(body, FORWARD))
+        level = at.program.define(
+            f"{prefix}heading_level", sp.sqrt(ahead.x * ahead.x + ahead.y * ahead.y)
+        )
+        cosine, sine = ahead.x / level, ahead.y / level
+        return Vector(
+            vector.x * cosine + vector.y * sine, vector.y * cosine - vector.x * sine, vector.z
+        )

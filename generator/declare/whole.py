@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from .joints import Joint
+
 
 class Whole(Protocol):
     """A mechanism, as its forces see it."""
@@ -14,3 +16,11 @@ class Whole(Protocol):
     @property
     def forces(self) -> Sequence[object]:
         """All forces."""
+
+    @property
+    def joints(self) -> Sequence[Joint]:
+        """All joints."""
+
+    @property
+    def ground(self) -> str:
+        """Name of what all motion is relative to."""

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..declare.geometry import Point
-from ..declare.joints import Cylindrical, Joint, Prismatic, Revolute, Universal, Weld
+from ..declare.joints import Cylindrical, Free, Joint, Prismatic, Revolute, Universal, Weld
 from ..kinematics.chain import before_telescope, chain_to, reported
 from ..kinematics.hinge_angles import angle_of, is_first_axis, positive_axis_at_design, turn_between
 from ..kinematics.motion import (
@@ -473,6 +473,9 @@ class _Closure:
         """Return what replaces the driven coordinates: their given copies."""
         replaced = {}
         for coordinate in self.mechanism.coordinates:
+            # a body that moves freely has no coordinate that what hangs on it would depend on
+            if isinstance(coordinate.joint, Free):
+                continue
             if coordinate.joint in self.kin.coordinates.driven:
                 replaced[self.kin.given(coordinate.joint)] = self._given(coordinate.name)
         return replaced

@@ -3,8 +3,8 @@
 The suspensions are those of one side, or whole axles, as they are declared on a ground: here the
 ground that they hang on is the body of the car, and the road takes its place. The body moves along
 the upward axis of the world (heave), turns about the axis to the left (pitch) and about the axis
-forward (roll), in this order, through its centre of mass. It does not travel: what drives and
-steers a car is none of this.
+forward (roll), in this order, through its centre of mass, and does not travel. The body of a car
+that drives moves freely; its wheels roll on tyres, and have torques of brakes and drive (`full`).
 """
 
 from __future__ import annotations
@@ -19,7 +19,9 @@ from ..program.vectors import Vector
 from . import axle, macpherson
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
+
+    from ..declare.contact_laws import ContactLaw
 
 FREEDOMS = ("heave", "pitch", "roll")
 """Coordinates of the body, in the order of its joints."""
@@ -28,6 +30,9 @@ FREE = ("free",)
 """Instead of some of these: the body moves freely in the world."""
 
 ENDS = ("front", "rear")
+
+Reaction = Literal["body", "carrier"]
+"""What a torque on a wheel reacts on: the body of the car, or the carrier of the wheel."""
 
 ROAD = d.Ground("road")
 BODY = d.Body("body", 1200.0, (-1.15, 0.0, 0.55), (450.0, 1600.0, 1800.0))
@@ -44,6 +49,17 @@ _MEANINGS = {
     "pitch": "turn of the body about its axis to the left, positive nose down",
     "roll": "turn of the body about its axis forward, positive with its left side up",
 }
+_AIR = d.AirForces(
+    name="air",
+    body=BODY,
+    point=d.Point("air_center", (-1.15, 0.0, 0.55), "where the air acts on the body"),
+    density=d.Parameter("air_density", 1.2, "kg/m^3", "density of the air", least=0.0),
+    drag=d.Parameter("air_drag_area", 0.0, "m^2", "drag coefficient times area", least=0.0),
+    lift=d.Parameter("air_lift_area", 0.0, "m^2", "lift coefficient times area, positive upward"),
+    pitching=d.Parameter(
+        "air_pitching", 0.0, "m^3", "the same of the pitching moment, times a length, nose down"
+    ),
+)
 
 
 def quarter(corner: d.Formulation) -> d.Formulation:
@@ -95,6 +111,127 @@ def car(
         held={"rack_held": tuple(motions)} if motions else {},
         allow_iteration=any(one.allow_iteration for one in axles),
     )
+
+
+def full(name: str, title: str, axles: Sequence[d.Formulation]) -> d.Formulation:
+    """Return the equations of a car that drives: its body moves freely, in still air.
+
+    Parameters
+    ----------
+    name, title
+        What it is called.
+    axles
+        The front and the rear one, each from `driving`.
+    """
+    found = car(name, title, axles, FREE)
+    mechanism = replace(
+        found.mechanism,
+        forces=(*map(_with_heading, found.mechanism.forces), _AIR),
+        outputs=(
+            d.AccelerationOf("body_acceleration", BODY, BODY.center, "centre of mass of the body"),
+        ),
+    )
+    # its rack moves: what is shorter with a rack that rests would be as long again to compile
+    return replace(found, mechanism=mechanism, held={})
+
+
+def driving(
+    of_a_car: d.Formulation,
+    law: Callable[[str], ContactLaw],
+    *,
+    relaxing: bool = True,
+    brakes_on: Reaction = "carrier",
+    drive_on: Reaction | None = "body",
+) -> d.Formulation:
+    """Return an axle whose tyres roll, with torques of brakes and drive on its wheels.
+
+    Parameters
+    ----------
+    of_a_car
+        From `of_corners` or `of_whole_axle`.
+    law
+        Returns what a tyre does, by the name that begins those of its parameters.
+    relaxing
+        Whether slips follow with the relaxation lengths, which takes two states of each tyre.
+    brakes_on, drive_on
+        What has the reaction of the torque; None: nothing drives the axle.
+    """
+    chassis = of_a_car.mechanism.body(of_a_car.mechanism.ground)
+    slow = d.AngularSpeed(
+        "brake_standstill", 0.5, "spin at which 71 % of the torque of a brake acts"
+    )
+    forces: list[d.Force] = []
+    for force in of_a_car.mechanism.forces:
+        if not isinstance(force, d.LinearTyre):
+            forces.append(force)
+            continue
+        rolling = _rolling(force, _bearing(of_a_car, force), law(force.name), relaxing=relaxing)
+        forces += [rolling, _torque(rolling, "brake", brakes_on, chassis, slow)]
+        if drive_on is not None:
+            forces.append(_torque(rolling, "drive", drive_on, chassis, None))
+    return replace(of_a_car, mechanism=replace(of_a_car.mechanism, forces=tuple(forces)))
+
+
+def _bearing(of_a_car: d.Formulation, tyre: d.LinearTyre) -> d.Revolute:
+    """Return the hinge about which a wheel turns on its carrier."""
+    (found,) = (
+        joint
+        for joint in of_a_car.driven
+        if isinstance(joint, d.Revolute)
+        and isinstance(joint.second, d.Rotor)
+        and joint.axis.towards == tyre.wheel.spin
+    )
+    return found
+
+
+def _torque(
+    tyre: d.RollingTyre,
+    kind: Literal["brake", "drive"],
+    on: Reaction,
+    chassis: d.Body,
+    standstill: d.AngularSpeed | None,
+) -> d.ShaftTorque:
+    """Return the torque of a brake, which has a standstill, or of the drive on a wheel."""
+    side = tyre.name.removesuffix(f"_{_TYRE}")
+    words = "torque of the drive on this wheel, positive forward"
+    if standstill is not None:
+        words = "torque of the brake of this wheel as it slips: zero or more"
+    return d.ShaftTorque(
+        name=f"{side}_{kind}_moment",
+        wheel=tyre.wheel,
+        bearing=tyre.bearing,
+        reaction=tyre.wheel.carrier if on == "carrier" else chassis,
+        torque=d.Input(f"{side}_{kind}_torque", "N m", words),
+        standstill=standstill,
+    )
+
+
+def _rolling(
+    tyre: d.LinearTyre, bearing: d.Revolute, law: ContactLaw, *, relaxing: bool
+) -> d.RollingTyre:
+    """Return the tyre that rolls in the place of one that is a spring."""
+    rising = tyre.road.name.replace("height", "velocity")
+    along = d.InternalState(f"{tyre.name}_along", "m", "deflection of the contact, forward")
+    across = d.InternalState(f"{tyre.name}_across", "m", "deflection of the contact, to the left")
+    return d.RollingTyre(
+        name=tyre.name,
+        wheel=tyre.wheel,
+        bearing=bearing,
+        law=law,
+        road=tyre.road,
+        damper=tyre.damper
+        or d.DamperRate(f"{tyre.name}_damper_rate", 0.0, "damping of the tyre along the normal"),
+        road_velocity=tyre.road_velocity
+        or d.Input(rising, "m/s", "rate of the road's height", tyre.road),
+        deflections=(along, across) if relaxing else None,
+    )
+
+
+def _with_heading(force: d.Force) -> d.Force:
+    """Return a tyre with the angles of its wheel from the heading of the body."""
+    if not isinstance(force, d.RollingTyre):
+        return force
+    return replace(force, wheel=replace(force.wheel, heading=BODY))
 
 
 def _on_the_car(axle_on_ground: d.Formulation, prefix: str) -> dict[str, tuple[Any, ...]]:
@@ -212,7 +349,7 @@ def _body_joints(
 
 
 def _with_a_short_name(force: d.Force) -> d.Force:
-    if not isinstance(force, d.LinearTyre):
+    if not isinstance(force, d.LinearTyre | d.RollingTyre):
         return force
     return replace(force, name=force.name.removesuffix(f"_{_TYRE}"))
 

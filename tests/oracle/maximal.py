@@ -27,6 +27,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from kintrafo.generator import (
     Actuator,
+    AirForces,
     AlongGuide,
     AlongHinge,
     AlongLine,
@@ -44,6 +45,8 @@ from kintrafo.generator import (
     LinearTyre,
     Prismatic,
     Revolute,
+    RollingTyre,
+    ShaftTorque,
     Spherical,
     SpringTable,
     Stop,
@@ -53,6 +56,7 @@ from kintrafo.generator import (
 )
 
 from oracle.constraints import Array, perpendiculars, skew, unit
+from oracle.rolling import wrench_of_driving
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -475,12 +479,21 @@ class Oracle:
             push = sum(self._push(force, law, length, inputs) for law in force.laws)
             return push * length.rows[0]
         if isinstance(force, JointForce):
-            if force.joint not in self.model.independent:
-                return np.zeros(6 * self.size)
-            return inputs[force.input.name] * self.driven(motion, force.joint.name).rows[0]
+            independent = force.joint in self.model.independent
+            push = inputs[force.input.name] if independent else 0.0
+            return push * self.driven(motion, force.joint.name).rows[0]
+        if isinstance(force, RollingTyre | ShaftTorque | AirForces):
+            return wrench_of_driving(self, force, motion, inputs)
         assert isinstance(force, LinearTyre)
         center = self.point(motion, force.wheel.carrier.name, self.place(force.wheel.center))
         return self._tyre(force, motion, center, inputs) @ center.rows
+
+    def wrench_on(self, motion: Motion, body: str, at: Array, force: Array, moment: Array) -> Array:
+        """Return a force on a body at a place in the world, with a moment about that place."""
+        i = self.index[body]
+        total = np.zeros((self.size + 1, 6))
+        total[i] = [*force, *(moment + np.cross(at - motion.position[i], force))]
+        return total[1:].ravel()
 
     def _of_outside(self, motion: Motion, force: AppliedForce | AppliedMoment) -> Array:
         """Return what acts from outside, for a unit input."""

@@ -10,7 +10,9 @@ import numpy as np
 from ...core.errors import InputError
 from ...core.validator import Validator
 from ...equations.errors import ModelError
+from ...equations.layout import rotation
 from ...systems.rest import rest
+from ...systems.state import State
 from ..corner.corner import Array
 from ..input.units import in_metres
 from ..input.vehicle import TyreSection
@@ -24,12 +26,14 @@ from ..models.whole_axle import WholeAxle
 from .assembly import Assembly, Bushings
 from .axle import AxleAssembly
 from .car_kinematics import CarKinematics, measures_of_axles
+from .controls import Controls
 from .corner import CornerAssembly
 from .held import RestConditions
 from .measures.measure import Measure
 from .part_poses import PartPoses
 from .quantity import HEAVE, PITCH, RACK, ROLL, Quantity
 from .rig import RigMotion, RigPosition, SweepRange, WheelReach
+from .running import straight
 from .soft_lines import SoftLines
 from .usual import grid
 from .wheel_names import WheelNames
@@ -53,6 +57,8 @@ _MOST_PITCH, _PITCH_STEP = np.deg2rad(2.0), np.deg2rad(0.1)
 _PRESSED = 0.01
 # A wheel that carries less than this has left the road [N].
 _LEAST_LOAD = 1.0
+# The positions of a body that moves freely.
+_FREE = ("body_x", "body_y", "body_z", "body_e0", "body_e1", "body_e2", "body_e3")
 
 
 class CarAssembly(Assembly):
@@ -99,8 +105,24 @@ class CarAssembly(Assembly):
                 "mass": f"{total:.1f} kg",
                 "centre of gravity": f"x = {x:.1f} mm, y = {y:.1f} mm, z = {z:.1f} mm",
             }
+        if self.car.drives:
+            found |= self._described_driving()
         if self.car.unused:
             found["not used"] = "; ".join(self.car.unused)
+        return found
+
+    def _described_driving(self) -> dict[str, str]:
+        """Return its tyres, brakes and drive in words."""
+        car, brakes = self.car, self.car.described.brakes
+        shares = {end: f"{100 * share:g} %" for end, share in car.drive_shares.items()}
+        found = {
+            "tyres": ", ".join(f"{end} {tyre.name}" for end, tyre in car.tyres.items()),
+            "drive": ", ".join(f"{end} {share}" for end, share in shares.items()) or "none",
+        }
+        if brakes is not None and car.front_brake_share is not None:
+            found["brakes"] = (
+                f"{brakes.torque_Nm:g} N m, {100 * car.front_brake_share:g} % at the front"
+            )
         return found
 
     @property
@@ -261,7 +283,7 @@ class CarAssembly(Assembly):
             for end, p in self.held.items()
             for name in p.coordinates
         ]
-        return (*self.car.coordinates, *own)
+        return (*(_FREE if self.car.drives else self.car.coordinates), *own)
 
     def names_of(self, wheel: str) -> WheelNames:
         """Return what its equations call what belongs to a wheel."""
@@ -270,7 +292,8 @@ class CarAssembly(Assembly):
         if not end:
             return names
         prefix = f"{wheel}_"
-        return WheelNames(prefix, prefix, f"{end}_{names.spin}", f"{end}_{names.actuator}")
+        tyre = "fz" if self.car.drives else names.tyre
+        return WheelNames(prefix, prefix, f"{end}_{names.spin}", f"{end}_{names.actuator}", tyre)
 
     def coordinates_at_rest(self, held: RestConditions) -> Array:
         """Return the coordinates of the state of rest that is nearest to design.
@@ -300,8 +323,7 @@ class CarAssembly(Assembly):
                 f"The search ended with: {error}"
             )
             raise PositionError(problem) from None
-        slopes = model.evaluate("rhs_jacobian", found, inputs)[found.size // 2 :]
-        if np.linalg.eigvals(-slopes[np.ix_(rows, rows)]).real.min() <= 0.0:
+        if np.linalg.eigvals(-self._slopes(found, inputs)).real.min() <= 0.0:
             problem = (
                 "the car rests, but does not return to that: it tips over, or a linkage snaps "
                 "through. Check the springs, and the height of the centre of mass in [body] com_mm."
@@ -311,18 +333,39 @@ class CarAssembly(Assembly):
         self._refuse_on_stops(found, inputs)
         return found[rows]
 
+    def _slopes(self, state: Array, inputs: Array) -> Array:
+        """Return the accelerations by the coordinates that the car has a rest in."""
+        model, layout = self.model, self.model.layout
+        slopes = model.evaluate("rhs_jacobian", state, inputs)
+        speeds = slice(layout.positions, layout.positions + layout.speeds)
+        slopes = slopes[speeds, : layout.positions] @ layout.basis(state)
+        names = model.state_names[speeds]
+        # a body that moves freely rests anywhere on the road, in any direction
+        kept = ["body_w", "body_p", "body_q"] if self.car.drives else []
+        kept += [f"{name}_rate" for name in self.coordinates if name not in _FREE]
+        places = [names.index(name) for name in kept]
+        found: Array = slopes[np.ix_(places, places)]
+        return found
+
     def _on_its_tyres(self, held: RestConditions) -> Array:
         """Return the state at design, lowered until tyres that are above the road carry it."""
         model = self.model
         state: Array = model.design_state.copy()
         gaps = [
-            self.car.wheel_centers[wheel][2] - in_metres(tyre.free_height_mm, "mm")
-            - held.roads.get(wheel, 0.0)
-            for wheel, tyre in zip(self.wheels, self.tyres, strict=True)
-        ]  # fmt: skip
+            self.car.wheel_centers[wheel][2] - free - held.roads.get(wheel, 0.0)
+            for wheel, free in zip(self.wheels, self._free_heights, strict=True)
+        ]
         if max(gaps) > 0.0:
-            state[model.state_names.index("heave")] = -max(gaps) - _PRESSED
+            heave = "body_z" if self.car.drives else "heave"
+            state[model.state_names.index(heave)] = -max(gaps) - _PRESSED
         return state
+
+    @property
+    def _free_heights(self) -> list[float]:
+        """The heights of wheel centres above the road at which tyres carry nothing [m]."""
+        if self.car.drives:
+            return [self.car.tyre(wheel).radius for wheel in self.wheels]
+        return [in_metres(tyre.free_height_mm, "mm") for tyre in self.tyres]
 
     def _refuse_on_stops(self, state: Array, inputs: Array) -> None:
         """Refuse a rest in which a stop carries something."""
@@ -341,7 +384,7 @@ class CarAssembly(Assembly):
         """Refuse a rest in which a wheel does not press on the road."""
         model = self.model
         loads = {
-            wheel: float(model.signal(f"{self.names_of(wheel).signals}tyre_force", state, inputs))
+            wheel: float(model.signal(self.names_of(wheel).load, state, inputs))
             for wheel in self.wheels
         }
         lifted = [wheel for wheel, load in loads.items() if load < _LEAST_LOAD]
@@ -353,6 +396,97 @@ class CarAssembly(Assembly):
                 "the heights of the road."
             )
             raise PositionError(problem)
+
+    # -- how it drives ----------------------------------------------------------------------------
+
+    @cached_property
+    def controls(self) -> Controls:
+        """Inputs of its equations from steering wheel and pedals.
+
+        Raises
+        ------
+        InputError
+            If it does not drive.
+        """
+        self.require_driving()
+        return Controls(self.car)
+
+    def running(self, speed: float) -> State:
+        """Return the state in which it runs straight ahead at a speed, see `running.straight`.
+
+        Parameters
+        ----------
+        speed : float
+            Of the body's centre of mass, more than zero [m/s].
+
+        Raises
+        ------
+        InputError
+            If the car does not drive, nothing drives it, or no such state is found.
+        PositionError
+            If it does not rest on its wheels.
+        """
+        from .rest import at  # noqa: PLC0415 (both know assemblies)
+
+        self.require_driving()
+        with Validator("running") as given:
+            speed = given.number("speed", speed, "m/s", above=0.0)
+            if not self.car.drive_shares:
+                given.fail(
+                    "nothing drives the car, which keeps no speed. Add [drive] to the file of an "
+                    "axle."
+                )
+        held = RestConditions()
+        names = {wheel: self.names_of(wheel) for wheel in self.wheels}
+        return straight(self.model, names, at(self, held, self.coordinates_at_rest(held)), speed)
+
+    def require_driving(self) -> None:
+        """Refuse a car that does not drive.
+
+        Raises
+        ------
+        InputError
+        """
+        if not self.car.drives:
+            problem = (
+                f'a car with car = "{self.car.described.car}" does not travel. Write car = "full" '
+                "in its file, with [tyres]."
+            )
+            raise InputError([problem], self.heading)
+
+    def require_riding(self) -> None:
+        """Refuse a car that drives where its body must not travel.
+
+        Raises
+        ------
+        InputError
+        """
+        if self.car.drives:
+            problem = (
+                'a car with car = "full" travels, and a ride is that of a car that does not. Write '
+                'car = "roll"; in Python: car.with_changes({"car": "roll"}).'
+            )
+            raise InputError([problem], self.heading)
+
+    def body_at(self, state: Array) -> dict[str, float]:
+        """Return how its body is in a state: heave [m], pitch and roll [rad]."""
+        names = self.model.state_names
+        if not self.car.drives:
+            return {name: float(state[names.index(name)]) for name in self.car.coordinates}
+        at = names.index("body_e0")
+        turned = rotation(state[at : at + 4])
+        return {
+            "heave": float(state[names.index("body_z")]),
+            "pitch": float(np.arcsin(-turned[2, 0])),
+            "roll": float(np.arctan2(turned[2, 1], turned[2, 2])),
+        }
+
+    def upright(self, camber: float) -> float:
+        """Return the part of the load of a tyre that is along the normal of the road.
+
+        A tyre that rolls loads along that; the force of others is in the plane of the wheel.
+        """
+        return 1.0 if self.car.drives else float(np.cos(camber))
 
     # -- how it rides -----------------------------------------------------------------------------
 

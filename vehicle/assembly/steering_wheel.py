@@ -44,3 +44,20 @@ def _sense_of_rack(axle: Axle) -> float:
     """Return +1 where a positive displacement of the rack steers to the left, or -1."""
     design = AxleKinematics.at(axle, 0.0, 0.0, 0.0)
     return float(np.sign(sum(steer_gradient(corner) for corner in design.corners.values())))
+
+
+def rack_motion(
+    axle: Axle, angle: Array, rate: Array, acceleration: Array
+) -> tuple[Array, Array, Array]:
+    """Return displacement, velocity and acceleration of the rack [m, m/s, m/s^2].
+
+    Parameters
+    ----------
+    axle : Axle
+    angle, rate, acceleration : ndarray
+        Of the steering wheel, positive to the left [rad, rad/s, rad/s^2].
+    """
+    position, per_turn = rack_of(axle, angle)
+    slope = per_turn / (2.0 * np.pi)
+    bend = np.zeros_like(slope) if axle.steering is None else axle.steering.bend(angle)
+    return position, slope * rate, slope * acceleration + bend * rate * rate

@@ -17,17 +17,25 @@ class WheelNames:
         State: the angle of the wheel about its axis.
     actuator : str
         Input: the force of the actuator beside its spring.
+    tyre : str
+        What the signal of the tyre's load is called after that beginning.
     """
 
     prefix: str
     signals: str
     spin: str
     actuator: str
+    tyre: str = "tyre_force"
 
     @property
     def road(self) -> str:
         """Input: the height of the road under the wheel."""
         return f"{self.prefix}road_height"
+
+    @property
+    def load(self) -> str:
+        """Signal: the load of the tyre."""
+        return f"{self.signals}{self.tyre}"
 
     @property
     def hub_torque(self) -> str:

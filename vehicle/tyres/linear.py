@@ -1,7 +1,7 @@
 """A tyre whose forces are linear in slip up to the friction."""
 
 from dataclasses import asdict, dataclass, replace
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
@@ -10,6 +10,9 @@ from ...formulas import linear_contact
 from ...formulas.arithmetic import ARRAYS
 from ...formulas.magic_formula import Contact
 from .tyre import States, Tyre
+
+if TYPE_CHECKING:
+    from ...generator.declare.contact_laws import ContactLaw
 
 _POSITIVE = ("radius", "effective_radius", "vertical_stiffness", "slip_stiffness",
              "cornering_stiffness", "friction", "relaxation_x", "relaxation_y", "lowest_speed",
@@ -26,8 +29,8 @@ class LinearSlip(Tyre):
     ----------
     radius, effective_radius
         Without load; speed over rate of spin of a wheel that rolls freely [m].
-    vertical_stiffness
-        [N/m].
+    vertical_stiffness, vertical_damping
+        [N/m] and [N s/m].
     slip_stiffness, cornering_stiffness, camber_stiffness
         dFx over longitudinal slip, -dFy over the tangent of the slip angle and over the sine of
         the inclination [N].
@@ -41,6 +44,7 @@ class LinearSlip(Tyre):
         Relaxation lengths [m].
     """
 
+    law: ClassVar[str] = "linear"
     radius: float
     effective_radius: float
     vertical_stiffness: float
@@ -53,6 +57,7 @@ class LinearSlip(Tyre):
     relaxation_x: float = 0.3
     relaxation_y: float = 0.5
     lowest_speed: float = 1.0
+    vertical_damping: float = 0.0
     nominal_load: float = 4000.0
     name: str = "linear"
 
@@ -72,19 +77,28 @@ class LinearSlip(Tyre):
         """Return the mirror image, which is the tyre itself."""
         return replace(self)
 
-    def parameters(self, name: str = "tyre") -> dict[str, float]:
+    def contact_law(self, name: str = "tyre") -> "ContactLaw":
+        """Return the `kintrafo.generator.LinearContact` of a name."""
+        from ...generator import LinearContact  # noqa: PLC0415 (an extra)
+
+        return LinearContact(name=name)
+
+    def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
         """Return the parameters of equations of motion that this tyre has.
 
         Parameters
         ----------
         name : str, optional
             Of the `kintrafo.generator.LinearContact` whose parameters they are.
+        relaxing : bool, optional
+            Whether relaxation lengths are needed, which this tyre always has.
 
         Returns
         -------
         dict of str to float
             By name, such as ``"tyre_friction"``, in SI units.
         """
+        del relaxing
         own = asdict(self)
         found = {key: own[key] for key in (*linear_contact.COEFFICIENTS, *_OF_EQUATIONS)}
         found |= {"unloaded_radius": self.radius, "vxlow": self.lowest_speed}

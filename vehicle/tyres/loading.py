@@ -9,7 +9,8 @@ from .magic_formula import MagicFormula
 from .tmeasy import TMeasy
 from .tyre import Tyre
 
-_PACKAGED = f"{__package__.rpartition('.')[0]}.data.tyres"
+PACKAGED = f"{__package__.rpartition('.')[0]}.data.tyres"
+"""Where the tyres are that come with kintrafo."""
 
 
 def load(path_or_name: str | Path) -> Tyre:
@@ -32,7 +33,7 @@ def load(path_or_name: str | Path) -> Tyre:
     """
     with Validator("load") as given:
         given.path("path_or_name", path_or_name)
-    packaged = data_sets(_PACKAGED, ".tir")
+    packaged = data_sets(PACKAGED, ".tir")
     path = Path(str(packaged.get(str(path_or_name), path_or_name)))
     if path.suffix.lower() == ".tir":
         return MagicFormula.load(path)

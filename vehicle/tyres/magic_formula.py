@@ -3,19 +3,24 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
 from ...core.errors import InputError
 from ...formulas import magic_formula, vertical
 from ...formulas.arithmetic import ARRAYS
-from ...formulas.coefficients import IN_EQUATIONS
+from ...formulas.coefficients import IN_EQUATIONS, NEUTRAL
 from ...formulas.magic_formula import Contact, Form
 from . import coefficients as known
 from .tir_file import read
 from .tyre import LOWEST_SPEED, USUAL_SPEED, States, Tyre
 
+if TYPE_CHECKING:
+    from ...generator.declare.contact_laws import ContactLaw
+
+# Scales that studies vary, from one on.
+_ALWAYS = ("LMUX", "LMUY")
 _OTHER_SIDE = {"left": "right", "right": "left", "": ""}
 
 
@@ -32,6 +37,7 @@ class MagicFormula(Tyre):
         Which formulas they are of.
     """
 
+    law: ClassVar[str] = "magic_formula"
     coefficients: Mapping[str, float]
     form: Form
     name: str = "MF 6.1"
@@ -103,6 +109,11 @@ class MagicFormula(Tyre):
         return self.coefficients.get("VXLOW", LOWEST_SPEED)
 
     @property
+    def vertical_damping(self) -> float:  # type: ignore[override] # read only
+        """Damping along the normal in equations of motion [N s/m]."""
+        return self.coefficients.get("VERTICAL_DAMPING", 0.0)
+
+    @property
     def usual_pressure(self) -> float:  # type: ignore[override] # read only
         """Inflation pressure [Pa]; zero where the tyre does not depend on it."""
         return self.coefficients.get("INFLPRES", self._nominal_pressure)
@@ -133,6 +144,24 @@ class MagicFormula(Tyre):
         """Return the mirror image: the same tyre on the other side of the vehicle."""
         return replace(
             self, coefficients=known.mirrored(self.coefficients), side=_OTHER_SIDE[self.side]
+        )
+
+    def contact_law(self, name: str = "tyre") -> "ContactLaw":
+        """Return the `kintrafo.generator.MagicFormulaContact` of a name.
+
+        Terms whose coefficients do nothing in this tyre are left out, but for those that scale the
+        friction.
+        """
+        from ...generator import MagicFormulaContact  # noqa: PLC0415 (an extra)
+
+        own = self.parameters(name)
+        idle = (k for k in IN_EQUATIONS if own[f"{name}_{k.lower()}"] == NEUTRAL[k])
+        return MagicFormulaContact(
+            name=name,
+            newer=self.form.newer,
+            weighted=self.form.weighted,
+            angle=self.form.angle,
+            without=tuple(k for k in idle if k not in _ALWAYS),
         )
 
     def parameters(
@@ -166,13 +195,6 @@ class MagicFormula(Tyre):
             missing = newer if self.form.newer else "PTX1, PTY1 and PTY2"
             problem = f"relaxation lengths are not known. Add {missing}, or leave deflections out."
             raise InputError([problem], self.source or self.name)
-        left = frozenset(without)
-        lost = [k for k in left if self.coefficients.get(k) != known.DEFAULTS.get(k)]
-        if lost:
-            problems = (
-                f"{k} = {self.coefficients.get(k)}: the equations leave it out." for k in lost
-            )
-            raise InputError(sorted(problems), self.source or self.name)
         first, second = vertical.rates(ARRAYS, self.coefficients)
         found = {key: self.coefficients[key] for key in IN_EQUATIONS}
         found |= {
@@ -188,6 +210,11 @@ class MagicFormula(Tyre):
             "Q_FZ1": float(first),
             "Q_FZ2": float(second),
         }
+        left = frozenset(without)
+        lost = [k for k in left if found.get(k) != NEUTRAL.get(k)]
+        if lost:
+            problems = (f"{k} = {found.get(k)}: the equations leave it out." for k in lost)
+            raise InputError(sorted(problems), self.source or self.name)
         return {f"{name}_{k.lower()}": value for k, value in found.items() if k not in left}
 
     # -- what it does --

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from ...formulas.arithmetic import ARRAYS
 from ...formulas.magic_formula import Contact
 from ..input.commented_json import content
 from .tyre import States, Tyre
+
+if TYPE_CHECKING:
+    from ...generator.declare.contact_laws import ContactLaw
 
 _DESIGN = {
     "radius": ("Design", "Unloaded Radius [m]"),
@@ -75,6 +78,7 @@ class TMeasy(Tyre):
         In SI units; of two loads with ``_1`` and ``_2`` behind the name.
     """
 
+    law: ClassVar[str] = "tmeasy"
     values: Mapping[str, float]
     name: str = "TMeasy"
     left_out: tuple[str, ...] = ()
@@ -132,19 +136,28 @@ class TMeasy(Tyre):
         """Return the mirror image, which is the tyre itself."""
         return replace(self)
 
-    def parameters(self, name: str = "tyre") -> dict[str, float]:
+    def contact_law(self, name: str = "tyre") -> "ContactLaw":
+        """Return the `kintrafo.generator.TMeasyContact` of a name."""
+        from ...generator import TMeasyContact  # noqa: PLC0415 (an extra)
+
+        return TMeasyContact(name=name)
+
+    def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
         """Return the parameters of equations of motion that this tyre has.
 
         Parameters
         ----------
         name : str, optional
             Of the `kintrafo.generator.TMeasyContact` whose parameters they are.
+        relaxing : bool, optional
+            Whether relaxation lengths are needed, which follow from the stiffnesses.
 
         Returns
         -------
         dict of str to float
             By name, such as ``"tyre_x_slope_1"``, in SI units.
         """
+        del relaxing
         found = {key: self.values[key] for key in tmeasy.COEFFICIENTS}
         found |= {"vxlow": self.lowest_speed}
         return {f"{name}_{key}": value for key, value in found.items()}

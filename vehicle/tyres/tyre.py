@@ -3,12 +3,15 @@
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.validator import Validator
+
+if TYPE_CHECKING:
+    from ...generator.declare.contact_laws import ContactLaw
 
 Array = NDArray[np.float64]
 
@@ -95,16 +98,22 @@ class Tyre(ABC):
         ``"left"``, ``"right"`` or empty: the side of the vehicle that it is for.
     lowest_speed : float
         Below which slips are smoothed in equations of motion [m/s].
+    vertical_damping : float
+        Along the normal [N s/m].
     left_out, assumed : tuple of str
         Keys of its file that are not used, and what that leaves open.
+    law : str
+        What its equations are called in names.
     """
 
+    law: ClassVar[str]
     name: str
     nominal_load: float
     radius: float
     ranges: Mapping[str, tuple[float, float]]
     side: str = ""
     lowest_speed: float = LOWEST_SPEED
+    vertical_damping: float = 0.0
     usual_speed: float = USUAL_SPEED
     usual_pressure: float = 0.0
     left_out: tuple[str, ...] = ()
@@ -113,6 +122,28 @@ class Tyre(ABC):
     @abstractmethod
     def mirrored(self) -> Self:
         """Return the mirror image: the same tyre on the other side of the vehicle."""
+
+    @abstractmethod
+    def contact_law(self, name: str = "tyre") -> "ContactLaw":
+        """Return the law of a rolling tyre in equations of motion, without its numbers.
+
+        Parameters
+        ----------
+        name : str, optional
+            Begins the names of its parameters, which `parameters` returns.
+        """
+
+    @abstractmethod
+    def parameters(self, name: str = "tyre", *, relaxing: bool = False) -> dict[str, float]:
+        """Return the parameters that equations of motion have of this tyre, in SI units.
+
+        Parameters
+        ----------
+        name : str, optional
+            Begins their names.
+        relaxing : bool, optional
+            Whether relaxation lengths are needed.
+        """
 
     @abstractmethod
     def _state(self, at: States) -> dict[str, Any]:

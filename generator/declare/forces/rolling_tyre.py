@@ -286,7 +286,7 @@ class RollingTyre(Force):
     @property
     def _events(self) -> tuple[Event, ...]:
         """When the wheel leaves the road, and meets it."""
-        leaves, touches = (f"{self._own}{what}_ground" for what in ("leaves", "touches"))
+        leaves, touches = (f"{self._own}wheel_{what}_ground" for what in ("leaves", "touches"))
         return (
             Event(leaves, _TOUCH, rising=False, meaning="the tyre leaves the road"),
             Event(touches, _TOUCH, rising=True, meaning="the tyre meets the road"),

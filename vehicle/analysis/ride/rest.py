@@ -44,7 +44,7 @@ def at_rest(subject: Any) -> xr.Dataset:
     >>> round(float(rest["load"]), 1)
     3800.0
     """
-    assembly = car_assembly("at_rest", subject)
+    assembly = car_assembly("at_rest", subject, riding=False)
     return of_state(assembly, np.asarray(equilibrium(assembly.model)))
 
 
@@ -55,9 +55,9 @@ def of_state(assembly: CarAssembly, state: Any) -> xr.Dataset:
     values: dict[str, list[float]] = {"load": [], "travel": [], "camber": [], "toe": []}
     travels = assembly.travels(state[None])
     for wheel in assembly.wheels:
-        own = {name: float(signals[f"{assembly.names_of(wheel).signals}{name}"]) for name in _READ}
-        # the force of the tyre is in the plane of the wheel
-        values["load"].append(own["tyre_force"] * np.cos(own["camber"]))
+        names = assembly.names_of(wheel)
+        own = {name: float(signals[f"{names.signals}{name}"]) for name in _READ}
+        values["load"].append(float(signals[names.load]) * assembly.upright(own["camber"]))
         values["travel"].append(float(travels[wheel][0]))
         values["camber"].append(own["camber"])
         values["toe"].append(own["toe"])
@@ -66,13 +66,12 @@ def of_state(assembly: CarAssembly, state: Any) -> xr.Dataset:
         name: variable(dims, np.array(values[name] if dims else values[name][0]), words, unit)
         for name, (words, unit) in _OF_WHEELS.items()
     }
-    for name in assembly.car.coordinates:
-        value = state[model.state_names.index(name)]
+    for name, value in assembly.body_at(state).items():
         found[name] = variable((), np.array(value), *_OF_BODY[name])
     return xr.Dataset(found, {WHEEL: wheel_coordinate(assembly.wheels)}, {"title": "car at rest"})
 
 
-_READ = ("tyre_force", "camber", "toe")
+_READ = ("camber", "toe")
 _OF_WHEELS = {
     "load": ("vertical force of the road on the wheel", "N"),
     "travel": ("height of the wheel centre on the body above that at design", "m"),

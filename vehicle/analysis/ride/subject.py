@@ -9,8 +9,16 @@ from ...models.car import Car
 from ...models.car.equations import CarModel
 
 
-def car_assembly(source: str, subject: Any) -> CarAssembly:
+def car_assembly(source: str, subject: Any, *, riding: bool = True) -> CarAssembly:
     """Return a car, or its equations, as an assembly; refuse what has a body that is held.
+
+    Parameters
+    ----------
+    source : str
+        What asks.
+    subject : Any
+    riding : bool, optional
+        Whether a car that drives is refused, too: its body travels.
 
     Raises
     ------
@@ -20,6 +28,8 @@ def car_assembly(source: str, subject: Any) -> CarAssembly:
         given.instance("subject", subject, (Car, CarModel, CarAssembly), _NEEDED)
     found = assembly_of(subject)
     assert isinstance(found, CarAssembly)
+    if riding:
+        found.require_riding()
     return found
 
 

@@ -98,6 +98,16 @@ class SteeringCurve(Section):
         """
         return np.asarray(2.0 * np.pi * self._curve(angle).derivative()(angle), dtype=np.float64)
 
+    def bend(self, angle: Array) -> Array:
+        """Return the second derivative of the displacement by the angle there [m/rad^2].
+
+        Raises
+        ------
+        InputError
+            If an angle is beyond the points.
+        """
+        return np.asarray(self._curve(angle).derivative(2)(angle), dtype=np.float64)
+
     def travel_per_turn_at(self, rack: Array) -> Array:
         """Return the same where the rack is displaced by so much [m]; NaN beyond the points."""
         curve = self._interpolated()

@@ -1,7 +1,7 @@
 """A car: what the sections of its file make together."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -21,10 +21,12 @@ from ...input.places import put
 from ...input.toml_file import read_toml
 from ...input.units import in_metres
 from ...kinds import Suspension
+from ...tyres import Tyre
 from ..axle.axle import Axle
 from ..sides import LEFT, SIDES
 from ..whole_axle import WholeAxle, whole_axle_class
-from .file import COORDINATES, ENDS, CarFile
+from .driving import named, tyre_of
+from .file import COORDINATES, ENDS, OF_DRIVING, CarFile
 
 Array = NDArray[np.float64]
 
@@ -37,6 +39,10 @@ WHEELS = tuple(f"{end}_{side}" for end in ENDS for side in SIDES)
 _CLOSE = 5e-4
 # The height of the gravity centre that files give is rounded more [m].
 _CLOSE_HEIGHT = 5e-3
+# Shares add up to one so closely.
+_CLOSE_SHARE = 1e-9
+# A wheel centre at design is not so far above the radius of its tyre [m].
+_HIGHEST = 0.1
 _PARTS = ("corner", *ENDS)
 
 
@@ -54,6 +60,8 @@ class Car(Described):
         The suspension of a quarter car.
     axles : dict of str to Axle or WholeAxle
         The front and the rear one by the end that they are at; empty for a quarter car.
+    tyres : dict of str to kintrafo.tyres.Tyre
+        Those of a car that drives, by the end that they are at; empty for others.
 
     Examples
     --------
@@ -65,6 +73,7 @@ class Car(Described):
     described: CarFile
     corner: Suspension | None
     axles: Mapping[str, AnyAxle]
+    tyres: Mapping[str, Tyre] = field(default_factory=dict)
 
     NEEDED = 'a kintrafo.Car, such as kintrafo.load("reference_vehicle"), is needed'
 
@@ -110,9 +119,11 @@ class Car(Described):
             raise InputError(messages_of(error, CarFile, data), source) from None
         parts = _parts_of(described, Path(folder), source)
         axles = {end: parts[end] for end in ENDS if end in parts}
-        car = cls(described, parts.get("corner"), axles)
+        described, tyres = _with_tyres(described, Path(folder), source)
+        car = cls(described, parts.get("corner"), axles, tyres)
         problems = _problems_of_axles(car) if axles else []
         problems += _problems_of_gravity(car)
+        problems += _problems_of_driving(car) if car.drives else []
         if problems:
             raise InputError(problems, source)
         return car
@@ -123,13 +134,44 @@ class Car(Described):
         The sections of its corner and of its axles are in the place of the names of their files.
         """
         own = self.described.model_dump(
-            mode="json", exclude_none=True, exclude_defaults=exclude_defaults, exclude={*_PARTS}
+            mode="json",
+            exclude_none=True,
+            exclude_defaults=exclude_defaults,
+            exclude={**dict.fromkeys(_PARTS, True), "tyres": {*ENDS}},
         )
+        if self.described.tyres is not None:
+            own["tyres"] |= {end: _copied(getattr(self.described.tyres, end)) for end in ENDS}
         parts = {
             name: part.to_dict(exclude_defaults=exclude_defaults)
             for name, part in self.parts.items()
         }
         return {CAR: own.pop(CAR)} | parts | {name: v for name, v in own.items() if v != {}}
+
+    def save(self, path: str | Path, *, force: bool = False) -> Path:
+        """Write the input file that gives exactly this, as `Described.save`.
+
+        Parameters
+        ----------
+        path : str or Path
+            A name that ends in ``.toml``.
+        force : bool, optional
+            Whether a file that somebody else wrote or changed is replaced.
+
+        Raises
+        ------
+        InputError
+            Also if a tyre is one from Python, which has no file.
+        """
+        given = self.to_dict().get("tyres", {})
+        problems = [
+            f"[tyres] {end} is a tyre from Python. Write its file with kintrafo.tyres.write_tir, "
+            f'and change "tyres.{end}" to its name.'
+            for end in ENDS
+            if isinstance(given.get(end), Tyre)
+        ]
+        if problems:
+            raise InputError(problems, str(path))
+        return super().save(path, force=force)
 
     def with_changes(self, changes: Mapping[str, Any]) -> Self:
         """Return a car that differs in some values; all checks are made again.
@@ -181,8 +223,53 @@ class Car(Described):
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """The coordinates of the body: heave [m], positive up, pitch and roll [rad]."""
+        """What the body does: heave [m], positive up, pitch, roll and so on [rad]."""
         return COORDINATES[self.described.car]
+
+    @property
+    def drives(self) -> bool:
+        """Whether its body moves freely, so that it drives on tyres that roll."""
+        return self.described.drives
+
+    def tyre(self, wheel: str) -> Tyre:
+        """Return the tyre of a wheel of a car that drives.
+
+        Parameters
+        ----------
+        wheel : str
+            Such as 'front_left'.
+
+        Returns
+        -------
+        kintrafo.tyres.Tyre
+            As it is on that side.
+
+        Raises
+        ------
+        InputError
+            If the car does not drive, or has no such wheel.
+        """
+        with Validator("tyre") as given:
+            given.among("wheel", wheel, self.wheels if self.drives else ())
+        end, _, side = wheel.partition("_")
+        return self.tyres[end].on(side)
+
+    @property
+    def relaxing(self) -> bool:
+        """Whether slips of its tyres follow along their relaxation lengths."""
+        return self.described.tyres is not None and self.described.tyres.relaxation
+
+    @property
+    def drive_shares(self) -> dict[str, float]:
+        """The part of the driving force at each axle, by end; none of axles without a drive."""
+        return {end: axle.drive.share for end, axle in self.axles.items() if axle.drive is not None}
+
+    @property
+    def front_brake_share(self) -> float | None:
+        """The part of the brake torque at the front wheels."""
+        own = None if self.described.brakes is None else self.described.brakes.front_share
+        shares = [_vehicle_of(axle).front_brake_share for axle in self.axles.values()]
+        return next((s for s in (own, *shares) if s is not None), None)
 
     @property
     def wheels(self) -> tuple[str, ...]:
@@ -236,10 +323,22 @@ class Car(Described):
         words = [f"[body] {key}" for key, name in given.items() if name not in used]
         if body.com_mm is not None and self.coordinates == ("heave",):
             words.append("[body] com_mm")
+        words += self._unused_of_driving()
         rear = self.axles.get("rear")
         if isinstance(rear, Axle) and rear.steered():
             words.append("rear: [rack], which is a part of the body: its tie rods hold the toe")
         return tuple(words)
+
+    def _unused_of_driving(self) -> list[str]:
+        """Return what only a car that drives takes; of that one what its tyres have instead."""
+        if not self.drives:
+            return [f"[{k}]" for k in OF_DRIVING if getattr(self.described, k) is not None]
+        words = [f"{end}: [tyre], in whose place that of [tyres] is" for end in self.axles]
+        return words + [
+            f"[tyres] {end}: {', '.join(tyre.left_out)}"
+            for end, tyre in self.tyres.items()
+            if tyre.left_out
+        ]
 
 
 def _centers(axle: AnyAxle) -> dict[str, Array]:
@@ -265,6 +364,32 @@ def _parts_of(described: CarFile, folder: Path, source: str) -> dict[str, Any]:
     if problems:
         raise InputError(problems, source)
     return found
+
+
+def _with_tyres(described: CarFile, folder: Path, source: str) -> tuple[CarFile, dict[str, Tyre]]:
+    """Return what a file says with tyres that any folder finds, and the tyres by end."""
+    if described.tyres is None:
+        return described, {}
+    given = {end: _copied(named(getattr(described.tyres, end), folder)) for end in ENDS}
+    if not described.drives:
+        tyres = described.tyres.model_copy(update=given)
+        return described.model_copy(update={"tyres": tyres}), {}
+    found, problems = {}, []
+    for end, one in given.items():
+        try:
+            found[end] = tyre_of(getattr(described.tyres, end), end, folder)
+        except InputError as error:
+            words = f"{end} = {shown(one)}" if isinstance(one, str) else end
+            problems += [f"[tyres] {words}: {problem}" for problem in error.problems]
+    if problems:
+        raise InputError(problems, source)
+    tyres = described.tyres.model_copy(update=given)
+    return described.model_copy(update={"tyres": tyres}), found
+
+
+def _copied(given: Any) -> Any:
+    """Return the table of a tyre as one of its own; names and tyres as they are."""
+    return dict(given) if isinstance(given, Mapping) else given
 
 
 def _corner(given: Any, folder: Path) -> Suspension:
@@ -394,6 +519,48 @@ def _problems_of_gravity(car: Car) -> list[str]:
         return []
     values = " and ".join(f"{value:g} m/s^2" for value in sorted(found))
     return [f"[gravity] acceleration_m_per_s2 is {values} in its files. Make them equal."]
+
+
+def _problems_of_driving(car: Car) -> list[str]:
+    """See that brakes and drive are what axles and car say together, and tyres fit."""
+    problems = []
+    shares, total = car.drive_shares, sum(car.drive_shares.values())
+    if shares and abs(total - 1.0) > _CLOSE_SHARE:
+        words = " and ".join(f"{share:g} at the {end}" for end, share in shares.items())
+        problems.append(
+            f"[drive] share is {words} in the files of the axles: together {total:g}, and 1 is "
+            "needed. Correct them; an axle without [drive] is not driven."
+        )
+    if car.described.brakes is not None:
+        problems += _problems_of_brakes(car)
+    for end, tyre in car.tyres.items():
+        height = max(float(car.wheel_centers[f"{end}_{side}"][2]) for side in SIDES)
+        if not height < tyre.radius + _HIGHEST:
+            problems.append(
+                f"[tyres] {end}: the tyre has a radius of {1e3 * tyre.radius:g} mm without load, "
+                f"and the wheel centre is {1e3 * height:g} mm above the ground at design. Give a "
+                "tyre that reaches it."
+            )
+    return problems
+
+
+def _problems_of_brakes(car: Car) -> list[str]:
+    own = car.described.brakes.front_share if car.described.brakes is not None else None
+    theirs = {_vehicle_of(axle).front_brake_share for axle in car.axles.values()} - {None}
+    if own is None and not theirs:
+        problem = (
+            "[brakes] front_share is missing: the part of the torque at the front wheels. Add it, "
+            "or front_brake_share in [vehicle] of an axle's file."
+        )
+        return [problem]
+    if own is not None and theirs - {own}:
+        (other,) = theirs - {own}
+        problem = (
+            f"[brakes] front_share = {own:g}, and front_brake_share is {other:g} in the file of an "
+            "axle. Make them equal, or remove the first."
+        )
+        return [problem]
+    return []
 
 
 def _of_gravity(car: Car) -> list[Any]:

@@ -5,6 +5,8 @@ from collections.abc import Callable, Mapping
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ....core.validator import Validator
 from ....core.vectors import components
 from ....systems.allowed import LengthLimit
@@ -13,8 +15,10 @@ from ....systems.system import System
 from ..axle.axle import Axle
 from ..axle.equations import corner_of, parameters_by_side, parameters_of_bar
 from ..model import Model
+from ..sides import SIDES
 from ..whole_axle import WholeAxle
 from .car import AnyAxle, Car
+from .driving import Air
 
 if TYPE_CHECKING:
     from ....generator import Formulation
@@ -91,7 +95,8 @@ def name_of(car: Car) -> str:
     """Return the name of the equations of a car, by what is in them."""
     if car.corner is not None:
         return f"quarter_{Model(car.corner).equations.NAME}"
-    return "_".join([car.described.car, "car", *map(_name_of_axle, car.axles.values())])
+    tyres = dict.fromkeys(tyre.law for tyre in car.tyres.values())
+    return "_".join([car.described.car, "car", *map(_name_of_axle, car.axles.values()), *tyres])
 
 
 def _name_of_axle(axle: AnyAxle) -> str:
@@ -103,6 +108,8 @@ def _name_of_axle(axle: AnyAxle) -> str:
 def _equations(car: Car, progress: Report | None) -> ModuleType:
     """Return the equations that come with the project, or those that are compiled here."""
     name = name_of(car)
+    if car.drives:  # which terms its equations have depends on the coefficients of its tyres
+        return compile_mechanism(declared(car), progress=progress)
     try:
         return importlib.import_module(f"kintrafo.generated.{name}")
     except ModuleNotFoundError as error:
@@ -126,9 +133,22 @@ def declared(car: Car) -> "Formulation":
         pulls = axle.bar.link_on if axle.bar else ""
         return page.of_corners(model_named(corner_of(axle)), pulls=pulls, steered=end == "front")
 
-    axles = [of(end, axle) for end, axle in car.axles.items()]
+    axles = {end: of(end, axle) for end, axle in car.axles.items()}
     heading = car.heading()
-    return page.car(name_of(car), heading[:1].upper() + heading[1:], axles, car.coordinates)
+    title = heading[:1].upper() + heading[1:]
+    if not car.drives:
+        return page.car(name_of(car), title, list(axles.values()), car.coordinates)
+    driving = [
+        page.driving(
+            one,
+            car.tyres[end].contact_law,
+            relaxing=car.relaxing,
+            brakes_on=car.axles[end].brakes.torque_on,
+            drive_on=drive.torque_on if (drive := car.axles[end].drive) else None,
+        )
+        for end, one in axles.items()
+    ]
+    return page.full(name_of(car), title, driving)
 
 
 def _parameters(car: Car, described: Mapping[str, Mapping[str, Any]]) -> dict[str, float]:
@@ -151,11 +171,40 @@ def _parameters(car: Car, described: Mapping[str, Mapping[str, Any]]) -> dict[st
         values |= {f"{end}_{name}": value for name, value in own.items()}
     known = {name: value for name, value in values.items() if name in described}
     # places are in the axes of each axle, and have a unit where directions have none
-    return known | {
+    known |= {
         name: value + car.origins["rear"]
         for name, value in known.items()
         if name.startswith("rear_") and name.endswith("_x") and described[name]["unit"] == "m"
     }
+    driving = _of_driving(car) if car.drives else {}
+    return known | {name: value for name, value in driving.items() if name in described}
+
+
+def _of_driving(car: Car) -> dict[str, float]:
+    """Return the parameters of tyres that roll, brakes and air, in SI units."""
+    values: dict[str, float] = {}
+    for wheel in car.wheels:
+        name = f"{wheel}_tyre"
+        tyre = car.tyre(wheel)
+        values |= tyre.parameters(name, relaxing=car.relaxing)
+        values[f"{name}_damper_rate"] = tyre.vertical_damping
+    if (brakes := car.described.brakes) is not None:
+        values |= {f"{end}_brake_standstill": brakes.standstill_rad_per_s for end in car.axles}
+    air = car.described.air or Air()
+    center = car.com if air.center_mm is None else 1e-3 * np.array(air.center_mm)
+    lifts = {"front": air.front_lift_area_m2, "rear": air.rear_lift_area_m2}
+    levers = {end: np.mean([car.wheel_centers[f"{end}_{s}"][0] for s in SIDES]) - center[0]
+              for end in lifts}  # fmt: skip
+    return (
+        values
+        | components("air_center", center)
+        | {
+            "air_density": air.density_kg_per_m3,
+            "air_drag_area": air.drag_area_m2,
+            "air_lift_area": sum(lifts.values()),
+            "air_pitching": -float(sum(lift * levers[end] for end, lift in lifts.items())),
+        }
+    )
 
 
 def _of_axle(axle: Axle) -> dict[str, float]:

@@ -12,17 +12,22 @@ from ...input.bodies import RigidBody
 from ...input.hardpoints import Hardpoints
 from ...input.section import Number, Positive, Section, Triple
 from ...input.units import in_metres
+from .driving import Air, CarBrakes, CarTyres
 
-Freedoms = Literal["heave", "ride", "roll"]
+Freedoms = Literal["heave", "ride", "roll", "full"]
 
 COORDINATES: Mapping[str, tuple[str, ...]] = {
     "heave": ("heave",),
     "ride": ("heave", "pitch"),
     "roll": ("heave", "pitch", "roll"),
+    "full": ("heave", "pitch", "roll", "yaw", "forward", "sideways"),
 }
-"""The coordinates of the body, by the word for them in a file."""
+"""What the body does, by the word for it in a file; all but that of "full" are coordinates."""
 
 ENDS = ("front", "rear")
+
+OF_DRIVING = ("tyres", "brakes", "air")
+"""Sections that only a car that drives uses."""
 
 # What a file can say; from Python it may also be what is in it.
 _BY_NAME = WithJsonSchema({"type": "string"})
@@ -32,7 +37,7 @@ _OF_A_SEAT = (
     'not "body", whose acceleration is that of the centre of mass. Rename it.'
 )
 # How each coordinate of the body moves it against its own inertia.
-_INERTIA = {"pitch": "yy", "roll": "xx"}
+_INERTIA = {"pitch": "yy", "roll": "xx", "yaw": "zz"}
 
 
 class CarBody(RigidBody):
@@ -73,7 +78,7 @@ class CarFile(Section):
 
     car: Freedoms = Field(
         description='how its body moves: "heave" (a quarter car), "ride" (heave and pitch), "roll" '
-        "(heave, pitch and roll)"
+        '(heave, pitch and roll), "full" (freely: the car drives)'
     )
     corner: Annotated[
         Any, Field(description=_FILE + "the suspension of a quarter car"), _BY_NAME
@@ -89,6 +94,9 @@ class CarFile(Section):
         "those of the front axle",
     )
     body: CarBody = Field(description="the body")
+    tyres: CarTyres | None = Field(default=None, description="the tyres of a car that drives")
+    brakes: CarBrakes | None = Field(default=None, description="the brakes of a car that drives")
+    air: Air | None = Field(default=None, description="drag and lift of a car that drives")
     seats: dict[str, Seat] = Field(
         default_factory=dict, description="where the acceleration of the body is felt, by name"
     )
@@ -97,6 +105,11 @@ class CarFile(Section):
     def coordinates(self) -> tuple[str, ...]:
         """The coordinates of the body."""
         return COORDINATES[self.car]
+
+    @property
+    def drives(self) -> bool:
+        """Whether its body moves freely, so that the car drives on tyres that roll."""
+        return self.car == "full"
 
     def problems(self) -> list[str]:
         """Say what is missing, and what a quarter car does not have."""
@@ -120,6 +133,11 @@ class CarFile(Section):
         ]
         if "rear" not in needed and self.rear_origin_mm:
             problems.append("rear_origin_mm is given, and a quarter car has no rear. Remove it.")
+        if self.drives and self.tyres is None:
+            problems.append(
+                "[tyres] is missing: a car that drives rolls on them. Add that section with "
+                '`front = "passenger_205_55"` and `rear = ...`.'
+            )
         problems += [
             f"[seats.{legible(name)}]: {_OF_A_SEAT}"
             for name in self.seats

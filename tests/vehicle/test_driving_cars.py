@@ -1,0 +1,198 @@
+"""Cars that drive: their files, rest, running straight, brakes and steering against formulas."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import kintrafo
+import numpy as np
+import pytest
+from driving_cars import FILE, TYRE, light_car
+from kintrafo.vehicle.assembly.car import CarAssembly
+from kintrafo.vehicle.models.car import Car
+from kintrafo.vehicle.models.car.car import center_of_gravity, masses
+from kintrafo.vehicle.models.car.equations import CarModel
+
+SPEED = 20.0
+
+
+@pytest.fixture(scope="module")
+def assembly() -> CarAssembly:
+    car = light_car()
+    return CarAssembly(car, CarModel(car))
+
+
+def test_a_packaged_car_drives() -> None:
+    car = kintrafo.load("driving_car")
+    assert car.drives
+    assert {wheel: car.tyre(wheel).name for wheel in car.wheels} == dict.fromkeys(
+        car.wheels, "MF 6.1"
+    )
+    assert car.tyre("front_right") == car.tyre("front_left").mirrored()
+    assert Car.from_dict(car.to_dict()).to_dict() == car.to_dict()
+    assert car.with_changes({"car": "roll"}).unused[:3] == ("[tyres]", "[brakes]", "[air]")
+
+
+def test_tyres_are_files_beside_the_car_or_tables(tmp_path: Any) -> None:
+    tyre = kintrafo.tyres.load("passenger_205_55")
+    kintrafo.tyres.write_tir(tyre, tmp_path / "own.tir")
+    data = FILE | {"tyres": {"front": "own.tir", "rear": TYRE}}
+    car = Car.from_dict(data, folder=tmp_path)
+    assert car.tyre("front_left").radius == tyre.radius
+    assert car.tyre("rear_left").friction == 1.1
+    again = kintrafo.load(car.save(tmp_path / "car.toml"))
+    assert (again.to_dict(), again.tyres) == (car.to_dict(), car.tyres)
+    slippery = car.with_changes({"tyres.rear.friction": 0.3, "tyres.front": tyre})
+    assert (slippery.tyre("rear_right").friction, car.tyre("rear_right").friction) == (0.3, 1.1)
+    with pytest.raises(kintrafo.InputError, match="is a tyre from Python"):
+        slippery.save(tmp_path / "slippery.toml")
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"tyres": None},
+        {"tyres.front": "nowhere.tir"},
+        {"tyres.front": 3.0},
+        {"tyres.front": {"radius_mm": 316.0}},
+        {"tyres.front.radius_mm": 150.0},
+        {"tyres.relaxation": 1.0},
+        {"tyres.colour": "black"},
+        {"brakes.torque_Nm": -1.0},
+        {"brakes.front_share": 0.6},
+        {"brakes.standstill_rad_per_s": 0.0},
+        {"air.density_kg_per_m3": 0.0},
+        {"air.drag_area_m2": -0.1},
+        {"body.inertia_zz_kg_m2": 0.0},
+        {"front.drive.share": 0.5},
+    ],
+)
+def test_what_contradicts_itself_is_refused(changes: dict[str, Any], refused: Any) -> None:
+    refused(kintrafo.InputError, lambda: light_car(**changes))
+
+
+def test_controls_are_inputs_by_name() -> None:
+    controls = CarAssembly(light_car()).controls
+    assert controls.drive(300.0) == {
+        "front_left_drive_torque": 150.0,
+        "front_right_drive_torque": 150.0,
+    }
+    assert controls.brakes(0.5)["rear_left_brake_torque"] == pytest.approx(0.5 * 0.15 * 6000.0)
+    turned = controls.rack(np.array([0.0, np.pi]), rate=2.0)
+    assert turned["rack_position"] == pytest.approx([0.0, -0.025])
+    assert turned["rack_velocity"] == pytest.approx(-0.05 / np.pi)
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        lambda c: c.controls.brakes(1.1),
+        lambda c: c.controls.brakes(np.nan),
+        lambda c: c.running(0.0),
+        lambda c: c.running("fast"),
+        kintrafo.ride.modes,
+        lambda c: CarAssembly(c.car.with_changes({"brakes": None})).controls.brakes(0.1),
+        lambda c: CarAssembly(c.car.with_changes({"front.drive": None})).controls.drive(1.0),
+        lambda c: CarAssembly(c.car.with_changes({"front.drive": None})).running(10.0),
+        lambda c: CarAssembly(c.car.with_changes({"car": "roll"})).running(10.0),
+        lambda c: CarAssembly(c.car.with_changes({"car": "roll"})).controls,
+    ],
+)
+def test_what_is_not_possible_is_refused(asked: Any, refused: Any) -> None:
+    refused(kintrafo.InputError, lambda: asked(CarAssembly(light_car())))
+
+
+def test_a_car_rests_on_its_tyres(assembly: CarAssembly) -> None:
+    """Loads carry the weight, with its moment about the wheels; tyres are pressed by them."""
+    model, car = assembly.model, assembly.car
+    rest = kintrafo.ride.at_rest(assembly)
+    weight = 9.81 * sum(mass for mass, _ in masses(car))
+    assert float(rest["load"].sum()) == pytest.approx(weight, rel=1e-12)
+    state = kintrafo.equilibrium(model)
+    x = model.evaluate("positions", state)[:, 0]
+    mass = [model.parameters[f"{name}_mass"] for name in model.equations.BODIES]
+    center = np.array(mass) @ x / np.sum(mass)
+    wheels = [float(model.signal(f"{w}_wheel_center_x", state)) for w in assembly.wheels]
+    # the lowest point of a disc that leans and toes in is off the centre by r sin(toe) sin(camber)
+    assert float(rest["load"].values @ (np.array(wheels) - center)) == pytest.approx(0.0, abs=200.0)
+    for wheel in assembly.wheels:
+        signals = {
+            k: float(model.signal(f"{wheel}_{k}", state)) for k in ("fz", "deflection", "fy")
+        }
+        assert signals["fz"] == pytest.approx(2e5 * signals["deflection"], rel=1e-12)
+        assert signals["fy"] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_it_runs_straight_at_a_steady_speed(assembly: CarAssembly) -> None:
+    """Drag and the forces of toed-in tyres are what the drive overcomes; nothing leaves that."""
+    model = assembly.model
+    start = assembly.running(SPEED)
+    rates = model.evaluate("rhs", start)
+    assert np.abs(rates[model.layout.positions :]).max() < 1e-8
+    found = kintrafo.simulate(model, (0.0, 2.0), start, method="BDF", rtol=1e-8, atol=1e-9)
+    assert found.success
+    x, y = found.y[0] - found.y[0, 0], found.y[1]
+    assert x[-1] == pytest.approx(2.0 * SPEED, rel=1e-6)
+    assert np.abs(y).max() < 1e-6
+    signals = {name: float(value) for name, value in model.signals(start).items()}
+    ahead = sum(
+        signals[f"{w}_fx"] * np.cos(signals[f"{w}_steer"])
+        - signals[f"{w}_fy"] * np.sin(signals[f"{w}_steer"])
+        for w in assembly.wheels
+    )
+    drag, lift = (0.5 * 1.2 * area * SPEED**2 for area in (0.65, 0.15))
+    leant = lift * np.sin(assembly.body_at(np.asarray(start))["pitch"])
+    assert ahead == pytest.approx(drag - leant, rel=1e-6)
+
+
+def test_braking_is_that_of_the_torques(assembly: CarAssembly) -> None:
+    """With J w' = F r - T at each wheel and m v' = -sum of F, on its way to standstill."""
+    model = assembly.model
+    still = {name: 0.0 for name in model.parameters if name.startswith(("air_drag", "air_lift"))}
+    model = kintrafo.System(model.equations, model.parameters | still | {"air_pitching": 0.0})
+    brakes = assembly.controls.brakes(0.3)
+    start = assembly.running(SPEED)
+    inputs = dict.fromkeys(assembly.controls.drive(0.0), 0.0) | brakes
+    found = kintrafo.simulate(model, (0.0, 8.0), start, inputs=inputs, method="BDF")
+    assert found.success
+    mass = sum(m for m, _ in masses(assembly.car))
+    spinning = sum(v for k, v in model.parameters.items() if k.endswith("wheel_inertia_spin"))
+    radius = 0.316 - 0.018
+    slowing = sum(brakes.values()) / radius / (mass + spinning / radius / 0.306)
+    way = float(found.y[0, -1] - found.y[0, 0])
+    # the radius under load changes by 3 mm as the car pitches: 1 %
+    assert way == pytest.approx(SPEED**2 / (2.0 * slowing), rel=0.02)
+    assert abs(float(found.y[model.state_names.index("body_u"), -1])) < 0.02
+
+
+def test_a_small_angle_steers_it_like_the_bicycle_model(assembly: CarAssembly) -> None:
+    """r = v (d_f - d_r) / (L + K v^2), with the angles that the wheels have to the body."""
+    model, car = assembly.model, assembly.car
+    start = assembly.running(SPEED)
+    straight = model.signals(start)
+    turn = assembly.controls.rack(0.02)
+    time = np.linspace(0.0, 5.0, 501)
+    rack = turn["rack_position"] * 0.5 * (1.0 - np.cos(np.pi * np.minimum(time, 1.0)))
+    found = kintrafo.simulate(
+        model, (0.0, 5.0), start, inputs={"rack_position": (time, rack)}, method="BDF"
+    )
+    assert found.success
+    state = found.y[:, -1]
+    acting = np.array(start.inputs)
+    acting[model.input_names.index("rack_position")] = turn["rack_position"]
+    signals = model.signals(state, acting)
+
+    def steer(end: str) -> float:
+        return sum(
+            0.5 * float(signals[f"{end}_{side}_steer"] - straight[f"{end}_{side}_steer"])
+            for side in ("left", "right")
+        )
+
+    mass, center = sum(m for m, _ in masses(car)), float(center_of_gravity(car)[0])
+    base, stiffness = 2.6, 2.0 * 6.5e4
+    rear = center + base
+    understeer = mass / base * (rear / stiffness + center / stiffness)
+    expected = SPEED * (steer("front") - steer("rear")) / (base + understeer * SPEED**2)
+    rate = float(state[model.state_names.index("body_r")])
+    assert rate > 0.0
+    assert rate == pytest.approx(expected, rel=0.01)

@@ -1,0 +1,138 @@
+"""What a driver does, as inputs of the equations of a car: steering wheel, pedals."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...core.errors import InputError
+from ...core.validator import Validator
+from ..models.axle.axle import Axle
+from ..models.car.car import Car
+from ..models.sides import SIDES
+from . import motions
+from .steering_wheel import rack_motion
+
+Array = NDArray[np.float64]
+
+
+class Controls:
+    """Inputs of the equations of a car that drives, from what its driver does.
+
+    Numbers and arrays alike; each method returns values by the names of inputs.
+
+    Parameters
+    ----------
+    car : Car
+        One that drives.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> controls = Controls(kintrafo.load("driving_car"))
+    >>> controls.brakes(0.5)["front_left_brake_torque"]
+    1400.0
+    """
+
+    def __init__(self, car: Car) -> None:
+        self.car = car
+
+    def rack(
+        self, angle: ArrayLike, rate: ArrayLike = 0.0, acceleration: ArrayLike = 0.0
+    ) -> dict[str, Any]:
+        """Return the motion of the rack.
+
+        Parameters
+        ----------
+        angle, rate, acceleration : array_like
+            Of the steering wheel, positive to the left [rad, rad/s, rad/s^2].
+
+        Raises
+        ------
+        InputError
+            If nothing steers the car, its files do not say how far the rack moves for a turn of the
+            steering wheel, or the angle is beyond a curve of the file.
+        """
+        with Validator("rack") as given:
+            values = [
+                given.array(name, value, unit, empty=True)
+                for name, value, unit in (
+                    ("angle", angle, "rad"),
+                    ("rate", rate, "rad/s"),
+                    ("acceleration", acceleration, "rad/s^2"),
+                )
+            ]
+        front = self.car.axles["front"]
+        if not self.car.steered() or not isinstance(front, Axle):
+            problem = "the front axle has no rack: nothing steers the car. Leave the angle out."
+            raise InputError([problem], self.car.heading())
+        if front.steering is None and motions.travel_per_turn(front) is None:
+            problem = (
+                "[rack] travel_per_turn_mm is missing in the file of the front axle's side: how "
+                "far the rack moves for a turn of the steering wheel. Add it, or a curve as "
+                "[steering] of the axle."
+            )
+            raise InputError([problem], self.car.heading())
+        found = rack_motion(front, *np.broadcast_arrays(*values))
+        names = ("rack_position", "rack_velocity", "rack_acceleration")
+        return {name: _plain(value) for name, value in zip(names, found, strict=True)}
+
+    def brakes(self, pedal: ArrayLike) -> dict[str, Any]:
+        """Return the torques of the brakes, half of an axle's at each of its wheels.
+
+        Parameters
+        ----------
+        pedal : array_like
+            From 0 to 1.
+
+        Raises
+        ------
+        InputError
+            If the pedal is beyond its way, or the file has no brakes.
+        """
+        with Validator("brakes") as given:
+            pressed = given.array("pedal", pedal, empty=True)
+            if np.any((pressed < 0.0) | (pressed > 1.0)):
+                given.fail("pedal: 0 to 1 is needed, 1 with the pedal down.")
+            brakes, front = self.car.described.brakes, self.car.front_brake_share
+            if brakes is None:
+                given.fail(
+                    "[brakes] is missing in the car's file. Add it, with torque_Nm of all wheels."
+                )
+        assert brakes is not None
+        assert front is not None
+        half = 0.5 * brakes.torque_Nm * pressed
+        shares = {"front": front, "rear": 1.0 - front}
+        return {
+            f"{end}_{side}_brake_torque": _plain(share * half)
+            for end, share in shares.items()
+            for side in SIDES
+        }
+
+    def drive(self, torque: ArrayLike) -> dict[str, Any]:
+        """Return the torques of the drive: by the shares of the axles, equal left and right.
+
+        Parameters
+        ----------
+        torque : array_like
+            At all wheels together, positive forward [N m].
+
+        Raises
+        ------
+        InputError
+            If no axle is driven.
+        """
+        with Validator("drive") as given:
+            whole = given.array("torque", torque, "N m", empty=True)
+            if not self.car.drive_shares:
+                given.fail("no axle is driven. Add [drive] with share to the file of an axle.")
+        return {
+            f"{end}_{side}_drive_torque": _plain(0.5 * share * whole)
+            for end, share in self.car.drive_shares.items()
+            for side in SIDES
+        }
+
+
+def _plain(value: Array) -> Any:
+    """Return a number where there is one value, else the array."""
+    return float(value) if np.ndim(value) == 0 else value

@@ -1,0 +1,161 @@
+"""The sections of a car that drives: tyres that roll, brakes, air."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import Field, ValidationError, WithJsonSchema
+
+from ....core.errors import InputError
+from ....core.validator import shown
+from ...data import data_sets
+from ...input.messages import messages_of
+from ...input.section import Flag, NonNegative, Number, Positive, Section, Triple
+from ...input.units import in_metres
+from ...input.vehicle import Share
+from ...tyres import LinearSlip, Tyre, load
+from ...tyres.loading import PACKAGED
+
+_TYRE = Annotated[
+    Any,
+    Field(
+        description="property file (.tir) or TMeasy file (.json) beside this one, or the name of a "
+        "packaged tyre; or a table with the keys of a linear tyre"
+    ),
+    WithJsonSchema({"type": ["string", "object"]}),
+]
+
+
+class CarTyres(Section):
+    """The tyres on which the car rolls, in the place of those of the axles' files."""
+
+    front: _TYRE
+    rear: _TYRE
+    relaxation: Flag = Field(
+        default=True,
+        description="true: slips follow along the relaxation lengths of the tyres, which takes two "
+        "states of each; false: forces are those of the slips at the time",
+    )
+
+
+class CarBrakes(Section):
+    """The brakes."""
+
+    torque_Nm: NonNegative = Field(  # noqa: N815 (N m is the unit)
+        description="torque of the brakes of all wheels together with the pedal down"
+    )
+    front_share: Share | None = Field(
+        default=None,
+        description="part of that torque at the front wheels; left out: front_brake_share of the "
+        "axles' files",
+    )
+    standstill_rad_per_s: Positive = Field(
+        default=0.5,
+        description="spin at which 71 % of the torque acts; it vanishes with the spin",
+    )
+
+
+class Air(Section):
+    """Drag and lift of still air."""
+
+    drag_area_m2: NonNegative = Field(default=0.0, description="drag coefficient times area")
+    front_lift_area_m2: Number = Field(
+        default=0.0, description="lift coefficient times area at the front axle, positive upward"
+    )
+    rear_lift_area_m2: Number = Field(
+        default=0.0, description="lift coefficient times area at the rear axle, positive upward"
+    )
+    density_kg_per_m3: Positive = Field(default=1.2, description="density of the air")
+    center_mm: Triple | None = Field(
+        default=None,
+        description="point of the body at which the drag acts; left out: its centre of mass",
+    )
+
+
+class LinearTyre(Section):
+    """A tyre whose forces are linear in slip, up to the friction."""
+
+    radius_mm: Positive = Field(description="radius without load")
+    effective_radius_mm: Positive = Field(
+        description="speed over rate of spin of a wheel that rolls freely"
+    )
+    vertical_stiffness_N_per_mm: Positive = Field(  # noqa: N815 (N is the newton)
+        description="vertical stiffness"
+    )
+    vertical_damping_N_s_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
+        default=0.0, description="vertical damping"
+    )
+    slip_stiffness_N: Positive = Field(  # noqa: N815 (N is the newton)
+        description="longitudinal force over longitudinal slip"
+    )
+    cornering_stiffness_N_per_rad: Positive = Field(  # noqa: N815 (N is the newton)
+        description="lateral force over the tangent of the slip angle"
+    )
+    camber_stiffness_N_per_rad: Number = Field(  # noqa: N815 (N is the newton)
+        default=0.0, description="lateral force over the sine of the inclination"
+    )
+    friction: Positive = Field(default=1.0, description="greatest horizontal force over the load")
+    trail_mm: Number = Field(
+        default=0.0, description="how far behind the contact the lateral force is without sliding"
+    )
+    rolling_resistance: NonNegative = Field(
+        default=0.0, description="longitudinal force that rolling takes, over the load"
+    )
+    relaxation_x_mm: Positive = Field(default=300.0, description="longitudinal relaxation length")
+    relaxation_y_mm: Positive = Field(default=500.0, description="lateral relaxation length")
+    lowest_speed_m_per_s: Positive = Field(
+        default=1.0, description="speed below which slips are smoothed"
+    )
+
+    def tyre(self) -> LinearSlip:
+        """Return the tyre."""
+        return LinearSlip(
+            radius=in_metres(self.radius_mm, "mm"),
+            effective_radius=in_metres(self.effective_radius_mm, "mm"),
+            trail=in_metres(self.trail_mm, "mm"),
+            relaxation_x=in_metres(self.relaxation_x_mm, "mm"),
+            relaxation_y=in_metres(self.relaxation_y_mm, "mm"),
+            vertical_stiffness=1e3 * self.vertical_stiffness_N_per_mm,
+            vertical_damping=self.vertical_damping_N_s_per_m,
+            slip_stiffness=self.slip_stiffness_N,
+            cornering_stiffness=self.cornering_stiffness_N_per_rad,
+            camber_stiffness=self.camber_stiffness_N_per_rad,
+            friction=self.friction,
+            rolling_resistance=self.rolling_resistance,
+            lowest_speed=self.lowest_speed_m_per_s,
+        )
+
+
+def tyre_of(given: Any, end: str, folder: Path) -> Tyre:
+    """Return the tyre that [tyres] gives for an axle.
+
+    Parameters
+    ----------
+    given : str, Path, Mapping or Tyre
+    end : str
+        'front' or 'rear'.
+    folder : Path
+        From where paths are counted.
+
+    Raises
+    ------
+    InputError
+    """
+    if isinstance(given, Tyre):
+        return given
+    if isinstance(given, Mapping):
+        try:
+            return LinearTyre(**given).tyre()
+        except ValidationError as error:
+            raise InputError(messages_of(error, LinearTyre, given), end) from None
+    if isinstance(given, str | Path):
+        return load(named(given, folder))
+    problem = f"{shown(given)}: the name of a tyre's file, or a table of a linear one, is needed."
+    raise InputError([problem], end)
+
+
+def named(given: Any, folder: Path) -> Any:
+    """Return the name of a packaged tyre, or the path of a file from where one works; else it."""
+    if not isinstance(given, str | Path) or given in data_sets(PACKAGED, ".tir"):
+        return given
+    return str(folder / given)
