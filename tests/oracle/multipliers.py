@@ -15,7 +15,7 @@ along the unit rack axis). Units are SI, world axes are the chassis axes. Twists
 (velocity of the centre of mass, angular velocity) and (force, moment about the centre of mass).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -130,20 +130,7 @@ class ReducedEquations:
 
 
 def rate_rows(mechanism: Mechanism, pose: Pose) -> Array:
-    """Return the rates of the independent coordinates as functions of the twists.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The suspension.
-    pose : Pose
-        Current pose.
-
-    Returns
-    -------
-    ndarray, shape (3, 36)
-        Times the twists: rates of beta1, spin and rack displacement.
-    """
+    """Return what, times the twists, gives the rates of beta1, spin and rack, shape (3, 36)."""
     rows = np.zeros((3, 6, 6))
     axis = pose.rotation[KNUCKLE - 1] @ mechanism.spin_axis
     rows[0, ARM - 1, 3:] = -mechanism.hinge[0]
@@ -156,22 +143,7 @@ def rate_rows(mechanism: Mechanism, pose: Pose) -> Array:
 def solve_twist(
     mechanism: Mechanism, pose: Pose, beta1_rate: float, spin_rate: float, rack_rate: float = 0.0
 ) -> Array:
-    """Solve the joints' equations at velocity level.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The suspension.
-    pose : Pose
-        Current pose.
-    beta1_rate, spin_rate, rack_rate : float
-        Rates of the independent coordinates, rad/s, rad/s, m/s.
-
-    Returns
-    -------
-    ndarray, shape (6, 6)
-        Twists of the bodies, m/s and rad/s.
-    """
+    """Return the twists of the bodies, (6, 6), for rates of the coordinates: rad/s, rad/s, m/s."""
     rates = np.array([beta1_rate, spin_rate, rack_rate])
     twist: Array = (_jacobian(mechanism, pose) @ rates).reshape(6, 6)
     return twist
@@ -185,49 +157,15 @@ def solve_prescribed(
     rack_velocity: float = 0.0,
     *,
     rack_acceleration: float = 0.0,
-    road_height: float = 0.0,
-    road_velocity: float = 0.0,
-    strut_force: float = 0.0,
+    **inputs: float,
 ) -> Solution:
     """Solve the dynamics with the rack's motion prescribed (its displacement is the pose's).
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The suspension.
-    pose : Pose
-        Current pose.
-    beta1_rate, spin_rate : float
-        Rates of arm angle and wheel spin, rad/s.
-    rack_velocity, rack_acceleration : float
-        Of the rack along its unit axis, m/s and m/s².
-    road_height, road_velocity : float
-        z of the road under the wheel, m, and its rate, m/s.
-    strut_force : float
-        Actuator force that pushes knuckle and chassis apart along the strut, N.
-
-    Returns
-    -------
-    Solution
-        Accelerations, multipliers, energies and powers.
+    Rates are in rad/s, velocity and acceleration of the rack along its unit axis in m/s and m/s²,
+    the inputs are those of `applied_wrenches`.
     """
     twist = solve_twist(mechanism, pose, beta1_rate, spin_rate, rack_velocity)
-    wrenches = applied_wrenches(
-        mechanism,
-        pose,
-        twist,
-        road_height=road_height,
-        road_velocity=road_velocity,
-        strut_force=strut_force,
-    )
-    return _solve(
-        mechanism,
-        pose,
-        twist,
-        wrenches,
-        road_height=road_height,
-        rack_acceleration=rack_acceleration,
-    )
+    return _solve(mechanism, pose, twist, inputs, rack_acceleration)
 
 
 def solve_free(
@@ -236,45 +174,11 @@ def solve_free(
     beta1_rate: float,
     spin_rate: float,
     rack_rate: float = 0.0,
-    *,
-    rack_force: float = 0.0,
-    road_height: float = 0.0,
-    road_velocity: float = 0.0,
-    strut_force: float = 0.0,
+    **inputs: float,
 ) -> Solution:
-    """Solve the dynamics with the rack free to slide.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The suspension.
-    pose : Pose
-        Current pose.
-    beta1_rate, spin_rate, rack_rate : float
-        Rates of the independent coordinates, rad/s, rad/s, m/s.
-    rack_force : float
-        Force on the rack along its unit axis, N.
-    road_height, road_velocity : float
-        z of the road under the wheel, m, and its rate, m/s.
-    strut_force : float
-        Actuator force that pushes knuckle and chassis apart along the strut, N.
-
-    Returns
-    -------
-    Solution
-        Accelerations, multipliers, energies and powers.
-    """
+    """Solve the dynamics with the rack free to slide; rates and inputs as `solve_prescribed`."""
     twist = solve_twist(mechanism, pose, beta1_rate, spin_rate, rack_rate)
-    wrenches = applied_wrenches(
-        mechanism,
-        pose,
-        twist,
-        road_height=road_height,
-        road_velocity=road_velocity,
-        strut_force=strut_force,
-        rack_force=rack_force,
-    )
-    return _solve(mechanism, pose, twist, wrenches, road_height=road_height, rack_acceleration=None)
+    return _solve(mechanism, pose, twist, inputs, None)
 
 
 def applied_wrenches(
@@ -291,14 +195,14 @@ def applied_wrenches(
 
     Parameters
     ----------
-    mechanism : Mechanism
-        The suspension.
-    pose : Pose
-        Current pose.
-    twist : ndarray, shape (6, 6)
-        Twists of the bodies.
-    road_height, road_velocity, strut_force, rack_force : float
-        Inputs, m, m/s, N, N, see `solve_free`.
+    mechanism, pose, twist
+        The suspension, its pose and the twists of its bodies, shape (6, 6).
+    road_height, road_velocity : float
+        z of the road under the wheel, m, and its rate, m/s.
+    strut_force : float
+        Actuator force that pushes knuckle and chassis apart along the strut, N.
+    rack_force : float
+        Force on the rack along its unit axis, N.
 
     Returns
     -------
@@ -352,41 +256,16 @@ def reduced_equations(
     beta1_rate: float,
     spin_rate: float,
     rack_rate: float = 0.0,
-    *,
-    rack_force: float = 0.0,
-    road_height: float = 0.0,
-    road_velocity: float = 0.0,
-    strut_force: float = 0.0,
+    **inputs: float,
 ) -> ReducedEquations:
-    """Project the equations of Newton and Euler onto the independent coordinates.
-
-    Parameters
-    ----------
-    mechanism, pose, beta1_rate, spin_rate, rack_rate
-        As for `solve_free`.
-    rack_force, road_height, road_velocity, strut_force
-        As for `solve_free`.
-
-    Returns
-    -------
-    ReducedEquations
-        Mass matrix, inertial terms, applied forces and Jacobian.
-    """
+    """Project the equations of Newton and Euler onto the coordinates; arguments as `solve_free`."""
     jacobian = _jacobian(mechanism, pose)
     twist = (jacobian @ np.array([beta1_rate, spin_rate, rack_rate])).reshape(6, 6)
     drift = _solve_refined(
         _square(mechanism, pose),
         np.concatenate((-mechanism.joints.convective(pose, twist), np.zeros(3))),
     )
-    wrenches = applied_wrenches(
-        mechanism,
-        pose,
-        twist,
-        road_height=road_height,
-        road_velocity=road_velocity,
-        strut_force=strut_force,
-        rack_force=rack_force,
-    )
+    wrenches = applied_wrenches(mechanism, pose, twist, **inputs)
     mass, gyroscopic = _inertia(mechanism, pose, twist)
     return ReducedEquations(
         mass_matrix=jacobian.T @ mass @ jacobian,
@@ -404,15 +283,11 @@ class Trajectory:
     ----------
     time : ndarray, shape (n,)
         In s.
-    coordinates : ndarray, shape (n, 3)
-        beta1, spin, rack displacement: rad, rad, m.
-    rates : ndarray, shape (n, 3)
-        Their time derivatives.
+    coordinates, rates : ndarray, shape (n, 3)
+        beta1, spin, rack displacement, rad, rad, m, and their time derivatives.
     work : ndarray, shape (n,)
         Work done on the moving bodies since the start, J.
-    poses : list of Pose
-        At the times.
-    solutions : list of Solution
+    poses, solutions : list
         At the times.
     """
 
@@ -429,11 +304,6 @@ def _at_rest(_time: float) -> tuple[float, float, float]:
     return 0.0, 0.0, 0.0
 
 
-def _zero(_time: float) -> float:
-    """Return zero."""
-    return 0.0
-
-
 def simulate(
     mechanism: Mechanism,
     time: npt.ArrayLike,
@@ -441,11 +311,8 @@ def simulate(
     rates: tuple[float, float, float],
     *,
     rack_motion: RackMotion | None = _at_rest,
-    rack_force: Callable[[float], float] = _zero,
-    road_height: Callable[[float], float] = _zero,
-    road_velocity: Callable[[float], float] = _zero,
-    strut_force: Callable[[float], float] = _zero,
     rtol: float = 1e-12,
+    **inputs: Callable[[float], float],
 ) -> Trajectory:
     """Integrate the independent coordinates with DOP853.
 
@@ -460,16 +327,11 @@ def simulate(
         the rack is free.
     rack_motion : callable or None
         Displacement, velocity and acceleration of the rack over time; None for a free rack.
-    rack_force, road_height, road_velocity, strut_force : callable
-        Inputs over time: N (free rack only), m, m/s, N.
     rtol : float
         Relative tolerance; the absolute tolerances are the same for angles and rates, and a
         hundredth of it for the rack.
-
-    Returns
-    -------
-    Trajectory
-        At the given times.
+    inputs : callable
+        Those of `applied_wrenches` over time; `rack_force` only for a free rack.
     """
     times = np.asarray(time, dtype=float)
     nearby = mechanism.design
@@ -477,31 +339,13 @@ def simulate(
     def instant(t: float, state: Array) -> tuple[Pose, Solution, float, float]:
         nonlocal nearby
         beta1, spin, rack, beta1_rate, spin_rate, rack_rate = state[:6]
-        inputs = {
-            "road_height": road_height(t),
-            "road_velocity": road_velocity(t),
-            "strut_force": strut_force(t),
-        }
-        rack_acceleration = 0.0
+        acceleration = None
         if rack_motion is not None:
-            rack, rack_rate, rack_acceleration = rack_motion(t)
+            rack, rack_rate, acceleration = rack_motion(t)
         pose = nearby = solve_pose(mechanism, beta1, rack, spin, nearby)
-        if rack_motion is None:
-            force = rack_force(t)
-            solution = solve_free(
-                mechanism, pose, beta1_rate, spin_rate, rack_rate, rack_force=force, **inputs
-            )
-        else:
-            solution = solve_prescribed(
-                mechanism,
-                pose,
-                beta1_rate,
-                spin_rate,
-                rack_rate,
-                rack_acceleration=rack_acceleration,
-                **inputs,
-            )
-        return pose, solution, rack, rack_rate
+        twist = solve_twist(mechanism, pose, beta1_rate, spin_rate, rack_rate)
+        now = {name: value(t) for name, value in inputs.items()}
+        return pose, _solve(mechanism, pose, twist, now, acceleration), rack, rack_rate
 
     def derivative(t: float, state: Array) -> Array:
         _, solution, _, _ = instant(t, state)
@@ -575,12 +419,11 @@ def _solve(
     mechanism: Mechanism,
     pose: Pose,
     twist: Array,
-    wrenches: dict[str, Array],
-    *,
-    road_height: float,
+    inputs: Mapping[str, float],
     rack_acceleration: float | None,
 ) -> Solution:
     """Solve the accelerations and multipliers; the rack is free if its acceleration is None."""
+    wrenches = applied_wrenches(mechanism, pose, twist, **inputs)
     _, constraint = mechanism.joints.evaluate(pose)
     drift = -mechanism.joints.convective(pose, twist)
     rows = rate_rows(mechanism, pose)
@@ -608,7 +451,7 @@ def _solve(
 
     given = mechanism.parameters
     seen = observe(mechanism, pose)
-    height = pose.position[WHEEL - 1, 2] - road_height
+    height = pose.position[WHEEL - 1, 2] - inputs.get("road_height", 0.0)
     return Solution(
         coordinate_accelerations=coordinate_accelerations,
         twist=twist,

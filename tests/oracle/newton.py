@@ -29,7 +29,7 @@ from oracle.constraints import (
     skew,
     unit,
 )
-from oracle.reference import Parameters, completed, inertia, vector
+from oracle.reference import HARDPOINTS, STAND_INS, Parameters, completed, inertia, vector
 
 X_AXIS = np.array([1.0, 0.0, 0.0])
 Z_AXIS = np.array([0.0, 0.0, 1.0])
@@ -98,19 +98,7 @@ class Mechanism:
     def __init__(self, parameters: Parameters) -> None:
         self.parameters = parameters = completed(parameters)
         self.points: dict[str, Array] = {
-            name: vector(parameters, name)
-            for name in (
-                "arm_front",
-                "arm_rear",
-                "ball_joint",
-                "strut_top",
-                "tie_rod_outer",
-                "tie_rod_inner",
-                "wheel_center",
-                "strut_lower",
-                "spring_top",
-                "spring_seat",
-            )
+            name: vector(parameters, name) for name in (*HARDPOINTS, *STAND_INS)
         }
         point = self.points
         self.centres = np.array(
@@ -212,22 +200,7 @@ class Mechanism:
         )
 
     def point(self, pose: Pose, name: str, body: int) -> Array:
-        """Return where the design point `name`, carried by `body` (1 to 6), is now.
-
-        Parameters
-        ----------
-        pose : Pose
-            Current pose.
-        name : str
-            A hardpoint.
-        body : int
-            The body that carries it, such as `KNUCKLE`.
-
-        Returns
-        -------
-        ndarray, shape (3,)
-            In m.
-        """
+        """Return where the design point `name`, carried by a body such as `KNUCKLE`, is now [m]."""
         arm = self.points[name] - self.centres[body]
         place: Array = pose.position[body - 1] + pose.rotation[body - 1] @ arm
         return place
@@ -290,20 +263,7 @@ class Observables:
 
 
 def observe(mechanism: Mechanism, pose: Pose) -> Observables:
-    """Measure a pose.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The suspension.
-    pose : Pose
-        A pose of it.
-
-    Returns
-    -------
-    Observables
-        See there for signs and units.
-    """
+    """Measure a pose; signs and units are those of `Observables`."""
     strut = mechanism.point(pose, "strut_lower", KNUCKLE) - mechanism.points["strut_top"]
     spring = mechanism.point(pose, "spring_seat", KNUCKLE) - mechanism.points["spring_top"]
     length = float(np.linalg.norm(strut))
@@ -333,7 +293,7 @@ def solve_pose(
     spin: float = 0.0,
     start: Pose | None = None,
 ) -> Pose:
-    """Solve the joints for given independent coordinates, on the branch of the design position.
+    """Solve the joints, to round-off, on the branch of the design position.
 
     Parameters
     ----------
@@ -347,11 +307,6 @@ def solve_pose(
         Wheel rotation relative to the knuckle, rad; any number of turns.
     start : Pose, optional
         A pose to continue from instead of the design position, such as a neighbour's.
-
-    Returns
-    -------
-    Pose
-        With residuals at round-off.
 
     Raises
     ------
@@ -368,27 +323,7 @@ def solve_pose_at_height(
     spin: float = 0.0,
     start: Pose | None = None,
 ) -> Pose:
-    """Solve the joints for a given height of the wheel centre.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The suspension.
-    height : float
-        z of the wheel centre, m.
-    rack, spin, start
-        As for `solve_pose`.
-
-    Returns
-    -------
-    Pose
-        With residuals at round-off.
-
-    Raises
-    ------
-    AssemblyError
-        If the mechanism does not reach this height.
-    """
+    """Solve the joints as `solve_pose` for a given height of the wheel centre, m."""
     return _continue(
         mechanism, start or mechanism.design, "wheel_height", height, rack=rack, spin=spin
     )
@@ -402,18 +337,7 @@ def residual_norm(mechanism: Mechanism, pose: Pose) -> float:
 
 
 def rotation_matrix(turn: Array) -> Array:
-    """Return the rotation matrices of rotation vectors.
-
-    Parameters
-    ----------
-    turn : ndarray, shape (..., 3)
-        Axis times angle, rad.
-
-    Returns
-    -------
-    ndarray, shape (..., 3, 3)
-        Orthonormal to round-off, by way of Euler parameters.
-    """
+    """Return the matrices (..., 3, 3) of rotation vectors (..., 3), by way of Euler parameters."""
     half = 0.5 * np.linalg.norm(turn, axis=-1, keepdims=True)
     scalar = np.cos(half)
     imaginary = 0.5 * np.sinc(half / np.pi) * turn

@@ -12,6 +12,7 @@ the diagonal are those of the tensor, thus minus the products of inertia).
 
 import numpy as np
 import numpy.typing as npt
+from folders import DATA
 from scipy.interpolate import PchipInterpolator, PPoly
 
 Array = npt.NDArray[np.float64]
@@ -51,184 +52,21 @@ EIGENVALUES_AT_REST = (-18.08249105 + 75.48161914j, -18.08249105 - 75.48161914j)
 The other two, of the spin angle and the spin rate, are zero.
 """
 
-KINEMATICS_COLUMNS = (
-    "wheel_center_z",
-    "wheel_center_x",
-    "wheel_center_y",
-    "arm_rise",
-    "camber",
-    "toe",
-    "steer",
-    "strut_length",
-)
-"""Columns of `KINEMATICS`: m, m, m, rad (design angle minus beta1), deg, deg, deg, m."""
 
-KINEMATICS: Array = np.array(
-    [
-        [
-            0.15,
-            0.0003016080589612301,
-            -0.7284837986628855,
-            -0.4218062727652742,
-            5.023901868006724,
-            -0.6059903030309698,
-            -0.6059903030309698,
-            0.7902821707342356,
-        ],
-        [
-            0.19999999999999998,
-            7.60870693370672e-05,
-            -0.745707338930284,
-            -0.27624330840559014,
-            3.0028368188777983,
-            -0.5399074911391059,
-            -0.5399074911391059,
-            0.7453445865007637,
-        ],
-        [
-            0.25,
-            2.5269192644269967e-05,
-            -0.7559702287841736,
-            -0.13669655290634514,
-            1.324568928220036,
-            -0.3029037818988304,
-            -0.3029037818988304,
-            0.6996767901750316,
-        ],
-        [0.3, 0.0, -0.76, 0.0, 0.0, 0.0, 0.0, 0.6529272547535444],
-        [
-            0.325,
-            -4.1701215854799203e-05,
-            -0.7598017600855012,
-            0.06812360100041595,
-            -0.5139889032453783,
-            0.15078062052170388,
-            0.15078062052170388,
-            0.6290417311047019,
-        ],
-        [
-            0.35,
-            -0.00012314499650414694,
-            -0.7581586769371731,
-            0.13653734059309838,
-            -0.9139306489140895,
-            0.2884880751609175,
-            0.2884880751609175,
-            0.6047579071960905,
-        ],
-        [
-            0.4,
-            -0.0004746465367320655,
-            -0.7505323336897678,
-            0.2756877312787418,
-            -1.2963028906110856,
-            0.48364283351560405,
-            0.48364283351560405,
-            0.554805935061221,
-        ],
-        [
-            0.44999999999999996,
-            -0.001227197897951911,
-            -0.7369219997021669,
-            0.4209776292739329,
-            -0.913057931798724,
-            0.4861020929546821,
-            0.4861020929546821,
-            0.5026419233371616,
-        ],
-    ]
-)
-"""Rack held at zero, shape (8, 8)."""
+def _table(name: str) -> tuple[tuple[str, ...], Array]:
+    """Return columns and rows of a table of expected values."""
+    head, *rows = (DATA / f"reference_{name}.csv").read_text(encoding="utf-8").split()
+    return (*head.split(","),), np.array([[float(x) for x in row.split(",")] for row in rows])
 
-DYNAMICS_COLUMNS = (
-    "time",
-    "arm_rise",
-    "arm_rise_rate",
-    "spin",
-    "spin_rate",
-    "wheel_center_z",
-    "wheel_center_z_rate",
-)
-"""Columns of `DYNAMICS`: s, rad (design angle minus beta1), rad/s, rad, rad/s, m, m/s."""
 
-DYNAMICS: Array = np.array(
-    [
-        [0.0, 0.06812360100041616, 0.0, 0.0, 92.99114254625788, 0.32500000000000007, 0.0],
-        [
-            0.005,
-            0.06335589960614099,
-            -1.8263833996587127,
-            0.46484923434791403,
-            92.95055088571662,
-            0.32325237348170627,
-            -0.6695642085410026,
-        ],
-        [
-            0.01,
-            0.0507922637120403,
-            -3.096911512712144,
-            0.9295292055211714,
-            92.92401598166485,
-            0.31864494059620657,
-            -1.1360667945809455,
-        ],
-        [
-            0.02,
-            0.014455194770255508,
-            -3.764550232500322,
-            1.8586794819280559,
-            92.9148656938075,
-            0.3053075542442027,
-            -1.3822300896768063,
-        ],
-        [
-            0.05,
-            -0.026206952024318716,
-            1.2866881971755075,
-            4.6476169288405655,
-            93.01556792837125,
-            0.29038004668485984,
-            0.47214680335940307,
-        ],
-        [
-            0.1,
-            0.005965984145963478,
-            -0.8472188351509938,
-            9.297800131821763,
-            92.97422454193526,
-            0.3021905295466222,
-            -0.31107767367469963,
-        ],
-        [
-            0.2,
-            -0.001237052944665687,
-            -0.08457800831761834,
-            18.596771412128387,
-            92.98947372679147,
-            0.29954580334502406,
-            -0.03105349458761886,
-        ],
-        [
-            0.5,
-            8.123434476889882e-06,
-            -2.280840226227066e-05,
-            46.494138769854416,
-            92.9911420953012,
-            0.3000029826194473,
-            -8.374387311017593e-06,
-        ],
-        [
-            1.0,
-            9.692820151353675e-10,
-            -5.87235715811421e-09,
-            92.989709882391,
-            92.9911425461418,
-            0.3000000003558838,
-            -2.156108488154392e-09,
-        ],
-    ]
-)
-"""From rest at wheel height 0.325 m, spin `SPIN_RATE`, rack held at zero; shape (9, 7).
+KINEMATICS_COLUMNS, KINEMATICS = _table("kinematics")
+"""Rack held at zero, (8, 8): wheel centre z, x, y [m], design angle minus beta1 [rad], camber, toe
+and steer [deg], strut length [m].
+"""
+
+DYNAMICS_COLUMNS, DYNAMICS = _table("dynamics")
+"""From rest at wheel height 0.325 m, spin `SPIN_RATE`, rack held at zero, (9, 7): time [s], design
+angle minus beta1 [rad], its rate, spin [rad], its rate, wheel centre z [m], its rate.
 
 The states are good to about 1e-10, the last column (a central difference) to about 1e-8.
 """
@@ -246,19 +84,9 @@ def set_vector(parameters: Parameters, name: str, value: npt.ArrayLike) -> None:
 
 
 def inertia(parameters: Parameters, body: str) -> Array:
-    """Return a body's inertia tensor about its centre of mass, chassis axes at design.
+    """Return a body's inertia tensor about its centre of mass, chassis axes at design [kg m²].
 
-    Parameters
-    ----------
-    parameters : dict of float
-        Flat parameter dict.
-    body : str
-        One of `GENERAL_BODIES`, or ``wheel``.
-
-    Returns
-    -------
-    ndarray, shape (3, 3)
-        In kg m².
+    It is one of `GENERAL_BODIES`, or ``wheel``.
     """
     if body == "wheel":
         axis = vector(parameters, "spin_axis")
@@ -283,11 +111,6 @@ def reference_parameters() -> Parameters:
 
     Tie rod, rack and upper strut are massless; their centres of mass are then only reference
     points: the middle of the rod, `tie_rod_inner` and `strut_top`.
-
-    Returns
-    -------
-    dict of float
-        SI units, see the module's docstring.
     """
     point = {name: np.array(value) for name, value in HARDPOINTS.items()}
     parameters: Parameters = {}
@@ -329,18 +152,9 @@ def reference_parameters() -> Parameters:
 def perturbed_parameters(rng: np.random.Generator, scale: float = 0.02) -> Parameters:
     """Return a general car near the reference: nothing aligned, symmetric or massless.
 
-    Parameters
-    ----------
-    rng : numpy.random.Generator
-        Source of the random numbers.
-    scale : float
-        Standard deviation of the hardpoints and centres of mass, m; the directions of rack and
-        spin axis get two and a half times this (rad) and a length other than one.
-
-    Returns
-    -------
-    dict of float
-        Every body has mass and a full, physically realisable inertia tensor.
+    Hardpoints and centres of mass are off by `scale` [m], a standard deviation; the directions of
+    rack and spin axis by two and a half times this [rad], and their lengths are other than one.
+    Every body has mass and a full, physically realisable inertia tensor.
     """
     parameters = reference_parameters()
     for name in HARDPOINTS:
@@ -372,18 +186,9 @@ def perturbed_parameters(rng: np.random.Generator, scale: float = 0.02) -> Param
 def completed(parameters: Parameters) -> Parameters:
     """Return parameters with everything that a suspension can have, absent parts without effect.
 
-    Parameters
-    ----------
-    parameters : dict of float
-        Flat parameter dict; all that goes beyond the paper's suspension may be missing: the points
-        of `STAND_INS`, ``spring_free_length``, ``spring_table_*``, ``damper_table_*``,
-        ``strut_friction*``, ``bump_stop_*``, ``rebound_stop_*``, ``tyre_damper_rate`` and
-        ``tyre_lifts_off``.
-
-    Returns
-    -------
-    dict of float
-        A new dict.
+    All that goes beyond the paper's suspension may be missing: the points of `STAND_INS`,
+    ``spring_free_length``, ``spring_table_*``, ``damper_table_*``, ``strut_friction*``,
+    ``bump_stop_*``, ``rebound_stop_*``, ``tyre_damper_rate`` and ``tyre_lifts_off``.
     """
     absent: Parameters = {
         "strut_friction": 0.0,
@@ -410,13 +215,8 @@ def completed(parameters: Parameters) -> Parameters:
 def set_damper_curve(parameters: Parameters, curve: PchipInterpolator) -> None:
     """Store a curve of force (N) over compression velocity (m/s), of up to ten segments.
 
-    Parameters
-    ----------
-    parameters : dict of float
-        Flat parameter dict, written to. With x the part of a segment that is passed, its force is
-        that of its first knot plus x times linear, x² times quadratic and x³ times cubic.
-    curve : PchipInterpolator
-        Outside its knots it goes on as a straight line.
+    With x the part of a segment that is passed, its force is that of its first knot plus x times
+    linear, x² times quadratic and x³ times cubic. Outside its knots it goes on as a straight line.
     """
     _set_curve(parameters, "damper_table", curve, curve.x)
 
@@ -445,16 +245,9 @@ def _set_curve(parameters: Parameters, table: str, curve: PPoly, knots: Array) -
 
 
 def spring_parameters(rng: np.random.Generator, length: float, prefix: str = "") -> Parameters:
-    """Return a random curve of a spring.
+    """Return a random curve of a spring that reaches 60 mm to both sides of a length [m].
 
-    Parameters
-    ----------
-    rng : numpy.random.Generator
-        Source of the random numbers; it goes on as if none had been drawn.
-    length : float
-        A length in the middle of the curve, which reaches 60 mm to both sides, m.
-    prefix : str
-        Begins the names of the parameters.
+    `rng` goes on as if none had been drawn; `prefix` begins the names of the parameters.
     """
     (own,) = rng.spawn(1)
     at = np.sort(own.uniform(0.005, 0.115, SPRING_SEGMENTS - 1))
@@ -469,20 +262,8 @@ def general_parameters(rng: np.random.Generator, offset: float = 0.06) -> Parame
     """Return a general car with an offset strut, spring seats, damper curve, stops, friction.
 
     Its tyre damps and lifts off. Stops and knots are where motions over most of the travel, at up
-    to some 3 m/s, go well past them.
-
-    Parameters
-    ----------
-    rng : numpy.random.Generator
-        Source of the random numbers.
-    offset : float
-        Distance of the ball joint from the strut's axis, m. The lower end of the strut is besides
-        up to 0.15 m further up.
-
-    Returns
-    -------
-    dict of float
-        A complete flat parameter dict.
+    to some 3 m/s, go well past them. The ball joint is `offset` [m] from the strut's axis, and the
+    lower end of the strut up to 0.15 m further up.
     """
     parameters = perturbed_parameters(rng)
     ball, top = vector(parameters, "ball_joint"), vector(parameters, "strut_top")
@@ -503,14 +284,7 @@ def general_parameters(rng: np.random.Generator, offset: float = 0.06) -> Parame
 def further_parameters(rng: np.random.Generator, damper: str, length: float) -> Parameters:
     """Return what cars have beyond plain springs: friction, stops, damper curve, a lifting tyre.
 
-    Parameters
-    ----------
-    rng : numpy.random.Generator
-        Source of the random numbers.
-    damper : str
-        What the damper is called.
-    length : float
-        Its length at the design position, m.
+    `damper` is what the damper is called, and `length` [m] its length at the design position.
     """
     parameters: Parameters = {
         f"{damper}_friction": rng.uniform(30.0, 90.0),
@@ -533,21 +307,10 @@ def further_parameters(rng: np.random.Generator, damper: str, length: float) -> 
 
 
 def offset_from_ball_joint(ball: Array, top: Array, offset: float, angle: float) -> Array:
-    """Return how the foot of the ball joint on the strut's axis lies from the ball joint.
+    """Return how the foot of the ball joint on the strut's axis lies from the ball joint [m].
 
-    Parameters
-    ----------
-    ball, top : ndarray, shape (3,)
-        Ball joint, and the strut top through which the axis goes, m.
-    offset : float
-        Length of the result, m.
-    angle : float
-        Where around the line from ball joint to strut top, rad.
-
-    Returns
-    -------
-    ndarray, shape (3,)
-        In m; perpendicular to the axis.
+    It is `offset` long, perpendicular to the axis through `top`, and at `angle` [rad] around the
+    line from ball joint to strut top.
     """
     span = top - ball
     distance = float(np.linalg.norm(span))
@@ -567,16 +330,6 @@ def mirrored_parameters(parameters: Parameters) -> Parameters:
     Points and the rack axis are mirrored as vectors, the spin axis as the direction of a
     rotation (so that +y stays +y and rolling forward stays positive). With these, the mirror
     image has the same arm angle, spin angle and rack displacement as the original.
-
-    Parameters
-    ----------
-    parameters : dict of float
-        Flat parameter dict.
-
-    Returns
-    -------
-    dict of float
-        A new dict.
     """
     mirrored = dict(parameters)
     for name in parameters:

@@ -12,7 +12,7 @@ import re
 import kintrafo
 import numpy as np
 import pytest
-from benches import UP, Strut, Wishbones
+from benches import SKEWED, UP, Strut, Wishbones
 from differences import difference, second_difference
 from folders import DATA, ROOT
 from hypothesis import given, settings
@@ -131,19 +131,6 @@ OTHER = CAR.with_changes(
     }
 )
 RODS = Suspension.load("double_wishbone_car")
-SKEWED = RODS.with_changes(
-    {
-        "hardpoints.lower_arm_front.z": 205.0,
-        "hardpoints.upper_arm_rear.y": -445.0,
-        "hardpoints.upper_ball_joint.x": -35.0,
-        "hardpoints.tie_rod_inner.z": 270.0,
-        "hardpoints.spring_seat.x": 25.0,
-        "wheel.camber_deg": -1.5,
-        "wheel.toe_deg": 0.3,
-        "rack.axis": [0.05, 1.0, 0.02],
-        "tyre.radius_mm": 310.0,
-    }
-)
 BENCHES = {
     "reference": (Strut, CAR),
     "other": (Strut, OTHER),

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from kintrafo.core.errors import InputError, KintrafoError
 from kintrafo.vehicle.kinds import Suspension
 from kintrafo.vehicle.models.model import Model
+from oracle.reference import reference_parameters, vector
 
 CAR = Suspension.load("reference_car")
 CAR_TEXT = (resources.files("kintrafo.vehicle.data") / "reference_car.toml").read_text("utf-8")
@@ -22,61 +23,9 @@ ELEMENTS = ["xx", "yy", "zz", "xy", "xz", "yz"]
 # A busy machine must not fail a test.
 unhurried = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
-# What the equations of motion receive for the reference car, in SI units.
-REFERENCE_PARAMETERS = {
-    "arm_front_x": 0.17,
-    "arm_front_y": -0.35,
-    "arm_front_z": 0.205,
-    "arm_rear_x": -0.15,
-    "arm_rear_y": -0.35,
-    "arm_rear_z": 0.205,
-    "ball_joint_x": 0.005,
-    "ball_joint_y": -0.71,
-    "ball_joint_z": 0.18,
-    "strut_top_x": -0.028,
-    "strut_top_y": -0.585,
-    "strut_top_z": 0.82,
-    "tie_rod_outer_x": -0.13,
-    "tie_rod_outer_y": -0.69,
-    "tie_rod_outer_z": 0.26,
-    "tie_rod_inner_x": -0.14,
-    "tie_rod_inner_y": -0.31,
-    "tie_rod_inner_z": 0.28,
-    "wheel_center_x": 0.0,
-    "wheel_center_y": -0.76,
-    "wheel_center_z": 0.3,
-    "rack_axis_x": 0.0,
-    "rack_axis_y": 1.0,
-    "rack_axis_z": 0.0,
-    "spin_axis_x": 0.0,
-    "spin_axis_y": 1.0,
-    "spin_axis_z": 0.0,
-    "strut_length_max": 0.85,
-    "spring_rate": 25000.0,
-    "damper_rate": 1500.0,
-    "spring_free_slide": 0.05255401719941255,
-    "tyre_rate": 200000.0,
-    "tyre_free_height": 0.319,
-    "gravity": 9.81,
-    "control_arm_mass": 5.0,
-    "control_arm_inertia_xx": 0.06,
-    "control_arm_inertia_yy": 0.04,
-    "control_arm_inertia_zz": 0.09,
-    "knuckle_mass": 15.0,
-    "knuckle_inertia_xx": 0.2,
-    "knuckle_inertia_yy": 0.18,
-    "knuckle_inertia_zz": 0.08,
-    "wheel_mass": 22.0,
-    "wheel_inertia_spin": 1.1,
-    "wheel_inertia_diametral": 0.6,
-    "tie_rod_mass": 0.0,
-    "rack_mass": 0.0,
-    "upper_strut_mass": 0.0,
-}
-
-
-def vector(parameters, name):
-    return np.array([parameters[f"{name}_{axis}"] for axis in "xyz"])
+# What the equations of motion receive for the reference car, in SI units, but for centres of mass,
+# which have tests of their own.
+REFERENCE_PARAMETERS = {n: v for n, v in reference_parameters().items() if "_com_" not in n}
 
 
 def refusal(action, *arguments):

@@ -7,7 +7,7 @@ gradients by central differences; besides, arrangements that can be computed by 
 import kintrafo
 import numpy as np
 import pytest
-from benches import Wishbones
+from benches import SKEWED, UP, Wishbones
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import Model, PositionError, Suspension, characteristics
@@ -15,22 +15,8 @@ from kintrafo.vehicle.models.points import hardpoints
 
 CAR = Suspension.load("double_wishbone_car")
 MODEL = Model(CAR)
-OTHER = CAR.with_changes(
-    {
-        "hardpoints.lower_arm_front.z": 205.0,
-        "hardpoints.upper_arm_rear.y": -445.0,
-        "hardpoints.upper_ball_joint.x": -35.0,
-        "hardpoints.tie_rod_inner.z": 270.0,
-        "hardpoints.spring_seat.x": 25.0,
-        "wheel.camber_deg": -1.5,
-        "wheel.toe_deg": 0.3,
-        "rack.axis": [0.05, 1.0, 0.02],
-        "tyre.radius_mm": 310.0,
-    }
-)
-CARS = {"packaged": CAR, "other": OTHER, "left": OTHER.mirrored()}
+CARS = {"packaged": CAR, "other": SKEWED, "left": SKEWED.mirrored()}
 PLACES = [(-0.07, 0.0), (0.0, 0.0), (0.03, 0.025), (0.08, -0.03)]  # wheel travel, rack [m]
-UP = np.array([0.0, 0.0, 1.0])
 
 # Poses are rounded to some 1e-15; differences over 2 mm to 1e-12, and ratios of them follow.
 POSE, SLOPE = 1e-13, 1e-9
