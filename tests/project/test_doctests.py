@@ -2,28 +2,22 @@
 
 import doctest
 import importlib
-import pkgutil
 import re
 
 import kintrafo
 import pytest
 from folders import ROOT
 
+# the folders are one package, whose top is that of the runtime
 MODULES = sorted(
-    module.name
-    for module in pkgutil.walk_packages(kintrafo.__path__, "kintrafo.")
-    if not module.name.endswith("__main__")
-)
-# the four folders are one package, but only one of them is on its path
-MODULES += sorted(
-    ".".join(("kintrafo", *path.relative_to(ROOT).with_suffix("").parts))
-    for top in ("generator", "vehicle")
-    for path in (ROOT / top).rglob("*.py")
-    if not path.stem.startswith("__")
+    ".".join(("kintrafo", *path.relative_to(above).with_suffix("").parts)).removesuffix(".__init__")
+    for above, top in ((ROOT / "runtime", ""), (ROOT, "generator"), (ROOT, "vehicle"))
+    for path in (above / top).rglob("*.py")
+    if ">>> " in path.read_text(encoding="utf-8")
 )
 
 
-@pytest.mark.parametrize("name", ["kintrafo", *dict.fromkeys(MODULES)])
+@pytest.mark.parametrize("name", MODULES)
 def test_docstring_examples(name):
     result = doctest.testmod(importlib.import_module(name))
     assert result.failed == 0
@@ -33,6 +27,8 @@ def test_there_are_examples():
     finder = doctest.DocTestFinder()
     examples = list(finder.find(importlib.import_module("kintrafo.vehicle.models.positions")))
     assert sum(len(test.examples) for test in examples) >= 4
+    assert {"kintrafo", "kintrafo.vehicle.models.positions"} <= {*MODULES}
+    assert len(MODULES) > 80
 
 
 def test_the_error_of_the_page_is_the_one_printed(tmp_path):

@@ -69,20 +69,19 @@ def test_small_loads_are_those_of_the_unit_load_theorem(
     of: Any, bushes: Any, options: dict[str, Any], held: Any
 ) -> None:
     """Without a static load both differ by a part in proportion to the load."""
-    off: list[list[Any]] = []
-    for size in (20.0, 2.0):
-        off.append([])
-        for under in UNDER:
-            amounts = np.array([size if under != "aligning" else 0.3 * size])
-            found = compliance.nonlinear(
-                of, bushes, under, amounts, held=held, hardpoints="relaxed", **options
-            )
-            for name in found.data_vars:
-                if name.endswith("_change"):
-                    change = found[name].transpose("data_set", ...).values.reshape(2, -1)
-                    least = np.maximum(abs(change[1]), 1e-8 * size)
-                    off[-1].append(abs(change[0] - change[1]) / least)
-    first, second = map(np.concatenate, off)
+    off, sizes = [], np.array([20.0, 2.0])
+    for under in UNDER:
+        amounts = sizes if under != "aligning" else 0.3 * sizes
+        found = compliance.nonlinear(
+            of, bushes, under, amounts, held=held, hardpoints="relaxed", **options
+        )
+        for name in found.data_vars:
+            if name.endswith("_change"):
+                by_load = found[name].transpose("data_set", "load", ...).values
+                change = by_load.reshape(2, 2, -1)
+                least = np.maximum(abs(change[1]), 1e-8 * sizes[:, None])
+                off.append(abs(change[0] - change[1]) / least)
+    first, second = np.concatenate(off, axis=1)
     # of a beam that moves along its rods, the part is the largest
     assert (first < (0.05 if isinstance(of, RigidAxle) else 0.03)).all()
     # a tenth of it, but for rounding: 1e-10 rad of 1e-6 rad
