@@ -11,7 +11,7 @@ from driving_cars import FILE, TYRE, light_car
 from kintrafo.vehicle.assembly.car import CarAssembly
 from kintrafo.vehicle.models.car import Car
 from kintrafo.vehicle.models.car.car import center_of_gravity, masses
-from kintrafo.vehicle.models.car.equations import CarModel
+from kintrafo.vehicle.models.car.equations import CarModel, _parameters, declared
 
 SPEED = 20.0
 
@@ -69,6 +69,40 @@ def test_tyres_are_files_beside_the_car_or_tables(tmp_path: Any) -> None:
 )
 def test_what_contradicts_itself_is_refused(changes: dict[str, Any], refused: Any) -> None:
     refused(kintrafo.InputError, lambda: light_car(**changes))
+
+
+def on_a_rigid_axle() -> dict[str, Any]:
+    """Return the file of one whose rear axle has no sides."""
+    rear = kintrafo.load("rigid_axle").to_dict()
+    rear = {name: section for name, section in rear.items() if name not in ("drive", "vehicle")}
+    return FILE | {"rear": rear, "body": FILE["body"] | {"com_mm": [-1300.0, 0.0, 585.8]}}
+
+
+@pytest.mark.parametrize(
+    "described",
+    [
+        "driving_car",
+        "reference_vehicle",
+        FILE | {"rear": "twist_beam"},
+        FILE | {"rear": "twist_beam", "car": "roll"},
+        on_a_rigid_axle(),
+    ],
+    ids=["packaged", "roll", "twist beam", "twist beam that rolls", "rigid axle"],
+)
+def test_equations_have_every_number_of_the_files(described: Any) -> None:
+    """All but those of bodies without mass, and free angles of bars, which are zero."""
+    car = Car.load(described) if isinstance(described, str) else Car.from_dict(described)
+    formulation = declared(car)
+    needed = {p.name: {"unit": p.unit} for p in formulation.mechanism.parameters}
+    found = _parameters(car, needed)
+    bodies = formulation.mechanism.bodies
+    light = tuple(f"{body.name}_" for body in bodies if not formulation.has_mass(body.name))
+    missing = {name for name in needed if name not in found and not name.startswith(light)}
+    assert missing <= {"rear_beam_free_angle", "rear_bar_free_angle"}
+    assert found["front_rack_axis_y"] == car.axles["front"].right.rack.axis[1]
+    sided = [n for n in found if n.startswith("rear_right_") and n.endswith(("_pivot_y", "seat_y"))]
+    for name in sided:
+        assert found[name.replace("right", "left")] == -found[name] != 0.0
 
 
 def test_controls_are_inputs_by_name() -> None:
@@ -143,6 +177,19 @@ def test_it_runs_straight_at_a_steady_speed(assembly: CarAssembly) -> None:
     drag, lift = (0.5 * 1.2 * area * SPEED**2 for area in (0.65, 0.15))
     leant = lift * np.sin(assembly.body_at(np.asarray(start))["pitch"])
     assert ahead == pytest.approx(drag - leant, rel=1e-6)
+
+
+def test_the_rack_keeps_a_lopsided_car_straight(assembly: CarAssembly) -> None:
+    car = light_car(**{"body.com_mm.y": 60.0})
+    lopsided = CarAssembly(car, CarModel(car))
+    assert lopsided.model.equations is assembly.model.equations
+    loads = kintrafo.ride.at_rest(lopsided)["load"]
+    assert float(loads.sel(wheel="front_left") - loads.sel(wheel="front_right")) > 400.0
+    start = lopsided.running(SPEED)
+    assert abs(float(start.inputs[lopsided.model.input_names.index("rack_position")])) > 1e-5
+    found = kintrafo.simulate(lopsided.model, (0.0, 2.0), start, method="BDF", rtol=1e-8)
+    assert found.y[0, -1] - found.y[0, 0] == pytest.approx(2.0 * SPEED, rel=1e-9)
+    assert np.ptp(found.y[1]) < 1e-6
 
 
 def test_braking_is_that_of_the_torques(assembly: CarAssembly) -> None:

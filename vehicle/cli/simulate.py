@@ -38,6 +38,7 @@ _DRAWN = (
     "wheel_center_z",
     "wheel_acceleration",
     "tyre_force",
+    "fz",
     "spring_force",
     "spring_spring_force",
     "damper_force",

@@ -120,6 +120,24 @@ def test_normal_forces_and_torques_at_rest_conserve_energy() -> None:
     assert abs(body + tyres) < 1e-3
 
 
+def test_units_and_bearings_are_checked() -> None:
+    arms = model_named("trailing_arm")
+    (tyre,) = (f for f in arms.mechanism.forces if isinstance(f, g.LinearTyre))
+    other = next(j for j in arms.driven if not isinstance(j.second, g.Rotor))
+    with pytest.raises(g.DeclarationError) as caught:
+        g.ShaftTorque(
+            name="shaft",
+            wheel=tyre.wheel,
+            bearing=other,
+            reaction=tyre.wheel.carrier,
+            torque=g.Input("torque", "N", "a force"),
+        )
+    assert len(caught.value.problems) == 3
+    air = next(f for f in on_arms().mechanism.forces if isinstance(f, g.AirForces))
+    with pytest.raises(g.DeclarationError, match="drag 'air_density' is in kg/m"):
+        replace(air, drag=air.density)
+
+
 @pytest.mark.parametrize("on", ["chassis", "trailing_arm", "wheel"])
 def test_a_reaction_is_on_the_carrier_or_on_what_all_hangs_on(on: str) -> None:
     arms = model_named("trailing_arm")

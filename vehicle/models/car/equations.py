@@ -15,7 +15,7 @@ from ....systems.system import System
 from ..axle.axle import Axle
 from ..axle.equations import corner_of, parameters_by_side, parameters_of_bar
 from ..model import Model
-from ..sides import SIDES
+from ..sides import RIGHT, SIDES
 from ..whole_axle import WholeAxle
 from .car import AnyAxle, Car
 from .driving import Air
@@ -208,14 +208,26 @@ def _of_driving(car: Car) -> dict[str, float]:
 
 
 def _of_axle(axle: Axle) -> dict[str, float]:
-    sides = parameters_by_side(axle).items()
-    return parameters_of_bar(axle) | {
-        f"{side}_{name}": value for side, values in sides for name, value in values.items()
-    }
+    sides = parameters_by_side(axle)
+    # both sides have one rack, whose values are those of the right one
+    return (
+        parameters_of_bar(axle)
+        | sides[RIGHT]
+        | {f"{side}_{name}": value for side, own in sides.items() for name, value in own.items()}
+    )
 
 
 def _of_whole_axle(axle: WholeAxle) -> dict[str, float]:
+    from ....generator.mechanisms import model_named  # noqa: PLC0415 (an extra)
+
     values = axle.parameters()
-    sided = {name.removeprefix("left_") for name in values if name.startswith("left_")}
-    named = {(f"right_{name}" if name in sided else name): v for name, v in values.items()}
-    return named | {"right_gravity": values["gravity"]}
+    known: dict[str, float] = {
+        p.name: p.default for p in model_named(axle.KEY).mechanism.parameters
+    }
+    known |= values
+    # what is the image of something of one side has a name and a value of its own in a car
+    images = {
+        name: float(value.xreplace({symbol: known[symbol.name] for symbol in value.free_symbols}))
+        for name, value in model_named(axle.KEY).mechanism.derived.items()
+    }
+    return values | images | {"right_gravity": values["gravity"]}
