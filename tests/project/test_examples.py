@@ -152,6 +152,10 @@ FILES: Files = {
         .replace("lca_outer", "my_lca_outer"),
         encoding="utf-8",
     ),
+    "tracks.csv": lambda path: path.write_text(
+        "distance_m,left_height_mm,right_height_mm\n0,0,0\n1,0,0\n2,8,5\n3,2,4\n4,0,0\n20,0,0\n",
+        encoding="utf-8",
+    ),
     "cad.csv": csv_of_the_page("suspension/hardpoints"),
     "rig.csv": csv_of_the_page("suspension/comparison"),
     "road.csv": csv_of_the_page("simulation/roads"),

@@ -72,10 +72,14 @@ def car_of(file: str) -> "CarAssembly":
     from ...core.errors import InputError
     from ..assembly.car import CarAssembly
     from ..assembly.of import model_of as of_subject
+    from ..data import data_sets, find
+    from ..data.starter import CARS, all_packaged
     from ..files.loading import load
     from ..models.car import Car
     from ..models.car.equations import CarModel
 
+    if file not in all_packaged():
+        find(file, data_sets(CARS))  # says which cars there are
     subject = load(file)
     if not isinstance(subject, Car):
         problem = (

@@ -1,5 +1,7 @@
 """``kintrafo ride``: rest, modes and motion of a car over a road."""
 
+from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
@@ -22,7 +24,11 @@ EXAMPLES = (
     "kintrafo ride quarter_car",
     "kintrafo ride quarter_car --road C --speed 60 --seed 7 -o ride.csv",
     "kintrafo ride quarter_car --bump 20 --bump-length 1 --speed 30 -o bump.csv",
+    "kintrafo ride quarter_car --road tracks.csv --contact-length 120",
+    "kintrafo ride quarter_car --kerb 60 --contact-length 120 --speed 15",
 )
+
+_DURATION = 30.0  # of the simulation, where nothing else ends it [s]
 
 
 def command(
@@ -31,7 +37,12 @@ def command(
     ],
     *,
     road: Annotated[
-        Literal["A", "B", "C", "D", "E", "F", "G", "H"], option("Rough road: a class of ISO 8608.")
+        str,
+        option(
+            "Rough road, a class of ISO 8608 from A to H; or the file of a measured one: CSV with "
+            "distance_m, left_height_mm and right_height_mm, or OpenCRG (.crg).",
+            "CLASS|FILE",
+        ),
     ] = "B",
     seed: Annotated[
         int, option("Seed of the rough road: equal seeds give equal roads.", "NUMBER")
@@ -41,11 +52,26 @@ def command(
         option("Height of one bump instead of the rough road; negative: a pothole.", "MM"),
     ] = None,
     bump_length: Annotated[float, option("Length of the bump.", "M")] = 0.5,
+    kerb: Annotated[
+        float | None,
+        option("Height of an edge instead of the rough road; negative: a drop.", "MM"),
+    ] = None,
     under: Annotated[
-        Literal["both", "left", "right"], option("Wheels that meet the bump.")
+        Literal["both", "left", "right"], option("Wheels that meet the bump or the kerb.")
     ] = "both",
+    contact_length: Annotated[
+        float | None,
+        option(
+            "Length of the contact of a tyre, which then envelopes what is short: by two "
+            "elliptical cams. A kerb needs it. Default: contact in a point.",
+            "MM",
+        ),
+    ] = None,
     speed: Annotated[float, option("Speed of the car.", "KM/H")] = 80.0,
-    duration: Annotated[float, option("Duration of the simulation.", "S")] = 30.0,
+    duration: Annotated[
+        float | None,
+        option("Duration of the simulation. Default: 30 s; to the end of a measured road.", "S"),
+    ] = None,
     output_step: Annotated[float, option("Time between outputs.", "MS")] = 5.0,
     output: PlotOptions,
 ) -> None:
@@ -60,24 +86,28 @@ def command(
     from ...core.validator import Validator
     from ...datasets import export
     from ..analysis import ride
+    from ..plots.by_axle import by_axle
 
     with Validator("kintrafo ride") as given:
         given.number("--speed", speed, "km/h", above=0.0)
-        given.number("--duration", duration, "s", above=0.0)
+        given.number("--duration", _DURATION if duration is None else duration, "s", above=0.0)
         given.number("--output-step", output_step, "ms", above=0.0)
-    suffixes = ["", "_response"] if bump is None else [""]
-    outputs = output.files(file, suffixes=suffixes, drawn=[""])
+    chosen = _Chosen(road, seed, bump, bump_length, kerb, under, contact_length)
+    suffixes = ["", "_response"] if chosen.is_rough else [""]
+    outputs = output.files(
+        file, *([road] if chosen.is_measured else []), suffixes=suffixes, drawn=[""]
+    )
     assembly = car_of(file)
     v = speed / 3.6
-    chosen = _road(assembly, road, seed, bump, bump_length, under, v * duration)
+    profile, duration = chosen.for_time(assembly, v, duration)
     found = {"at_rest": ride.at_rest(assembly), "modes": ride.modes(assembly)}
-    if bump is None:
+    if chosen.is_rough and contact_length is None:
         found["linear"] = ride.response(assembly, v, road)
-    settle = min(5.0, 0.2 * duration) if bump is None else 0.0
+    settle = min(5.0, 0.2 * duration) if chosen.is_rough else 0.0
     motion = ride.over(
-        assembly, chosen, v, duration=duration, settle=settle, output_step=output_step / 1e3
+        assembly, profile, v, duration=duration, settle=settle, output_step=output_step / 1e3
     )
-    written = outputs.write(motion, title=title_of(file))
+    written = outputs.write(motion, title=title_of(file), drawn=by_axle(motion))
     if "linear" in found:
         written += outputs.write_data(found["linear"], "_response")
     if output.json:
@@ -88,7 +118,7 @@ def command(
         note(f"not used: {unused}")
     for made in [*_rest(found["at_rest"], file), _modes(found["modes"], file)]:
         console.print(made)
-    title = f"{file}: {chosen.words}, {speed:g} km/h, {duration:g} s"
+    title = f"{file}: {profile.words}, {speed:g} km/h, {duration:g} s"
     for made in _ride(motion, found.get("linear"), title):
         console.print(made)
     name_files(written)
@@ -99,25 +129,111 @@ def command(
         raise typer.Exit(Exit.REFUSED)
 
 
-def _road(
-    assembly: "CarAssembly",
-    road: str,
-    seed: int,
-    bump: float | None,
-    bump_length: float,
-    under: str,
-    way: float,
-) -> "Road":
-    from .. import roads
+@dataclass(frozen=True)
+class _Chosen:
+    """The road that the options say."""
 
-    if bump is None:
-        longest = max(way, 1.01 / roads.rough.WAVES[0])
-        return roads.iso8608(road, length=longest, seed=seed, track=assembly.track)
-    sides = {wheel.rpartition("_")[2] for wheel in assembly.wheels}
-    if under in {"left", "right"} - sides:
-        raise typer.BadParameter(f"--under {under}: this car has its wheel on the other side")
-    at = min(5.0, 0.1 * way)
-    return roads.bump(bump / 1e3, bump_length, at=at, end=max(way, at + bump_length), sides=under)
+    name: str
+    seed: int
+    bump: float | None
+    bump_length: float
+    kerb: float | None
+    under: str
+    contact_length: float | None
+
+    def __post_init__(self) -> None:
+        if self.bump is not None and self.kerb is not None:
+            raise typer.BadParameter("--bump and --kerb are both given: choose one of them")
+        if self.kerb is not None and self.contact_length is None:
+            raise typer.BadParameter(
+                "--kerb needs --contact-length, as a wheel does not touch an edge at a point"
+            )
+
+    @property
+    def is_single(self) -> bool:
+        """Whether it is one obstacle."""
+        return self.bump is not None or self.kerb is not None
+
+    @property
+    def is_rough(self) -> bool:
+        """Whether it is a class of ISO 8608."""
+        from ..roads import CLASSES
+
+        return not self.is_single and self.name in CLASSES
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether it is a file."""
+        return not self.is_single and not self.is_rough
+
+    def for_time(
+        self, assembly: "CarAssembly", speed: float, duration: float | None
+    ) -> "tuple[Road, float]":
+        """Return the road, and how long a car is on it where nothing else is said [s]."""
+        found = self._road(assembly, speed * (duration or _DURATION))
+        if duration is None and self.is_measured:
+            return found, (found.length + max(assembly.behind().values())) / speed
+        return found, duration or _DURATION
+
+    def _road(self, assembly: "CarAssembly", way: float) -> "Road":
+        """Return the road for a way [m]."""
+        from .. import roads
+
+        sides = {wheel.rpartition("_")[2] for wheel in assembly.wheels}
+        if self.is_single and self.under in {"left", "right"} - sides:
+            raise typer.BadParameter(
+                f"--under {self.under}: this car has its wheel on the other side"
+            )
+        if self.kerb is not None:
+            at = min(5.0, 0.2 * way)
+            how: Any = {**self._tyre(assembly), "sides": self.under}
+            return roads.kerb(self.kerb / 1e3, at=at, end=max(way, 2.0 * at), **how)
+        if self.bump is not None:
+            at = min(5.0, 0.1 * way)
+            end = max(way, at + self.bump_length)
+            height = self.bump / 1e3
+            found = roads.bump(height, self.bump_length, at=at, end=end, sides=self.under)
+        elif self.is_rough:
+            longest = max(way, 1.01 / roads.rough.WAVES[0])
+            found = roads.iso8608(self.name, length=longest, seed=self.seed, track=assembly.track)
+        else:
+            found = self._measured(assembly)
+        if self.contact_length is None:
+            return found
+        return roads.enveloped(found, **self._tyre(assembly))
+
+    def _measured(self, assembly: "CarAssembly") -> "Road":
+        from ...core.errors import InputError
+        from .. import roads
+
+        if not Path(self.name).suffix and not Path(self.name).is_file():
+            raise typer.BadParameter(
+                f"--road {self.name}: a class of ISO 8608, {', '.join(roads.CLASSES)}, or a file "
+                "is needed"
+            )
+        found = roads.read(self.name, track=assembly.track)
+        least = max(assembly.behind().values())
+        if found.length <= least:
+            problem = (
+                f"the road is {found.length:g} m long, and the wheelbase {least:g} m: the rear "
+                "wheels would not reach it. Give a longer road."
+            )
+            raise InputError([problem], self.name)
+        return found
+
+    def _tyre(self, assembly: "CarAssembly") -> dict[str, float]:
+        """Return what envelopes: the mean radius of the tyres, and the contact [m]."""
+        from ...core.errors import InputError
+
+        radii = [radius for radius in assembly.tyre_radii if radius]
+        if not radii:
+            problem = "no tyre has a radius, which --contact-length needs: enter [tyre] radius_mm."
+            raise InputError([problem], "--contact-length")
+        assert self.contact_length is not None
+        return {
+            "radius": sum(radii) / len(radii),
+            "contact_length": self.contact_length / 1e3,
+        }
 
 
 def _rest(found: "Dataset", file: str) -> "list[Table]":

@@ -1,0 +1,41 @@
+"""What the wheels of a car do, as curves of each axle: four lines in one panel are a thicket."""
+
+import xarray as xr
+
+from ...core.validator import Validator
+from ..assembly.by_wheel import WHEEL
+from ..models.sides import SIDES
+
+_SIDE = "side"
+
+
+def by_axle(dataset: xr.Dataset) -> xr.Dataset:
+    """Return a dataset in which every variable of four wheels is one for each axle.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Variables over ``wheel`` and another dimension, as of `kintrafo.ride.over`.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``load_front`` and ``load_rear`` over ``side`` instead of ``load``; all else unchanged.
+    """
+    with Validator("by_axle") as given:
+        given.dataset(dataset)
+    wheels = [str(name) for name in dataset[WHEEL].values.ravel()]
+    ends = list(dict.fromkeys(name.rpartition("_")[0] for name in wheels))
+    if len(wheels) != len(ends) * len(SIDES) or len(ends) < len(SIDES):
+        return dataset
+    found = dataset.drop_vars(WHEEL)
+    for name, data in dataset.data_vars.items():
+        if WHEEL not in data.dims:
+            continue
+        found = found.drop_vars(str(name))
+        for end in ends:
+            own = data.sel({WHEEL: [f"{end}_{side}" for side in SIDES]}).rename({WHEEL: _SIDE})
+            own = own.assign_coords({_SIDE: list(SIDES)})
+            own.attrs |= {"long_name": f"{end}: {data.attrs.get('long_name', name)}"}
+            found[f"{name}_{end}"] = own
+    return found
