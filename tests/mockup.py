@@ -210,6 +210,13 @@ class Instance:
         given = _doubles(states)
         return max(status, self.call("SetContinuousStates", None, given, ct.c_size_t(len(states))))
 
+    def completed(self) -> bool:
+        """Complete a step of the integrator; return whether the simulation is to end."""
+        kind: Any = ct.c_int if self._two else ct.c_bool
+        flags = [kind(), kind()]
+        self.status = self.call("CompletedIntegratorStep", None, kind(1), *map(ct.byref, flags))
+        return bool(flags[1].value)
+
     def update(self) -> bool:
         """Update discrete states; return whether the simulation is to end."""
         if self._two:

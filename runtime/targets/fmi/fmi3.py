@@ -35,7 +35,7 @@ def model_description(known: ModelDescription, sources: Sequence[str]) -> str:
         "providesDirectionalDerivatives": "true",
         "providesAdjointDerivatives": "true",
     }
-    element(root, "ModelExchange", both)
+    element(root, "ModelExchange", {**both, "needsCompletedIntegratorStep": "true"})
     element(root, "CoSimulation", both | {"canHandleVariableCommunicationStepSize": "true"})
     unit_definitions(root, known.variables)
     log_categories(root)

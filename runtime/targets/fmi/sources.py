@@ -17,7 +17,7 @@ MARK = "kintrafo: numbers of a model"
 EQUATIONS = "equations"
 """Folder of the emitted files."""
 
-_CORE = ("derivatives.c", "model.h", "steps.c", "unit.c", "unit.h")
+_CORE = ("dead_points.c", "derivatives.c", "model.h", "steps.c", "unit.c", "unit.h")
 # What integrates, without what needs SUNDIALS.
 _NATIVE = (
     "dormand_prince.c", "dormand_prince.h", "fixed_step.h", "integrate.c", "integrate.h",

@@ -325,6 +325,51 @@ def test_a_motion_that_ends_is_told(unit, version):
 # -- Model Exchange -------------------------------------------------------------------------------
 
 
+def integrated(instance, end, length):
+    """Return when the unit ends a motion that an importer integrates by Runge and Kutta."""
+    assert not instance.update()
+    assert instance.call("EnterContinuousTimeMode") == OK
+    count = len(instance.array("GetContinuousStates", None, 2))
+    state, time = np.array(instance.array("GetContinuousStates", None, count)), 0.0
+
+    def rates(after, place):
+        instance.place(time + after, place)
+        names = "GetDerivatives", "GetContinuousStateDerivatives"
+        return np.array(instance.array(*names, count))
+
+    while time < end:
+        a = rates(0.0, state)
+        b = rates(0.5 * length, state + 0.5 * length * a)
+        c = rates(0.5 * length, state + 0.5 * length * b)
+        d = rates(length, state + length * c)
+        state, time = state + length / 6.0 * (a + 2.0 * b + 2.0 * c + d), time + length
+        instance.place(time, state)
+        if instance.completed() or "cannot close" in instance.said:  # or a stage is discarded
+            break
+    return time
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize(("torque", "rate"), [(10.0, 0.0), (-5.5, -5.8), (4.3, -5.6), (1.0, 1.0)])
+def test_steps_of_an_importer_do_not_pass_a_dead_point(unit, version, torque, rate):
+    """Behind it the equations have another motion, which a solver sees nothing wrong with."""
+    system = kintrafo.System(system_named("four_bar").equations, SHORT)
+    given = {"crank_torque": torque, "crank_angle_rate": rate}
+    try:
+        state, inputs = system.state(crank_angle_rate=rate), {"crank_torque": torque}
+        kintrafo.simulate(system, (0.0, 0.5), state, inputs=inputs)
+        ends = 0.5
+    except kintrafo.SimulationError as refused:
+        ends = refused.time
+    assert (ends == 0.5) == (torque == 1.0)  # which turns before it
+    for length in (1e-3, 4e-3):
+        instance = unit("four_bar", version).instance("ModelExchange")
+        assert instance.initialise(**given, **parameters(SHORT)) == OK
+        assert integrated(instance, 0.5, length) == pytest.approx(ends, abs=1.5 * length)
+        assert ends == 0.5 or "cannot close" in instance.said
+        instance.free()
+
+
 @pytest.mark.parametrize("version", VERSIONS)
 def test_events_have_indicators(unit, version):
     known = unit("reference_car", version)

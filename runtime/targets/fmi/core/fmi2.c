@@ -227,6 +227,7 @@ fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c)
 {
     NEEDS_KIND(0, KU_EVENTS)
     ku_enter(u, KU_CONTINUOUS);
+    ku_mark(u);
     return fmi2OK;
 }
 
@@ -234,9 +235,12 @@ fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean noSetFMUStat
                                        fmi2Boolean *enterEventMode, fmi2Boolean *terminateSimulation)
 {
     (void)noSetFMUStatePriorToCurrentPoint;
+    int over = 0;
     NEEDS_KIND(0, KU_CONTINUOUS)
-    *enterEventMode = *terminateSimulation = fmi2False;
-    return fmi2OK;
+    int status = ku_completed(u, &over);
+    *enterEventMode = fmi2False;
+    *terminateSimulation = over;
+    return (fmi2Status)status;
 }
 
 fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time)

@@ -450,6 +450,7 @@ fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance)
 {
     NEEDS_KIND(0, KU_EVENTS)
     ku_enter(u, KU_CONTINUOUS);
+    ku_mark(u);
     return fmi3OK;
 }
 
@@ -458,9 +459,12 @@ fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance,
                                        fmi3Boolean *enterEventMode, fmi3Boolean *terminateSimulation)
 {
     (void)noSetFMUStatePriorToCurrentPoint;
+    int over = 0;
     NEEDS_KIND(0, KU_CONTINUOUS)
-    *enterEventMode = *terminateSimulation = fmi3False;
-    return fmi3OK;
+    int status = ku_completed(u, &over);
+    *enterEventMode = fmi3False;
+    *terminateSimulation = over;
+    return (fmi3Status)status;
 }
 
 fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time)

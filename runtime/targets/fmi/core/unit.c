@@ -113,7 +113,7 @@ static size_t size_of_all(void)
     const km_model *m = &km_this;
     size_t n = (size_t)m->states;
     return number_count() + (size_t)m->constants + n + m->signals + m->guards + n * n + m->linearised
-        + m->events + 1;
+        + m->events + 3 * n + 2 * (size_t)m->inputs + 6 * (size_t)m->guards + 1;
 }
 
 unit *ku_open(const char *label, const char *token, int co_simulation, int logging,
@@ -145,6 +145,12 @@ unit *ku_open(const char *label, const char *token, int co_simulation, int loggi
     u->jacobian = u->margins + m->guards;
     u->linearised = u->jacobian + (size_t)m->states * m->states;
     u->before = u->linearised + m->linearised;
+    u->way.state = u->before + m->events;
+    u->way.rates = u->way.state + m->states;
+    u->way.ahead = u->way.rates + m->states;
+    u->way.inputs = u->way.ahead + m->states;
+    u->way.inputs_ahead = u->way.inputs + m->inputs;
+    u->way.margins = u->way.inputs_ahead + m->inputs;
     if (!token || strcmp(token, km_token()) != 0) {
         ku_say(u, KU_ERROR,
                "the token of the model description is not that of this library, which is %s: they are "
@@ -181,7 +187,7 @@ void ku_reset(unit *u)
     for (int i = 0; i < m->inputs; ++i) {
         u->now.inputs[i] = km_value(m->parameters + m->states + i);
     }
-    u->stopped = u->before_known = 0;
+    u->stopped = u->before_known = u->way.known = 0;
     ku_forget(u);
 }
 
@@ -638,7 +644,7 @@ void *ku_save(unit *u, void *into)
 int ku_restore(unit *u, const void *saved)
 {
     memcpy(u->now.all, saved, number_count() * sizeof(double));
-    u->before_known = u->stopped = 0;
+    u->before_known = u->stopped = u->way.known = 0;
     u->last_time = *u->now.time;
     ku_forget(u);
     if (!*u->now.ready) {

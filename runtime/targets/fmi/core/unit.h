@@ -29,6 +29,13 @@ typedef struct {
     double *at[KU_ORDERS];
 } ku_course;
 
+/* Model Exchange: the point that the last step came to, and room to look at how the margins go on. */
+typedef struct {
+    int known;
+    double time;
+    double *state, *inputs, *rates, *ahead, *inputs_ahead, *margins;
+} ku_way;
+
 typedef struct unit unit;
 typedef void (*ku_report)(const unit *u, int status, const char *category, const char *message);
 
@@ -52,6 +59,7 @@ struct unit {
     char *message;
     double last_time; /* of the last step that came to its end */
     int stopped;      /* a step came to a dead point */
+    ku_way way;
     /* Co-Simulation */
     kt_problem problem;
     kt_options options;
@@ -129,6 +137,10 @@ int ku_derivative(unit *u, const unsigned *unknowns, size_t rows, const unsigned
 
 /* Report which events have happened; `over` tells whether the model ends here. */
 int ku_update(unit *u, int *over);
+
+/* A step of the importer has come to its end; `over` tells whether it has passed a dead point. */
+int ku_completed(unit *u, int *over);
+void ku_mark(unit *u);
 
 /* -- saved instances -------------------------------------------------------------------------- */
 
