@@ -113,7 +113,7 @@ def show_topology(plan: CataloguePlan) -> None:
     """Print the analysis of a mechanism as tables."""
     graph: JointGraph = plan.topology
     joints = Table(title=f"{graph.mechanism.title}: joints (Table 1)")
-    for column in ("joint", "type", "first body", "second body", "freedoms", "leaves in common"):
+    for column in ("joint", "type", "first body", "second body", "degrees of freedom", "in common"):
         joints.add_column(column)
     for row in joint_rows(graph):
         joints.add_row(*row)

@@ -11,6 +11,7 @@ import kintrafo
 import pytest
 from folders import ROOT
 from kintrafo import generator
+from kintrafo.vehicle import cli
 
 DOCS = ROOT / "docs"
 PAGES = sorted(DOCS.rglob("*.md"))
@@ -146,3 +147,9 @@ def test_links_of_the_readme_are_addresses_on_an_index(monkeypatch):
         assert (ROOT / link.removeprefix(place).partition("#")[0]).exists(), link
     stripped = re.sub(r"https://forge\.example/someone/kintrafo/(raw|blob)/v1\.2\.3/", "", after)
     assert stripped == before
+
+
+def test_every_command_has_an_output_on_a_page():
+    """The page of the commands shows it below the help of each (test_examples.py compares it)."""
+    outputs = runpy.run_path(str(DOCS / "site/shown.py"))["outputs"]
+    assert set(outputs(DOCS, [*cli.COMMANDS])) == set(cli.COMMANDS)

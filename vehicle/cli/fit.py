@@ -107,8 +107,8 @@ def _print(found: "Fit", measured: "Dataset", file: str) -> None:
         factor = display_of(data.attrs).factor
         shown = (significant(v * factor) for v in (curve.before, curve.after, curve.within))
         curves.append((heading_of(data), *shown))
-    head = ("value", "file", "fitted", "off by", "+/-", "unit", "determined by the curves")
-    console.print(table(f"{file}: what may be off", head, values, words=(0, 5)))
+    head = ("value", "file", "fitted", "deviation", "+/-", "unit", "determined by the curves")
+    console.print(table(f"{file}: fitted values", head, values, words=(0, 5)))
     title = "deviations of the curves, root mean square"
     console.print(table(title, ("characteristic", "file", "fitted", "accuracy"), curves))
     say(f"{found.message}; {found.evaluations} suspensions were evaluated.")

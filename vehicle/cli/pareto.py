@@ -139,8 +139,7 @@ def _table(found: "Front", chosen: int, file: str) -> "Table":
     count = len(found.moved)
     described = [objective.attributes() for objective in found.objectives]
     headings = [
-        f"{bracketed(str(attrs['long_name']), attrs)}\nwanted {attrs['wanted']}"
-        for attrs in described
+        f"{bracketed(str(attrs['long_name']), attrs)}\n{attrs['wanted']}" for attrs in described
     ]
     factors = [display_of(attrs).factor for attrs in described]
 
@@ -159,7 +158,7 @@ def _table(found: "Front", chosen: int, file: str) -> "Table":
 
 
 def _of_start(found: "Front") -> str:
-    return "as it is" if found.keeps_limits else "as it is, beyond limits"
+    return "file" if found.keeps_limits else "file, beyond limits"
 
 
 def _remark(found: "Front", member: int, chosen: int) -> str:

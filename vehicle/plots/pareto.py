@@ -89,4 +89,4 @@ def _label(objective: Objective) -> str:
     """Return what an axis is, and to which side it is better."""
     attrs = objective.attributes()
     name = bracketed(str(attrs["long_name"]), attrs)
-    return f"{fill(name, _LETTERS)}\nwanted {attrs['wanted']}"
+    return f"{fill(name, _LETTERS)}\n{attrs['wanted']}"

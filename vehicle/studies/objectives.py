@@ -62,7 +62,7 @@ class Objective:
         own = {
             "long_name": f"{words}{self.goal.over_words}",
             "sign": "" if self.kind == "deviation" else quantity.sign,
-            "wanted": "great" if self.kind == "least" else "small",
+            "wanted": "maximised" if self.kind == "least" else "minimised",
         }
         return quantity.attributes() | own
 

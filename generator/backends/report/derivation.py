@@ -217,7 +217,7 @@ def _structure(topology: JointGraph) -> list[Block]:
         Heading(2, "Bodies and joints"),
         Picture("bodies", "Bodies with their numbers, and joints, at the design position."),
         TextTable(
-            ("joint", "type", "first body", "second body", "freedoms", "leaves in common"),
+            ("joint", "type", "first body", "second body", "degrees of freedom", "in common"),
             joint_rows(topology),
         ),
         Paragraph(f"Mobility (Grübler; paper: Eq. 1): {mobility_line(topology)}."),
