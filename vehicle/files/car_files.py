@@ -1,11 +1,13 @@
 """The files that a car consists of: its own, those of its axles, and those of their sides."""
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ..models.axle import Axle
 from ..models.car import Car
+from ..models.car.file import ENDS
 
 
 @dataclass(frozen=True)
@@ -17,6 +19,13 @@ class _Sections:
     def to_dict(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
         del exclude_defaults  # as they were made
         return self.data
+
+
+def _shorten(tyres: dict[str, Any], own: Path) -> None:
+    """Let paths of tyres count from the car's file."""
+    for end in ENDS:
+        if isinstance(tyres.get(end), str) and Path(tyres[end]).is_file():
+            tyres[end] = Path(os.path.relpath(tyres[end], own.parent)).as_posix()
 
 
 def car_files(car: Car, path: str | Path) -> dict[Path, _Sections]:
@@ -35,6 +44,7 @@ def car_files(car: Car, path: str | Path) -> dict[Path, _Sections]:
         return own.with_name(f"{own.stem}_{words}{own.suffix}")
 
     data = car.to_dict(exclude_defaults=True)
+    _shorten(data.get("tyres", {}), own)
     found: dict[Path, _Sections] = {own: _Sections(data)}
     for key, part in car.parts.items():
         sections = data[key]

@@ -1,5 +1,6 @@
 """Reading a tyre from any file."""
 
+from importlib.resources.abc import Traversable
 from pathlib import Path
 
 from ...core.errors import InputError
@@ -9,8 +10,19 @@ from .magic_formula import MagicFormula
 from .tmeasy import TMeasy
 from .tyre import Tyre
 
-PACKAGED = f"{__package__.rpartition('.')[0]}.data.tyres"
+_PACKAGED = f"{__package__.rpartition('.')[0]}.data.tyres"
 """Where the tyres are that come with kintrafo."""
+
+
+def packaged_tyres() -> dict[str, Traversable]:
+    """Return the files of the tyres that come with kintrafo, by their names.
+
+    Examples
+    --------
+    >>> "passenger_205_55" in packaged_tyres()
+    True
+    """
+    return data_sets(_PACKAGED, ".tir") | data_sets(_PACKAGED, ".json")
 
 
 def load(path_or_name: str | Path) -> Tyre:
@@ -33,7 +45,7 @@ def load(path_or_name: str | Path) -> Tyre:
     """
     with Validator("load") as given:
         given.path("path_or_name", path_or_name)
-    packaged = data_sets(PACKAGED, ".tir")
+    packaged = packaged_tyres()
     path = Path(str(packaged.get(str(path_or_name), path_or_name)))
     if path.suffix.lower() == ".tir":
         return MagicFormula.load(path)

@@ -6,13 +6,14 @@ What a car must be is computed here from these files once more, in the axes of C
 from __future__ import annotations
 
 import json
+import shutil
 from typing import TYPE_CHECKING, Any
 
 import kintrafo
 import numpy as np
 import pytest
 from folders import DATA
-from kintrafo import InputError, Model, chrono, sweep
+from kintrafo import InputError, Model, chrono, sweep, tyres
 from kintrafo.vehicle.cli import app
 from kintrafo.vehicle.models.car.car import center_of_gravity, masses
 from scipy.spatial.transform import Rotation
@@ -249,6 +250,22 @@ def test_a_file_that_names_vehicle_and_tire_is_read(tmp_path: Path, found: Any) 
     whole = chrono.read_vehicle(root / "generic/Whole.json")
     assert whole.car.to_dict() == found.car.to_dict()
     assert "Whole.json > Zombie = 1" in whole.left_out
+
+
+def test_a_tyre_that_rolls_is_that_of_a_car_that_drives(tmp_path: Path) -> None:
+    root = folder(tmp_path)
+    tire = shutil.copy(DATA / "chrono/TMeasyTire.json", root / "generic/tire/TMeasyTire.json")
+    found = chrono.read_vehicle(root / VEHICLE, tire=tire)
+    brake = FILES["generic/brake/BrakeSimple.json"]["Maximum Torque"]
+    assert found.car.described.brakes.torque_Nm == pytest.approx(4.0 * brake)
+    drives = found.car.with_changes({"car": "full"})
+    assert drives.tyre("rear_left").radius == found.car.axles["rear"].left.tyre.radius_mm / 1e3
+    # the rate of its tyre spring is the slope of the load over the deflection at the nominal load
+    tyre = tyres.load(tire)
+    loads = tyre.nominal_load * np.array([0.999, 1.001])
+    radii = tyre.evaluate(load=loads).loaded_radius
+    rate = found.car.axles["front"].left.tyre.rate_N_per_m
+    assert rate == pytest.approx(-np.diff(loads)[0] / np.diff(radii)[0], rel=1e-5)
 
 
 MISTAKES: dict[str, dict[tuple[Any, ...], Any]] = {

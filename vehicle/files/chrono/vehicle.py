@@ -17,6 +17,7 @@ from ....core.errors import InputError
 from ...input.commented_json import content
 from ...models.car import Car
 from ...models.car.car import center_of_gravity
+from ...tyres import load
 from .keys import Part, checked, listed, others, shown
 from .parts import POINTS_ONLY, raised_moments
 from .reading import imported, suspension_file
@@ -42,6 +43,7 @@ Kind = TypeVar("Kind", bound=Part)
 ENDS = ("front", "rear")
 
 _GRAVITY = 9.81
+_TIR = "TIR Specification File"
 _STEERINGS: Mapping[str, type[RackPinion] | type[PitmanArm]] = {
     "RackPinion": RackPinion,
     "PitmanArm": PitmanArm,
@@ -140,6 +142,8 @@ class _Reader:
         self.files: list[Path] = []
         self.assumed: list[str] = []
         self.left_out: list[str] = []
+        self.rolling: dict[str, str | None] = {}
+        self.torques: list[float] = []
         self.path, self.tire = path, tire
         self.folder = Folder(path)
 
@@ -175,6 +179,7 @@ class _Reader:
             "rear_origin_mm": rounded(-base),
             "body": chassis.section(origin),
         }
+        data |= self._driving()
         if chassis.driver is not None:
             place = np.array(chassis.driver.location) - origin
             data["seats"] = {"driver": {"place_mm": [rounded(value) for value in place]}}
@@ -274,12 +279,21 @@ class _Reader:
                 ["the radius of the tire is needed, and is not in this file."], str(file)
             )
         self.files.append(file)
-        rate = [] if tire.rate is not None else [
-            f"tire: {TYRE_RATE / 1e3:g} N/mm, as {file.name} has no constant vertical stiffness"
-        ]  # fmt: skip
-        self.assumed += [*rate, *tire.assumed]
+        self.rolling[end] = self._rolling(file)
+        self.assumed += tire.assumed
         self.left_out += [f"{file.name} > {line.removeprefix('tire > ')}" for line in tire.left_out]
-        return tire
+        return tire if tire.rate is not None else self._with_a_rate(tire, file, self.rolling[end])
+
+    def _with_a_rate(self, tire: Tire, file: Path, rolling: str | None) -> Tire:
+        """Return a tire whose file has no constant stiffness with one."""
+        if rolling is None:
+            rate, words = TYRE_RATE, f"as {file.name} has no constant vertical stiffness"
+        else:
+            tyre = load(rolling)
+            state = tyre.evaluate(load=tyre.nominal_load)
+            rate, words = float(state.vertical_stiffness), f"of {file.name} at its nominal load"
+        self.assumed.append(f"tire: {rate / 1e3:.4g} N/mm, {words}")
+        return replace(tire, rate=rate)
 
     def _section(
         self,
@@ -355,14 +369,41 @@ class _Reader:
             else self._part(Brake, axle.left_brake, "Axles > Left Brake Input File").torque
             for axle in vehicle.axles
         ]
-        total = sum(torques)
+        total, self.torques = sum(torques), torques
         if not total:
             return {}
         self.assumed.append(
-            f"brakes: {torques[0]:g} N m at a front wheel and {torques[1]:g} N m at a rear one at "
-            "most, of which the car has the share of the front ones"
+            f"brakes: {torques[0]:g} N m at a front wheel and {torques[1]:g} N m at a rear one "
+            "with the pedal down"
         )
         return {"front_brake_share": round(torques[0] / total, 9)}
+
+    def _driving(self) -> dict[str, Any]:
+        """Return what a car that drives has besides: tyres, if their files can be read, and brakes.
+
+        The car itself does not drive before its file says so.
+        """
+        if None in self.rolling.values():
+            return {}
+        self.assumed.append('tyres: those of a car that drives, which it does with car = "full"')
+        brakes = {} if not any(self.torques) else {
+            "brakes": {"torque_Nm": 2.0 * sum(self.torques)}
+        }  # fmt: skip
+        return {"tyres": {**self.rolling, "relaxation": False}} | brakes
+
+    def _rolling(self, file: Path) -> str | None:
+        """Return the file of a tyre that rolls, or None with a reason among what is assumed."""
+        given = content(file).get(_TIR)
+        try:
+            tyre = file if not isinstance(given, str) else self.folder.find(given, _TIR)
+            load(tyre)
+        except InputError as error:
+            self.assumed.append(
+                f"tyres: none for a car that drives, as {file.name} cannot be read as one: "
+                f"{error.problems[0]}"
+            )
+            return None
+        return str(tyre)
 
     def _shares(self, vehicle: VehicleFile) -> dict[str, float]:
         """Return the share of the driving force by end; empty where nothing drives."""

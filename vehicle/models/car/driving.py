@@ -8,13 +8,12 @@ from pydantic import Field, ValidationError, WithJsonSchema
 
 from ....core.errors import InputError
 from ....core.validator import shown
-from ...data import data_sets
 from ...input.messages import messages_of
 from ...input.section import Flag, NonNegative, Number, Positive, Section, Triple
 from ...input.units import in_metres
 from ...input.vehicle import Share
 from ...tyres import LinearSlip, Tyre, load
-from ...tyres.loading import PACKAGED
+from ...tyres.loading import packaged_tyres
 
 _TYRE = Annotated[
     Any,
@@ -156,6 +155,6 @@ def tyre_of(given: Any, end: str, folder: Path) -> Tyre:
 
 def named(given: Any, folder: Path) -> Any:
     """Return the name of a packaged tyre, or the path of a file from where one works; else it."""
-    if not isinstance(given, str | Path) or given in data_sets(PACKAGED, ".tir"):
+    if not isinstance(given, str | Path) or given in packaged_tyres():
         return given
     return str(folder / given)
