@@ -95,6 +95,7 @@ def _model(known: ModelDescription) -> str:
         "assumptions": [
             _row(quoted(a["meaning"]), quoted(a["remedy"])) for a in manifest["assumptions"]
         ],
+        "zeros": sum("least" not in a for a in manifest["assumptions"]),
         "tensors": [_row(quoted(body), _row(*places)) for body, places in tensors(places)],
         "guard_use": uses,
         "constants": list(map(quoted, equations.CONSTANTS)),
@@ -119,9 +120,13 @@ def _functions(emitted: Emitted) -> dict[str, Any]:
     there = [result for result in found.values() if result is not None and result.length]
     named = {
         name: "NULL" if result is None or not result.length else result.function
-        for name in ("rhs", "rhs_jacobian", "signals", "margins")
+        for name in (
+            "rhs", "rhs_jacobian", "signals", "margins", "rhs_tangent", "signals_tangent",
+        )
         for result in (emitted.result(name),)
-    }
+    }  # fmt: skip
+    tangents = {named["rhs_tangent"], named["signals_tangent"]} != {"NULL"}
+    named["prepare_tangent"] = f"{emitted.name}_prepare_tangent" if tangents else "NULL"
     return {
         "functions": named | {"linearisation": there[0].function if there else "NULL"},
         "linearised": there[0].size if there else 0,

@@ -15,6 +15,7 @@ import pytest
 from c_text import EMITTED
 from exported import system_named
 from folders import ROOT
+from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.targets.fmi import binaries
 from kintrafo.targets.fmi.units import powers
@@ -228,7 +229,54 @@ def test_derivatives_of_other_variables_are_refused(unit, version):
     assert "neither a derivative of a state" in instance.said
     instance.derivative(["spring_force"], ["parameters.crank_mass"], [1.0])
     assert instance.status == ERROR
-    assert "neither a state nor an input" in instance.said
+    assert "those by crank_mass are not there" in instance.said
+    instance.derivative(["spring_force"], ["solver.step"], [1.0])
+    assert instance.status == ERROR
+    assert "neither a state, nor an input, nor a parameter" in instance.said
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_derivatives_by_parameters(tmp_path, version):
+    """Those of `kintrafo.derivative`, and of central differences over the unit's own parameters."""
+    module = kintrafo.compile(FOUR_BAR, parameter_derivatives=True)
+    system = kintrafo.System(module)
+    path, start_values = tmp_path / "a.fmu", {"crank_angle": 0.3, "crank_angle_rate": 1.5}
+    kintrafo.export_model(system, path, "fmu", fmi=version)
+    known = Unit(path, tmp_path / "unpacked")
+    names = [*system.parameters]
+    knowns = ["crank_angle", *(f"parameters.{name}" for name in names)]
+    _, rates, _, signals = variables("four_bar")
+    unknowns = [*rates, *signals]
+    instance = known.instance("ModelExchange")
+    assert instance.initialise(**start_values) == OK
+    at = system.state(**start_values)
+    found = []
+    for name, reference in zip(["crank_angle", *names], knowns, strict=True):
+        found.append(instance.derivative(unknowns, [reference], [1.0]))
+        by = [kintrafo.derivative(system, f, {name: 1.0}, at) for f in ("rhs", "signals")]
+        np.testing.assert_allclose(found[-1], np.concatenate(by), rtol=1e-12, atol=1e-12)
+    found = np.array(found)
+    seed = np.random.default_rng(3).normal(size=len(knowns))
+    # sums of so many products in another order
+    along = instance.derivative(unknowns, knowns, seed)
+    np.testing.assert_allclose(along, seed @ found, rtol=1e-9, atol=1e-9)
+    if version == 3:
+        weights = seed[: len(unknowns)]
+        adjoint = instance.derivative(unknowns, knowns, weights, adjoint=True)
+        np.testing.assert_allclose(adjoint, found @ weights, rtol=1e-9, atol=1e-9)
+    step = 1e-6
+    for name in ("crank_pin_x", "spring_rate", "coupler_mass"):
+        row = 1 + names.index(name)
+        sides = []
+        for sign in (1.0, -1.0):
+            assert instance.call("Reset") == OK
+            moved = {f"parameters.{name}": system.parameters[name] + sign * step}
+            assert instance.initialise(**start_values, **moved) == OK
+            sides.append(np.array(instance.get(*unknowns)))
+        differences = (sides[0] - sides[1]) / (2.0 * step)
+        scale = np.abs(found[row]).max() + np.abs(sides[0]).max()
+        np.testing.assert_allclose(found[row], differences, atol=1e-6 * scale)
+    instance.free()
 
 
 # -- Co-Simulation --------------------------------------------------------------------------------

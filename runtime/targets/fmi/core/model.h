@@ -62,8 +62,12 @@ typedef struct {
     int states, inputs, signals, parameters, constants, guards, events, assumptions, tensors;
     int positions, speeds; /* of the states */
     int linearised; /* size of what `linearisation` computes */
+    int zeros;      /* so many assumptions, the first ones, are of what is taken to be zero */
     km_of_parameters prepare, design_state;
     km_function rates, jacobian, signals_of, margins, linearisation;
+    /* along a direction, which follows the values of each array; NULL where the equations have none */
+    km_of_parameters prepare_tangent;
+    km_function rates_tangent, signals_tangent;
     km_places places;
     const km_parameter *parameter;
     const km_input *input;

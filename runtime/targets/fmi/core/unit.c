@@ -108,12 +108,36 @@ static size_t number_count(void)
     return 6 + (size_t)m->parameters + (size_t)m->states + (size_t)KU_ORDERS * m->inputs;
 }
 
+static size_t size_of_tangents(void)
+{
+    const km_model *m = &km_this;
+    if (!m->prepare_tangent) {
+        return 0;
+    }
+    return 2 * ((size_t)m->parameters + m->constants + m->states + m->inputs) + m->states + m->signals;
+}
+
+static void lay_out_tangents(ku_tangents *t, double *at)
+{
+    const km_model *m = &km_this;
+    if (!m->prepare_tangent) {
+        return;
+    }
+    t->parameters = at;
+    t->constants = t->parameters + 2 * m->parameters;
+    t->state = t->constants + 2 * m->constants;
+    t->inputs = t->state + 2 * m->states;
+    t->rates = t->inputs + 2 * m->inputs;
+    t->signals = t->rates + m->states;
+}
+
 static size_t size_of_all(void)
 {
     const km_model *m = &km_this;
     size_t n = (size_t)m->states;
     return number_count() + (size_t)m->constants + n + m->signals + m->guards + n * n + m->linearised
-        + m->events + 3 * n + 2 * (size_t)m->inputs + 6 * (size_t)m->guards + 1;
+        + m->events + 3 * n + 2 * (size_t)m->inputs + 6 * (size_t)m->guards
+        + size_of_tangents() + 1;
 }
 
 unit *ku_open(const char *label, const char *token, int co_simulation, int logging,
@@ -151,6 +175,7 @@ unit *ku_open(const char *label, const char *token, int co_simulation, int loggi
     u->way.inputs = u->way.ahead + m->states;
     u->way.inputs_ahead = u->way.inputs + m->inputs;
     u->way.margins = u->way.inputs_ahead + m->inputs;
+    lay_out_tangents(&u->tangents, u->way.margins + 6 * m->guards);
     if (!token || strcmp(token, km_token()) != 0) {
         ku_say(u, KU_ERROR,
                "the token of the model description is not that of this library, which is %s: they are "

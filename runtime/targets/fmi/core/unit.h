@@ -36,6 +36,11 @@ typedef struct {
     double *state, *inputs, *rates, *ahead, *inputs_ahead, *margins;
 } ku_way;
 
+/* Values with a direction behind them, and how rates and signals change along it. */
+typedef struct {
+    double *parameters, *constants, *state, *inputs, *rates, *signals;
+} ku_tangents;
+
 typedef struct unit unit;
 typedef void (*ku_report)(const unit *u, int status, const char *category, const char *message);
 
@@ -60,6 +65,7 @@ struct unit {
     double last_time; /* of the last step that came to its end */
     int stopped;      /* a step came to a dead point */
     ku_way way;
+    ku_tangents tangents;
     /* Co-Simulation */
     kt_problem problem;
     kt_options options;
