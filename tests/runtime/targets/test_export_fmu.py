@@ -21,6 +21,7 @@ from kintrafo.targets.fmi import binaries
 from kintrafo.targets.fmi.units import powers
 from mockup import DISCARD, ERROR, OK, Unit
 from own_models import STRICT, UNOPTIMISED
+from own_yokes import WHEEL_ON_A_YOKE
 
 pytestmark = pytest.mark.skipif(
     find_compiler() is None or sys.platform != "linux", reason="no compiler for Linux"
@@ -69,7 +70,10 @@ def truth(name, times, **options):
 
 def variables(name):
     """Return names of states, derivatives, inputs and signals in the order of the arrays."""
-    system = system_named(name)
+    return variables_of(system_named(name))
+
+
+def variables_of(system):
     rates = [f"der({n})" for n in system.state_names]
     return list(system.state_names), rates, list(system.input_names), list(system.signal_names)
 
@@ -276,6 +280,30 @@ def test_derivatives_by_parameters(tmp_path, version):
         differences = (sides[0] - sides[1]) / (2.0 * step)
         scale = np.abs(found[row]).max() + np.abs(sides[0]).max()
         np.testing.assert_allclose(found[row], differences, atol=1e-6 * scale)
+    instance.free()
+
+
+def test_parameters_that_cannot_move_alone_are_refused(tmp_path):
+    """Also beside others, however little they move."""
+    module = kintrafo.compile(WHEEL_ON_A_YOKE, parameter_derivatives=True, backend="numpy")
+    system = kintrafo.System(module)
+    weights = np.ones(system.equations.rhs.shape)
+    by = kintrafo.gradient(system, "rhs", weights, system.design_state)
+    bound = next(name for name, value in by.items() if np.isnan(value))
+    free = next(
+        n for n, e in system.equations.PARAMETERS.items() if e["unit"] == "m" and np.isfinite(by[n])
+    )
+    kintrafo.export_model(system, tmp_path / "a.fmu", "fmu")
+    instance = Unit(tmp_path / "a.fmu", tmp_path / "unpacked").instance("ModelExchange")
+    assert instance.initialise() == OK
+    rates = variables_of(system)[1]
+    found = instance.derivative(rates, [f"parameters.{free}"], [1.0])
+    assert sum(found) == pytest.approx(float(by[free]), rel=1e-9)
+    for knowns in ([bound], [free, bound]):
+        named = [f"parameters.{name}" for name in knowns]
+        instance.derivative(rates, named, [1.0, 1e-6][-len(named) :])
+        assert instance.status == ERROR
+        assert "cannot move alone. They leave what the equations take to be zero" in instance.said
     instance.free()
 
 

@@ -86,16 +86,16 @@ static int is_geometry(const char *unit)
 }
 
 /* Find out what the equations take to be zero and a direction does not keep; NULL: it keeps all. */
-static const km_assumption *broken(unit *u)
+static const km_assumption *left_by(unit *u, const double *direction)
 {
     const km_model *m = &km_this;
-    double *values = u->tangents.parameters, *direction = values + m->parameters, size = 0.0, length = 0.0;
+    double *values = u->tangents.parameters, size = 0.0, length = 0.0;
     for (int i = 0; i < m->parameters; ++i) {
         const char *unit = m->parameter[i].unit;
         size = is_geometry(unit) ? fmax(size, fabs(direction[i])) : size;
         length = strcmp(unit, "m") ? length : fmax(length, fabs(values[i]));
     }
-    if (!m->zeros || size == 0.0) {
+    if (size == 0.0) {
         return NULL;
     }
     for (int i = 0; i < m->parameters; ++i) {
@@ -104,6 +104,21 @@ static const km_assumption *broken(unit *u)
     int number = m->prepare(values, u->tangents.constants) - m->constants;
     memcpy(values, u->now.parameters, (size_t)m->parameters * sizeof *values);
     return number > 0 && number <= m->zeros ? &m->assumption[number - 1] : NULL;
+}
+
+/* The same of the direction behind the parameters: of those of them that cannot move alone, which would be too small
+   to be seen beside the rest. */
+static const km_assumption *broken(unit *u)
+{
+    const km_model *m = &km_this;
+    const double *direction = u->tangents.parameters + m->parameters;
+    double *one = u->tangents.one, *bound = u->tangents.bound;
+    for (int i = 0; m->zeros && i < m->parameters; ++i) {
+        one[i] = 1.0;
+        bound[i] = direction[i] != 0.0 && left_by(u, one) ? direction[i] : 0.0;
+        one[i] = 0.0;
+    }
+    return m->zeros ? left_by(u, bound) : NULL;
 }
 
 /* Evaluate how rates and signals change along the direction that is behind the parameters. */

@@ -114,7 +114,7 @@ static size_t size_of_tangents(void)
     if (!m->prepare_tangent) {
         return 0;
     }
-    return 2 * ((size_t)m->parameters + m->constants + m->states + m->inputs) + m->states + m->signals;
+    return 2 * (2 * (size_t)m->parameters + m->constants + m->states + m->inputs) + m->states + m->signals;
 }
 
 static void lay_out_tangents(ku_tangents *t, double *at)
@@ -129,6 +129,8 @@ static void lay_out_tangents(ku_tangents *t, double *at)
     t->inputs = t->state + 2 * m->states;
     t->rates = t->inputs + 2 * m->inputs;
     t->signals = t->rates + m->states;
+    t->one = t->signals + m->signals;
+    t->bound = t->one + m->parameters;
 }
 
 static size_t size_of_all(void)

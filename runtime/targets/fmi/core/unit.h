@@ -39,6 +39,7 @@ typedef struct {
 /* Values with a direction behind them, and how rates and signals change along it. */
 typedef struct {
     double *parameters, *constants, *state, *inputs, *rates, *signals;
+    double *one, *bound; /* directions of one parameter, and of those that cannot move alone */
 } ku_tangents;
 
 typedef struct unit unit;
