@@ -257,7 +257,7 @@ def test_the_chosen_member_is_written(kintrafo: Any, tmp_path: Path) -> None:
         "pareto", "reference_car", "s.toml", *QUICK, "--member", 2, "--car", "car.toml"
     )
     assert code == 0, err
-    for words in ("as it is", "compromise", "chosen", "values of member 2", "on the front"):
+    for words in ("file", "compromise", "chosen", "values of member 2", "on the front"):
         assert words in " ".join(out.split()), out
     written = Suspension.load(tmp_path / "car.toml")
     code, out, _ = kintrafo("pareto", "reference_car", "s.toml", *QUICK, "--json", "--member", 2)
