@@ -132,6 +132,7 @@ def native_call(
             case.inputs,
             [],
             np.zeros(0),  # milestones
+            np.zeros((2, 0)),  # turns of inputs
             case.start,
             times,
             method=NATIVE_METHODS[method],

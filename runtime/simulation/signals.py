@@ -5,11 +5,13 @@ the derivatives that the model takes beside it (the velocity of a road, velocity
 a rack). Two things keep an integrator from missing what happens:
 
 - a segment ends, and the integration begins anew, where something that the model takes jumps;
-- no step passes over a time at which something that the model takes turns, or has a kink.
+- no step passes over a time at which something that the model takes has a kink, nor over one at
+  which it turns, but where the turn is slow beside the step.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -23,7 +25,7 @@ from ..systems.inputs import Inputs, derived_inputs, may_jump, rates_of
 from ..systems.system import System
 from .courses import Signal, course
 from .interpolation import Eased
-from .turning import turning_points
+from .turning import merged, turning_points
 
 Array = NDArray[np.float64]
 
@@ -58,14 +60,39 @@ class Segment:
     start, end : float
         [s]
     splines : tuple of Spline
-    milestones : ndarray
+    kinks : ndarray
         Times within that no step passes over, in the order in which they come [s].
+    turns : tuple of ndarray, shape (2, n)
+        Of each input, see `turning_points`; times likewise in their order.
     """
 
     start: float
     end: float
     splines: tuple[Spline, ...]
-    milestones: Array
+    kinks: Array
+    turns: tuple[Array, ...] = ()
+
+    @cached_property
+    def milestones(self) -> Array:
+        """Times at which any input has a kink or turns."""
+        return self.milestones_of(np.inf)
+
+    def milestones_of(self, step: float) -> Array:
+        """Return the times that no step of a length passes over [s]."""
+        fast = [turns[0, turns[1] < step] for turns in self.turns]
+        return _within(self, np.concatenate([self.kinks, *fast]))
+
+    @cached_property
+    def free(self) -> tuple[Array, Array]:
+        """Times that no step passes over, and turns that one passes up to their reach.
+
+        Those at which a single input turns are few, and steps that end there fail less often. Of
+        several inputs, such as the roads under four wheels, they would cut every step.
+        """
+        if sum(turns.size > 0 for turns in self.turns) < 2:
+            return self.milestones, np.empty((2, 0))
+        turns = merged(self.turns, _near(self))
+        return self.kinks, np.ascontiguousarray(turns[:, ::-1] if self.end < self.start else turns)
 
 
 @dataclass(frozen=True)
@@ -108,16 +135,21 @@ class TimeInputs:
     def with_milestones(self, times: Array) -> "TimeInputs":
         """Return the same with more times that no step passes over, in any order [s]."""
         segments = (
-            replace(part, milestones=_within(part, np.concatenate([part.milestones, times])))
+            replace(part, kinks=_within(part, np.concatenate([part.kinks, times])))
             for part in self.segments
         )
         return replace(self, segments=tuple(segments))
 
 
+def _near(part: Segment) -> float:
+    """Return by how much times differ that are two to an integrator."""
+    return _RESOLVED * max(abs(part.start), abs(part.end))
+
+
 def _within(part: Segment, times: Array) -> Array:
     """Return the times within a segment that differ, in its order."""
     first, last = min(part.start, part.end), max(part.start, part.end)
-    near = _RESOLVED * max(abs(first), abs(last))
+    near = _near(part)
     times = np.unique(times)
     within = times[(times > first + near) & (times < last - near)]
     within = within[np.diff(within, prepend=-np.inf) > near]
@@ -131,7 +163,8 @@ class _Collected:
     constant: Array
     curves: dict[str, list[PPoly]] = field(default_factory=dict)
     borders: set[float] = field(default_factory=set)
-    milestones: list[Array] = field(default_factory=list)
+    kinks: list[Array] = field(default_factory=list)
+    turns: dict[str, list[Array]] = field(default_factory=dict)
 
 
 def time_inputs(
@@ -215,7 +248,8 @@ def _segments(
     backward = last < first
     inside = (t for t in collected.borders if min(t_span) < t < max(t_span))
     borders = [first, *sorted(inside, reverse=backward), last]
-    milestones = np.concatenate([*collected.milestones, np.empty(0)])
+    kinks = np.concatenate([*collected.kinks, np.empty(0)])
+    turns = [merged(parts) for parts in collected.turns.values()]
     segments = []
     for start, end in pairwise(borders):
         middle = (start + end) / 2
@@ -223,8 +257,9 @@ def _segments(
             Spline(_covering(curves, middle), _targets(name, inputs))
             for name, curves in collected.curves.items()
         ]
-        part = Segment(start, end, tuple(splines), milestones)
-        segments.append(replace(part, milestones=_within(part, milestones)))
+        part = Segment(start, end, tuple(splines), kinks)
+        within = tuple(one[:, np.isin(one[0], _within(part, one[0]))] for one in turns)
+        segments.append(replace(part, kinks=_within(part, kinks), turns=within))
     return tuple(segments)
 
 
@@ -255,11 +290,11 @@ def _collect(collected: _Collected, name: str, found: Sequence[PPoly], rates: in
             if times.size:
                 _check_jump(name, float(times[0]), order, rates)
         if not rates and smooth < 1:
-            collected.milestones.append(_breaks(curve, 1))
+            collected.kinks.append(_breaks(curve, 1))
         parts += _split(curve, np.unique(np.concatenate([*cuts, np.empty(0)])))
     collected.curves[name] = parts
     collected.borders.update(float(part.x[0]) for part in parts[1:])
-    collected.milestones += [turning_points(part, range(rates + 1)) for part in parts]
+    collected.turns[name] = [turning_points(part, range(rates + 1)) for part in parts]
 
 
 def _check_jump(name: str, time: float, order: int, rates: int) -> None:

@@ -106,7 +106,7 @@ def simulate(
         methods use the exact Jacobian.
     step : float, optional
         Length of all steps of 'RK4' and 'RODASP' [s], which have no tolerances. One is shorter
-        where an input jumps or turns, and at the end; near a dead point more are.
+        where an input jumps or turns fast, and at the end; near a dead point more are.
     t_eval : array_like, optional
         Times of the output; every step by default. As in SciPy, the point of a terminal event is in
         ``t_events`` and not in the output then.
@@ -151,7 +151,8 @@ def simulate(
     and a function that jumps is refused. Velocity and acceleration of a prescribed position are
     the derivatives of the curve through the samples, or of the spline that follows the function.
     No step passes over a time at which an input, or a derivative of it that the model takes,
-    turns from rising to falling.
+    turns from rising to falling; those of 'RK4', 'RODASP' and, where several inputs turn, of
+    'DormandPrince' do where the turn is slow beside the step.
 
     Without stops in its data, the strut may become longer than its greatest length, or very short.
     The event 'strut_fully_extended' watches the former, a `SignalEvent` of ``strut_length`` the

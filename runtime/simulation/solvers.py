@@ -209,7 +209,7 @@ def solve_native(
         model.constants,
         inputs.constant,
         [_contiguous(spline.curve, spline.targets) for spline in segment.splines],
-        segment.milestones,
+        *_times_of(segment, options),
         np.ascontiguousarray(state),
         np.ascontiguousarray(times),
         method=NATIVE_METHODS[options.method],
@@ -247,6 +247,14 @@ def solve_native(
         longest_step=raw["longest_step"],
         detail=_WHY.get(raw["code"], f"{native_name(options.method)} returned {raw['code']}"),
     )
+
+
+def _times_of(segment: Segment, options: Options) -> tuple[Array, Array]:
+    """Return the times that no step passes over, and turns of inputs that some may pass."""
+    if options.method == "DormandPrince":
+        return segment.free
+    step = options.max_step if options.method in FIXED_STEP_METHODS else np.inf
+    return segment.milestones_of(step), np.empty((2, 0))
 
 
 def _contiguous(curve: Any, targets: tuple[int, int, int]) -> tuple[Array, Array, Any]:

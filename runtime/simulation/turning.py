@@ -1,4 +1,4 @@
-"""Where an input turns: no step of an integration passes over these times."""
+"""Where an input turns, and which steps of an integration may pass over these times."""
 
 from collections.abc import Sequence
 
@@ -11,6 +11,10 @@ Array = NDArray[np.float64]
 # Swings below this part of the range are noise: of a value, and of its derivatives, which a spline
 # through the values of a function has less well.
 _NOISE = (1e-9, 1e-6, 1e-3)
+# A step that passes over a turn is at most so many times as long as a value needs for a part of
+# the swing beside it. For a sine that is 2.4 times the time between two turns, so that about one at
+# most is between two stages of a step: errors by pulses are those of steps that end at all turns.
+_NEAR, _STEPS = 0.1, 12.0
 
 
 def turning_points(curve: PPoly, orders: Sequence[int]) -> Array:
@@ -18,6 +22,7 @@ def turning_points(curve: PPoly, orders: Sequence[int]) -> Array:
 
     Between two of them all rise or fall: a step from one to another sees how far. An integrator
     that is free to pass over them may see nothing of a bump that begins and ends within its step.
+    A step sees what turns slowly beside it: up to the reach of a turn its stages lie close enough.
 
     Parameters
     ----------
@@ -28,18 +33,34 @@ def turning_points(curve: PPoly, orders: Sequence[int]) -> Array:
 
     Returns
     -------
-    ndarray
-        In order [s].
+    ndarray, shape (2, n)
+        Times in order, and how long a step may be that passes over each [s].
 
     Examples
     --------
     >>> from scipy.interpolate import CubicSpline
     >>> wave = CubicSpline([0.0, 1.0, 2.0, 3.0, 4.0], [0.0, 1.0, 0.0, -1.0, 0.0])
     >>> turning_points(wave, [0]).round(2).tolist()
-    [0.85, 3.15]
+    [[0.85, 3.15], [3.58, 3.58]]
     """
-    found = [_of(curve.derivative(order), _NOISE[order]) for order in orders]
-    return np.unique(np.concatenate(found))
+    return merged([_of(curve.derivative(order), _NOISE[order]) for order in orders])
+
+
+def merged(turns: Sequence[Array], near: float = 0.0) -> Array:
+    """Return all turns of some in order, those of one time with the least reach.
+
+    Parameters
+    ----------
+    turns : sequence of ndarray, shape (2, n)
+    near : float, optional
+        Times that differ by less are one [s].
+    """
+    together = np.concatenate([*turns, np.empty((2, 0))], axis=1)
+    together = together[:, np.argsort(together[0], kind="stable")]
+    begins = np.flatnonzero(np.diff(together[0], prepend=-np.inf) > near)
+    if not begins.size:
+        return together
+    return np.stack([together[0, begins], np.minimum.reduceat(together[1], begins)])
 
 
 def _of(curve: PPoly, noise: float) -> Array:
@@ -50,7 +71,41 @@ def _of(curve: PPoly, noise: float) -> Array:
     # of each stretch in one sense only the ends can be turning points
     turns = moves[1:][np.sign(rises[moves[1:]]) != np.sign(rises[moves[:-1]])]
     ends = np.concatenate(([0], turns, [values.size - 1]))
-    return candidates[ends[_swings(values[ends], noise * np.ptp(values))]]
+    kept = ends[_swings(values[ends], noise * np.ptp(values))]
+    bend = curve.derivative(2)
+    sides = [np.abs(bend(np.nextafter(candidates[kept], towards))) for towards in (-np.inf, np.inf)]
+    return np.stack([candidates[kept], _reaches(candidates, values, kept, np.maximum(*sides))])
+
+
+def _reaches(times: Array, values: Array, turns: NDArray[np.intp], bends: Array) -> Array:
+    """Return how long steps may be that pass over turns, by how long the values stay near them.
+
+    Parameters
+    ----------
+    times, values : ndarray
+        Of the curve, which rises or falls between two of them.
+    turns : ndarray
+        Places of its extrema among them.
+    bends : ndarray
+        Magnitude of the second derivative there.
+    """
+    borders = np.concatenate(([0], turns, [values.size - 1]))
+    swing = np.searchsorted(turns, np.arange(values.size), side="right")
+    rise = np.diff(values[borders])
+    # a swing after the other, each from 0 to 1; the first and last may be none
+    part = (values - values[borders[swing]]) / np.where(rise == 0.0, 1.0, rise)[swing]
+    along = np.maximum.accumulate(swing + np.clip(part, 0.0, 1.0))
+    number = np.arange(1, turns.size + 1)
+    near = np.full(turns.size, np.inf)
+    for sense in (-1, 1):
+        straight = np.abs(np.interp(number + sense * _NEAR, along, times) - times[turns])
+        # beside the turn the curve is a parabola, and a straight line between its points farther on
+        size = np.abs(rise[number if sense > 0 else number - 1])
+        with np.errstate(divide="ignore"):
+            bent = np.sqrt(2.0 * _NEAR * size / bends)
+        beside = np.abs(times[turns + sense] - times[turns])
+        near = np.minimum(near, np.maximum(straight, np.minimum(bent, beside)))
+    return _STEPS * near
 
 
 def _extrema(curve: PPoly) -> Array:

@@ -10,6 +10,7 @@ from as_commands import ROOT, run_module
 from kintrafo.simulation import solvers
 from kintrafo.simulation.lanes.library import widths
 from kintrafo.simulation.solvers import native_available
+from own_models import needs_gcc
 
 from benchmarks import friction, paper_timing, report, work_precision
 
@@ -126,7 +127,8 @@ def test_without_sundials_scipy_remains(monkeypatch, case):
 
 def test_page_names_only_known_blocks():
     found = re.findall(r"<!-- begin (\w+) -->", PAGE.read_text())
-    assert found == ["machine", "methods", "ratios", "stiffness", "costs", "friction", "accuracy"]
+    first = ["machine", "methods", "ratios", "stiffness", "costs", "friction"]
+    assert found == [*first, "braking_rates", "braking", "accuracy"]
 
 
 def test_table_and_page(tmp_path):
@@ -180,3 +182,17 @@ def test_steps_of_one_length_are_measured(tmp_path):
     run_module("benchmarks.real_time", "--quick", "--page", page)
     assert "ms at most" in page.read_text()
     assert "| 20 " in page.read_text()
+
+
+@needs_gcc
+@NEEDS_SUNDIALS
+def test_braking_to_standstill_is_measured(tmp_path):
+    """Steady slip at standstill: explicit steps of a millisecond fail, and implicit ones do not."""
+    page = tmp_path / "gear.md"
+    blocks = ("braking_rates", "braking")
+    page.write_text("".join(f"<!-- begin {b} -->\n<!-- end {b} -->\n" for b in blocks))
+    run_module("benchmarks.braking", "--quick", "--page", page)
+    lines = page.read_text().splitlines()
+    by = {line.split("|")[2].strip(): line for line in lines if line.count("|") == 8}
+    assert "refused" in by["RK4, 1 ms"]
+    assert " 5 000 " in by["RODASP, 1 ms"]

@@ -37,6 +37,7 @@ typedef struct {
     bits running;
     bits fresh; /* nothing is known of the rates yet: a step of no length finds them */
     real time, goal; /* no step passes over the goal: a milestone, or the end of a segment */
+    real aim;        /* of the next step: the goal, or a time before at which inputs turn */
     real step;       /* the next one, as the error allows; 0: to be chosen */
     real trusted;    /* no longer one may be taken, since a margin falls */
     real longest;    /* so far */
@@ -45,7 +46,7 @@ typedef struct {
     bits tried, taken, stuck;
     bits stiff, calm; /* how often stability has limited the step, and how often in a row it has not */
     int segment[WIDTH];
-    long milestone[WIDTH], output[WIDTH];
+    long milestone[WIDTH], turn[WIDTH], output[WIDTH];
     real due; /* time of the next output, infinite behind the last */
 
     real *constants, *state, *end_state, *stage, *inputs;

@@ -19,6 +19,9 @@ typedef struct {
     const kt_course *courses;
     long milestone_count;
     const double *milestones; /* times that no step passes over, increasing */
+    long turn_count;
+    const double *turns; /* times at which inputs turn, likewise */
+    const double *reaches; /* no step passes over a turn that is longer than this */
 } kt_segment;
 
 /* What the inputs of some systems do over the whole time. */

@@ -58,7 +58,7 @@ static void set_goal(crew *w, int lane)
 
 static void open_segment(crew *w, int lane)
 {
-    w->milestone[lane] = 0;
+    w->milestone[lane] = w->turn[lane] = 0;
     w->fresh[lane] = -1;
     w->trusted[lane] = INFINITY;
     w->step[lane] = w->p->first_step;
@@ -148,10 +148,40 @@ static void refill(crew *w)
 
 /* -- a step ----------------------------------------------------------------------------------- */
 
-/* Return how long a step may be; `lands` are the lanes that reach their goal with it. */
-static real planned(const crew *w, bits *lands)
+/* Return the first turn of a lane's inputs that a step of some length does not pass over, or else the goal. */
+static double next_turn(crew *w, int lane, double step)
 {
-    real most = lesser(lesser(w->step, w->trusted), SPREAD(w->p->max_step)), left = w->goal - w->time;
+    const kt_segment *s = segment_of(w, lane);
+    double time = w->time[lane], far = time + 2.0 * step;
+    long *turn = &w->turn[lane];
+    while (*turn < s->turn_count && s->turns[*turn] <= time) {
+        ++*turn;
+    }
+    for (long k = *turn; k < s->turn_count && s->turns[k] < far; ++k) {
+        if (s->reaches[k] < step) {
+            return s->turns[k] < w->goal[lane] ? s->turns[k] : w->goal[lane];
+        }
+    }
+    return w->goal[lane];
+}
+
+/* Let each lane aim at its goal, or at a turn of its inputs before. */
+static void take_aim(crew *w, real step)
+{
+    w->aim = w->goal;
+    for (int l = 0; l < WIDTH; ++l) {
+        if (w->running[l] && segment_of(w, l)->turn_count) {
+            w->aim[l] = next_turn(w, l, step[l]);
+        }
+    }
+}
+
+/* Return how long a step may be; `lands` are the lanes that reach with it what they aim at. */
+static real planned(crew *w, bits *lands)
+{
+    real most = lesser(lesser(w->step, w->trusted), SPREAD(w->p->max_step));
+    take_aim(w, most);
+    real left = w->aim - w->time;
     /* two equal steps, rather than one and what remains */
     real step = choose(left < 2.0 * most, 0.5 * left, most);
     *lands = (left <= most) & ~w->fresh;
@@ -324,7 +354,7 @@ static void settle(crew *w, bits good, bits lands, bits refused, real step)
 {
     const kt_problem *p = w->p;
     real rounding = ROUNDING * greater(magnitude(w->time), SPREAD(p->end - p->start));
-    bits over = good & (w->guard != NO_GUARD), passed = good & lands & ~over;
+    bits over = good & (w->guard != NO_GUARD), passed = good & lands & (w->aim == w->goal) & ~over;
     bits stuck = w->running & ~good
         & (~(w->step >= rounding) | (refused & ~(w->step >= smallest_step(w))));
     bits many = w->running & (w->tried >= p->max_steps), stiff = w->running & (w->stiff >= OFTEN_STIFF);
@@ -354,7 +384,7 @@ static void sweep(crew *w)
 {
     bits lands, fresh = w->fresh;
     real step = planned(w, &lands), lapse;
-    real reached = choose(lands, w->goal, w->time + step);
+    real reached = choose(lands, w->aim, w->time + step);
     real took = reached - w->time; /* as times have it, which margins go by */
     bits refused = attempt(w, step);
     see_stiff(w, w->running & ~refused & ~fresh, step);

@@ -175,6 +175,9 @@ class _Segment(ctypes.Structure):
         ("courses", ctypes.POINTER(_Course)),
         ("milestone_count", ctypes.c_long),
         ("milestones", _DOUBLES),
+        ("turn_count", ctypes.c_long),
+        ("turns", _DOUBLES),
+        ("reaches", _DOUBLES),
     ]
 
 
@@ -382,10 +385,14 @@ class Problem:
             _Segment(
                 segment.end,
                 self._array(_Course, [self._course(s.curve) for s in segment.splines]),
-                segment.milestones.size,
-                self._doubles(segment.milestones),
+                milestones.size,
+                self._doubles(milestones),
+                turns.shape[1],
+                self._doubles(turns[0]),
+                self._doubles(turns[1]),
             )
             for segment in drive.segments
+            for milestones, turns in (segment.free,)
         ]
         return _Drive(len(segments), self._array(_Segment, segments))
 

@@ -16,6 +16,7 @@ def integrate(
     inputs: Array,
     splines: Sequence[tuple[Array, Array, tuple[int, int, int]]],
     milestones: Array,
+    turns: Array,
     state: Array,
     times: Array,
     *,

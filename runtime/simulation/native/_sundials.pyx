@@ -37,6 +37,9 @@ cdef extern from "integrate.h" nogil:
         const kt_spline *splines
         long milestone_count
         const double *milestones
+        long turn_count
+        const double *turns
+        const double *reaches
         int event_count
         const kt_event *events
         int root_count
@@ -161,8 +164,8 @@ cdef _copy(const kt_table *table):
 
 def integrate(
     addresses, layout, const double[::1] constants, const double[::1] inputs, splines,
-    const double[::1] milestones, const double[::1] state, const double[::1] times, *, method, double rtol,
-    const double[::1] atol, double first_step, double max_step, long max_steps,
+    const double[::1] milestones, const double[:, ::1] turns, const double[::1] state,
+    const double[::1] times, *, method, double rtol, const double[::1] atol, double first_step, double max_step, long max_steps,
     bint every_step, bint stop_at_outputs, bint dense, int signal_count, events, roots,
     const int[::1] directions, const int[::1] terminal, const int[::1] guards,
     const double[::1] usual_margins, stopped=None,
@@ -206,6 +209,9 @@ def integrate(
         problem.splines = spline_array
         problem.milestone_count = milestones.shape[0]
         problem.milestones = &milestones[0] if milestones.shape[0] else NULL
+        problem.turn_count = turns.shape[1]
+        problem.turns = &turns[0, 0] if turns.shape[1] else NULL
+        problem.reaches = &turns[1, 0] if turns.shape[1] else NULL
         problem.event_count = len(events)
         problem.events = event_array
         problem.root_count = len(caller.functions)

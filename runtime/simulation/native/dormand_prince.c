@@ -113,13 +113,16 @@ static double first_step(const worker *w)
     return lesser(step, size > 1.0e-10 ? of_state : 1.0e-4);
 }
 
-/* Return how long the next step is: as planned, if nothing is in its way. */
-static double planned(const worker *w)
+/* Return how long the next step is: as planned, if nothing is in its way; and the time that limits it. */
+static double planned(worker *w, double *goal)
 {
     const method *m = w->own;
     double most = lesser(m->next, w->trusted);
     most = w->options->max_step > 0.0 ? lesser(most, w->options->max_step) : most;
-    double left = m->sign * (m->stop - m->time);
+    double far = lesser(m->sign * m->stop, m->sign * m->time + 2.0 * most);
+    *goal = kt_next_turn(w, m->time, m->sign * far, most);
+    *goal = *goal == m->sign * far ? m->stop : *goal;
+    double left = m->sign * (*goal - m->time);
     /* two equal steps, rather than one and what remains */
     return left <= most ? left : left < 2.0 * most ? 0.5 * left : most;
 }
@@ -186,14 +189,14 @@ static int go_on(worker *w)
 static int take_step(worker *w)
 {
     method *m = w->own;
-    double least = ROUNDING * fmax(fabs(m->time), fabs(w->end - w->start)), length, error;
+    double least = ROUNDING * fmax(fabs(m->time), fabs(w->end - w->start)), length, error, goal;
     int code = go_on(w), again = 0;
     if (code) {
         return code;
     }
     for (;;) {
         double plan = m->next;
-        length = planned(w);
+        length = planned(w, &goal);
         if (attempt(w, m->sign * length)) {
             m->next = length;
             return KT_REFUSED;
@@ -217,7 +220,7 @@ static int take_step(worker *w)
     }
     ++m->counted.steps;
     m->error = greater(error, LOG2_LEAST_SQUARE);
-    m->reached = length == m->sign * (m->stop - m->time) ? m->stop : m->time + m->sign * length;
+    m->reached = length == m->sign * (goal - m->time) ? goal : m->time + m->sign * length;
     return 0;
 }
 

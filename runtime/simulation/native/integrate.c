@@ -60,6 +60,24 @@ static void evaluate_inputs_near(worker *w, double other, double time)
 
 void kt_evaluate_inputs(worker *w, double time) { evaluate_inputs_near(w, time, time); }
 
+double kt_next_turn(worker *w, double time, double end, double step)
+{
+    const kt_problem *p = w->problem;
+    double sign = end > time ? 1.0 : -1.0;
+    while (w->turn > 0 && sign * (p->turns[w->turn - 1] - time) > 0.0) {
+        --w->turn;
+    }
+    while (w->turn < p->turn_count && sign * (p->turns[w->turn] - time) <= 0.0) {
+        ++w->turn;
+    }
+    for (long k = w->turn; k < p->turn_count && sign * (p->turns[k] - end) < 0.0; ++k) {
+        if (p->reaches[k] < step) {
+            return p->turns[k];
+        }
+    }
+    return end;
+}
+
 /* -- the model -------------------------------------------------------------------------------- */
 
 /* A refused state is recoverable: the solver tries a smaller step, and gives up by itself. */

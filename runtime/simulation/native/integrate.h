@@ -44,6 +44,9 @@ typedef struct {
     const kt_spline *splines;
     long milestone_count;
     const double *milestones; /* times that no step passes over, in the order of the integration */
+    long turn_count;
+    const double *turns; /* times at which inputs turn, likewise */
+    const double *reaches; /* no step passes over a turn that is longer than this */
     int event_count; /* of the model's signals; they come before the caller's */
     const kt_event *events;
     int root_count; /* of the caller */

@@ -49,6 +49,7 @@ struct worker {
     void *own;
     double *y, *scratch;
     double *inputs, *signals;
+    long turn;           /* the first time at which an input turns behind that reached */
     int *piece;          /* of each spline: where it was evaluated last */
     int *crossings;      /* of each event */
     int caller_failed;
@@ -62,6 +63,9 @@ struct worker {
     int stuck;           /* very short steps in a row */
     double asked;        /* when the caller was asked last whether to go on [s] */
 };
+
+/* Return the first turn between two times that a step of some length does not pass over, or else the second. */
+double kt_next_turn(worker *w, double time, double end, double step);
 
 /* Evaluate the inputs at a time. */
 void kt_evaluate_inputs(worker *w, double time);

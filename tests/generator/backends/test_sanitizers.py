@@ -148,11 +148,12 @@ int main(void)
     inputs[3 * MACPHERSON_INPUT_COUNT + MACPHERSON_INPUT_STRUT_FORCE] = -1e6;
     for (int i = 0; i < STATES; ++i) atol[i] = 1e-9;
     for (int i = 0; i < TIMES; ++i) times[i] = 0.05 * i, weights[i] = 0.05;
-    double breaks[3] = {{0.0, 0.2, 0.5}}, milestones[1] = {{0.2}};
+    double breaks[3] = {{0.0, 0.2, 0.5}}, milestones[1] = {{0.2}}, reaches[1] = {{1e-3}};
     double coefficients[8] = {{0.01, 0.0, 0.0, 0.01, 0.0, 0.01, 0.0, 0.0}};
     kt_course course = {{2, breaks, coefficients}};
-    kt_segment whole = {{0.5, &course, 1, milestones}};
-    kt_segment halves[2] = {{{{0.3, &course, 1, milestones}}, {{0.5, &course, 0, milestones}}}};
+    kt_segment whole = {{0.5, &course, 0, milestones, 1, milestones, reaches}};
+    kt_segment halves[2] = {{{{0.3, &course, 1, milestones, 0, milestones, reaches}},
+                              {{0.5, &course, 0, milestones, 0, milestones, reaches}}}};
     kt_drive drives[2] = {{{{1, &whole}}, {{2, halves}}}};
     int targets[3] = {{MACPHERSON_INPUT_RACK_POSITION, MACPHERSON_INPUT_RACK_VELOCITY,
                       MACPHERSON_INPUT_RACK_ACCELERATION}};

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from kintrafo import InputError, Model, Samples, equilibrium, simulate
+from kintrafo import InputError, Model, Samples, System, ensemble, equilibrium, rest, simulate
+from kintrafo.generated import front_axle
 from kintrafo.simulation.interpolation import curves
 from kintrafo.simulation.signals import time_inputs
 from kintrafo.simulation.solvers import native_available
@@ -259,6 +260,45 @@ def test_no_step_passes_over_a_turn_of_the_road(backend, method):
     )  # fmt: skip
     assert {times[1201], times[1202]} <= set(result.t)
     assert result.inputs[:, 4].max() == road.max()
+
+
+@pytest.mark.skipif(not native_available(), reason="nothing is integrated in C")
+def test_steps_pass_over_slow_turns_of_several_inputs():
+    """Two roads: waves that turn slowly do not cut the steps, and no pulse on them is missed."""
+    axle = System(front_axle)
+    start, at = rest(axle, axle.design_state), np.linspace(0.0, 2.0, 201)
+    times = np.linspace(0.0, 2.0, 2001)
+    accuracy = {"method": "DormandPrince", "rtol": 1e-4, "atol": 1e-6}
+    truths = []
+    for pulses in ((), (402, 911, 1701)):
+        roads = {}
+        for side, phase in (("right", 0.0), ("left", 2.0)):
+            road = 0.002 * np.sin(20.0 * times + phase)
+            for place in pulses:
+                road[place : place + 4] += 0.01
+            roads[f"{side}_road_height"] = (times, road)
+        truth = simulate(
+            axle, (0.0, 2.0), start, inputs=roads, method="Verner", t_eval=at, rtol=1e-9, atol=1e-11
+        ).y
+        found = simulate(axle, (0.0, 2.0), start, inputs=roads, t_eval=at, **accuracy)
+        truths.append(np.abs(truth[4:]).max())
+        assert np.abs(found.y - truth).max() < 5e-3 * truths[-1]
+        whole = simulate(axle, (0.0, 2.0), start, inputs=roads, **accuracy)
+        met = np.isin(time_inputs(axle, roads, (0.0, 2.0)).segments[0].milestones, whole.t)
+        assert met.any() == bool(pulses)
+        in_lanes = ensemble(axle, {}, (0.0, 2.0), start, inputs=roads, rtol=1e-4, atol=1e-6)
+        assert set(in_lanes.steps.values.ravel()) == {found.steps}
+    assert truths[1] > 2.0 * truths[0]  # which the pulses move
+
+
+def test_fixed_steps_end_at_fast_turns_alone():
+    times = np.linspace(0.0, 2.0, 2001)
+    road = 0.005 * np.sin(20.0 * times)
+    road[701] += 0.005
+    segment = time_inputs(MODEL, {"road_height": (times, road)}, (0.0, 2.0)).segments[0]
+    assert segment.milestones.size > 10
+    np.testing.assert_allclose(segment.milestones_of(5e-3), times[701:703], atol=2e-3)
+    assert segment.milestones_of(1e-5).size == 0
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
