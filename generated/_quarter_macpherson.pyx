@@ -41,7 +41,7 @@ cdef extern from "quarter_macpherson.h" nogil:
         const double *constants, const double *state, const double *inputs,
         double *out)
 
-MECHANISM = "1f0404cc0a8de229"
+MECHANISM = "dd14672bb83c222e"
 ADDRESSES = {
     "prepare": <uintptr_t> &quarter_macpherson_prepare,
     "design_state": <uintptr_t> &quarter_macpherson_design_state,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.loader import load
@@ -16,17 +17,29 @@ if TYPE_CHECKING:
     from kintrafo.generator import Formulation
 
 
-def check_with_the_oracle(model: Formulation, folder: Path, reach: float, count: int = 10) -> Built:
+def check_with_the_oracle(
+    model: Formulation,
+    folder: Path,
+    reach: float,
+    count: int = 10,
+    *,
+    operations: int | None = None,
+) -> Built:
     """See that loops close, that rates keep them closed, and that accelerations are the oracle's.
 
     Parameters
     ----------
     reach
         How far from the design position the independent coordinates are taken.
+    operations
+        At most that many has a call of the right-hand side.
     """
+    derived = generate(model, derivatives=False)
+    if operations is not None:
+        assert operations_of(derived.functions["rhs"]).total() <= operations
     target = folder / f"{model.name}-arrays"
     target.mkdir()
-    build(generate(model, derivatives=False), target, None)
+    build(derived, target, None)
     built = Built.of(model, load(target))
     names = list(built.module.INPUTS)
     random = np.random.default_rng(0)

@@ -11,7 +11,7 @@ import sympy as sp
 from ..declare.geometry import FORWARD, UP
 from ..declare.joints import Joint, Prismatic, Revolute
 from ..kinematics.hinge_angles import HingeDesign
-from ..kinematics.motion import Axes, BodyMotion, from_axes, to_axes
+from ..kinematics.motion import Axes, BodyMotion, Turn, from_axes, to_axes
 from ..loops.errors import NoClosedFormError
 from ..loops.forms import Follower
 from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Z, ZERO, Twist, Vector
@@ -100,6 +100,7 @@ def _place_revolute(kin: Kinematics, joint: Revolute, parent_name: str, child: s
         local=frame.local,
         carrier=(parent_name, frame.origin),
         hinge=joint.name,
+        turn=Turn(cosine, sine, (y, z)),
     )
     for k, twist in parent.motion.items():
         velocity = twist.linear + twist.angular.cross(frame.origin)

@@ -482,15 +482,17 @@ def place_at(
         Further points and the hinge, as in `BodyMotion`.
     """
     on, point = at
+    origin = kin.point_motion(on, point)
     kin.placed[body] = BodyMotion(
         body,
-        origin=kin.point_motion(on, point).position,
+        origin=origin.position,
         axes=axes,
         design_origin=kin.design(point),
         design_axes=design_axes,
         local={point: ZERO, **(local or {})},
         carrier=(on, kin.local(kin.placed[on], point)),
         hinge=hinge,
+        at=origin,
     )
     return kin.placed[body]
 

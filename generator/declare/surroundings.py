@@ -30,7 +30,8 @@ class Surroundings(Protocol):
     """Places, twists and directions of the bodies, in program steps.
 
     Vectors are in the axes of the body that is named, or in those of the world: x forward, y left,
-    z up. Coordinates are those that are independent or prescribed. Bodies, joints and coordinates
+    z up. Axes of a body that hangs on a base which turns, as the body of a car, are those of the
+    base. Coordinates are those that are independent or prescribed. Bodies, joints and coordinates
     are given by their names; where there is none of a name, `UnseenError` says which there are.
     """
 
@@ -71,7 +72,7 @@ class Surroundings(Protocol):
     # -- bodies --
 
     def local(self, body: str, point: Point) -> Vector:
-        """Return the constant coordinates of a point, in body axes.
+        """Return the way from the origin of a body to a point of it, in its axes.
 
         Parameters
         ----------
@@ -80,7 +81,7 @@ class Surroundings(Protocol):
         """
 
     def direction(self, body: str, direction: Direction) -> Vector:
-        """Return the constant components of a direction fixed in a body, in body axes.
+        """Return the components of a direction fixed in a body, in its axes.
 
         Parameters
         ----------
@@ -89,7 +90,7 @@ class Surroundings(Protocol):
         """
 
     def line(self, body: str, direction: Direction, follows: bool) -> Vector:
-        """Return a unit vector in body axes, fixed in the body if it follows, or in the world.
+        """Return a unit vector in the axes of a body, fixed in it if it follows, or in the world.
 
         Parameters
         ----------
@@ -100,13 +101,13 @@ class Surroundings(Protocol):
         """
 
     def up(self, body: str) -> Vector:
-        """Return the upward unit vector of the world, in body axes."""
+        """Return the upward unit vector of the world, in the axes of a body."""
 
     def twists(self, body: str) -> Mapping[str, Twist]:
-        """Return the twist per unit rate of each coordinate that moves a body, in body axes."""
+        """Return the twist per unit rate of each coordinate that moves a body, in its axes."""
 
     def momenta(self) -> Iterator[tuple[str, str, Vector]]:
-        """Yield body, coordinate and linear momentum per unit rate, in body axes, where mass is."""
+        """Yield body, coordinate and linear momentum per unit rate, in its axes, where mass is."""
 
     def height(self, body: str, local: Vector) -> sp.Expr:
         """Return the height of a point of a body in the world.
@@ -127,7 +128,7 @@ class Surroundings(Protocol):
         """
 
     def in_world(self, body: str, vector: Vector) -> Vector:
-        """Return the components in the world of a vector in body axes.
+        """Return the components in the world of a vector in the axes of a body.
 
         Parameters
         ----------

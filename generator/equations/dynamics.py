@@ -8,16 +8,16 @@ the model:
   momentum about the spin axis remains;
 * for a body moved by a single coordinate, ``twist . (twist x* momentum)`` vanishes identically.
 
-What a free body carries is seen from it through six numbers: the momentum of each coordinate, and
-what inertia asks of the base, are summed up about its centre of mass, in its axes. So the mass
-matrix of the base is the inertia of all that it carries, and that of all coordinates is an arrow:
-parts of which neither moves the other meet in the rows of the base alone, which are eliminated
-last.
+What hangs on a base is summed up, about its centre of mass and in its axes (`on_base`). So the mass
+matrix of the base is the inertia of all that it carries, each other coordinate meets it in six
+numbers, and the mass matrix of all is an arrow: parts of which neither moves the other meet in
+the rows of the base alone, which are eliminated last.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import sympy as sp
@@ -27,13 +27,17 @@ from ..declare.declared import DeclarationError
 from ..declare.geometry import Direction
 from ..declare.joints import Revolute
 from ..kinematics.hinge_angles import positive_axis_at_design
-from ..kinematics.motion import Axes, BodyMotion, from_axes, to_axes
+from ..kinematics.motion import BodyMotion, from_axes, to_axes
 from ..program.conditions import Condition
 from ..program.floors import POSITIVE, SINGULAR
 from ..program.functions import Frozen
 from ..program.vectors import ELEMENTS, NO_TWIST, ZERO, SymmetricTensor, Twist, Vector
 from .acting import acted, shown_by
 from .admissible import Admissible
+from .inertia import Inertia
+from .on_base.loaded import Loaded
+from .on_base.moving import Moving
+from .on_base.sums import kind_of
 from .surroundings import Seen
 
 if TYPE_CHECKING:
@@ -42,7 +46,6 @@ if TYPE_CHECKING:
     from ..declare.bodies import Body
     from ..declare.forces.force import Action, Force
     from ..declare.shown import Shown
-    from ..kinematics.carried import Carried
     from .in_motion import InMotion
     from .surroundings import Momenta
 
@@ -53,76 +56,6 @@ MANY = 4
 derivatives of the mass matrix, whose elements are as many as pairs of coordinates. That saves a
 twelfth of the operations of an open chain's Jacobian with four coordinates and a sixth with six,
 and a quarter of those of a Stewart platform's; with two it takes more."""
-
-
-@dataclass
-class Inertia:
-    """Mass, first moment and inertia tensor about the body's origin, in body axes."""
-
-    mass: sp.Expr
-    moment: Vector
-    tensor: SymmetricTensor
-
-    @classmethod
-    def none(cls) -> Inertia:
-        """Return the inertia of a massless body."""
-        return cls(NONE, Vector.of(0, 0, 0), SymmetricTensor.zero())
-
-    def __add__(self, other: Inertia) -> Inertia:
-        return Inertia(
-            self.mass + other.mass, self.moment + other.moment, self.tensor + other.tensor
-        )
-
-    def add_point(self, mass: sp.Expr, at: Vector) -> None:
-        """Add a point mass."""
-        self.mass += mass
-        self.moment += at * mass
-        self.tensor += SymmetricTensor.of_point_mass(mass, at)
-
-    def linear_momentum(self, twist: Twist) -> Vector:
-        """Return ``m v + omega x mc``."""
-        momentum: Vector = twist.linear * self.mass + twist.angular.cross(self.moment)
-        return momentum
-
-    @property
-    def is_none(self) -> bool:
-        """Whether there is no inertia at all."""
-        return self.mass == 0 and self.moment.is_zero and all(e == 0 for e in self.tensor)
-
-    def about(self, arm: Vector, axes: Axes) -> Inertia:
-        """Return it about another point, in other axes.
-
-        Parameters
-        ----------
-        arm
-            From that point to the origin, in the other axes.
-        axes
-            Its own axes, in the other ones.
-
-        Notes
-        -----
-        With c the first moment, the tensor gains that of a point mass at the arm, and
-        ``2 (r . c) 1 - r c^T - c r^T``.
-        """
-        moment = from_axes(axes, self.moment)
-        (x, y, z), (gx, gy, gz) = arm, arm * self.mass + moment * 2
-        half = sp.Rational(1, 2)
-        moved = SymmetricTensor(
-            y * gy + z * gz,
-            x * gx + z * gz,
-            x * gx + y * gy,
-            -half * (x * gy + y * gx),
-            -half * (x * gz + z * gx),
-            -half * (y * gz + z * gy),
-        )
-        x_axis, y_axis, z_axis = (Vector(*row) for row in zip(*axes, strict=True))
-        turned = self.tensor.in_axes((x_axis, y_axis, z_axis))
-        return Inertia(self.mass, moment + arm * self.mass, turned + moved)
-
-    def spin_momentum(self, twist: Twist) -> Vector:
-        """Return ``I omega + mc x v``."""
-        momentum: Vector = self.tensor @ twist.angular + self.moment.cross(twist.linear)
-        return momentum
 
 
 @dataclass(frozen=True)
@@ -156,13 +89,13 @@ class Dynamics:
         self.inertia: dict[str, Inertia] = {}
         self.rotors: list[Rotor] = []
         self.accelerations: dict[str, sp.Expr] = {}
+        self._loaded = {base.body: Loaded(self.program, base, self.names) for base in moving.bases}
         self.program.section("inertia")
         self._gather_inertia()
         self._matrix: dict[tuple[str, str], sp.Expr] = {}
         self._bias: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
         self._force: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
         self._momentum: Momenta = {}
-        self._at_base = {base.body: self.inertia[base.body] for base in moving.bases}
         self._wrenches: list[tuple[BodyMotion, Inertia, Twist]] = []
         self._factors: dict[tuple[str, str], sp.Expr] = {}
         self._actions: list[Action] = []
@@ -184,11 +117,16 @@ class Dynamics:
                 self._add_rigid(body)
         for name in reversed(self.placed):
             placed, inertia = self.placed[name], self.inertia[name]
-            if placed.carrier is not None and inertia.mass != 0:
+            if placed.carrier is not None and inertia.mass != 0 and not self._is_centred(name):
                 carrier, at = placed.carrier
                 self.inertia[carrier].add_point(inertia.mass, at)
                 inertia.mass = NONE
         self.inertia = {name: self._name_inertia(name, i) for name, i in self.inertia.items()}
+
+    def _is_centred(self, body: str) -> bool:
+        """Return whether a body on a base is seen about its centre of mass, so that it keeps it."""
+        carried = self.moving.carried.get(body)
+        return carried is not None and body not in self._loaded and kind_of(carried) is Moving
 
     def _add_rigid(self, body: Body) -> None:
         """Add a body given by mass, centre and tensor in ground axes at the design position."""
@@ -267,19 +205,26 @@ class Dynamics:
     # -- bodies ---------------------------------------------------------------------------------
 
     def _add_bodies(self) -> None:
-        bases = [base.body for base in self.moving.bases]
         for name, placed in self.placed.items():
-            if placed.motion and not self._is_rotor(name) and name not in bases:
-                self.program.section(f"dynamics: {name}")
-                self._add_body(placed, self.inertia[name])
-        for name in bases:  # when all that they carry is known
+            if not placed.motion or self._is_rotor(name) or name in self._loaded:
+                continue
             self.program.section(f"dynamics: {name}")
-            self._add_body(
-                self.placed[name], self._name_inertia(f"{name}_in_all", self._at_base[name])
-            )
+            loaded = self._base_of(name)
+            if loaded is None:
+                self._add_body(placed, self.inertia[name])
+            elif not self.inertia[name].is_none:
+                loaded.add(self.moving.carried[name], self.inertia[name])
+        for name, loaded in self._loaded.items():
+            self.program.section(f"dynamics: {name}")
+            loaded.complete(self.inertia[name])
+            self._matrix |= loaded.matrix
+            self._momentum |= {(name, k): momentum for k, momentum in loaded.momenta.items()}
         for rotor in self.rotors:
             self.program.section(f"dynamics: spin of {rotor.body.name}")
             self._add_rotor(rotor)
+        for name, loaded in self._loaded.items():
+            self.program.section(f"dynamics: {name}")
+            self._bias |= loaded.taken("_left", {})
 
     def _is_rotor(self, name: str) -> bool:
         return any(rotor.body.name == name for rotor in self.rotors)
@@ -310,9 +255,6 @@ class Dynamics:
                     energy = one.angular.dot(angular[other]) + two.angular.dot(offset[k])
                 energy += inertia.mass * one.linear.dot(two.linear)
                 self._matrix[k, other] = self._matrix.get((k, other), NONE) + energy
-        self._add_to_base(
-            placed, inertia, {k: Twist(angular[k], self._momentum[body, k]) for k in columns}
-        )
         if len(columns) == 1 and columns[0] in self.coordinates.single_coordinate:
             self._add_single_bias(placed, columns[0], angular[columns[0]])
         else:
@@ -320,40 +262,18 @@ class Dynamics:
 
     def _own(self, placed: BodyMotion) -> list[str]:
         """Return the coordinates that move a body on its base; of a free body, its own."""
-        others = [k for k, base in self._of_base.items() if base != placed.body]
-        return [k for k in self.names if k in placed.motion and k not in others]
+        return [k for k in self.names if k in placed.motion]
 
-    def _base_of(self, placed: BodyMotion) -> Carried | None:
-        """Return how a free body carries another one; None where it rests on the ground."""
-        carried = self.moving.carried.get(placed.body)
-        return carried if carried and carried.base.body != placed.body else None
+    def _base_of(self, body: str) -> Loaded | None:
+        """Return what carries a body, with all that it carries; None where it is on the ground."""
+        carried = self.moving.carried.get(body)
+        return self._loaded[carried.base.body] if carried else None
 
-    def _add_to_base(self, placed: BodyMotion, inertia: Inertia, momenta: dict[str, Twist]) -> None:
-        """Add inertia and momenta of a carried body to those of what carries it."""
-        carried = self._base_of(placed)
-        if carried is None or inertia.is_none:
-            return
-        base, label = carried.base, f"{placed.body}_on_{carried.base.body}"
-        self._at_base[base.body] += self._name_inertia(
-            label, inertia.about(carried.arm, carried.axes)
-        )
-        for k, momentum in momenta.items():
-            seen = carried.on_base(f"{label}_{k}", momentum)
-            for own, share in base.shares(seen).items():
-                self._matrix[own, k] = self._matrix.get((own, k), NONE) + share
-
-    def _project(
-        self, placed: BodyMotion, wrench: Twist, label: str, total: dict[str, sp.Expr]
-    ) -> None:
+    def _project(self, placed: BodyMotion, wrench: Twist, total: dict[str, sp.Expr]) -> None:
         """Add what a wrench on a body does along every coordinate that moves it."""
         for k in self._own(placed):
             twist = placed.motion[k]
             total[k] += twist.angular.dot(wrench.angular) + twist.linear.dot(wrench.linear)
-        carried = self._base_of(placed)
-        if carried is not None:
-            seen = carried.on_base(f"{placed.body}_{label}", wrench)
-            for k, share in carried.base.shares(seen).items():
-                total[k] += share
 
     def _add_single_bias(self, placed: BodyMotion, k: str, angular: Vector) -> None:
         """B = momentum . (d twist/dq) q'^2; the convective part vanishes identically."""
@@ -379,20 +299,62 @@ class Dynamics:
         )
         wrench = Twist(couple, force)
         self._wrenches.append((placed, inertia, wrench))
-        self._project(placed, wrench, "inertia", self._bias)
+        self._project(placed, wrench, self._bias)
 
     def _add_rotor(self, rotor: Rotor) -> None:
         """Gyroscopic part of a rotor on its carrier; the rest is in `_solve` and `full`."""
-        if self.coordinates.rate_scale_of(rotor.carrier) != 1:
+        if self.coordinates.rate_scale_of(self._relative(rotor)) != 1 and not self._is_turned(
+            rotor
+        ):
             return  # axis x omega is perpendicular to omega, the only direction of motion
-        omega = self.part_of[rotor.carrier.body].total(rotor.carrier).angular
-        spin = self.coordinates.true_rate(rotor.coordinate) + rotor.axis.dot(omega)
+        loaded = self._base_of(rotor.carrier.body)
+        axis, columns, omega = self._seen(rotor)
+        spin = self.coordinates.true_rate(rotor.coordinate) + axis.dot(omega)
         momentum = self.program.define(f"{rotor.body.name}_spin_momentum", rotor.inertia * spin)
-        swing = omega.cross(rotor.axis)
+        swing = omega.cross(axis)
+        if self._is_turned(rotor):
+            swing = self.program.vector(f"{rotor.body.name}_swing", swing)  # see `_spin_bias`
         couple = self.program.vector(f"{rotor.body.name}_gyroscopic", swing * momentum, "123")
+        if loaded is not None:
+            loaded.add_couple(columns, couple)
+            return
         self._wrenches.append((rotor.carrier, Inertia.none(), Twist(couple, ZERO)))
-        for k in self._carried(rotor):
-            self._bias[k] += rotor.carrier.motion[k].angular.dot(couple)
+        for k, along in columns.items():
+            self._bias[k] += along.dot(couple)
+
+    def _seen(self, rotor: Rotor) -> tuple[Vector, dict[str, Vector], Vector]:
+        """Return the axis of a rotor, and how its carrier turns: with coordinates, and in all.
+
+        In the axes of its base, without the coordinates of that; in those of the carrier where it
+        is on the ground.
+        """
+        body, placed = rotor.carrier.body, self._relative(rotor)
+        if not self._is_turned(rotor):
+            columns = {k: placed.motion[k].angular for k in self.names if k in placed.motion}
+            return rotor.axis, columns, self.part_of[body].total(placed).angular
+        carried, program = self.moving.carried[body], self.program
+        base = carried.base
+        axis = program.vector(
+            f"{rotor.body.name}_axis_on_{base.body}", from_axes(carried.axes, rotor.axis)
+        )
+        rates, omega, columns = self.coordinates.true_rate, base.omega, {}
+        for k, twist in carried.relative.motion.items():
+            name = f"{body}_on_{base.body}_omega_{k}"
+            turning = program.vector(name, from_axes(carried.axes, twist.angular))
+            omega += turning * rates(k)
+            if k in self.names:
+                columns[k] = turning
+        return axis, columns, program.vector(f"{body}_on_{base.body}_turning", omega)
+
+    def _relative(self, rotor: Rotor) -> BodyMotion:
+        """Return the motion of the carrier of a rotor on its base, or on the ground."""
+        carried = self.moving.carried.get(rotor.carrier.body)
+        return rotor.carrier if carried is None else carried.relative
+
+    def _is_turned(self, rotor: Rotor) -> bool:
+        """Return whether the carrier of a rotor is on a base that turns."""
+        loaded = self._base_of(rotor.carrier.body)
+        return loaded is not None and loaded.base.turns
 
     def _carried(self, rotor: Rotor) -> list[str]:
         return [k for k in self.names if k in rotor.carrier.motion]
@@ -453,6 +415,11 @@ class Dynamics:
             raise DeclarationError(" ".join(force.identity), [problem])
         return found
 
+    def _scale(self, k: str) -> sp.Expr:
+        """Return by whose square a bias is scaled: on a base it is one at the true rates."""
+        on_base = any(k in loaded.coordinates for loaded in self._loaded.values())
+        return sp.Integer(1) if on_base else self.coordinates.rate_scale(k)
+
     # -- equations ------------------------------------------------------------------------------
 
     def _carried_matrix(self, k: str, other: str) -> sp.Expr:
@@ -479,7 +446,7 @@ class Dynamics:
             for i, k in enumerate(rest)
             for other in rest[i:]
         }
-        bias = {k: self._bias[k] * self.coordinates.rate_scale(k) ** 2 for k in rest}
+        bias = {k: self._bias[k] * self._scale(k) ** 2 for k in rest}
         right = {k: program.define(f"net_{k}", self._net(k, bias[k])) for k in rest}
         return self._with_spins(self._cholesky(rest, matrix, right), "acceleration")
 
@@ -531,10 +498,19 @@ class Dynamics:
 
     def _net(self, k: str, inertial: sp.Expr) -> sp.Expr:
         """Return force less inertia; a torque on a rotor's bearing acts back on its carrier."""
-        back = sum(
-            (self._rotor_share(r, k) * self._force[r.coordinate] for r in self._driven_on(k)), NONE
-        )
-        return self._force[k] - inertial - back
+        return self._force[k] - inertial - self._back(k)
+
+    def _back(self, k: str) -> sp.Expr:
+        """Return what the torques on bearings do along a coordinate of their carriers."""
+        rotors = self._driven_on(k)
+        if k not in self._of_base:
+            return sum((self._rotor_share(r, k) * self._force[r.coordinate] for r in rotors), NONE)
+        base = self._loaded[self._of_base[k]].base
+        total = ZERO
+        for rotor in rotors:
+            total += self._seen(rotor)[0] * self._force[rotor.coordinate]
+        total = self.program.vector(f"{base.body}_bearings", total)
+        return base.twists[k].angular.dot(total)
 
     def _driven_on(self, k: str) -> list[Rotor]:
         """Return the rotors with a torque on their bearing whose carrier a coordinate moves."""
@@ -543,18 +519,25 @@ class Dynamics:
 
     def _spin_bias(self, rotor: Rotor, accelerations: dict[str, sp.Expr]) -> sp.Expr:
         """Return the rate of ``axis . omega`` of the carrier."""
-        carrier = rotor.carrier
-        total = (
-            rotor.axis.dot(carrier.bias().angular) * self.coordinates.rate_scale_of(carrier) ** 2
-        )
-        for k in self._carried(rotor):
-            total += self._rotor_share(rotor, k) * accelerations.get(k, NONE)
-        return total
+        own = [k for k in self._carried(rotor) if k not in self._of_base]
+        total = sum((self._rotor_share(rotor, k) * accelerations.get(k, NONE) for k in own), NONE)
+        placed = self._relative(rotor)
+        scale = self.coordinates.rate_scale_of(placed) ** 2
+        total += rotor.axis.dot(placed.bias().angular) * scale
+        loaded = self._base_of(rotor.carrier.body)
+        if loaded is None or not self._is_turned(rotor):
+            return total
+        axis, _, omega = self._seen(rotor)
+        base = loaded.acceleration("_of_all" if accelerations else "_left", accelerations)
+        # a . (w x omega), where omega x a is what the gyroscopic couple has
+        swing = self.program.vector(f"{rotor.body.name}_swing", omega.cross(axis))
+        return total + axis.dot(base.angular) + loaded.base.omega.dot(swing)
 
     def _rotor_share(self, rotor: Rotor, k: str) -> sp.Expr:
-        return self.program.define(
-            f"{rotor.body.name}_share_{k}", rotor.axis.dot(rotor.carrier.motion[k].angular)
-        )
+        axis, columns, _ = self._seen(rotor)
+        base = self._of_base.get(k)
+        along = columns[k] if base is None else self._loaded[base].base.twists[k].angular
+        return self.program.define(f"{rotor.body.name}_share_{k}", axis.dot(along))
 
     def _cholesky(
         self,
@@ -602,6 +585,13 @@ class Dynamics:
 
     # -- derivatives ----------------------------------------------------------------------------
 
+    @cached_property
+    def differentiated(self) -> dict[sp.Symbol, sp.Expr]:
+        """What is differentiated in place of the steps of q'', where that is something else."""
+        again = self.to_differentiate()
+        pairs = ((self.accelerations[k], value) for k, value in again.items())
+        return {step: value for step, value in pairs if step != value and step.is_Symbol}
+
     def to_differentiate(self) -> dict[str, sp.Expr]:
         """Return q'' once more, of few operations when it is differentiated.
 
@@ -612,7 +602,8 @@ class Dynamics:
         """
         rest = self._rest
         most = max((len(placed.motion.keys() & rest) for placed, *_ in self._wrenches), default=0)
-        if self.admissible or most < MANY or self.coordinates.single_coordinate:
+        few = most < MANY or self.coordinates.single_coordinate
+        if self.admissible or (few and not any(base.turns for base in self.moving.bases)):
             return {k: self.accelerations[k] for k in self.coordinates.independent}
         values = {k: self.program.define(f"{k}_value", Frozen(self.accelerations[k])) for k in rest}
         inertial = self._inertial(values)
@@ -635,7 +626,9 @@ class Dynamics:
             force = wrench.linear + inertia.linear_momentum(moved)
             couple = self.program.vector(f"{placed.body}_couple", couple, "123")
             force = self.program.vector(f"{placed.body}_force", force, "123")
-            self._project(placed, Twist(couple, force), "imbalance", total)
+            self._project(placed, Twist(couple, force), total)
+        for loaded in self._loaded.values():
+            total |= loaded.taken("_driven", accelerations)
         return total
 
     def _solved_again(self, names: list[str], right: dict[str, sp.Expr]) -> dict[str, sp.Expr]:
@@ -713,7 +706,7 @@ class Dynamics:
 
     def full_bias(self) -> list[sp.Expr]:
         """Return B of all coordinates, rotors included."""
-        bias = {k: self._bias[k] * self.coordinates.rate_scale(k) ** 2 for k in self.names}
+        bias = {k: self._bias[k] * self._scale(k) ** 2 for k in self.names}
         for rotor in self.rotors:
             rate = self._spin_bias(rotor, {})
             for k, share in self._rotor_row(rotor).items():

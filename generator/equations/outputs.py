@@ -430,6 +430,7 @@ class _Builder:
         values: Iterable[sp.Expr],
         labels: Sequence[str],
         by: str,
+        instead: Mapping[sp.Symbol, sp.Expr] | None = None,
     ) -> None:
         """Add the exact derivatives of some results with respect to the state or the inputs."""
         if not self.derivatives:
@@ -441,7 +442,8 @@ class _Builder:
         )
         title = f"differentiating {what.removeprefix('of ')} by the {by}"
         columns = {
-            s: program.tangents(s, values, str(s)) for s in counted(self._notify, title, symbols)
+            s: program.tangents(s, values, str(s), instead)
+            for s in counted(self._notify, title, symbols)
         }
         entries = {
             f"{label} by {symbol}": column[row]
@@ -640,5 +642,11 @@ class _Builder:
         self._add("signals", "Physical signals, see the enumeration of signals.", results)
         for by, name in (("state", "signals_jacobian"), ("inputs", "signals_input_jacobian")):
             self._add_derivatives(
-                self.program, name, "of the signals", results.values(), list(results), by
+                self.program,
+                name,
+                "of the signals",
+                results.values(),
+                list(results),
+                by,
+                self.dynamics.differentiated,
             )

@@ -12,7 +12,7 @@ from ..declare.joints import Cylindrical, Free, Joint, Prismatic, Revolute
 from ..declare.surroundings import UnseenError
 from ..kinematics.guide_slides import slide_of, sliding_rates
 from ..kinematics.hinge_angles import angle_of, turning_rates
-from ..kinematics.motion import from_axes, to_axes
+from .views import InBody, OnBase
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -58,6 +58,7 @@ class Seen:
         self.independent, self.coordinates = self._driven.unconstrained, self._driven.moving
         self.driven = tuple(self._driven.symbols)
         self._momenta, self._accelerations = momenta, accelerations
+        self._views: dict[str, InBody | OnBase] = {}
 
     @property
     def all_move(self) -> bool:
@@ -108,57 +109,56 @@ class Seen:
     # -- bodies -----------------------------------------------------------------------------------
 
     def local(self, body: str, point: Point) -> Vector:
-        """Return the constant coordinates of a point, in body axes."""
-        placed = self._body(body)
-        return self._part_of[body].local(placed, point)
+        """Return the constant coordinates of a point, in the axes in which a body is seen."""
+        return self._view(body).local(point)
 
     def direction(self, body: str, direction: Direction) -> Vector:
-        """Return the constant components of a direction fixed in a body, in body axes."""
-        placed = self._body(body)
-        return self._part_of[body].local_direction(placed, direction)
+        """Return the constant components of a direction fixed in a body, in these axes."""
+        return self._view(body).direction(direction)
 
     def line(self, body: str, direction: Direction, follows: bool) -> Vector:
-        """Return a unit vector in body axes, fixed in the body if it follows, or in the world."""
-        if follows:
-            return self.direction(body, direction)
-        placed = self._body(body)
-        line = to_axes(placed.axes, self._part_of[body].from_world(direction))
-        name = "up" if direction == UP else f"{direction.name}_in_world"
-        return self.program.vector(f"{body}_{name}", line, "123")
+        """Return a unit vector in these axes, fixed in the body if it follows, or in the world."""
+        view = self._view(body)
+        return view.direction(direction) if follows else view.from_world(direction)
 
     def up(self, body: str) -> Vector:
-        """Return the upward unit vector of the world, in body axes."""
+        """Return the upward unit vector of the world, in the axes in which a body is seen."""
         return self.line(body, UP, follows=False)
 
     def twists(self, body: str) -> Mapping[str, Twist]:
-        """Return the twist per unit rate of each coordinate that moves a body, in body axes."""
-        return self._body(body).motion
+        """Return the twist per unit rate of each coordinate that moves a body, in these axes."""
+        return self._view(body).twists
 
     def momenta(self) -> Iterator[tuple[str, str, Vector]]:
-        """Yield body, coordinate and linear momentum per unit rate, in body axes, where mass is."""
+        """Yield body, coordinate and linear momentum per unit rate, where mass is."""
         yield from ((*key, momentum) for key, momentum in self._momenta.items())
 
     def height(self, body: str, local: Vector) -> sp.Expr:
         """Return the height of a point of a body in the world."""
-        placed, part = self._body(body), self._part_of[body]
-        origin = placed.origin.dot(part.from_world(UP)) + part.height_of_origin
-        return origin + local.dot(self.up(body))
+        return self._view(body).height(local)
 
     def place(self, body: str, local: Vector) -> Vector:
         """Return the position of a point of a body in the world."""
-        placed, part = self._body(body), self._part_of[body]
-        return part.place_in_world(placed.origin + from_axes(placed.axes, local))
+        return self._view(body).place(local)
 
     def in_world(self, body: str, vector: Vector) -> Vector:
-        """Return the components in the world of a vector in body axes."""
-        placed = self._body(body)
-        return self._part_of[body].in_world(from_axes(placed.axes, vector))
+        """Return the components in the world of a vector in the axes in which a body is seen."""
+        return self._view(body).in_world(vector)
 
     def rising(self, body: str, local: Vector) -> sp.Expr:
         """Return the upward acceleration of a point that the coordinates' own leave over."""
-        placed = self._body(body)
-        own = self.up(body).dot(self._part_of[body].point_bias(placed, local))
-        return own * self._driven.rate_scale_of(placed) ** 2
+        return self._view(body).rising(local)
+
+    def _view(self, body: str) -> InBody | OnBase:
+        """Return a body in the axes in which it is seen."""
+        if body not in self._views:
+            placed = self._body(body)
+            carried = self._moving.carried.get(body)
+            turns = carried is not None and carried.base.turns
+            self._views[body] = (
+                OnBase(carried) if carried and turns else InBody(placed, self._part_of[body])
+            )
+        return self._views[body]
 
     # -- paths ------------------------------------------------------------------------------------
 

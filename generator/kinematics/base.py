@@ -99,16 +99,18 @@ class Base(ABC):
         return tuple(self.twists)
 
     @property
+    def turns(self) -> bool:
+        """Whether it turns in the world."""
+        return not all(twist.angular.is_zero for twist in self.twists.values())
+
+    @property
     @abstractmethod
     def bias(self) -> Twist:
         """How the twist changes, in its own axes, without accelerations of the coordinates."""
 
     def shares(self, wrench: Twist) -> dict[str, sp.Expr]:
         """Return what a wrench about its centre of mass does along each coordinate."""
-        return {
-            k: twist.linear.dot(wrench.linear) + twist.angular.dot(wrench.angular)
-            for k, twist in self.twists.items()
-        }
+        return {k: twist.dot(wrench) for k, twist in self.twists.items()}
 
     # -- world and base ---------------------------------------------------------------------------
 

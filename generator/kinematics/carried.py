@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..program.vectors import Twist, Vector
+from ..program.vectors import NO_TWIST, ZERO, Twist, Vector
 from .motion import from_axes, once, to_axes
 
 if TYPE_CHECKING:
@@ -28,6 +28,8 @@ class Carried:
     ----------
     base
         What carries it.
+    part, relative
+        What it is solved with, and its motion on the base.
     axes
         Those of the body, in the axes of the base.
     arm
@@ -38,7 +40,7 @@ class Carried:
     """
 
     def __init__(self, base: Base, part: Kinematics, placed: BodyMotion) -> None:
-        self.base, self._part, self._placed = base, part, placed
+        self.base, self.part, self.relative = base, part, placed
         self._program, body = part.program, placed.body
         first, second, third = (f"{body}_{n}_on_{base.body}" for n in ("first", "second", "third"))
         self.axes = self._program.axes(
@@ -56,13 +58,13 @@ class Carried:
 
     def _from_center(self, work: Vector) -> Vector:
         """Return the way from the centre of mass of the base to a place in work axes."""
-        place: Vector = self._part.to_ground(work) + self._part.work_origin - self.base.center
+        place: Vector = self.part.to_ground(work) + self.part.work_origin - self.base.center
         return place
 
     def _columns(self) -> dict[str, Twist]:
         """Return the twist per unit of each speed of the base, in the axes of the body."""
         levers = [
-            self._program.vector(f"{self._placed.body}_lever_{i}", self.arm.cross(axis))
+            self._program.vector(f"{self.relative.body}_lever_{i}", self.arm.cross(axis))
             for i, axis in enumerate(self.axes, 1)
         ]
         # what turns the base moves a point by omega x r, whose part along an axis is omega . r x a
@@ -79,52 +81,73 @@ class Carried:
             for k, twist in self.base.twists.items()
         }
 
+    def of_origin(self, k: str | None) -> Vector:
+        """Return the velocity of the origin on the base, in the axes of the base.
+
+        Parameters
+        ----------
+        k
+            Per unit rate of a coordinate; None: at the rates at which biases are computed.
+        """
+        placed, part = self.relative, self.part
+        if placed.at is None:
+            own = part.total(placed) if k is None else placed.motion[k]
+            return from_axes(self.axes, own.linear)
+        ways, rate = placed.at.motion, part.coordinates.rate
+        if k is not None:
+            return part.to_ground(ways.get(k, ZERO))
+        return part.to_ground(sum((v * rate(other) for other, v in ways.items()), ZERO))
+
+    def bias_of_origin(self) -> Vector:
+        """Return the bias acceleration of the origin on the base, in the axes of the base."""
+        placed = self.relative
+        if placed.at is None:
+            return from_axes(self.axes, placed.bias().linear)
+        return self.part.to_ground(placed.at.bias)
+
     def _carrier(self) -> tuple[str, Vector] | None:
         """Return the neighbour that shares the origin; of a point of the base, its own axes."""
-        carrier = self._placed.carrier
+        carrier = self.relative.carrier
         if carrier is None or carrier[0] != self.base.body:
             return carrier
         return carrier[0], self._from_center(carrier[1])
 
     def _omega(self) -> Vector:
         omega = to_axes(self.axes, self.base.omega)
-        return self._program.vector(f"{self._placed.body}_carried_omega", omega, "123")
+        return self._program.vector(f"{self.relative.body}_carried_omega", omega, "123")
 
     def _velocity(self) -> Vector:
         """Return the velocity that the base has at the origin of the body, in its own axes."""
         velocity = self.base.velocity + self.base.omega.cross(self.arm)
-        return self._program.vector(f"{self._placed.body}_carried_velocity", velocity)
+        return self._program.vector(f"{self.relative.body}_carried_velocity", velocity)
 
     def _total(self) -> Twist:
-        own = self._part.total(self._placed)
+        own = self._own()
         linear = own.linear + to_axes(self.axes, self._velocity())
         twist = Twist(own.angular + self._omega(), linear)
-        return self._part.define_twist(self._placed.body, "in_world", twist)
+        return self.part.define_twist(self.relative.body, "in_world", twist)
+
+    def _own(self) -> Twist:
+        """Return the twist on the base."""
+        coordinates = self.part.coordinates
+        if coordinates.rate_scale_of(self.relative) == 1:
+            return self.part.total(self.relative)
+        twist = NO_TWIST
+        for k, motion in self.relative.motion.items():
+            twist += motion * coordinates.true_rate(k)
+        return twist
 
     def _bias(self) -> Twist:
-        own, bias, omega = self._part.total(self._placed), self._placed.bias(), self._omega()
+        scale = self.part.coordinates.rate_scale_of(self.relative)
+        own, bias, omega = self._own(), self.relative.bias() * scale**2, self._omega()
         base = self.base.bias
         carried = self.base.omega.cross(self._velocity()) + base.linear
         carried += base.angular.cross(self.arm)
-        carried = self._program.vector(f"{self._placed.body}_carried_acceleration", carried)
+        carried = self._program.vector(f"{self.relative.body}_carried_acceleration", carried)
         linear = bias.linear + omega.cross(own.linear) * 2 + to_axes(self.axes, carried)
-        return self._part.define_bias(
-            self._placed.body,
+        return self.part.define_bias(
+            self.relative.body,
             Twist(
                 bias.angular + omega.cross(own.angular) + to_axes(self.axes, base.angular), linear
             ),
         )
-
-    def on_base(self, label: str, wrench: Twist) -> Twist:
-        """Return a wrench, or a momentum, about the centre of mass of the base, in its axes.
-
-        Parameters
-        ----------
-        label
-            Begins the names of its steps.
-        wrench
-            Couple about the origin of the body, and force, in the axes of the body.
-        """
-        force = self._program.vector(f"{label}_force", from_axes(self.axes, wrench.linear))
-        couple = from_axes(self.axes, wrench.angular) + self.arm.cross(force)
-        return Twist(self._program.vector(f"{label}_couple", couple), force)

@@ -48,10 +48,11 @@ class Coordinates:
 
     Notes
     -----
-    *Unit rate.* Bodies that hang together without the ground, and that a single coordinate moves
-    (rotors apart), have their biases computed for a unit rate of that coordinate; they are scaled
-    by the square of the true rate at the very end. `rate_scale` is the true rate for such a
-    coordinate, and one for all others, whose biases are computed at the true rates.
+    *Unit rate.* Bodies that hang together without the ground or a base that moves, and that a
+    single coordinate moves there (rotors apart), have their biases computed for a unit rate of that
+    coordinate; they are scaled by the square of the true rate at the very end. `rate_scale` is the
+    true rate for such a coordinate, and one for all others, whose biases are computed at the true
+    rates.
     """
 
     def __init__(self, formulation: Formulation, held: Iterable[str] = ()) -> None:
@@ -125,6 +126,8 @@ class Coordinates:
 
     def rate_scale_of(self, placed: BodyMotion) -> sp.Expr:
         """Return by whose square the bias of a body is to be scaled."""
+        if placed.total is not None:  # what a base carries has that of the true rates
+            return sp.Integer(1)
         single = [k for k in placed.motion if k in self.single_coordinate]
         return self.rate_scale(single[0]) if single else sp.Integer(1)
 
@@ -163,10 +166,8 @@ class Coordinates:
     def single_coordinate(self) -> frozenset[str]:
         """The independent coordinates that alone move bodies that hang together.
 
-        None on a base that joints move: what the base does is added at the true rates.
+        On a base that moves they do so on the base: what the base does is added at the true rates.
         """
-        if jointed_base(self.formulation):
-            return frozenset()
         pacing = list(self._pacing())
         together = {k for several in pacing if len(several) > 1 for k in several}
         alone = {k for several in pacing for k in several} - together
@@ -185,8 +186,11 @@ class Coordinates:
             yield {k for body, k in drives if body in bodies}
 
     def _still(self) -> set[str]:
-        """Return the ground, and the bodies that held joints tie to it."""
+        """Return the ground and the bases, and the bodies that held joints tie to them."""
         held = [j for j in self.given if j.first_followed.name in self._held]
         tied = nx.Graph([joint.bodies for joint in held])
-        tied.add_node(self._mechanism.ground)
-        return set(nx.node_connected_component(tied, self._mechanism.ground))
+        links, *base = jointed_base(self.formulation) or ([],)
+        bases = [self._mechanism.ground, *base, *(j.joint.second.name for j in self.states.free)]
+        tied.add_nodes_from(bases)
+        components = (nx.node_connected_component(tied, body) for body in bases)
+        return set(links).union(*components)

@@ -71,8 +71,9 @@ class Kinematics:
     `in_world`, `from_world` and `place_in_world` lead from here to the world.
 
     *Work axes.* The base-fixed axes in which positions are computed are chosen so that most
-    components vanish: x along the hinge of the first revolute joint on the base, z upward, origin
-    at the point of the base at the first transformer.
+    components vanish: x along the hinge of the first revolute joint on the ground, z upward, origin
+    at the point of the base at the first transformer. On a base that moves they are its own axes,
+    in which all that hangs on it is summed up.
     """
 
     def __init__(
@@ -115,7 +116,7 @@ class Kinematics:
                 j
                 for j in self.coordinates.driven
                 if isinstance(j, Revolute) and j.first.name == self.base and j.angle_to
-                if j.second.name in self.bodies
+                if j.second.name in self.bodies and self.free is None
             ),
             None,
         )

@@ -85,6 +85,10 @@ class BodyMotion:
         The hinge whose axis is the first of the body axes, if one placed the body.
     total
         The twist at the true rates, of a body that a free one carries; None: the sum of `motion`.
+    at
+        Motion of the origin, in work axes, where it is known as that of a point of the carrier.
+    turn
+        Its angle on the hinge that placed it, where it is known.
     """
 
     body: str
@@ -98,6 +102,17 @@ class BodyMotion:
     hinge: str | None = None
     bias: Callable[[], Twist] = lambda: NO_TWIST
     total: Callable[[], Twist] | None = None
+    at: PointMotion | None = None
+    turn: Turn | None = None
+
+
+@dataclass(frozen=True)
+class Turn:
+    """An angle about the first axis of a body: where the others are zero, in work axes."""
+
+    cosine: sp.Expr
+    sine: sp.Expr
+    axes: tuple[Vector, Vector]
 
 
 @dataclass(frozen=True)

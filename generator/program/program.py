@@ -180,7 +180,13 @@ class Program:
 
     # -- differentiation ------------------------------------------------------------------------
 
-    def tangents(self, along: sp.Symbol, targets: Iterable[sp.Expr], label: str) -> list[sp.Expr]:
+    def tangents(
+        self,
+        along: sp.Symbol,
+        targets: Iterable[sp.Expr],
+        label: str,
+        instead: Mapping[sp.Symbol, sp.Expr] | None = None,
+    ) -> list[sp.Expr]:
         """Differentiate expressions along one symbol, step by step (forward mode).
 
         Parameters
@@ -191,6 +197,8 @@ class Program:
             Expressions in the names of the program.
         label
             Ends the names of the new steps: ``name__label``.
+        instead
+            As in `along`.
 
         Raises
         ------
@@ -201,10 +209,14 @@ class Program:
         if self.constants.contains(along):
             message = f"{along} is a parameter; see `directions` for derivatives by parameters"
             raise ValueError(message)
-        return self.along({along: sp.Integer(1)}, targets, label)
+        return self.along({along: sp.Integer(1)}, targets, label, instead)
 
     def along(
-        self, direction: Mapping[sp.Symbol, sp.Expr], targets: Iterable[sp.Expr], label: str
+        self,
+        direction: Mapping[sp.Symbol, sp.Expr],
+        targets: Iterable[sp.Expr],
+        label: str,
+        instead: Mapping[sp.Symbol, sp.Expr] | None = None,
     ) -> list[sp.Expr]:
         """Differentiate expressions along a direction, step by step (forward mode).
 
@@ -216,20 +228,33 @@ class Program:
             Expressions in the names of the program.
         label
             Ends the names of the new steps: ``name__label``.
+        instead
+            Of steps, expressions of the same value that are differentiated in their place.
         """
+        tangent: dict[sp.Symbol, sp.Expr] = dict(direction)
+        if instead:
+            self._extend(tangent, instead.values(), label)
+            for symbol, same in instead.items():
+                derivative = chain_rule(same, tangent)
+                tangent[symbol] = self.define(f"{symbol}__{label}", derivative)
         targets = list(targets)
+        self._extend(tangent, targets, label)
+        return [chain_rule(target, tangent) for target in targets]
+
+    def _extend(
+        self, tangent: dict[sp.Symbol, sp.Expr], targets: Iterable[sp.Expr], label: str
+    ) -> None:
+        """Add the derivatives of all steps that some expressions need, where they are not zero."""
         moving = {
             symbol: step
             for symbol, step in self.steps.items()
-            if not isinstance(step.expression, Frozen)
+            if symbol not in tangent and not isinstance(step.expression, Frozen)
         }
         needed = ancestors(moving, targets)
-        tangent: dict[sp.Symbol, sp.Expr] = dict(direction)
         for step in [s for s in moving.values() if s.symbol in needed]:
             derivative = chain_rule(step.expression, tangent, step.symbol)
             if derivative != 0:
                 tangent[step.symbol] = self.define(f"{step.symbol}__{label}", derivative)
-        return [chain_rule(target, tangent) for target in targets]
 
     def substitute(
         self, replacements: Mapping[sp.Symbol, sp.Expr], targets: Iterable[sp.Expr], label: str

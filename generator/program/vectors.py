@@ -90,6 +90,10 @@ class Twist:
     def __mul__(self, factor: Any) -> Twist:
         return Twist(self.angular * factor, self.linear * factor)
 
+    def dot(self, other: Twist) -> sp.Expr:
+        """Return the power of a wrench, or of a momentum, on the twist."""
+        return self.angular.dot(other.angular) + self.linear.dot(other.linear)
+
     @property
     def is_zero(self) -> bool:
         """Return whether the body does not move at all."""
@@ -139,6 +143,18 @@ class SymmetricTensor:
         )
 
     @classmethod
+    def of_pair(cls, a: Vector, b: Vector) -> SymmetricTensor:
+        """Return ``a b^T + b a^T``."""
+        return cls(
+            2 * a.x * b.x,
+            2 * a.y * b.y,
+            2 * a.z * b.z,
+            a.x * b.y + a.y * b.x,
+            a.x * b.z + a.z * b.x,
+            a.y * b.z + a.z * b.y,
+        )
+
+    @classmethod
     def transverse(cls, moment: sp.Expr, axis: Vector) -> SymmetricTensor:
         """Return ``moment (1 - axis axis^T)`` for a unit axis.
 
@@ -154,6 +170,24 @@ class SymmetricTensor:
 
     def __add__(self, other: SymmetricTensor) -> SymmetricTensor:
         return SymmetricTensor(*(a + b for a, b in zip(self, other, strict=True)))
+
+    def __mul__(self, factor: Any) -> SymmetricTensor:
+        return SymmetricTensor(*(element * factor for element in self))
+
+    @property
+    def columns(self) -> tuple[Vector, Vector, Vector]:
+        """Its columns, which are its rows."""
+        return (
+            Vector(self.xx, self.xy, self.xz),
+            Vector(self.xy, self.yy, self.yz),
+            Vector(self.xz, self.yz, self.zz),
+        )
+
+    @property
+    def opposite(self) -> SymmetricTensor:
+        """The trace less the tensor: of second moments the inertia."""
+        xx, yy, zz, xy, xz, yz = self
+        return SymmetricTensor(yy + zz, xx + zz, xx + yy, -xy, -xz, -yz)
 
     def __matmul__(self, v: Vector) -> Vector:
         return Vector(

@@ -1,0 +1,198 @@
+"""A body that moves on a base in any way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ...kinematics.motion import from_axes
+from ...program.vectors import SymmetricTensor, Twist, Vector
+from .flow import HALF, Flow, angular_of, named, second_moments
+
+if TYPE_CHECKING:
+    import sympy as sp
+
+    from ...kinematics.carried import Carried
+    from ...kinematics.motion import Axes
+    from ...program.program import Program
+    from ..inertia import Inertia
+
+
+@dataclass(frozen=True)
+class Column:
+    """How a body moves on its base with a coordinate, or at all rates.
+
+    Attributes
+    ----------
+    velocity, omega
+        Of its centre of mass, and its angular velocity.
+    spin
+        Angular momentum about the centre of mass.
+    flow
+        About O.
+    """
+
+    velocity: Vector
+    omega: Vector
+    spin: Vector
+    flow: Flow
+
+    def __mul__(self, rate: sp.Expr) -> Column:
+        velocity, omega = self.velocity * rate, self.omega * rate
+        return Column(velocity, omega, self.spin * rate, self.flow * rate)
+
+
+@dataclass(frozen=True)
+class Taken:
+    """What the own motion of a body takes, without accelerations of the coordinates.
+
+    Attributes
+    ----------
+    turn
+        The couple about its centre of mass that does work.
+    wrench
+        Couple about O, and force.
+    """
+
+    turn: Vector
+    wrench: Twist
+
+
+class Moving:
+    """A body on a base; everything is in the axes of the base, about the centre of mass.
+
+    Parameters
+    ----------
+    carried, inertia
+        The body, and its inertia about its origin, in its axes.
+
+    Attributes
+    ----------
+    first, second
+        ``∫ r dm`` and ``∫ r r^T dm``.
+    """
+
+    def __init__(self, carried: Carried, inertia: Inertia) -> None:
+        self._carried, self._placed, self._part = carried, carried.relative, carried.part
+        self._program = carried.part.program
+        self._name = f"{self._placed.body}_on_{carried.base.body}"
+        self._axes, self._mass = carried.axes, inertia.mass
+        program, body = self._program, self._placed.body
+        center, tensor = inertia.centred(program, body)
+        self._center = self._rotated("center", center)
+        self._at = self._vector("place", carried.arm + self._center)
+        self._own = turned(program, f"{self._name}_own", second_moments(tensor), self._axes)
+        self.first = self._vector("first", self._at * self._mass)
+        x, y, z = (self.first * r for r in self._at)
+        around = SymmetricTensor(x.x, y.y, z.z, x.y, x.z, y.z)
+        self.second = named(program, f"{self._name}_second", self._own + around)
+
+    def _vector(self, what: str, v: Vector) -> Vector:
+        return self._program.vector(f"{self._name}_{what}", v)
+
+    def _rotated(self, what: str, v: Vector) -> Vector:
+        """Return a vector in the axes of the body in those of the base."""
+        return self._vector(what, from_axes(self._axes, v))
+
+    def column(self, k: str | None) -> Column:
+        """Return how it moves with a coordinate, or at all rates."""
+        label = "now" if k is None else k
+        own = self._part.total(self._placed) if k is None else self._placed.motion[k]
+        omega = self._rotated(f"omega_{label}", own.angular)
+        linear = self._carried.of_origin(k) + omega.cross(self._center)
+        velocity = self._vector(f"velocity_{label}", linear)
+        momentum = self._vector(f"momentum_{label}", velocity * self._mass)
+        # the columns of ∫ r' r^T dm, about the centre of mass and about O
+        x, y, z = (
+            self._vector(f"turning_{label}_{j}", omega.cross(column))
+            for j, column in zip("xyz", self._own.columns, strict=True)
+        )
+        spin = self._vector(f"spin_{label}", angular_of((x, y, z)))
+        x, y, z = (
+            self._vector(f"flow_{label}_{j}", momentum * r + column)
+            for j, r, column in zip("xyz", self._at, (x, y, z), strict=True)
+        )
+        rate = SymmetricTensor(2 * x.x, 2 * y.y, 2 * z.z, x.y + y.x, x.z + z.x, y.z + z.y)
+        flow = Flow(momentum, angular_of((x, y, z)), rate)
+        return Column(velocity, omega, spin, flow)
+
+    def taken(self, now: Column) -> Taken:
+        """Return what its own motion takes.
+
+        Parameters
+        ----------
+        now
+            How it moves at all rates.
+        """
+        own, origin, omega = self._placed.bias(), self._carried.bias_of_origin(), now.omega
+        alpha = self._rotated("alpha", own.angular)
+        inward = omega.cross(self._vector("swung", omega.cross(self._center)))
+        linear = self._vector("acceleration", origin + alpha.cross(self._center) + inward)
+        force = self._vector("own_force", linear * self._mass)
+        slowed = self._vector("slowed", self._own.opposite @ alpha)
+        turn = self._vector("own_turn", slowed + omega.cross(now.spin))
+        wrench = Twist(self._at.cross(force) + turn, force)
+        single = len(self._placed.motion) == 1  # what is across omega does no work then
+        return Taken(slowed if single else turn, wrench)
+
+    def work(self, column: Column, taken: Taken) -> sp.Expr:
+        """Return ``∫ r_k' . r'' dm``.
+
+        Parameters
+        ----------
+        column, taken
+            How it moves with the coordinate, and what its own motion takes.
+        """
+        return column.velocity.dot(taken.wrench.linear) + column.omega.dot(taken.turn)
+
+    def energy(self, one: Column, other: Column) -> sp.Expr:
+        """Return ``∫ r_k' . r_l' dm``.
+
+        Parameters
+        ----------
+        one, other
+            How it moves with either coordinate.
+        """
+        return one.velocity.dot(other.flow.momentum) + one.omega.dot(other.spin)
+
+    def across(self, now: Column, column: Column) -> Vector:
+        """Return ``∫ r' x r_k' dm``.
+
+        Parameters
+        ----------
+        now, column
+            How it moves at all rates, and with the coordinate.
+        """
+        swept = self._vector("swept", now.omega.cross(column.omega))
+        across: Vector = now.velocity.cross(column.flow.momentum) + self._own @ swept
+        return across
+
+
+def turned(program: Program, name: str, tensor: SymmetricTensor, axes: Axes) -> SymmetricTensor:
+    """Append the components of a tensor along other axes.
+
+    Parameters
+    ----------
+    program, name
+        What receives the steps, and what begins their names.
+    tensor
+        Its components along some axes.
+    axes
+        These, along the other ones.
+
+    Notes
+    -----
+    Since ``x x^T + y y^T + z z^T = 1``, the tensor is ``zz 1`` and two pairs of vectors.
+    """
+    x, y, z = axes
+    half = HALF * tensor.zz
+    one = x * (HALF * tensor.xx - half) + y * tensor.xy + z * tensor.xz
+    two = y * (HALF * tensor.yy - half) + z * tensor.yz
+    one, two = program.vector(f"{name}_along_1", one), program.vector(f"{name}_along_2", two)
+    a, b, c = (
+        program.define(f"{name}_half_{i}", u * v + w * t)
+        for i, u, v, w, t in zip("123", x, one, y, two, strict=True)
+    )
+    across = SymmetricTensor.of_pair(x, one) + SymmetricTensor.of_pair(y, two)
+    xx, yy, zz = (2 * e + tensor.zz for e in (a, b, c))
+    return named(program, name, SymmetricTensor(xx, yy, zz, across.xy, across.xz, across.yz))

@@ -1,0 +1,139 @@
+"""A body on a base that does not turn: as on the ground, in its own axes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ...kinematics.motion import from_axes
+from ...program.vectors import ZERO, SymmetricTensor, Twist, Vector
+from .flow import Flow
+
+if TYPE_CHECKING:
+    import sympy as sp
+
+    from ...kinematics.carried import Carried
+    from ..inertia import Inertia
+
+
+@dataclass(frozen=True)
+class Column:
+    """How a body moves with a coordinate, or at all rates: its twist, and its momentum."""
+
+    twist: Twist
+    momentum: Twist
+    flow: Flow
+
+    def __mul__(self, rate: sp.Expr) -> Column:
+        return Column(self.twist * rate, self.momentum * rate, self.flow * rate)
+
+
+@dataclass(frozen=True)
+class Taken:
+    """Couple and force on a body, in its axes; and the force on the base, in those of the base."""
+
+    own: Twist
+    wrench: Twist
+
+
+class Shifted:
+    """A body on a base that does not turn.
+
+    Of a base that only slides, no couple is needed and no second moment.
+
+    Parameters
+    ----------
+    carried, inertia
+        The body, and its inertia about its origin, in its axes.
+
+    Attributes
+    ----------
+    first, second
+        ``∫ r dm``; ``∫ r r^T dm`` is left out.
+    """
+
+    second = SymmetricTensor.zero()
+
+    def __init__(self, carried: Carried, inertia: Inertia) -> None:
+        self._carried, self._inertia = carried, inertia
+        self._placed, self._part = carried.relative, carried.part
+        self._name, self._program = self._placed.body, carried.part.program
+        self.first = ZERO
+
+    @staticmethod
+    def fits(carried: Carried) -> bool:
+        """Return whether the base does not turn."""
+        return not carried.base.turns
+
+    def _twist(self, what: str, twist: Twist) -> Twist:
+        return Twist(
+            self._program.vector(f"{self._name}_couple_{what}", twist.angular, "123"),
+            self._program.vector(f"{self._name}_force_{what}", twist.linear, "123"),
+        )
+
+    def _momentum(self, what: str, twist: Twist) -> Twist:
+        inertia = self._inertia
+        return Twist(
+            self._program.vector(f"{self._name}_spin_{what}", inertia.spin_momentum(twist), "123"),
+            self._program.vector(
+                f"{self._name}_momentum_{what}", inertia.linear_momentum(twist), "123"
+            ),
+        )
+
+    def column(self, k: str | None) -> Column:
+        """Return how it moves with a coordinate, or at all rates."""
+        own = self._part.total(self._placed) if k is None else self._placed.motion[k]
+        momentum = self._momentum("now" if k is None else k, own)
+        return Column(own, momentum, Flow(from_axes(self._carried.axes, momentum.linear)))
+
+    def taken(self, now: Column) -> Taken:
+        """Return what its own motion takes.
+
+        Parameters
+        ----------
+        now
+            How it moves at all rates.
+        """
+        bias, inertia, omega = self._placed.bias(), self._inertia, now.twist.angular
+        whirl = self._program.vector(f"{self._name}_whirl", omega.cross(inertia.moment), "123")
+        force = inertia.linear_momentum(bias) + omega.cross(whirl)
+        couple = inertia.spin_momentum(bias)
+        if len(self._placed.motion) > 1:  # what is across omega does no work otherwise
+            spin = self._program.vector(f"{self._name}_turning", inertia.tensor @ omega, "123")
+            couple += omega.cross(spin)
+        own = self._twist("own", Twist(couple, force))
+        return Taken(own, Twist(ZERO, from_axes(self._carried.axes, own.linear)))
+
+    @staticmethod
+    def work(column: Column, taken: Taken) -> sp.Expr:
+        """Return ``∫ r_k' . r'' dm``.
+
+        Parameters
+        ----------
+        column, taken
+            How it moves with the coordinate, and what its own motion takes.
+        """
+        return column.twist.dot(taken.own)
+
+    @staticmethod
+    def energy(one: Column, other: Column) -> sp.Expr:
+        """Return ``∫ r_k' . r_l' dm``.
+
+        Parameters
+        ----------
+        one, other
+            How it moves with either coordinate.
+        """
+        return one.twist.dot(other.momentum)
+
+    @staticmethod
+    def across(now: Column, column: Column) -> Vector:
+        """Return ``∫ r' x r_k' dm``, which the turning of the base makes use of: nothing here.
+
+        Parameters
+        ----------
+        now, column
+            How it moves at all rates, and with the coordinate.
+        """
+        del now, column
+        return ZERO

@@ -1,0 +1,89 @@
+"""Sums over the bodies that hang together on a base."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from ...program.vectors import NO_TWIST, ZERO, SymmetricTensor, Twist, Vector
+from .flow import NONE, Flow
+from .hinged import Hinged
+from .moving import Moving
+from .shifted import Shifted
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    import sympy as sp
+
+    from ...kinematics.carried import Carried
+    from ..inertia import Inertia
+
+
+def kind_of(carried: Carried) -> type[Shifted | Hinged | Moving]:
+    """Return by what a body is best described."""
+    fitting = (kind for kind in (Hinged, Shifted) if kind.fits(carried))
+    return next(fitting, Moving)
+
+
+@dataclass
+class Sums:
+    """What the bodies of one part are to their base, about O and in its axes.
+
+    Attributes
+    ----------
+    mass, first, second
+        M, C and S.
+    flows, now
+        Those of each coordinate, and of all rates.
+    own
+        h'' and P''.
+    matrix, bias, across
+        ``∫ r_k' . r_l' dm``, b_k and X_k.
+    """
+
+    mass: sp.Expr = NONE
+    first: Vector = ZERO
+    second: SymmetricTensor = field(default_factory=SymmetricTensor.zero)
+    flows: dict[str, Flow] = field(default_factory=dict)
+    now: Flow = field(default_factory=Flow)
+    own: Twist = NO_TWIST
+    matrix: dict[tuple[str, str], sp.Expr] = field(default_factory=dict)
+    bias: dict[str, sp.Expr] = field(default_factory=dict)
+    across: dict[str, Vector] = field(default_factory=dict)
+
+    def add(self, carried: Carried, inertia: Inertia, names: Iterable[str]) -> None:
+        """Add a body.
+
+        Parameters
+        ----------
+        carried, inertia
+            The body, and its inertia about its origin, in its axes.
+        names
+            The coordinates along which equations are needed.
+        """
+        body: Any = kind_of(carried)(carried, inertia)  # each kind has columns of its own
+        self.mass += inertia.mass
+        self.first += body.first
+        self.second += body.second
+        columns = {k: body.column(k) for k in carried.relative.motion}
+        if not columns:
+            return
+        if len(columns) == 1:
+            ((k, column),) = columns.items()
+            now = column * carried.part.coordinates.rate(k)
+        else:
+            now = body.column(None)
+        taken = body.taken(now)
+        self.now += now.flow
+        self.own += taken.wrench
+        rows = [k for k in names if k in columns]
+        for i, k in enumerate(rows):
+            column = columns[k]
+            self.flows[k] = self.flows.get(k, Flow()) + column.flow
+            self.bias[k] = self.bias.get(k, NONE) + body.work(column, taken)
+            for other in rows[i:]:
+                energy = body.energy(column, columns[other])
+                self.matrix[k, other] = self.matrix.get((k, other), NONE) + energy
+            if len(columns) > 1:
+                self.across[k] = self.across.get(k, ZERO) + body.across(now, column)
