@@ -58,7 +58,7 @@ def abaqus(path: Path) -> tuple[dict[int, Array], dict[str, list[tuple[int, Arra
             continue
         fields = [field.strip() for field in line.split(",")]
         if line.startswith("*"):
-            keyword, label = fields[0].lower(), fields[-1].partition("=")[2]
+            keyword, label = fields[0].lower(), fields[-1].partition("=")[2].strip('"')
             if keyword == "*step":
                 step = label
                 assert step not in loads
@@ -70,7 +70,7 @@ def abaqus(path: Path) -> tuple[dict[int, Array], dict[str, list[tuple[int, Arra
         elif keyword == "*cload":
             found = np.zeros(6)
             found[int(fields[1]) - 1] = float(fields[2])
-            loads[step].append((sets[fields[0]], found[:3], found[3:]))
+            loads[step].append((sets[fields[0].strip('"')], found[:3], found[3:]))
         else:  # axes: those of the model
             assert keyword in ("*system", "*transform")
             axes = [*map(float, fields)]

@@ -26,7 +26,7 @@ def found() -> dict[str, xr.Dataset]:
     one = {
         "bump": {"travel_mm": 30.0, "contact_N": [900.0, 400.0, 0.0], "rack_mm": 9.0},
         "far": {"contact_N": [0.0, 0.0, 9e5]},
-        "rest": {"contact_g": [0.0, 0.0, 1.0]},
+        "1g": {"contact_g": [0.0, 0.0, 1.0]},
     }
     return {
         name: loads.static(subject, one if name == "corner" else {"turn": TURN})
@@ -70,7 +70,7 @@ def test_points_of_a_part_are_its_hardpoints_at_design(
     wanted = [1e3 * np.array(points.metres(p)) for p in ("arm_front", "arm_rear", "ball_joint")]
     for at in wanted:
         assert any(np.abs(at - node).max() < 1e-9 for node in nodes.values())
-    assert [*steps] == ["bump", "rest"]
+    assert [*steps] == ["bump", "1g"]
     text = file.read_text(encoding="ascii")
     assert "Units: N, mm, N mm." in text
     assert "** Not carried: far: " in text
@@ -85,7 +85,7 @@ def test_the_mount_of_a_strut_carries_rod_and_spring(
     assert "$ strut_top, by upper_strut, spring" in text
     top = 1e3 * np.array(CAR.suspension.hardpoints.metres("strut_top"))
     (node,) = (number for number, at in nodes.items() if np.abs(at - top).max() < 1e-6)
-    total = found["corner"]["total_force"].sel(case="rest", mount="strut_top").values
+    total = found["corner"]["total_force"].sel(case="1g", mount="strut_top").values
     forces = [force for number, force, _ in sets["3"] if number == node]
     np.testing.assert_allclose(sum(forces), total, rtol=1e-9, atol=1e-6)
 

@@ -19,23 +19,28 @@ def lines_of(sheet: CardSheet) -> Iterator[str]:
     yield "0., 1., 0."
     for node in nodes:
         yield f"** {node.name}, by {', '.join(node.by)}"
-        yield f"*Node, nset={node.name}"
+        yield f"*Node, nset={_label(node.name)}"
         yield ", ".join((str(node.number), *map(_real, node.at)))
     yield "*System"
     yield "** Axes of the forces: x axis, and a point in the plane of x and y."
     for node in nodes:
-        yield f"*Transform, nset={node.name}"
+        yield f"*Transform, nset={_label(node.name)}"
         yield "1., 0., 0., 0., 1., 0."
     for place, case in enumerate(sheet.loaded.cases):
-        yield f"*Step, name={case}"
+        yield f"*Step, name={_label(case)}"
         yield "*Static"
         yield "*Cload, op=NEW"
         for node in nodes:
             force, moment = node.loads.get(place, ((), ()))
             for freedom, value in enumerate((*force, *moment), 1):
                 if value:
-                    yield f"{node.name}, {freedom}, {_real(value)}"
+                    yield f"{_label(node.name)}, {freedom}, {_real(value)}"
         yield "*End Step"
+
+
+def _label(name: str) -> str:
+    """Return a name as Abaqus reads it: one that begins with no letter is quoted."""
+    return name if name[0].isalpha() else f'"{name}"'
 
 
 def _real(value: float) -> str:

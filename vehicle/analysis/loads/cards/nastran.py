@@ -25,7 +25,10 @@ def lines_of(sheet: CardSheet) -> Iterator[str]:
     for remark in sheet.remarks(DIGITS):
         yield f"$ {remark}"
     yield "$ Load sets, for the case control:"
-    for case, number in zip(cases, numbers, strict=True):
+    for place, (case, number) in enumerate(zip(cases, numbers, strict=True)):
+        if not any(place in node.loads for node in nodes):
+            yield f"$ {case}: nothing acts on this part"
+            continue
         yield f"$ SUBCASE {number}"
         yield f"$   LABEL = {case}"
         yield f"$   LOAD = {number}"
