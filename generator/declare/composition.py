@@ -103,7 +103,7 @@ class Copy:
             raise DeclarationError(f"copy {self.prefix!r} of {self.source.name}", problems)
 
     def of(self, thing: Thing) -> Thing:
-        """Return what something of the declaration is in the copy."""
+        """Return the object of the copy that belongs to an object of the declaration."""
         return self._copied(thing)  # type: ignore[no-any-return] # of the same type
 
     def _copied(self, thing: Any, *, turns: bool = False) -> Any:  # noqa: PLR0911 (of types)
@@ -265,7 +265,7 @@ def combined(
     coordinates: tuple[RelativeCoordinate, ...] = (),
     outputs: tuple[Output, ...] = (),
 ) -> Mechanism:
-    """Return one mechanism of several copies; what they have in common is there once.
+    """Return one mechanism of several copies; shared parts occur once.
 
     Parameters
     ----------

@@ -120,7 +120,7 @@ class AnyContactLaw(Owner):
 
     @abstractmethod
     def describe(self) -> str:
-        """Return what a report says of it."""
+        """Return its description in reports."""
 
 
 @declared
@@ -170,7 +170,7 @@ class LinearContact(AnyContactLaw):
         return self.symbol("relaxation_x"), self.symbol("relaxation_y")
 
     def describe(self) -> str:
-        """Return what a report says of it."""
+        """Return its description in reports."""
         return "linear in slip, up to the friction"
 
 
@@ -301,7 +301,7 @@ class MagicFormulaContact(AnyContactLaw):
         return vertical.relaxation_by_stiffness(p, dfz, self._pressure, *stiff)
 
     def describe(self) -> str:
-        """Return what a report says of it."""
+        """Return its description in reports."""
         return "the Magic Formula" + ("" if self.newer else " of PAC2002")
 
 
@@ -374,7 +374,7 @@ class TMeasyContact(AnyContactLaw):
         return x, y
 
     def describe(self) -> str:
-        """Return what a report says of it."""
+        """Return its description in reports."""
         return "TMeasy"
 
 

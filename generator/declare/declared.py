@@ -37,7 +37,7 @@ _UNNAMED = ("self", "order", "image", "axial")  # arguments that nobody writes
 
 
 class DeclarationError(KintrafoError, ValueError):
-    """A declaration that contradicts itself, with everything that is wrong with it.
+    """A declaration with contradictions, and a list of all of them.
 
     Parameters
     ----------

@@ -101,7 +101,7 @@ class Formulation:
 
     @property
     def inputs(self) -> dict[str, Input]:
-        """What is given from outside, by name: prescribed motions, and what acts."""
+        """Inputs by name: prescribed motions, and forces from outside."""
         motions = (entry for motion in self.prescribed.values() for entry in motion.inputs)
         return {entry.name: entry for entry in (*motions, *self.mechanism.inputs)}
 

@@ -84,7 +84,7 @@ class Motion:
 
     @property
     def rates(self) -> tuple[str, str]:
-        """Names of velocity and acceleration: what is zero while the joint does not move."""
+        """Names of velocity and acceleration, which are zero while the joint does not move."""
         _, velocity, acceleration = self.inputs
         return velocity.name, acceleration.name
 

@@ -13,7 +13,7 @@ from .declared import DeclarationError, Name, declared
 @declared
 @dataclass(frozen=True)
 class InternalState:
-    """A state of a force or a law: zero at design, with a rate that its force says.
+    """A state of a force or a law: zero at design, with a rate that its force returns.
 
     A force in a damper that lags behind its velocity is one, or the deflection of a tyre. It comes
     last in the state of a model.

@@ -59,14 +59,14 @@ class Joint:
 
     @property
     def gear_words(self) -> str:
-        """What its coordinate is through its gear."""
+        """Its coordinate in terms of the gear that it follows, in words."""
         assert self.gear is not None
         own, (kind,) = self.coordinates[0], self.gear.joint.coordinates
         return f"{own} = {self.gear.ratio.name} x {kind} of {self.gear.joint.name}"
 
     @property
     def gear(self) -> Gear | None:
-        """What its coordinate follows, if it is one of a hinge or guide that does."""
+        """The gear that its coordinate follows, if there is one."""
         return getattr(self, "follows", None)
 
     @property

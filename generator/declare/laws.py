@@ -85,7 +85,7 @@ class AnyLaw(ABC):
     @property
     @abstractmethod
     def meaning(self) -> str:
-        """What that signal is."""
+        """The meaning of that signal."""
 
     def ranges_of_rate(self) -> tuple[Range, ...]:
         """Return where it knows its force, by the rate of the length."""
@@ -152,7 +152,7 @@ class LinearSpring(AnyLaw):
     meaning = "spring force"
 
     def describe(self) -> str:
-        """Return what it is, and its formula."""
+        """Return its name and its formula."""
         return _with_formula(self)
 
     def problems(self, path: AnyPath) -> list[str]:
@@ -186,7 +186,7 @@ class LinearDamper(AnyLaw):
     meaning = "damper force"
 
     def describe(self) -> str:
-        """Return what it is, and its formula."""
+        """Return its name and its formula."""
         return _with_formula(self)
 
     def force(self, at: Stretch) -> sp.Expr:
@@ -414,7 +414,7 @@ class Stop(AnyLaw):
 
     @property
     def meaning(self) -> str:
-        """What that signal is."""
+        """The meaning of that signal."""
         return f"force of the {self.side} stop"
 
     def problems(self, path: AnyPath) -> list[str]:
@@ -488,7 +488,7 @@ class LaggingDamper(AnyLaw):
     meaning = "damper force"
 
     def describe(self) -> str:
-        """Return what it is, and its formula."""
+        """Return its name and its formula."""
         return f"{self.meaning} `{self.state.name}`, `-{self.rate.name}*velocity` with a lag"
 
     def force(self, at: Stretch) -> sp.Expr:

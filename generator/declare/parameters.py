@@ -201,7 +201,7 @@ class AngularSpeed(DimensionedParameter, unit="rad/s", above=0.0, of_angle=True)
 
 
 class TimeConstant(DimensionedParameter, unit="s", above=0.0, of_angle=None):
-    """The time of what follows with a lag [s], more than zero."""
+    """The time constant of a lag [s], more than zero."""
 
 
 class Gravity(DimensionedParameter, unit="m/s^2", least=0.0):
@@ -245,11 +245,11 @@ class Ratio(DimensionedParameter, unit="1"):
 
 
 class Lead(DimensionedParameter, unit="m/rad"):
-    """What a thread, a rack or a rope moves for each radian of a turn [m/rad], of any sign."""
+    """Displacement of a thread, rack or rope per radian of a turn [m/rad], of any sign."""
 
 
 class TurnPerTravel(DimensionedParameter, unit="rad/m"):
-    """By how much something turns for each metre of a slide [rad/m], of any sign."""
+    """Rotation per metre of a slide [rad/m], of any sign."""
 
 
 class Share(DimensionedParameter, unit="1", least=0.0, most=1.0):

@@ -215,7 +215,7 @@ class AlongLine(AnyPath):
 @declared
 @dataclass(frozen=True)
 class TwistOfHinges(AnyPath):
-    """The angle of one hinge less that of another: what twists a bar between them.
+    """The angle of one hinge less that of another, which is the twist of a bar between them.
 
     What elsewhere is a length is an angle here [rad], and what is a force is a moment [N m]: it
     acts with its sign on the second hinge and against it on the first, so that its power is that

@@ -73,7 +73,7 @@ class Event:
 
 @dataclass(frozen=True)
 class Shown:
-    """A signal: an element of what the ``signals`` function returns."""
+    """A signal: an element of the result of the ``signals`` function."""
 
     name: str
     value: sp.Expr

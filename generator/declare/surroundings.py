@@ -37,7 +37,7 @@ class Surroundings(Protocol):
 
     @property
     def program(self) -> Program:
-        """What receives the steps."""
+        """The program that receives the steps."""
 
     @property
     def mechanism(self) -> Whole:

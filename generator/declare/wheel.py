@@ -45,7 +45,7 @@ class WheelAttitude:
 @declared
 @dataclass(frozen=True)
 class Wheel:
-    """A wheel, which may spin: what a tyre is on.
+    """A wheel that may spin, with or without a tyre.
 
     Parameters
     ----------

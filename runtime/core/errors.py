@@ -21,7 +21,7 @@ class KintrafoError(Exception):
 
 
 class InputError(KintrafoError, ValueError):
-    """Input data that cannot be used, with everything that is wrong with it.
+    """Input data that cannot be used, with a list of all problems.
 
     Parameters
     ----------

@@ -42,7 +42,7 @@ _STAYS = 64.0 * np.finfo(float).eps
 
 @dataclass(frozen=True)
 class MotionGradient:
-    """What a motion is judged by, and how that changes.
+    """Objectives of a motion and their gradients.
 
     Attributes
     ----------

@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class MotionSensitivity:
-    """A motion, and how it changes.
+    """A motion and its derivatives.
 
     Attributes
     ----------

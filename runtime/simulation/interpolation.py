@@ -18,7 +18,7 @@ _MOST_HALVINGS = 24
 
 @dataclass(frozen=True)
 class Samples:
-    """Values of an input at some times, and what it does between them.
+    """Values of an input at some times, and the interpolation between them.
 
     Parameters
     ----------

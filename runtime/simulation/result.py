@@ -92,7 +92,7 @@ class Simulation(OptimizeResult):
 
     @property
     def validity(self) -> tuple[Excursion, ...]:
-        """Where the motion leaves what the model describes, by its outputs."""
+        """Where outputs of the motion are outside the validity of the model."""
         model = self.signals.model
         return excursions(model, bounds_of(model), self.t, self.signals)
 

@@ -157,7 +157,7 @@ class Stepper:
 
     @property
     def state(self) -> Array:
-        """State now; what is assigned is copied into it."""
+        """Present state; assigned values are copied into it."""
         return self._state
 
     @state.setter
@@ -166,7 +166,7 @@ class Stepper:
 
     @property
     def inputs(self) -> Array:
-        """Inputs of the next step; what is assigned is copied into them."""
+        """Inputs of the next step; assigned values are copied into them."""
         return self._inputs
 
     @inputs.setter

@@ -158,7 +158,7 @@ def gradient(
 
 
 def design_derivative(system: System, along: Mapping[str, ArrayLike]) -> dict[str, Array]:
-    """Return how the state at the design position changes with parameters.
+    """Return derivatives of the state at the design position by parameters.
 
     Parameters
     ----------

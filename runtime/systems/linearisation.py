@@ -89,7 +89,7 @@ class Linearisation:
 
     @property
     def steady(self) -> bool:
-        """Whether nothing changes at the point but what no equation depends on.
+        """Whether all rates at the point are zero, except of coordinates without effect.
 
         That is the angle of a spinning rotor: it looks the same at every angle. A free body may
         move on as long as its accelerations stay what they are, as along a circle on level ground.

@@ -59,7 +59,7 @@ _MOST_TRAVEL = 0.5 * USUAL_TRAVEL
 
 @dataclass(frozen=True)
 class AxleFacts:
-    """What both wheels of an axle have together.
+    """Results for both wheels of an axle together.
 
     Attributes
     ----------
@@ -81,7 +81,7 @@ class AxleFacts:
 
 @dataclass(frozen=True)
 class Checkup:
-    """What a first look shows.
+    """Results of a first check.
 
     Attributes
     ----------

@@ -197,7 +197,7 @@ def common_positions(assemblies: Sequence[Assembly], motion: str) -> Array:
 
 @dataclass(frozen=True)
 class Difference:
-    """How much one characteristic differs from that of the first suspension or axle, SI units.
+    """Difference of one characteristic from that of the first suspension or axle, SI units.
 
     Attributes
     ----------
@@ -225,7 +225,7 @@ class Difference:
 
 
 def differences(dataset: xr.Dataset) -> list[Difference]:
-    """Return how the suspensions of a comparison differ from the first one.
+    """Return the differences of the suspensions of a comparison from the first one.
 
     Parameters
     ----------

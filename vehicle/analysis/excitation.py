@@ -36,11 +36,11 @@ class TimeProfile:
 
     @property
     def given(self) -> tuple[str, ...]:
-        """The names of what is given."""
+        """The names of the given inputs."""
         return tuple(n for n in ("held", "step", "sine") if getattr(self, n) is not None)
 
     def signal(self, end: float) -> Signal:
-        """Return what `kintrafo.simulate` takes, for a simulation up to a time [s]."""
+        """Return the argument of `kintrafo.simulate`, for a simulation up to a time [s]."""
         with Validator("course") as given:
             for name in self.given:
                 given.number(name, getattr(self, name), "m")

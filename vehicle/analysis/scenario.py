@@ -43,7 +43,7 @@ _MOST_OUTPUTS = 5_000_000
 
 @dataclass(frozen=True)
 class Scenario:
-    """What happens to a corner, an axle or a rigid axle in a simulation.
+    """Inputs, start and duration of a simulation of a corner or an axle.
 
     Attributes
     ----------
@@ -170,7 +170,7 @@ def motion_of(model: AnyModel, result: Simulation) -> "xr.Dataset":
 
 
 def by_wheel(model: AnyModel, motion: "xr.Dataset") -> "xr.Dataset":
-    """Return a motion in which what each wheel has is over the dimension ``wheel``, to be drawn.
+    """Return a motion whose variables of wheels have the dimension ``wheel``, for drawing.
 
     Parameters
     ----------

@@ -62,7 +62,7 @@ class RestFacts:
 
 @dataclass(frozen=True)
 class WheelFacts:
-    """What there is to say of one wheel; lengths in m, angles in rad, ISO 8855 chassis axes.
+    """Results for one wheel; lengths in m, angles in rad, ISO 8855 chassis axes.
 
     Attributes
     ----------

@@ -64,7 +64,7 @@ class WheelReach:
 
 @dataclass(frozen=True)
 class SweepRange:
-    """How far a motion goes, where it is not the usual; all positive.
+    """Ends of a motion that differ from the default; all positive.
 
     Attributes
     ----------

@@ -24,7 +24,7 @@ def command(
     ] = None,
     output: BarOptions,
 ) -> None:
-    """Print stiffnesses, friction, load sensitivity and lengths of a tyre; --plot draws its curves.
+    """Print stiffnesses, friction, load sensitivity and lengths of a tyre; --plot draws curves.
 
     At the speed and the pressure of the file, in the axes of ISO 8855. Keys of the file that are
     not used are listed.

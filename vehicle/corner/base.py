@@ -236,7 +236,7 @@ class Suspension(DescribedSection):
         return height if height >= _SMALLEST_WHEEL_RADIUS else None
 
     def wheel_load_parameters(self) -> dict[str, float]:
-        """Return what equations need besides that have the loads on the wheel as inputs [m].
+        """Return the additional parameters of equations with wheel loads as inputs [m].
 
         Raises
         ------
@@ -345,11 +345,11 @@ class Suspension(DescribedSection):
         """Return the stroke of the damper at many positions."""
 
     def stops_at(self, strokes: Strokes) -> tuple[SpringForce, ...]:
-        """Return what else pushes by its position, at many positions: the stops."""
+        """Return the forces of the stops at many positions."""
         return tuple(strokes.spring(f"{side}_stop_force", self.STOPPED) for side in _sides(strokes))
 
     def gaps_at(self, strokes: Strokes) -> tuple[Array, ...]:
-        """Return what is open of each stop [m]: where it closes, the stop begins to act."""
+        """Return the gap of each stop [m]; the stop acts from zero gap on."""
         sense = {"bump": 1.0, "rebound": -1.0}
         length = strokes.stroke(self.STOPPED).length
         return tuple(
@@ -359,7 +359,7 @@ class Suspension(DescribedSection):
         )
 
     def extended(self) -> Extended | None:
-        """Return what the wheel hangs on drawn out; None where the equations have no such end."""
+        """Return the strut or damper at full extension; None where the equations have no end."""
         return None
 
     def without_friction(self) -> Self:
@@ -423,7 +423,7 @@ class Suspension(DescribedSection):
         }
 
     def extras(self) -> list[str]:
-        """Return what this suspension has that plain equations leave out: sections and keys."""
+        """Return sections and keys that the plain equations leave out."""
         present = {
             "[bump_stop]": self.bump_stop is not None,
             "[rebound_stop]": self.rebound_stop is not None,
@@ -433,7 +433,7 @@ class Suspension(DescribedSection):
         return [name for name, is_present in present.items() if is_present]
 
     def parameters_of_extras(self, length: float, curve: Damper | None) -> dict[str, float]:
-        """Return what only equations with everything take, but for the friction, in SI units.
+        """Return parameters of the complete equations only, without friction, in SI units.
 
         Parameters
         ----------

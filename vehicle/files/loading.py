@@ -13,7 +13,7 @@ from ..models.whole_axle import WholeAxle, whole_axle_class
 
 
 def load(path_or_name: str | Path) -> Suspension | Axle | WholeAxle | Car:
-    """Read a TOML file, and return what it describes.
+    """Read a TOML file, and return the suspension, axle or car that it describes.
 
     Parameters
     ----------

@@ -96,7 +96,7 @@ def known(kind: str) -> list[str]:
 
 
 def read_names(texts: Iterable[str]) -> dict[str, str]:
-    """Return what names of hardpoints mean that a user gives: ``ours=theirs``, each.
+    """Return the names of hardpoints that a user assigns by ``ours=theirs``.
 
     Parameters
     ----------

@@ -42,7 +42,7 @@ Point = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class PointTable:
-    """What a table has.
+    """Contents of a table.
 
     Attributes
     ----------
@@ -400,7 +400,7 @@ def write_points(
 
 
 def doubts(found: Merged) -> str:
-    """Say which rows may be hardpoints that the table has not; empty if there is no doubt.
+    """Return which rows may be missing hardpoints; empty if there is no doubt.
 
     A table that leaves nothing out, or has every hardpoint that is needed, is as it is meant.
     """
@@ -417,7 +417,7 @@ def doubts(found: Merged) -> str:
 
 
 def as_words(found: Merged, table: PointTable | None = None) -> Mapping[str, str]:
-    """Return what was read, kept and left out, in words, by what it is about.
+    """Return descriptions of values that were read, kept and left out, by subject.
 
     Parameters
     ----------

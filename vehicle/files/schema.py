@@ -219,7 +219,7 @@ def schema_text() -> str:
 
 
 def page_text() -> str:
-    """Return the reference page: what every kind has, then what each has of its own."""
+    """Return the reference page: sections of all kinds, then those of each kind."""
     sections, shared = schema()["$defs"], _shared()
     first, *_ = KINDS.values()
     parts = [_HEAD, "## Every suspension\n"]

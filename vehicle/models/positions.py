@@ -226,7 +226,7 @@ def state_at_height(
 def road_under_load(
     model: Model, wheel_load: float, state: ArrayLike, inputs: ArrayLike | None = None
 ) -> Array:
-    """Return how high the road is when it carries a wheel at rest with a given load.
+    """Return the height of the road that carries a wheel at rest with a given load.
 
     Parameters
     ----------

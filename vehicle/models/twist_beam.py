@@ -169,7 +169,7 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
     )
 
     def heading(self) -> str:
-        """Return what the axle is called."""
+        """Return the name of the axle."""
         return f"twist-beam {self.twist_beam} axle"
 
     @property
@@ -207,7 +207,7 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
         return (SHEAR_CENTER, *(f"{name}_{side}" for name in own for side in SIDES))
 
     def structure(self) -> Structure:
-        """Return what holds its parts together."""
+        """Return the structure that connects its parts."""
         joints: list[PartJoint] = []
         for side in SIDES:
             arm = f"arm_{side}"

@@ -150,7 +150,7 @@ class WholeAxle(DescribedSection):
 
     @abstractmethod
     def heading(self) -> str:
-        """Return what the axle is called."""
+        """Return the name of the axle."""
 
     @property
     def end(self) -> "End":
@@ -217,7 +217,7 @@ class WholeAxle(DescribedSection):
 
     @abstractmethod
     def structure(self) -> Structure:
-        """Return what holds its parts together."""
+        """Return the structure that connects its parts."""
 
     @abstractmethod
     def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:

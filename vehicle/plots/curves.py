@@ -254,7 +254,7 @@ def grouped(dataset: xr.Dataset, goals: Sequence[Goal] = ()) -> dict[str, tuple[
 
 
 def first_curves(dataset: xr.Dataset) -> tuple[str, ...]:
-    """Return the curves that are looked at first; none where few of them are there.
+    """Return the main curves; none where few of them exist.
 
     Parameters
     ----------

@@ -31,7 +31,7 @@ _AT_ONCE = 4096  # positions of a cam
 
 
 def enveloped(road: Road, *, radius: float, contact_length: float) -> Road:
-    """Return the effective road of a tyre that envelopes what is short.
+    """Return the effective road of a tyre that envelopes short obstacles.
 
     Long waves stay as they are, short ones are lowered, and an edge becomes a ramp that begins
     before it. Effective inclinations and forces forward are not in it.

@@ -56,7 +56,7 @@ class Fitted:
 
     @property
     def is_explained(self) -> bool:
-        """Whether what is left may be errors of measurement: 99 of 100 times it is no more.
+        """Whether the residual is within that of measurement errors in 99 of 100 cases.
 
         The sum of squares of as many independent errors as count is that of chi-squared.
         """
@@ -69,7 +69,7 @@ class Fitted:
 
 @dataclass(frozen=True)
 class Fit:
-    """What explains a measurement.
+    """Values that explain a measurement.
 
     Attributes
     ----------

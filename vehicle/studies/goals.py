@@ -123,7 +123,7 @@ class Limit(Goal):
 
 
 def read(path: str | Path) -> dict[str, Any]:
-    """Read a TOML file of tolerances, free values, targets, limits and such; it may have them all.
+    """Read a TOML file of tolerances, free values, targets and limits.
 
     Parameters
     ----------
@@ -212,7 +212,7 @@ def words_of(kind: str, name: str, over: str) -> str:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What comes of a goal.
+    """Result for a goal.
 
     Attributes
     ----------

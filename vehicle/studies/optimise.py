@@ -31,7 +31,7 @@ _GAVE_UP = {
 
 @dataclass(frozen=True)
 class Optimum:
-    """What came of an optimisation.
+    """Result of an optimisation.
 
     Attributes
     ----------

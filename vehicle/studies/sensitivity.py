@@ -62,7 +62,7 @@ def sensitivity(
     held: WheelSupport | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
-    """Return by how much values of the input file move the characteristics.
+    """Return the derivatives of characteristics by values of the input file.
 
     Parameters
     ----------
@@ -323,7 +323,7 @@ def _per(unit: str, other: str, link: str = "/") -> str:
 
 
 class Effect(NamedTuple):
-    """What a value of the input file does to a characteristic.
+    """Effect of a value of the input file on a characteristic.
 
     Attributes
     ----------
@@ -341,7 +341,7 @@ class Effect(NamedTuple):
 
 
 def effects(dataset: xr.Dataset, name: str, at: float = 0.0) -> Iterator[Effect]:
-    """Return what each value does to a characteristic at a position, the largest first.
+    """Return the effect of each value on a characteristic at a position, the largest first.
 
     A millimetre and a degree cannot be compared: values of one unit come together.
 

@@ -51,7 +51,7 @@ def tolerance(
     held: WheelSupport | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
-    """Return what becomes of the characteristics of many cars whose values differ by chance.
+    """Return the characteristics of many cars with random values within tolerances.
 
     Parameters
     ----------

@@ -47,7 +47,7 @@ _TELLS = 0.5  # of what is allowed, that an error of one standard deviation is l
 
 @dataclass(frozen=True)
 class TyreFit:
-    """Coefficients that explain a measurement best, and how well it determines them.
+    """Coefficients that explain a measurement best, and their standard errors.
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ class TyreFit:
     evaluations: int
 
     def root_mean_square(self) -> dict[str, float]:
-        """Return the root of the mean square of what is left of each force [N, N m]."""
+        """Return the root mean square of the residual of each force [N, N m]."""
         return {k: float(np.sqrt(np.mean(v * v))) for k, v in self.residuals.items()}
 
 

@@ -26,7 +26,7 @@ _UNITS = {
 
 @dataclass(frozen=True)
 class TyreState:
-    """What a tyre does in some states, in the axes of ISO 8855 at its contact.
+    """Forces of a tyre in some states, in the axes of ISO 8855 at its contact.
 
     All arrays have the shape to which the arguments broadcast. x is forward, y left, z up.
 

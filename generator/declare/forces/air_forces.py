@@ -72,7 +72,7 @@ class AirForces(Force):
         return "force", self.name
 
     def describe(self) -> Description:
-        """Return what a report says of it."""
+        """Return its description in reports."""
         return Description(
             f"air {self.name}",
             f"drag `{self.drag.name}`, lift `{self.lift.name}`, moment `{self.pitching.name}`",

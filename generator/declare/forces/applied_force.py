@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 @declared
 @dataclass(frozen=True)
 class AppliedForce(Force):
-    """A force along a direction at a point of a body; an input says how much [N].
+    """A force along a direction at a point of a body, given by an input [N].
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class AppliedForce(Force):
         return "AppliedForce at", f"{self.body.name} by {self.input.name}"
 
     def describe(self) -> Description:
-        """Return what a report says of it."""
+        """Return its description in reports."""
         name = self.input.name
         return Description(
             name,

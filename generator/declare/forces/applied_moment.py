@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 @declared
 @dataclass(frozen=True)
 class AppliedMoment(Force):
-    """A moment about a direction on a body; an input says how much [N m].
+    """A moment about a direction on a body, given by an input [N m].
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ class AppliedMoment(Force):
         return "AppliedMoment on", f"{self.body.name} by {self.input.name}"
 
     def describe(self) -> Description:
-        """Return what a report says of it."""
+        """Return its description in reports."""
         name = self.input.name
         share = r"$`\mathbf{W}_b^T\mathbf{d}\,F`$"
         return Description(name, f"`{name}` on {self.body.name} about d", share)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Action:
-    """What a force does at an instant.
+    """Generalised forces of a force at an instant.
 
     Attributes
     ----------
@@ -86,13 +86,13 @@ class Force(ABC):
         return None
 
     def describe(self) -> Description:
-        """Return what a report says of it."""
+        """Return its description in reports."""
         does = (type(self).__doc__ or "").partition("\n")[0]
         return Description(" ".join(self.identity), does, "its power by the rate")
 
     @abstractmethod
     def act(self, at: Surroundings) -> Action:
-        """Append what it does."""
+        """Append its generalised forces."""
 
     def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
         """Yield its signals, which may read the accelerations.

@@ -84,7 +84,7 @@ class ForceElement(Force):
         return self.path.words.force == "moment"
 
     def signal(self, law: Law) -> str:
-        """Return what the signal of one of its laws is called, without the element's name."""
+        """Return the name of the signal of one of its laws, without the element's name."""
         return law.signal.replace("force", self.path.words.force)
 
     def shown_as(self, law: Law, mechanism: Whole) -> str:
@@ -107,14 +107,14 @@ class ForceElement(Force):
         return signal if alone else f"{self.name}_{signal}"
 
     def describe(self) -> Description:
-        """Return what a report says of it."""
+        """Return its description in reports."""
         laws = "; ".join(law.describe() for law in self.laws)
         length = r"\vartheta" if self.turns else r"\ell"
         share = rf"$`\left(\partial {length}/\partial\mathbf{{q}}\right)^T F`$"
         return Description(self.name, f"F, {self.path.words.sense}: {laws}", share)
 
     def act(self, at: Surroundings) -> Action:
-        """Sum up the laws; what pushes the ends apart does work on the length."""
+        """Sum the laws; a force that pushes the ends apart does work on the length."""
         program, name = at.program, self.name
         course = self.path.course(at, name)
         rates = [m * at.rate(k) for k, m in course.motion.items()]

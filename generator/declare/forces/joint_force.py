@@ -52,7 +52,7 @@ class JointForce(Force):
         return self.joint
 
     def describe(self) -> Description:
-        """Return what a report says of it."""
+        """Return its description in reports."""
         name = self.input.name
         acts = f"`{name}` along the coordinate of joint {self.joint.name}, which is independent"
         return Description(name, acts, "itself, in the row of that coordinate")

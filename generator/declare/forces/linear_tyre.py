@@ -84,12 +84,12 @@ class LinearTyre(Force):
         return "force", self.name
 
     def prefix(self, mechanism: Whole) -> str:
-        """Return what begins the names of its signals: nothing, where it is alone."""
+        """Return the prefix of the names of its signals; empty for a single tyre."""
         alone = sum(isinstance(f, LinearTyre) for f in mechanism.forces) == 1
         return "" if alone else f"{self.name}_"
 
     def describe(self) -> Description:
-        """Return what a report says of it."""
+        """Return its description in reports."""
         load = f"{self.rate.name}*({self.free_height.name} + {self.road.name} - height)"
         more = ", with damping" if self.damper is not None else ""
         pull = r"\mathbf{w} = \frac{F}{1-a_z^2}\,(\mathbf{e}_z - a_z\,\mathbf{a})"

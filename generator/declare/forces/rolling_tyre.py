@@ -122,7 +122,7 @@ class RollingTyre(Force):
         return self.bearing
 
     def describe(self) -> Description:
-        """Return what a report says of it."""
+        """Return its description in reports."""
         acts = f"{self.law.describe()}: F and M at the contact, N at the lowest point of the disc"
         share = (
             r"$`\left(\partial\mathbf{v}_P/\partial\dot{\mathbf{q}}\right)^T(\mathbf{F}+\mathbf{N})"

@@ -84,13 +84,13 @@ class ShaftTorque(Force):
         return self.bearing
 
     def describe(self) -> Description:
-        """Return what a report says of it."""
+        """Return its description in reports."""
         kind = "brake" if self.standstill is not None else "shaft"
         acts = f"`{self.torque.name}` of a {kind} on {self.reaction.name}, about the spin axis a"
         return Description(f"torque {self.name}", acts, r"$`T\,\mathbf{W}_b^T\mathbf{a}`$")
 
     def act(self, at: Surroundings) -> Action:
-        """Append its power on the spin of the wheel against what has the reaction."""
+        """Append its power on the spin of the wheel relative to the body with the reaction."""
         carrier, spin = self.wheel.carrier.name, at.coordinate(self.bearing.name)
         axis = at.direction(carrier, self.wheel.spin)
         rates = {spin: sp.Integer(1)}

@@ -97,7 +97,7 @@ class WheelLoads(Force):
         return self.bearing
 
     def describe(self) -> Description:
-        """Return what a report says of it."""
+        """Return its description in reports."""
         named = ", ".join(f"`{i.name}`" for i in (*self.contact, *self.center, *self.moment))
         torques = f"torques `{self.shaft.name}` and `{self.hub.name}` about the spin axis"
         return Description(

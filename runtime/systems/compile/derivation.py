@@ -18,7 +18,7 @@ def write_derivation(
     name: str | None = None,
     force: bool = False,
 ) -> list[Path]:
-    """Write how the equations of a mechanism are derived: a chapter, from its joints to M, B and Q.
+    """Write the derivation of the equations of a mechanism, from its joints to M, B and Q.
 
     Nothing is compiled. What is written in LaTeX asks for the packages of a small installation
     (on Debian: texlive-latex-recommended), and is compiled by ``pdflatex`` or ``lualatex``.

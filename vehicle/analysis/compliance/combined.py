@@ -47,7 +47,7 @@ def combined(
     held: WheelSupport = "height",
     hardpoints: Hardpoints = "loaded",
 ) -> xr.Dataset:
-    """Return where the wheels are at each wheel travel under each amount of a load.
+    """Return the positions of the wheels at each wheel travel under each amount of a load.
 
     Parameters
     ----------

@@ -76,7 +76,7 @@ def elastokinematics(
     rack_position: float = 0.0,
     hardpoints: Hardpoints = "loaded",
 ) -> xr.Dataset:
-    """Return how the wheels move over a motion with rigid joints, and on their bushes.
+    """Return curves of the wheels over a motion, with rigid joints and on bushes.
 
     Parameters
     ----------

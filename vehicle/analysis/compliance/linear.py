@@ -45,7 +45,7 @@ def linear(
     rack_position: float = 0.0,
     held: WheelSupport = "height",
 ) -> xr.Dataset:
-    """Return how the wheels move per unit of a load, over parallel wheel travel, to first order.
+    """Return first-order deflections of the wheels per unit of a load, over parallel travel.
 
     Parameters
     ----------

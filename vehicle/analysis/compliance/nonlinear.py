@@ -84,7 +84,7 @@ def nonlinear(
     held: WheelSupport = "height",
     hardpoints: Hardpoints = "loaded",
 ) -> xr.Dataset:
-    """Return how far the wheels deflect under loads of any size.
+    """Return the deflections of the wheels under loads of any size.
 
     Parameters
     ----------

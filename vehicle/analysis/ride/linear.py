@@ -108,7 +108,7 @@ def response(
     *,
     frequency: ArrayLike | None = None,
 ) -> xr.Dataset:
-    """Return how a car answers a rough road, from its linear equations.
+    """Return the response of a car to a rough road, by its linear equations.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ _OF_BODY = {
 
 
 def at_rest(subject: Any) -> xr.Dataset:
-    """Return where a car rests on a level road.
+    """Return the position of rest of a car on a level road.
 
     Parameters
     ----------

@@ -33,7 +33,7 @@ def command(
     model: Which = None,
     force: Force = False,
 ) -> None:
-    """Write how the equations of motion are derived: from the joints to M, B and Q.
+    """Write the derivation of the equations of motion, from the joints to M, B and Q.
 
     A chapter with the figures of the mechanism and numbered equations, for LaTeX (pdflatex, twice)
     or as Markdown. Needs the packages of the extra "generator": pip install "kintrafo[generator]".

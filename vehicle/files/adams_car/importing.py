@@ -48,7 +48,7 @@ class ImportedSubsystem(Merged):
     assumed: tuple[str, ...]
 
     def words(self) -> list[tuple[str, str]]:
-        """Return what was read, assumed and left out, in words."""
+        """Return descriptions of values that were read, assumed and left out."""
         pairs = (
             ours if ours == theirs else f"{ours} ({theirs})" for ours, theirs in self.read.items()
         )

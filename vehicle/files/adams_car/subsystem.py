@@ -36,7 +36,7 @@ _SILENT = ("plugins", "solver_settings")
 
 @dataclass(frozen=True)
 class Subsystem:
-    """What the file of a suspension's subsystem has.
+    """Contents of the file of a suspension's subsystem.
 
     Attributes
     ----------

@@ -252,7 +252,7 @@ class Axle(Described):
         return self.right.steered()
 
     def heading(self) -> str:
-        """Return what the axle is called."""
+        """Return the name of the axle."""
         kinds = " and ".join(dict.fromkeys(side.TITLE for side in self.sides.values()))
         return f"{self.end} axle, {kinds}"
 

@@ -223,7 +223,7 @@ class Car(Described):
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """What the body does: heave [m], positive up, pitch, roll and so on [rad]."""
+        """Coordinates of the body: heave [m], positive up, pitch, roll and so on [rad]."""
         return COORDINATES[self.described.car]
 
     @property
@@ -277,7 +277,7 @@ class Car(Described):
         return WHEELS if self.corner is None else (self.corner.vehicle.side,)
 
     def heading(self) -> str:
-        """Return what the car is called."""
+        """Return the name of the car."""
         if self.corner is not None:
             return f"quarter car, {self.corner.TITLE}"
         return f"car, {' and '.join(axle.heading() for axle in self.axles.values())}"
@@ -314,7 +314,7 @@ class Car(Described):
 
     @property
     def unused(self) -> tuple[str, ...]:
-        """What its files give and a body that moves so does not take, in words."""
+        """Values of its files that a body with these coordinates does not use, in words."""
         body = self.described.body
         turns = {"pitch": "yy", "roll": "xx"}
         used = {turns[name] for name in self.coordinates if name in turns}

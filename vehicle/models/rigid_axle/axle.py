@@ -121,7 +121,7 @@ are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center
     # -- what it is -----------------------------------------------------------------------------
 
     def heading(self) -> str:
-        """Return what the axle is called."""
+        """Return the name of the axle."""
         return f"rigid {self.rigid_axle} axle"
 
     def ends(self) -> dict[str, Ends]:
@@ -168,7 +168,7 @@ are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center
         return self.bushings is not None and len(self.guides) == len(self.rods) - 1 == NEEDED
 
     def structure(self) -> Structure:
-        """Return what holds its parts together."""
+        """Return the structure that connects its parts."""
         return structure_of(self.rods)
 
     def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:

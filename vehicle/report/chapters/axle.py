@@ -65,7 +65,7 @@ _DRAWN = {
 
 
 def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
-    """Return what a rig finds of both wheels; a rigid axle is drawn, too.
+    """Return the chapter of both wheels on a rig; a rigid axle is drawn, too.
 
     Parameters
     ----------

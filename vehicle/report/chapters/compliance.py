@@ -14,7 +14,7 @@ from .curves import pictures, with_wanted
 
 
 def compliance_chapter(found: xr.Dataset, goals: Sequence[Goal] = ()) -> Chapter:
-    """Return how the wheel deflects on its bushes, or both wheels of an axle.
+    """Return the chapter of deflections on bushes, of a wheel or both wheels of an axle.
 
     Parameters
     ----------

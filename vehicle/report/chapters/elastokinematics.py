@@ -16,7 +16,7 @@ from .curves import pictures
 
 
 def elastokinematics_chapter(*found: xr.Dataset, goals: Sequence[Goal] = ()) -> Chapter:
-    """Return how wheels move on their bushes, beside rigid joints.
+    """Return the chapter of wheels on their bushes, beside rigid joints.
 
     Parameters
     ----------
