@@ -23,6 +23,7 @@ import numpy as np
 import pytest
 from kept import KEPT
 from kintrafo.generator.equations.outputs import Derivation, generate
+from kintrafo.generator.mechanisms import MODELS
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.cache import appearing, damage, fingerprint
 from kintrafo.systems.compile.compiler import FLAGS, Compiler
@@ -69,9 +70,10 @@ def derive(model: Formulation, *, derivatives: bool = True) -> Derivation:
     model
         Declaration.
     derivatives
-        With those by state and inputs.
+        With those by state and inputs; what ships has them in any case, for the tests that need
+        them.
     """
-    declared = said(model)
+    declared, derivatives = said(model), derivatives or model in MODELS
     found = _derived.get((declared, True)) or _derived.get((declared, derivatives))
     if found is None:
         found = _kept_or_derived(model, derivatives=derivatives)

@@ -62,7 +62,7 @@ else:
 def alone(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder with a package `kintrafo` that has no `vehicle`."""
     folder = tmp_path_factory.mktemp("alone")
-    unwanted = shutil.ignore_patterns("__pycache__", "node_modules")
+    unwanted = shutil.ignore_patterns("node_modules")
     shutil.copytree(RUNTIME, folder / "kintrafo", ignore=unwanted)
     for other in ("generated", "generator"):
         shutil.copytree(ROOT / other, folder / "kintrafo" / other, ignore=unwanted)
