@@ -162,35 +162,6 @@ STOPS = {
 }
 
 
-def test_stops_begin_at_their_clearance():
-    model = Model(changed(**STOPS))
-    design = float(model.signal("strut_length", model.design_state))
-    heights = np.linspace(0.2, 0.4, 41)
-    for height in heights:
-        signals = model.signals(kintrafo.state_at_height(model, float(height)))
-        closed = design - float(signals["strut_length"])
-        bump, rebound = max(closed - 0.03, 0.0), max(-closed - 0.05, 0.0)
-        # in newtons: rates of some 1e4 N/m times roundings of lengths of 1 m
-        assert signals["bump_stop_force"] == pytest.approx(2e4 * bump + 2e7 * bump**3, abs=1e-9)
-        assert signals["rebound_stop_force"] == pytest.approx(-5e4 * rebound, abs=1e-9)
-    lengths = [
-        float(model.signal("strut_length", kintrafo.state_at_height(model, h)))
-        for h in (heights[0], heights[-1])
-    ]
-    assert lengths[0] > design + 0.06  # both stops were touched
-    assert lengths[1] < design - 0.04
-
-
-def test_tyre_that_lifts_off_carries_nothing_in_the_air():
-    grounded, lifting = Model(CAR), Model(changed(tyre={"lifts_off": True}))
-    for height, in_the_air in ((0.31, False), (0.33, True)):
-        # a plain array: the inputs that the state carries are those of another model
-        state = np.array(kintrafo.state_at_height(grounded, height))
-        held, free = (float(m.signal("tyre_force", state)) for m in (grounded, lifting))
-        assert free == (0.0 if in_the_air else pytest.approx(held, rel=1e-13))
-        assert (held < 0.0) == in_the_air
-
-
 def test_damping_of_the_tyre_follows_the_road():
     model = Model(changed(tyre={"damper_rate_N_s_per_m": 150.0}))
     still = model.signal("tyre_force", model.design_state)

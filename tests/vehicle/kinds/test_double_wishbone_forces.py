@@ -1,4 +1,4 @@
-"""Damper curve, friction, stops and a tyre that lifts off, in a double wishbone.
+"""Damper curve, friction, stops and a tyre that lifts off, in a double wishbone, over time.
 
 The equations are compared with maximal coordinates in `test_mechanisms`. Here they are seen through
 the input file, and over time: what they gain and lose is what the forces give and take.
@@ -12,7 +12,6 @@ from kintrafo.generated import double_wishbone, double_wishbone_general
 from kintrafo.generator.mechanisms.double_wishbone import MODELS
 from oracle.maximal import Motion, Oracle
 from scipy.integrate import solve_ivp
-from scipy.interpolate import PchipInterpolator
 
 CAR = Suspension.load("double_wishbone_car")
 PLAIN = Model(CAR)
@@ -31,13 +30,6 @@ STOPS = {
 
 def with_sections(**sections):
     return Suspension.from_dict(CAR.to_dict() | sections)
-
-
-def at_damper_velocity(model, velocity):
-    """Return the state at design with the damper compressed at some velocity [m/s]."""
-    by_state = model.evaluate("signals_jacobian", model.design_state)
-    slope = by_state[model.signal_names.index("spring_velocity"), 2]
-    return model.state(arm_angle_rate=-velocity / slope)
 
 
 @pytest.mark.parametrize(
@@ -72,55 +64,6 @@ def test_with_all_of_it_switched_off_the_numbers_are_those_of_the_plain_one():
         assert found == pytest.approx(expected, rel=1e-11, abs=1e-9)
 
 
-def test_damper_curve_is_the_monotone_cubic():
-    model, curve = Model(CAR.with_changes(CURVE)), PchipInterpolator(VELOCITIES, FORCES)
-    for velocity in np.linspace(-2.0, 2.0, 41):
-        inside = np.clip(velocity, VELOCITIES[0], VELOCITIES[-1])
-        expected = curve(inside) + curve.derivative()(inside) * (velocity - inside)
-        found = model.signal("damper_force", at_damper_velocity(model, velocity))
-        # in bump a damper pushes the ends apart
-        assert float(found) == pytest.approx(float(expected), rel=1e-12, abs=1e-9)
-
-
-def test_stops_begin_at_their_clearance():
-    model = Model(with_sections(**STOPS))
-    design = float(model.signal("spring_length", model.design_state))
-    seen = []
-    for height in np.linspace(0.2, 0.4, 41):
-        signals = model.signals(kintrafo.state_at_height(model, float(height)))
-        closed = design - float(signals["spring_length"])
-        bump, rebound = max(closed - 0.02, 0.0), max(-closed - 0.03, 0.0)
-        # in newtons: rates of some 1e4 N/m times roundings of lengths of 1 m
-        assert signals["bump_stop_force"] == pytest.approx(2e4 * bump + 2e7 * bump**3, abs=1e-9)
-        assert signals["rebound_stop_force"] == pytest.approx(-5e4 * rebound, abs=1e-9)
-        seen.append(closed)
-    assert max(seen) > 0.03  # both were touched
-    assert min(seen) < -0.04
-
-
-def test_stops_are_part_of_the_wheel_rate():
-    """The wheel rate is the slope of the force that holds the wheel at a height."""
-    model = Model(with_sections(**STOPS))
-    design = float(model.signal("wheel_center_z", model.design_state))
-
-    def held(height):
-        """Return the load on the wheel that springs and stops carry, by virtual work."""
-        state = kintrafo.state_at_height(model, height)
-        by_state = model.evaluate("signals_jacobian", state)
-        slopes = {n: by_state[model.signal_names.index(n), 2] for n in model.signal_names}
-        ratio = -slopes["spring_velocity"] / slopes["wheel_velocity"]
-        forces = model.signals(state)
-        names = ("spring_force", "bump_stop_force", "rebound_stop_force")
-        return ratio * sum(float(forces[n]) for n in names)
-
-    for travel in (-0.07, 0.0, 0.06):
-        found = kintrafo.characteristics.over(model, "travel", [travel])["wheel_rate"][0]
-        step = 1e-4
-        slope = (held(design + travel + step) - held(design + travel - step)) / (2.0 * step)
-        # second differences: the third derivative of the cubic stop times a step squared
-        assert float(found) == pytest.approx(slope, rel=1e-5)
-
-
 def test_events_of_the_stops():
     model = Model(with_sections(**STOPS))
     start = kintrafo.state_at_height(model, 0.2)
@@ -133,33 +76,6 @@ def test_events_of_the_stops():
         for _, state in zip(times, states, strict=True):
             assert float(model.signal("spring_length", state)) == pytest.approx(reached, abs=1e-7)
     assert len(result.t_events[0]) >= 1  # let go in rebound, it is thrown up to the other stop
-
-
-def test_tyre_that_lifts_off_carries_nothing_in_the_air():
-    lifting = Model(CAR.with_changes({"tyre.lifts_off": True}))
-    for height, in_the_air in ((0.31, False), (0.33, True)):
-        state = np.array(kintrafo.state_at_height(PLAIN, height))
-        held, free = (float(m.signal("tyre_force", state)) for m in (PLAIN, lifting))
-        assert free == (0.0 if in_the_air else pytest.approx(held, rel=1e-13))
-        assert (held < 0.0) == in_the_air
-
-
-def test_friction_resists_and_can_be_left_out():
-    rough = CAR.with_changes({"damper.friction_N": 60.0})
-    smooth = rough.without_friction()
-    assert smooth.damper.friction_N == 0.0
-    assert smooth.without_friction() is smooth
-    state = at_damper_velocity(Model(rough), 0.4)
-    force = float(Model(rough).signal("friction_force", state))
-    assert force == pytest.approx(60.0 * 0.4 / np.hypot(0.4, 0.01), rel=1e-12)
-
-
-def test_mirror_image_moves_alike():
-    car = with_sections(**STOPS).with_changes(CURVE | {"tyre.lifts_off": True})
-    right, left = Model(car), Model(car.mirrored())
-    state = right.state(arm_angle_rate=1.0, spin_angle_rate=80.0)
-    mirrored = left.state(arm_angle_rate=1.0, spin_angle_rate=80.0)
-    assert left.evaluate("rhs", mirrored) == pytest.approx(right.evaluate("rhs", state), rel=1e-11)
 
 
 class Bench:

@@ -213,16 +213,6 @@ def test_a_spring_that_does_not_move_locks_nothing() -> None:
     assert np.isfinite(found["caster"][1])
 
 
-def test_stops_act_along_the_damper() -> None:
-    car = CAR.with_changes({"bump_stop": {"clearance_mm": 20.0, "rate_N_per_m": 1e5}})
-    model = Model(car)
-    state = state_at_height(model, design_height(model) + 0.05)
-    signals = model.signals(state)
-    length = car.hardpoints.distance("damper_seat", "damper_top")
-    pressed = length - 0.02 - float(signals["damper_length"])
-    assert float(signals["bump_stop_force"]) == pytest.approx(1e5 * pressed, rel=1e-9)
-
-
 def test_an_axle_of_it_rolls() -> None:
     axle = Axle.from_dict({"axle": "rear", "side": CAR})
     found = flat(characteristics.over(axle, "roll", [-0.03, 0.0, 0.03]))
