@@ -178,13 +178,13 @@ def _neighbours(folder: Path) -> Iterator[None]:
     They are run as they are now: what was imported before counts as little as compiled bytes, which
     Python trusts by date and size of the source, and they are forgotten afterwards.
     """
-    before = {name: module for name, module in sys.modules.items() if _is_beside(module, folder)}
+    before = _modules_beside(folder)
     hook = FileFinder.path_hook(
         (ExtensionFileLoader, EXTENSION_SUFFIXES), (AsItIs, SOURCE_SUFFIXES)
     )
 
     def of_folder(path: str) -> Any:
-        if not _is_inside(path, folder):
+        if not _is_inside(path, folder, _other_places(folder)):
             raise ImportError(path)
         return hook(path)
 
@@ -198,13 +198,20 @@ def _neighbours(folder: Path) -> Iterator[None]:
         sys.path.remove(str(folder))
         sys.path_hooks.remove(of_folder)
         _find_anew(folder)
-        forget([name for name, module in sys.modules.items() if _is_beside(module, folder)])
+        forget(_modules_beside(folder))
         sys.modules.update(before)
 
 
-def _is_beside(module: Any, folder: Path) -> bool:
-    """Return whether a module was found in a folder, or is of a package that was."""
-    name = getattr(module, "__name__", "").partition(".")[0]
+def _modules_beside(folder: Path) -> dict[str, Any]:
+    """Return the modules that were found in a folder, or are of a package that was, by name."""
+    # thousands of modules are of some hundred packages, whose paths take long to resolve
+    tops = {n: getattr(m, "__name__", "").partition(".")[0] for n, m in sys.modules.items()}
+    beside = {top for top in set(tops.values()) if _is_beside(top, folder)}
+    return {name: sys.modules[name] for name, top in tops.items() if top in beside}
+
+
+def _is_beside(name: str, folder: Path) -> bool:
+    """Return whether a package or a module at the top was found in a folder."""
     if name in ("__main__", __name__.partition(".")[0]):
         return False
     top = sys.modules.get(name)
@@ -212,18 +219,23 @@ def _is_beside(module: Any, folder: Path) -> bool:
     return any(Path(place).parent.resolve() == folder for place in places if place)
 
 
-def _is_inside(path: str, folder: Path) -> bool:
+def _other_places(folder: Path) -> set[Path]:
+    """Return where modules are looked for besides a folder."""
+    return {Path(entry).resolve() for entry in sys.path} - {folder}
+
+
+def _is_inside(path: str, folder: Path, others: set[Path]) -> bool:
     """Return whether a place for modules is in a folder, and not below another such place in it."""
     place = Path(path).resolve()
-    others = {Path(entry).resolve() for entry in sys.path} - {folder}
     between = [place, *place.parents]
     return folder in between and others.isdisjoint(between[: between.index(folder)])
 
 
 def _find_anew(folder: Path) -> None:
     """Forget what was known of the files of a folder."""
+    others = _other_places(folder)
     for path in list(sys.path_importer_cache):
-        if _is_inside(path, folder):
+        if _is_inside(path, folder, others):
             sys.path_importer_cache.pop(path, None)
 
 
