@@ -172,6 +172,7 @@ _INTERFACES = {
     "compliance": ".vehicle.analysis.compliance",
     "excitation": ".vehicle.analysis.excitation",
     "export": ".datasets.export",
+    "handling": ".vehicle.analysis.handling",
     "loads": ".vehicle.analysis.loads",
     "measurement": ".vehicle.analysis.measurement",
     "plots": ".vehicle.plots",

@@ -14,6 +14,7 @@ from . import (
     check,
     compare,
     compliance,
+    drive,
     export,
     fit,
     import_,
@@ -84,7 +85,7 @@ def _flowing(docstring: str) -> str:
 # In the order in which an engineer needs them.
 _PANELS = {
     "Begin": (new, import_, check),
-    "Compute": (characteristics, simulate, ride, loads, compliance, sheet, compare, tyre),
+    "Compute": (characteristics, simulate, ride, drive, loads, compliance, sheet, compare, tyre),
     "Design": (sensitivity, tolerance, optimise, pareto, fit, sweep),
     "Hand over": (report, export),
 }

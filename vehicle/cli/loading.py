@@ -61,8 +61,14 @@ def variable_subject(file: str) -> "Suspension | Axle | WholeAxle":
     return found
 
 
-def car_of(file: str) -> "CarAssembly":
+def car_of(file: str, *, driving: bool = False) -> "CarAssembly":
     """Return the car that a file describes, its equations derived; others are refused.
+
+    Parameters
+    ----------
+    file : str
+    driving : bool, optional
+        Whether a car that does not drive is refused, before its equations are derived.
 
     Raises
     ------
@@ -87,6 +93,8 @@ def car_of(file: str) -> "CarAssembly":
             "needed: quarter_car, or what kintrafo new FILE --car writes."
         )
         raise InputError([problem], file)
+    if driving:
+        CarAssembly(subject).require_driving()
     with problems.status("preparing the equations") as status:
         model = of_subject(subject, progress=lambda text: status.update(f"the equations: {text}"))
     assert isinstance(model, CarModel)

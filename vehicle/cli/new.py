@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from ...terminal.console import say
-from ..data.starter import DEFAULT, kinds, whole_axles
+from ..data.starter import DEFAULT, kinds, manoeuvres, whole_axles
 from .options import Force, argument, option
 
 EXAMPLES = (
@@ -63,4 +63,5 @@ def command(
     usual = whole[chosen[0]][1] if chosen else of_kind
     copied = usual if template is None else template
     say(f"  {write_starter(path, template=copied, force=force)}")
-    say(f"Edit it, then: kintrafo check {path}")
+    then = f"drive FILE --manoeuvre {path}" if copied in manoeuvres() else f"check {path}"
+    say(f"Edit it, then: kintrafo {then}")

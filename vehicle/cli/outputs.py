@@ -245,10 +245,16 @@ class Outputs:
         ]
 
     def draw(
-        self, write: Callable[..., Path], shown: Any, *rest: Any, **options: Any
+        self,
+        write: Callable[..., Path],
+        shown: Any,
+        *rest: Any,
+        suffix: str = "",
+        **options: Any,
     ) -> list[Path]:
         """Write the pages by a function of what is shown and of a path, and return them."""
-        return [write(shown, path, *rest, **options, **self.rule) for path in self.pages]
+        paths = [_named(path, suffix) for path in self.pages]
+        return [write(shown, path, *rest, **options, **self.rule) for path in paths]
 
     def write_car(self, subject: "Suspension | Axle | WholeAxle", head: str) -> list[Path]:
         """Write the hardpoint file that was found, with a comment at its head, and return it."""

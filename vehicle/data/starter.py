@@ -20,6 +20,9 @@ WHOLE_AXLES = f"{__package__}.whole_axles"
 CARS = f"{__package__}.cars"
 """Where the cars are that come with kintrafo."""
 
+MANOEUVRES = f"{__package__}.manoeuvres"
+"""Where the manoeuvres are that come with kintrafo."""
+
 AXLE = "axle"
 """The top-level key that says that a file describes an axle."""
 
@@ -78,6 +81,17 @@ def packaged_cars() -> tuple[str, ...]:
     True
     """
     return tuple(data_sets(CARS))
+
+
+def manoeuvres() -> dict[str, Traversable]:
+    """Return the files of the manoeuvres that come with kintrafo, by their names.
+
+    Examples
+    --------
+    >>> "step_steer" in manoeuvres()
+    True
+    """
+    return data_sets(MANOEUVRES)
 
 
 def whole_axles() -> tuple[str, ...]:
@@ -153,7 +167,7 @@ def write_starter(
     InputError
         If there is a file already, or the name cannot be used.
     """
-    known = data_sets() | data_sets(AXLES) | data_sets(WHOLE_AXLES) | data_sets(CARS)
+    known = all_packaged() | manoeuvres()
     if not isinstance(template, str) or template not in known:
         hint = suggestion(str(template), known)
         problem = f"no data set {template!r} comes with kintrafo. {hint}"

@@ -12,6 +12,8 @@ _UNIT_OF_ENDING = {
     "N_per_m": "N/m",
     "m_per_s2": "m/s^2",
     "m_per_s": "m/s",
+    "km_per_h": "km/h",
+    "deg_per_s": "deg/s",
     "kg_m2": "kg m^2",
     "Nm_per_deg": "N m/deg",
     "N_per_rad": "N/rad",
@@ -24,6 +26,10 @@ _UNIT_OF_ENDING = {
     "N": "N",
     "mm": "mm",
     "deg": "deg",
+    "Hz": "Hz",
+    "ms": "ms",
+    "m": "m",
+    "s": "s",
 }
 
 

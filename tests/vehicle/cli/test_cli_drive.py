@@ -1,0 +1,98 @@
+"""``kintrafo drive``: its tables and files, and what it says of mistakes."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from kintrafo.core.quantities import variable
+from kintrafo.vehicle.analysis.handling import HandlingResult, load_manoeuvre
+from kintrafo.vehicle.analysis.handling.result import quantity
+from kintrafo.vehicle.cli import drive
+from kintrafo.vehicle.cli.outputs import PlotOptions
+from kintrafo.vehicle.plots.handling import write_curves
+from rich.text import Text
+from xarray import Dataset
+
+
+def lines_of(tables):
+    return [
+        [Text.from_markup(cell).plain for cell in line]
+        for made in tables
+        for line in zip(*([column.header, *column.cells] for column in made.columns), strict=True)
+    ]
+
+
+def motion(runs=0):
+    """Return the motion of a car along a straight line, in several runs if asked for."""
+    time = np.linspace(0.0, 1.0, 11)
+    dims, shape = (("amplitude", "time"), (runs, 1)) if runs else (("time",), (1,))
+    values = time * np.ones(shape)
+    names = {"x": "m", "y": "m", "yaw_angle": "rad", "speed": "m/s", "yaw_rate": "rad/s"}
+    found = {name: quantity(dims, values, name, unit) for name, unit in names.items()}
+    coordinates = {"time": time}
+    if runs:
+        coordinates["amplitude"] = variable("amplitude", np.arange(runs) + 1.0, "amplitude", "rad")
+    return Dataset(found, coordinates, {"not_valid": [], "title": "a motion"})
+
+
+def test_numbers_of_each_run_have_columns_of_their_own():
+    metrics = Dataset(
+        {
+            "angle": quantity((), np.deg2rad(20.0), "reference angle", "rad"),
+            "ratio": quantity("amplitude", np.array([0.1, 0.2]), "yaw velocity ratio", "1"),
+            "gradient": quantity((), np.deg2rad(1.0) / 9.80665, "understeer gradient", "rad s^2/m"),
+        },
+        {"amplitude": variable("amplitude", np.deg2rad([30.0, 60.0]), "amplitude", "rad")},
+    )
+    lines = lines_of(drive._tables(HandlingResult(metrics, {"": motion()}), "a car"))
+    assert ["reference angle [deg]", "20"] in lines
+    assert ["understeer gradient [deg/g]", "1"] in lines
+    assert ["amplitude [deg]", "30", "60"] in lines
+    assert ["yaw velocity ratio", "0.1", "0.2"] in lines
+
+
+@pytest.mark.usefixtures("tmp_path")
+def test_curves_and_path_with_cones_are_written(tmp_path):
+    cones = Dataset({
+        "x": quantity("cone", np.array([0.2, 0.8]), "x", "m"),
+        "y": quantity("cone", np.array([1.2, -1.2]), "y", "m"),
+        "clearance": quantity("cone", np.array([0.3, np.nan]), "clearance", "m"),
+    }, attrs={"car_front": 2.0, "car_length": 4.0, "car_width": 1.8})  # fmt: skip
+    found = HandlingResult(Dataset(), {"": motion(), "_cones": cones})
+    chosen = load_manoeuvre("double_lane_change")
+    options = PlotOptions(out=[tmp_path / "a.csv"], plot=[tmp_path / "a.png"])
+    pages = (*drive._drawn(chosen), "_path")
+    outputs = options.files("car.toml", suffixes=chosen.CURVES, drawn=pages)
+    written = drive._write(outputs, found, chosen, "a car")
+    assert [path.name for path in written] == ["a.csv", "a_cones.csv", "a.png", "a_path.png"]
+    assert all(path.stat().st_size for path in written)
+
+
+def test_runs_are_lines(tmp_path):
+    path = write_curves(motion(runs=3), tmp_path / "runs.svg")
+    assert path.read_text(encoding="utf-8").count("rad") >= 0
+
+
+@pytest.mark.parametrize(("words", "said"), [
+    (["quarter_car"], 'car = "heave" does not travel'),
+    (["reference_vehicle"], 'car = "roll" does not travel'),
+    (["reference_axle"], "whose body is held"),
+    (["driving_car", "--manoeuvre", "step_ster"], "Did you mean step_steer"),
+    (["driving_car", "--manoeuvre", "constant_speed_circle", "--speed", "0"],
+     "a car that does not move is on no circle"),
+    (["driving_car", "--speed", "-5"], "speed_km_per_h = -5.0 km/h is out of range"),
+    (["driving_car", "--manoeuvre", "circle", "--speed", "50"], "give one of the two"),
+])  # fmt: skip
+def test_mistakes_are_named_before_equations_are_derived(kintrafo, words, said):
+    code, out, err = kintrafo("drive", *words)
+    assert (code, out) == (2, "")
+    assert said in " ".join(err.split())
+    assert not list(Path().glob("*.png"))
+
+
+def test_a_manoeuvre_is_written_to_edit(kintrafo, tmp_path):
+    file = tmp_path / "my_step.toml"
+    code, out, _ = kintrafo("new", str(file), "--template", "step_steer")
+    assert code == 0
+    assert "kintrafo drive" in out
+    assert load_manoeuvre(file).manoeuvre == "step_steer"

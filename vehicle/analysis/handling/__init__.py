@@ -1,0 +1,12 @@
+"""How a car handles: manoeuvres of the standards, and steady turns without a simulation.
+
+`drive`           a manoeuvre, by name or by its file
+`circle`          steady turns of one speed or one radius
+`load_manoeuvre`  what the file of a manoeuvre says
+"""
+
+from .driving import circle, drive
+from .manoeuvres import MANOEUVRES, load_manoeuvre
+from .result import HandlingResult
+
+__all__ = ["MANOEUVRES", "HandlingResult", "circle", "drive", "load_manoeuvre"]

@@ -1,0 +1,353 @@
+"""Steady-state circular driving (ISO 4138), found without a simulation.
+
+The branch of steady turns is followed from straight running, in steps of lateral acceleration that
+become shorter where a turn is not found, up to the greatest lateral acceleration of a steady turn.
+Gradients are the tangents of the branch, exact at every point.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ....core.errors import InputError
+from ....equations.errors import ModelError
+from ...assembly.by_wheel import WHEEL, wheel_coordinate
+from .body_motion import QUANTITIES
+from .car import DrivingCar
+from .result import HandlingResult, quantity
+from .steady import Condition, NoSteadyMotionError, Steady, SteadyMotion
+
+Array = NDArray[np.float64]
+
+# How near the greatest lateral acceleration is found [m/s^2].
+_RESOLVED = 1e-3
+# By which part the acceleration across the heading may be less than that across the path.
+_OF_SIDESLIP = 0.02
+# More lateral acceleration than this has no car on tyres [m/s^2].
+_MOST = 60.0
+# Lateral acceleration at which turns on a given radius begin [m/s^2].
+_GENTLE = 0.5
+# The greatest lateral acceleration of most cars is about this one [m/s^2].
+_USUAL = 10.0
+_IMAGINARY = 1e-30
+# Turn of the steering wheel over which a ratio is taken [rad].
+_SMALL = 1e-4
+
+_PER = "rad s^2/m"
+_OF_BODY = ("yaw_rate", "roll_angle", "pitch_angle", "sideslip_angle")
+_OF_DRIVER = {
+    "steering_wheel_angle": ("steering wheel angle, positive to the left", "rad"),
+    "steer_angle": ("mean steer angle of the steered wheels, positive to the left", "rad"),
+    "travel_speed": ("horizontal speed of the reference point", "m/s"),
+    "curvature": ("curvature of the path, positive to the left", "1/m"),
+    "drive_torque": ("torque of all driven wheels together", "N m"),
+}
+_GRADIENTS = {
+    "steering_wheel_gradient": "change of the steering wheel angle by lateral acceleration",
+    "roll_gradient": "change of the roll angle by lateral acceleration",
+    "sideslip_gradient": "change of the sideslip angle by lateral acceleration",
+    "understeer_gradient": "understeer gradient by the steering wheel, positive understeering",
+    "understeer_gradient_of_wheels": (
+        "understeer gradient by the steered wheels, positive understeering"
+    ),
+}
+_OF_WHEELS = {
+    "fx": "longitudinal force of the road on the tyre, positive forward",
+    "fy": "lateral force of the road on the tyre, positive to the left",
+    "fz": "vertical force of the road on the tyre",
+    "slip": "longitudinal slip, positive in driving",
+    "slip_angle": "slip angle, positive moving to the left",
+    "camber": "camber to the road, positive with the top outboard",
+    "steer": "steer angle of the wheel to the body, positive to the left",
+}
+_UNITS = {"fx": "N", "fy": "N", "fz": "N", "slip": "1"}
+
+
+class Turns:
+    """Steady turns of a car, one after the other.
+
+    Parameters
+    ----------
+    car : DrivingCar
+    first : Condition
+        What holds in all of them.
+    sense : {1, -1}
+        1 for turns to the left.
+    """
+
+    def __init__(self, car: DrivingCar, first: Condition, sense: int) -> None:
+        self.car, self.first, self.sense = car, first, sense
+        self.equations = SteadyMotion(car)
+        self._unknown: Array | None = None
+        self._reached = 0.0
+        self._tangent: Array | None = None
+
+    def begin(self, acceleration: float) -> Steady:
+        """Return the turn from which the others are reached: straight running at a speed.
+
+        Parameters
+        ----------
+        acceleration : float
+            Where it is on a given radius: more than zero, since a car that does not move has no
+            steady turn [m/s^2].
+        """
+        last = Condition("lateral_acceleration", 0.0)
+        if self.first.kind == "speed":
+            unknown, found = self.equations.solve(
+                self.equations.near_straight(self.first.value), self.first, last
+            )
+        else:
+            last = Condition("lateral_acceleration", self.sense * acceleration)
+            speed = float(np.sqrt(acceleration / abs(self.first.value)))
+            near = self.equations.near_straight(speed)
+            for share in (0.0, 0.5, 1.0):
+                # the circle is closed in steps: a small one is far from straight running
+                around = Condition("curvature", share * self.first.value)
+                near, found = self.equations.solve(near, Condition("speed", speed), around)
+            unknown, found = self.equations.solve(near, self.first, last)
+        self._unknown, self._reached, self._tangent = unknown, last.value, found.tangent
+        return found
+
+    def to(self, acceleration: float) -> Steady:
+        """Return the turn with a lateral acceleration, beyond those that were found before.
+
+        Raises
+        ------
+        NoSteadyMotionError
+            If there is none; turns up to `reached` are there.
+        """
+        step = abs(acceleration - self._reached)
+        while True:
+            left = acceleration - self._reached
+            goal = self._reached + np.sign(left) * min(step, abs(left))
+            try:
+                unknown, found = self._solve(float(goal))
+            except (NoSteadyMotionError, ModelError):
+                step *= 0.5
+                if step < _RESOLVED:
+                    raise NoSteadyMotionError(f"{acceleration:g} m/s^2") from None
+                continue
+            self._unknown, self._reached, self._tangent = unknown, float(goal), found.tangent
+            if goal == acceleration:
+                return found
+            step *= 1.5
+
+    def to_speed(self, speed: float) -> Steady:
+        """Return the turn at a speed, where something else holds in all of them.
+
+        Parameters
+        ----------
+        speed : float
+            [m/s]
+
+        Raises
+        ------
+        NoSteadyMotionError
+            If there is none.
+        """
+        # the acceleration by the path is a bound of that across the heading
+        near = speed * speed * self.first.value * (1.0 - _OF_SIDESLIP)
+        if abs(near) > abs(self._reached):
+            self.to(near)
+        assert self._unknown is not None
+        _, found = self.equations.solve(self._unknown, self.first, Condition("speed", speed))
+        return found
+
+    @property
+    def reached(self) -> float:
+        """The greatest lateral acceleration that was found [m/s^2]."""
+        return self._reached
+
+    def _solve(self, acceleration: float) -> tuple[Array, Steady]:
+        assert self._unknown is not None
+        near = self._unknown
+        if self._tangent is not None:
+            near = near + self._tangent * (acceleration - self._reached)
+        last = Condition("lateral_acceleration", acceleration)
+        return self.equations.solve(near, self.first, last)
+
+
+def steady_turns(
+    car: DrivingCar,
+    first: Condition,
+    *,
+    sense: int = 1,
+    step: float = 0.25,
+    wanted: Array | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> HandlingResult:
+    """Return the steady turns of a car by lateral acceleration (ISO 4138).
+
+    Parameters
+    ----------
+    car : DrivingCar
+    first : Condition
+        Speed or curvature of all of them.
+    sense : {1, -1}, optional
+        1 for turns to the left.
+    step : float, optional
+        Between lateral accelerations, up to the greatest one of a steady turn [m/s^2].
+    wanted : ndarray, optional
+        Instead, the lateral accelerations, positive and rising [m/s^2].
+    progress : callable, optional
+        Called with the part that is done, up to 1.
+
+    Returns
+    -------
+    HandlingResult
+        Curves over ``lateral_acceleration``, and gradients.
+
+    Raises
+    ------
+    InputError
+        If there is no such turn.
+    """
+    turns = Turns(car, first, sense)
+    steps = np.arange(1.0, int(_MOST / step), dtype=np.float64)
+    asked = step * steps if wanted is None else wanted
+    try:
+        slowest = turns.begin(min(float(asked[0]), _GENTLE))
+    except NoSteadyMotionError:
+        raise InputError([_none(first)], "circle") from None
+    found, limit = _followed(turns, {turns.reached: slowest}, asked, progress)
+    if wanted is not None:
+        found = {a: each for a, each in found.items() if (wanted == abs(a)).any()}
+    if not found:
+        raise InputError([_beyond(first, limit)], "circle")
+    return HandlingResult(*_described(turns, found, limit))
+
+
+def _followed(
+    turns: Turns,
+    found: dict[float, Steady],
+    asked: Array,
+    progress: Callable[[float], None] | None,
+) -> tuple[dict[float, Steady], float]:
+    """Return turns by lateral acceleration, and the greatest one where that is before the last."""
+    far = min(_USUAL, float(asked[-1]))
+    for each in asked.tolist():
+        if turns.sense * each == turns.reached:
+            continue
+        try:
+            found[turns.sense * each] = turns.to(turns.sense * each)
+        except NoSteadyMotionError:
+            return found, abs(turns.reached)
+        if progress is not None:
+            progress(min(each / far, 1.0))
+    return found, np.nan
+
+
+def _described(
+    turns: Turns, found: dict[float, Steady], limit: float
+) -> tuple[xr.Dataset, dict[str, xr.Dataset]]:
+    """Return the gradients of a car that is nearly straight, and all curves."""
+    axis, steady = np.array(list(found)), list(found.values())
+    values, slopes = _columns([_of_turn(turns.car, one) for one in steady])
+    ratio = steering_ratio(turns.car, steady[0])
+    ackermann = turns.car.wheelbase * slopes["curvature"]
+    gradients = {
+        "steering_wheel_gradient": slopes["steering_wheel_angle"],
+        "roll_gradient": slopes["roll_angle"],
+        "sideslip_gradient": slopes["sideslip_angle"],
+        "understeer_gradient": slopes["steering_wheel_angle"] / ratio - ackermann,
+        "understeer_gradient_of_wheels": slopes["steer_angle"] - ackermann,
+    }
+    along = "lateral_acceleration"
+    curves: dict[str, Any] = {
+        name: quantity(along, values[name], *described)
+        for name, described in (_OF_DRIVER | {n: QUANTITIES[n] for n in _OF_BODY}).items()
+    }
+    curves |= {
+        name: quantity(along, gradients[name], words, _PER) for name, words in _GRADIENTS.items()
+    }
+    by_turn = [_of_wheels(turns.car, one) for one in steady]
+    for name, words in _OF_WHEELS.items():
+        rows = np.array([one[name] for one in by_turn]).T
+        curves[name] = quantity((WHEEL, along), rows, words, _UNITS.get(name, "rad"))
+    coordinates = {
+        along: quantity(along, axis, *QUANTITIES[along]),
+        WHEEL: wheel_coordinate(turns.car.wheels),
+    }
+    title = f"steady-state circle, {_words(turns.first)}"
+    dataset = xr.Dataset(curves, coordinates, {"title": title})
+    metrics = {name: quantity((), gradients[name][0], _GRADIENTS[name], _PER) for name in gradients}
+    metrics["steering_ratio"] = quantity((), ratio, "overall steering ratio, straight ahead", "1")
+    metrics["greatest_lateral_acceleration"] = quantity(
+        (), limit, "greatest lateral acceleration of a steady turn", "m/s^2"
+    )
+    return xr.Dataset(metrics, attrs={"title": title}), {"": dataset}
+
+
+def _beyond(first: Condition, limit: float) -> str:
+    return (
+        f"lateral_acceleration: the tyres of this car carry no steady turn above {limit:.2f} m/s^2 "
+        f"at a {_words(first)}. Choose less."
+    )
+
+
+def _none(first: Condition) -> str:
+    return (
+        f"there is no steady turn at a {_words(first)}: the steering does not go so far, or the "
+        "car is too fast for its drive. Choose a larger radius, or another speed."
+    )
+
+
+def _words(first: Condition) -> str:
+    if first.kind == "speed":
+        return f"constant speed of {3.6 * first.value:g} km/h"
+    return f"constant radius of {abs(1.0 / first.value):g} m"
+
+
+def _columns(
+    rows: list[tuple[dict[str, float], dict[str, float]]],
+) -> tuple[dict[str, Array], dict[str, Array]]:
+    """Return values and slopes by name, an array over the turns each."""
+    values, slopes = zip(*rows, strict=True)
+    return tuple({n: np.array([r[n] for r in each]) for n in each[0]} for each in (values, slopes))  # type: ignore[return-value]
+
+
+def _of_turn(car: DrivingCar, steady: Steady) -> tuple[dict[str, float], dict[str, float]]:
+    """Return values, and their slopes by lateral acceleration."""
+    moved = steady.state + 1j * _IMAGINARY * steady.state_slope
+    # in the axes of the body no speed changes
+    body = car.motion.of(moved, np.zeros_like(moved))
+    body["travel_speed"] = np.sqrt(body["speed"] ** 2 + body["lateral_velocity"] ** 2)
+    body["curvature"] = body["yaw_rate"] / body["travel_speed"]
+    values = {name: float(np.real(value)) for name, value in body.items()}
+    slopes = {name: float(np.imag(value)) / _IMAGINARY for name, value in body.items()}
+    names = {"steering_wheel_angle": "steering_wheel", "drive_torque": "drive"}
+    for name, unknown in names.items():
+        values[name] = steady.unknowns[unknown]
+        slopes[name] = steady.slopes[unknown]
+    rows = car.signal_rows("steer", car.steered)
+    signals = car.model.evaluate("signals", steady.state, steady.inputs)[rows]
+    by_state = car.model.evaluate("signals_jacobian", steady.state, steady.inputs)[rows]
+    by_input = car.model.evaluate("signals_input_jacobian", steady.state, steady.inputs)[rows]
+    values["steer_angle"] = float(signals.mean())
+    changed = by_state @ steady.state_slope + by_input @ steady.input_slope
+    slopes["steer_angle"] = float(changed.mean())
+    return values, slopes
+
+
+def _of_wheels(car: DrivingCar, steady: Steady) -> dict[str, Array]:
+    signals = car.model.evaluate("signals", steady.state, steady.inputs)
+    return {name: signals[car.signal_rows(name, car.wheels)] for name in _OF_WHEELS}
+
+
+def steering_ratio(car: DrivingCar, steady: Steady) -> float:
+    """Return the overall steering ratio: steering wheel angle by the mean steer angle.
+
+    Parameters
+    ----------
+    car : DrivingCar
+    steady : Steady
+        Where it is taken. The body and the suspensions do not move.
+    """
+    rows = car.signal_rows("steer", car.steered)
+    by_input = car.model.evaluate("signals_input_jacobian", steady.state, steady.inputs)[rows]
+    angle = steady.unknowns["steering_wheel"]
+    more, less = (car.inputs(angle + d, 0.0, 0.0, 0.0, 0.0) for d in (_SMALL, -_SMALL))
+    return float(2.0 * _SMALL / (by_input @ (more - less)).mean())

@@ -1,0 +1,191 @@
+"""A car that is driven: simulated in samples, between which the driver changes nothing."""
+
+import math
+from collections.abc import Callable
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ....core.validator import Validator
+from ....simulation.stepper import Stepper
+from ....simulation.validity import bounds_of, excursions
+from ...assembly.by_wheel import WHEEL, wheel_coordinate
+from .body_motion import QUANTITIES
+from .car import DrivingCar
+from .drivers import Pedals, Pushes, Seen, Steers
+from .result import quantity
+
+Array = NDArray[np.float64]
+
+_METHOD: Literal["DormandPrince"] = "DormandPrince"
+# Cosine of the tilt of the body from which on the car overturns.
+_FALLEN = 0.5
+# More samples than this are a mistake, and would fill the memory.
+_MOST_SAMPLES = 2_000_000
+
+OF_WHEELS = {
+    "fx": ("longitudinal force of the road on the tyre, positive forward", "N"),
+    "fy": ("lateral force of the road on the tyre, positive to the left", "N"),
+    "fz": ("vertical force of the road on the tyre", "N"),
+    "slip": ("longitudinal slip, positive in driving", "1"),
+    "slip_angle": ("slip angle, positive moving to the left", "rad"),
+}
+"""Of each wheel: meaning and unit."""
+
+_OF_DRIVER = {
+    "steering_wheel_angle": ("steering wheel angle, positive to the left", "rad"),
+    "drive_torque": ("torque of all driven wheels together", "N m"),
+    "brake_pedal": ("part of the greatest torque of the brakes", "1"),
+}
+
+
+class Samples(NamedTuple):
+    """How a simulation is sampled.
+
+    Attributes
+    ----------
+    step : float
+        Between two samples [s].
+    outputs : int
+        Every so many samples there is an output.
+    """
+
+    step: float = 1e-3
+    outputs: int = 5
+
+
+def driven(
+    car: DrivingCar,
+    start: Array,
+    steers: Steers,
+    pushes: Pushes,
+    duration: float,
+    *,
+    samples: Samples | None = None,
+    until: Callable[[Seen], bool] | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> xr.Dataset:
+    """Return the motion of a car that is driven.
+
+    From sample to sample the equations are integrated by the method of Dormand and Prince, with the
+    tolerances of `kintrafo.Stepper`. What the driver does is decided at each sample: up to the next
+    one the rack moves with a constant acceleration, and torques are constant.
+
+    Parameters
+    ----------
+    car : DrivingCar
+    start : ndarray
+        State at the beginning.
+    steers, pushes : Steers, Pushes
+        The driver.
+    duration : float
+        [s]
+    samples : Samples, optional
+    until : callable, optional
+        Ends the simulation where it is true of what the driver sees.
+    progress : callable, optional
+        Called with the part that is done, up to 1.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``time``: the motion of the body, what the driver does, and of each wheel forces and
+        slips. The attribute ``not_valid`` lists in words where the motion leaves what the equations
+        describe; the simulation of a car that overturns ends there.
+
+    Raises
+    ------
+    SimulationError
+        If the motion cannot go on: it says when, where, and what to try.
+    """
+    how = samples or Samples()
+    count = max(round(duration / how.step), 1)
+    with Validator("drive") as given:
+        if count > _MOST_SAMPLES:
+            given.fail(
+                f"step = {how.step:g} s makes {count:,} samples in {duration:g} s: too many."
+            )
+    stepper = Stepper(car.model, how.step, start, method=_METHOD)
+    look = _look(car)
+    rows: list[tuple[float, Array, Array, float, Pedals]] = []
+    for sample in range(count + 1):
+        seen = look(stepper.time, stepper.state)
+        wheel, pedals = steers.decide(seen, how.step), pushes.decide(seen, how.step)
+        angle, rate, acceleration = (float(each) for each in wheel)
+        stepper.inputs = car.inputs(angle, rate, acceleration, pedals.drive, pedals.brake)
+        fallen = seen.upright < _FALLEN
+        ended = sample == count or fallen or (until is not None and until(seen))
+        if sample % how.outputs == 0 or ended:
+            rows.append((seen.time, stepper.state.copy(), stepper.inputs.copy(), angle, pedals))
+        if ended:
+            break
+        stepper.step()
+        if progress is not None and sample % 100 == 0:
+            progress(sample / count)
+    found = _dataset(car, rows)
+    if fallen:
+        found.attrs["not_valid"].insert(0, f"the car overturns at {seen.time:.2f} s")
+    return found
+
+
+def _look(car: DrivingCar) -> Callable[[float, Array], Seen]:
+    """Return the function that shows a driver the car."""
+    motion = car.motion
+    rows = motion.rows(("x", "y", "e0", "e1", "e2", "e3", "u", "v", "w", "p", "q", "r"))
+    ax, ay, az = (motion.reference - motion.center).tolist()
+    cx, cy, _ = motion.center.tolist()
+
+    def look(time: float, state: Array) -> Seen:
+        x, y, a, b, c, d, u, v, w, p, q, r = state[rows].tolist()
+        first = 1 - 2 * (c * c + d * d), 2 * (b * c - a * d), 2 * (b * d + a * c)
+        second = 2 * (b * c + a * d), 1 - 2 * (b * b + d * d), 2 * (c * d - a * b)
+        third = 2 * (b * d - a * c), 2 * (c * d + a * b), 1 - 2 * (b * b + c * c)
+        rolling = first[0] * (first[0] * p + first[1] * q + first[2] * r)
+        rolling += second[0] * (second[0] * p + second[1] * q + second[2] * r)
+        tilt = third[0] / (first[0] ** 2 + second[0] ** 2)
+        turning = third[0] * p + third[1] * q + third[2] * r - tilt * rolling
+        u, v, w = u + q * az - r * ay, v + r * ax - p * az, w + p * ay - q * ax
+        vx = first[0] * u + first[1] * v + first[2] * w
+        vy = second[0] * u + second[1] * v + second[2] * w
+        yaw = math.atan2(second[0], first[0])
+        cosine, sine = math.cos(yaw), math.sin(yaw)
+        return Seen(
+            time,
+            x + cx + first[0] * ax + first[1] * ay + first[2] * az,
+            y + cy + second[0] * ax + second[1] * ay + second[2] * az,
+            yaw,
+            cosine * vx + sine * vy,
+            cosine * vy - sine * vx,
+            turning,
+            third[2],
+        )
+
+    return look
+
+
+def _dataset(car: DrivingCar, rows: list[tuple[float, Array, Array, float, Pedals]]) -> xr.Dataset:
+    times, states, inputs, angles, pedals = zip(*rows, strict=True)
+    every, acting = np.array(states), np.array(inputs)
+    rates = car.model.evaluate("rhs", every, acting)
+    found: dict[str, Any] = {}
+    for name, values in car.motion.of(every, rates).items():
+        turned = np.unwrap(values) if name == "yaw_angle" else values
+        found[name] = quantity("time", turned, *QUANTITIES[name])
+    drives, brakes = zip(*pedals, strict=True)
+    for name, values in zip(_OF_DRIVER, (angles, drives, brakes), strict=True):
+        found[name] = quantity("time", np.array(values), *_OF_DRIVER[name])
+    signals = car.model.evaluate("signals", every, acting)
+    for name, described in OF_WHEELS.items():
+        found[name] = quantity(
+            (WHEEL, "time"), signals[:, car.signal_rows(name, car.wheels)].T, *described
+        )
+    coordinates = {
+        "time": ("time", np.array(times), {"units": "s", "long_name": "time"}),
+        WHEEL: wheel_coordinate(car.wheels),
+    }
+    by_name = dict(zip(car.model.signal_names, signals.T, strict=True))
+    passed = excursions(car.model, bounds_of(car.model), np.array(times), by_name)
+    left = [str(each) for each in passed if not each.bound.possible]
+    return xr.Dataset(found, coordinates, {"not_valid": left})

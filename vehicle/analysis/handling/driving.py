@@ -1,0 +1,120 @@
+"""A car in a manoeuvre, and in steady turns."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from ....core.validator import Validator
+from .circle import steady_turns
+from .manoeuvres import AnyManoeuvre, load_manoeuvre
+from .result import HandlingResult
+from .steady import Condition
+from .subject import driving_car
+
+
+def drive(
+    subject: Any,
+    manoeuvre: str | Path | Mapping[str, Any] | AnyManoeuvre,
+    changes: Mapping[str, Any] | None = None,
+    *,
+    progress: Callable[[float], None] | None = None,
+) -> HandlingResult:
+    """Return what a car does in a manoeuvre.
+
+    Parameters
+    ----------
+    subject : Car or CarModel
+        A car that drives, ``car = "full"`` in its file.
+    manoeuvre : str, pathlib.Path, mapping, or what `load_manoeuvre` returns
+        The name of one that comes with kintrafo, such as ``"step_steer"``, or a file.
+    changes : mapping of str to Any, optional
+        Other values than those of the file, by key: ``{"speed_km_per_h": 100.0}``.
+    progress : callable, optional
+        Called with the part that is done, up to 1.
+
+    Returns
+    -------
+    HandlingResult
+        ``metrics``: what the standard judges the manoeuvre by, each with unit and meaning;
+        ``curves``: by name datasets over time, and over lateral acceleration or frequency where
+        there are such. All are in SI units, signs are those of ISO 8855.
+
+    Raises
+    ------
+    InputError
+        If the car does not drive, or a value of the manoeuvre cannot be driven.
+    SimulationError
+        If the motion cannot be finished.
+    """
+    if isinstance(manoeuvre, AnyManoeuvre):
+        with Validator("drive") as given:
+            if changes:
+                given.fail("changes: these are of a file. Give its name, or leave them out.")
+        found = manoeuvre
+    else:
+        found = load_manoeuvre(manoeuvre, changes)
+    return found.run(driving_car("drive", subject), progress or _nothing)
+
+
+def circle(
+    subject: Any,
+    *,
+    speed: float | None = None,
+    radius: float | None = None,
+    lateral_acceleration: Any = None,
+    step: float = 0.25,
+    turn: Literal["left", "right"] = "left",
+) -> HandlingResult:
+    """Return the steady turns of a car by lateral acceleration (ISO 4138).
+
+    Nothing is simulated: each turn is a solution of the equations of motion in which nothing
+    changes but place, yaw angle and the angles of the wheels.
+
+    Parameters
+    ----------
+    subject : Car or CarModel
+        A car that drives, ``car = "full"`` in its file.
+    speed : float, optional
+        Constant speed; either this or `radius` [m/s].
+    radius : float, optional
+        Constant radius of the path [m].
+    lateral_acceleration : array_like, optional
+        Those wanted, positive and rising; by default in equal steps up to the greatest one [m/s^2].
+    step : float, optional
+        [m/s^2]
+    turn : {'left', 'right'}
+
+    Returns
+    -------
+    HandlingResult
+        Curves over ``lateral_acceleration``: angles, gradients, forces, of each wheel too; and the
+        gradients of the straightest turn as metrics.
+
+    Raises
+    ------
+    InputError
+        If the car does not drive, or there is no such turn.
+    """
+    with Validator("circle") as given:
+        if (speed is None) == (radius is None):
+            given.fail("speed, radius: give one of the two.")
+        for name, value, unit in (("speed", speed, "m/s"), ("radius", radius, "m")):
+            if value is not None:
+                given.number(name, value, unit, above=0.0)
+        step = given.number("step", step, "m/s^2", above=0.0)
+        given.among("turn", turn, ("left", "right"))
+        wanted = None
+        if lateral_acceleration is not None:
+            name = "lateral_acceleration"
+            wanted = given.array(name, lateral_acceleration, "m/s^2", dimensions=[1])
+            if not given.failed and ((wanted <= 0.0).any() or (np.diff(wanted) <= 0.0).any()):
+                given.fail("lateral_acceleration: more than 0 m/s^2, rising, is needed.")
+    car, sense = driving_car("circle", subject), 1 if turn == "left" else -1
+    first = Condition("speed", speed) if speed else Condition("curvature", sense / (radius or 1.0))
+    return steady_turns(car, first, sense=sense, step=step, wanted=wanted)
+
+
+def _nothing(part: float) -> None:
+    del part

@@ -1,0 +1,34 @@
+"""Manoeuvres: one file each, by the word for it in a file of a manoeuvre.
+
+Adding one is adding a module with a class that has a key ``manoeuvre``, and a packaged file.
+"""
+
+from .acceleration import Acceleration
+from .braking import StraightBraking
+from .braking_in_turn import BrakingInTurn
+from .circle import Circle
+from .coast_down import CoastDown
+from .double_lane_change import DoubleLaneChange
+from .loading import MANOEUVRES, AnyManoeuvre, load_manoeuvre
+from .path_following import PathFollowing
+from .sine_sweep import SineSweep
+from .sine_with_dwell import SineWithDwell
+from .slowly_increasing_steer import SlowlyIncreasingSteer
+from .step_steer import StepSteer
+
+__all__ = [
+    "MANOEUVRES",
+    "Acceleration",
+    "AnyManoeuvre",
+    "BrakingInTurn",
+    "Circle",
+    "CoastDown",
+    "DoubleLaneChange",
+    "PathFollowing",
+    "SineSweep",
+    "SineWithDwell",
+    "SlowlyIncreasingSteer",
+    "StepSteer",
+    "StraightBraking",
+    "load_manoeuvre",
+]

@@ -1,0 +1,58 @@
+"""What manoeuvres with brakes have in common."""
+
+import xarray as xr
+from pydantic import Field
+
+from .....core.errors import InputError
+from ....input.section import NonNegative, Positive
+from ..car import DrivingCar
+from .manoeuvre import Manoeuvre
+
+
+class Brakes(Manoeuvre):
+    """A manoeuvre in which the brake is pushed."""
+
+    pedal: Positive | None = Field(
+        default=None, description="position of the pedal, 1 with all torque of the brakes"
+    )
+    deceleration_m_per_s2: Positive | None = Field(
+        default=None,
+        description="in place of it: deceleration for which the torque suffices, no wheel locked",
+    )
+    rise_s: NonNegative = Field(default=0.2, description="time in which the torque rises")
+    duration_s: Positive = Field(default=20.0, description="longest duration of the simulation")
+
+    def problems(self) -> list[str]:
+        """Say what cannot be."""
+        found = super().problems()
+        if (self.pedal is None) == (self.deceleration_m_per_s2 is None):
+            found.append("pedal, deceleration_m_per_s2: give one of the two.")
+        if (self.pedal or 0.0) > 1.0:
+            found.append(f"pedal = {self.pedal:g}: 1 at most is allowed.")
+        return found
+
+    def pedal_of(self, car: DrivingCar) -> float:
+        """Return the position of the pedal."""
+        if self.pedal is not None:
+            return self.pedal
+        assert self.deceleration_m_per_s2 is not None
+        radius = sum(car.radii) / len(car.radii)
+        most = car.brake_torque / (car.mass * radius)
+        if self.deceleration_m_per_s2 > most:
+            problem = (
+                f"deceleration_m_per_s2 = {self.deceleration_m_per_s2:g} m/s^2: the brakes of this "
+                f"car have torque for {most:.2f} m/s^2 at most. Choose less, or raise the torque "
+                "in [brakes] of the car."
+            )
+            raise InputError([problem], self.TITLE)
+        return self.deceleration_m_per_s2 / most
+
+    def see_that_it_ends(self, motion: xr.Dataset, key: str, speed: float) -> None:
+        """Refuse a motion that did not become so slow in time."""
+        last = float(motion["speed"][-1])
+        if last > speed:
+            problem = (
+                f"{key}: after duration_s = {self.duration_s:g} s the speed is {3.6 * last:.1f} "
+                "km/h. Raise duration_s, or brake more."
+            )
+            raise InputError([problem], self.TITLE)

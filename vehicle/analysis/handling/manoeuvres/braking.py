@@ -1,0 +1,75 @@
+"""Braking in a straight line (after ISO 21994, without an anti-lock system)."""
+
+from typing import ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from ....input.section import NonNegative, Positive
+from ..car import DrivingCar
+from ..drivers import Braking, Fixed, Seen
+from ..responses import first_crossing
+from ..result import HandlingResult
+from .brakes import Brakes
+from .manoeuvre import Number, Progress, greatest
+
+
+class StraightBraking(Brakes):
+    """The brake is pushed while the car runs straight ahead, the steering wheel held."""
+
+    TITLE: ClassVar[str] = "braking in a straight line"
+
+    manoeuvre: Literal["braking"] = Field(description="which manoeuvre this is")
+    until_km_per_h: Positive = Field(default=5.0, description="speed at which it ends")
+    start_s: NonNegative = Field(default=0.5, description="when the brake is pushed")
+
+    def problems(self) -> list[str]:
+        """Say what cannot be."""
+        found = super().problems()
+        if self.until_km_per_h >= self.speed_km_per_h:
+            found.append(
+                f"until_km_per_h = {self.until_km_per_h:g} km/h: less than speed_km_per_h = "
+                f"{self.speed_km_per_h:g} km/h is needed."
+            )
+        return found
+
+    def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
+        """Return the braking distance and decelerations, and the motion."""
+        _, straight = self.straight(car)
+        end = self.until_km_per_h / 3.6
+
+        def ended(seen: Seen) -> bool:
+            return seen.speed <= end
+
+        pushes = Braking(straight.unknowns["drive"], self.pedal_of(car), self.start_s, self.rise_s)
+        motion = self.simulated(
+            car, straight, Fixed(straight.unknowns["steering_wheel"]), pushes, self.duration_s,
+            until=ended, progress=progress,
+        )  # fmt: skip
+        self.see_that_it_ends(motion, "until_km_per_h", end)
+        time, speed, x = (motion[name].values for name in ("time", "speed", "x"))
+        begun = float(np.interp(self.start_s, time, x))
+        slowed = first_crossing(time, -speed, -end)
+        high, low = 0.8 * self.speed, max(0.1 * self.speed, end)
+        between = np.interp([first_crossing(time, -speed, -v) for v in (high, low)], time, x)
+        numbers: dict[str, Number] = {
+            "braking_distance": (
+                float(np.interp(slowed, time, x)) - begun, "braking distance", "m",
+            ),
+            "braking_time": (slowed - self.start_s, "time of braking", "s"),
+            "mean_deceleration": (
+                (high**2 - low**2) / (2.0 * float(between[1] - between[0])),
+                "mean fully developed deceleration", "m/s^2",
+            ),
+            "lateral_deviation": (
+                float(np.abs(motion["y"] - motion["y"][0]).max()), "greatest lateral deviation", "m"
+            ),
+            "greatest_pitch_angle": (
+                float(motion["pitch_angle"].max()), "greatest pitch angle, positive nose down",
+                "rad",
+            ),
+            "greatest_slip": (
+                float(-motion["slip"].min()), "greatest braking slip of a wheel", "1"
+            ),
+        }  # fmt: skip
+        return HandlingResult(self.judged(numbers | greatest(motion)), {"": motion})

@@ -1,0 +1,75 @@
+"""Coast down: the drive gives no torque."""
+
+from typing import ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from .....core.errors import InputError
+from ....input.section import Positive
+from ..car import DrivingCar
+from ..drivers import Fixed, Seen, Torque
+from ..responses import first_crossing
+from ..result import HandlingResult
+from .manoeuvre import Manoeuvre, Number, Progress
+
+
+class CoastDown(Manoeuvre):
+    """The car runs straight ahead without drive, down to a speed."""
+
+    TITLE: ClassVar[str] = "coast down"
+
+    manoeuvre: Literal["coast_down"] = Field(description="which manoeuvre this is")
+    until_km_per_h: Positive = Field(default=60.0, description="speed at which it ends")
+    duration_s: Positive = Field(default=300.0, description="longest duration of the simulation")
+
+    def problems(self) -> list[str]:
+        """Say what cannot be."""
+        found = super().problems()
+        if self.until_km_per_h >= self.speed_km_per_h:
+            found.append(
+                f"until_km_per_h = {self.until_km_per_h:g} km/h: less than speed_km_per_h = "
+                f"{self.speed_km_per_h:g} km/h is needed."
+            )
+        return found
+
+    def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
+        """Return time, way and driving resistance, and the motion."""
+        _, straight = self.straight(car)
+        end = self.until_km_per_h / 3.6
+
+        def ended(seen: Seen) -> bool:
+            return seen.speed <= end
+
+        motion = self.simulated(
+            car, straight, Fixed(straight.unknowns["steering_wheel"]), Torque(0.0, 0.0),
+            self.duration_s, until=ended, progress=progress,
+        )  # fmt: skip
+        time, speed, x = (motion[name].values for name in ("time", "speed", "x"))
+        if speed[-1] > end:
+            problem = (
+                f"until_km_per_h = {self.until_km_per_h:g} km/h: after duration_s = "
+                f"{self.duration_s:g} s the speed is {3.6 * speed[-1]:.1f} km/h: nothing, or "
+                "little, resists. Give the car [aero] and tyres with rolling resistance, or raise "
+                "duration_s."
+            )
+            raise InputError([problem], self.TITLE)
+        reached = first_crossing(time, -speed, -end)
+        # F = constant + by_square v^2, of the car with its wheels: a least-squares fit
+        slowing = car.mass * -np.gradient(speed, time)
+        by_square, constant = np.polyfit(speed[_SETTLED:] ** 2, slowing[_SETTLED:], 1)
+        numbers: dict[str, Number] = {
+            "coast_down_time": (reached, "time", "s"),
+            "coast_down_distance": (float(np.interp(reached, time, x)) - x[0], "distance", "m"),
+            "resistance_constant": (
+                constant, "driving resistance, part that is constant, by the mass", "N"
+            ),
+            "resistance_by_square": (
+                by_square, "driving resistance, part by the square of the speed", "N s^2/m^2"
+            ),
+        }  # fmt: skip
+        return HandlingResult(self.judged(numbers), {"": motion})
+
+
+# Outputs after which the springs have settled.
+_SETTLED = 200

@@ -1,0 +1,255 @@
+"""Double lane change between cones (ISO 3888-1 and ISO 3888-2)."""
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import ClassVar, Literal
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from pydantic import Field
+
+from ....input.section import Flag, NonNegative, Number, Positive, Section
+from ....input.units import in_metres
+from ..car import DrivingCar
+from ..circle import Turns, steering_ratio
+from ..drivers import PathFollower, Seen, Torque
+from ..linear import steering_response
+from ..paths import Lane, Path, through
+from ..result import HandlingResult, quantity
+from ..steady import Steady
+from .manoeuvre import Manoeuvre, Progress, greatest
+from .manoeuvre import Number as Judged
+
+Array = NDArray[np.float64]
+
+# Lateral acceleration of the turn by which a driver knows the car [m/s^2].
+_GENTLE = 0.5
+# Frequency of steering in a lane change, at which the delay of the car is taken [Hz].
+_SWERVING = 0.5
+# A car that needs so many times the usual time is not waited for.
+_PATIENT = 2.0
+# Distance of the cones of a lane, at most [m].
+_SPACING = 3.0
+
+
+class LaneSection(Section):
+    """A lane between cones. Its width is a part of that of the car, and more."""
+
+    start_m: NonNegative = Field(description="where it begins, from the first cones")
+    length_m: Positive = Field(description="how long it is")
+    width_of_car: Positive = Field(description="its width, in widths of the car")
+    width_more_m: NonNegative = Field(description="what is added to that")
+    least_width_m: NonNegative = Field(default=0.0, description="width that it has at least")
+    beside_m: Number | None = Field(
+        default=None,
+        description="how far its near edge is beside the far edge of the first lane; left out, the "
+        "edge of both away from the other lanes is one line, moved by shifted_m",
+    )
+    shifted_m: Number = Field(
+        default=0.0, description="how far it is moved towards the side of the change"
+    )
+
+
+class Driver(Section):
+    """The driver that follows the path through the lanes."""
+
+    preview_s: Positive = Field(default=0.45, description="time by which the driver looks ahead")
+    anticipation_s: NonNegative | None = Field(
+        default=None,
+        description="delay of arms and car that the driver makes up for; left out: that of the "
+        "filter, and of the lateral acceleration at 0.5 Hz by the linear equations",
+    )
+    bandwidth_Hz: Positive = Field(  # noqa: N815 (Hz is the hertz)
+        default=4.0, description="natural frequency with which the arms follow"
+    )
+    largest_deg: Positive = Field(default=360.0, description="largest steering wheel angle")
+    fastest_deg_per_s: Positive = Field(
+        default=800.0, description="largest rate of the steering wheel"
+    )
+
+    def along(self, path: Path, turns: Turns, straight: Steady) -> PathFollower:
+        """Return the driver on a path, who knows the car.
+
+        Parameters
+        ----------
+        path : Path
+        turns : Turns
+            Of the car at the speed of the manoeuvre.
+        straight : Steady
+        """
+        anticipation = self.anticipation_s
+        if anticipation is None:
+            of_arms = 1.0 / (np.pi * self.bandwidth_Hz)
+            anticipation = max(of_arms + _delay(turns.car, straight), 0.0)
+        return PathFollower(
+            path, _knowing(turns, straight), self.preview_s, anticipation, self.bandwidth_Hz,
+            np.deg2rad(self.largest_deg), np.deg2rad(self.fastest_deg_per_s),
+        )  # fmt: skip
+
+
+class DoubleLaneChange(Manoeuvre):
+    """A driver steers through lanes between cones."""
+
+    TITLE: ClassVar[str] = "double lane change"
+    CURVES: ClassVar[tuple[str, ...]] = ("", "_cones")
+
+    manoeuvre: Literal["double_lane_change"] = Field(description="which manoeuvre this is")
+    car_width_mm: Positive = Field(description="width of the car, without mirrors")
+    car_length_mm: Positive = Field(description="length of the car")
+    front_overhang_mm: NonNegative = Field(
+        description="how far the car reaches in front of the front wheel centres"
+    )
+    lanes: dict[str, LaneSection] = Field(description="the lanes between cones, by name, in order")
+    driver: Driver = Field(default_factory=Driver, description="the driver")
+    before_m: Positive = Field(default=30.0, description="straight way before the first cones")
+    after_m: Positive = Field(default=30.0, description="straight way behind the last ones")
+    holds_speed: Flag = Field(
+        default=True, description="whether the speed is held; else the car coasts from the start"
+    )
+
+    def problems(self) -> list[str]:
+        """Say what cannot be."""
+        found = super().problems()
+        if len(self.lanes) < 2:
+            found.append(
+                f"lanes: {len(self.lanes)} given: the driver has no path. Two or more are needed, "
+                "such as [lanes.first]."
+            )
+        ends = [(n, one.start_m, one.start_m + one.length_m) for n, one in self.lanes.items()]
+        for (name, _, end), (other, start, _) in pairwise(ends):
+            if start < end:
+                found.append(
+                    f"lanes.{other} start_m = {start:g} m: {end:g} m or more is needed, where "
+                    f"lanes.{name} ends."
+                )
+        narrow = [n for n, one in self.lanes.items() if self._width(one) <= self._car_width]
+        found += [f"lanes.{n}: it is narrower than the car, car_width_mm." for n in narrow]
+        return found
+
+    @property
+    def _car_width(self) -> float:
+        return in_metres(self.car_width_mm, "mm")
+
+    def _width(self, lane: LaneSection) -> float:
+        wanted = lane.width_of_car * self._car_width + lane.width_more_m
+        return max(wanted, lane.least_width_m)
+
+    def placed(self) -> dict[str, Lane]:
+        """Return the lanes along the road, the first one in its middle."""
+        first = self._width(next(iter(self.lanes.values())))
+        found = {}
+        for name, lane in self.lanes.items():
+            width = self._width(lane)
+            near = -0.5 * first + lane.shifted_m
+            if lane.beside_m is not None:
+                near = 0.5 * first + lane.beside_m
+            edges = sorted((self.sense * near, self.sense * (near + width)))
+            found[name] = Lane(lane.start_m, lane.start_m + lane.length_m, *edges)
+        return found
+
+    def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
+        """Return how near the car comes to the cones, and the motion."""
+        turns, straight = self.straight(car)
+        lanes = self.placed()
+        reach = car.front + in_metres(self.front_overhang_mm, "mm")
+        # the front of the car begins so far before the first cones
+        origin = car.motion.reference[:2] + np.array([self.before_m + reach, 0.0])
+        path = through(list(lanes.values()), before=self.before_m + reach, after=self.after_m)
+        end = list(lanes.values())[-1].end
+        length = in_metres(self.car_length_mm, "mm")
+        torque = straight.unknowns["drive"]
+
+        def ended(seen: Seen) -> bool:
+            return seen.x - float(origin[0]) + reach - length >= end
+
+        steers = self.driver.along(Path(path.points + origin), turns, straight)
+        way = end + self.before_m + length
+        motion = self.simulated(
+            car, straight, steers,
+            self.holding(car, torque) if self.holds_speed else Torque(torque, 0.0),
+            _PATIENT * way / self.speed, until=ended, progress=progress,
+        )  # fmt: skip
+        for name, value in zip(("x", "y"), origin.tolist(), strict=True):
+            motion[name] = motion[name].copy(data=motion[name].values - value)
+        cones = self._cones(motion, lanes, (reach, length))
+        numbers = self._numbers(motion, cones, path)
+        return HandlingResult(self.judged(numbers), {"": motion, "_cones": cones})
+
+    def _cones(
+        self, motion: xr.Dataset, lanes: dict[str, Lane], reaches: tuple[float, float]
+    ) -> xr.Dataset:
+        """Return the cones, and how far from each the side of the car passes.
+
+        Attributes are the size of the car, and how far it is in front of the reference point [m].
+        """
+        rows = [
+            (name, x, side, y)
+            for name, lane in lanes.items()
+            for side, y in ((1.0, lane.left), (-1.0, lane.right))
+            for x in np.linspace(lane.start, lane.end, 1 + int(np.ceil(lane.length / _SPACING)))
+        ]
+        names, x, side, y = (np.array(column) for column in zip(*rows, strict=True))
+        yaw = motion["yaw_angle"].values[:, None]
+        dx, dy = x - motion["x"].values[:, None], y - motion["y"].values[:, None]
+        ahead = np.cos(yaw) * dx + np.sin(yaw) * dy
+        left = np.cos(yaw) * dy - np.sin(yaw) * dx
+        front, length = reaches
+        beside = (ahead <= front) & (ahead >= front - length)
+        free = np.where(beside, side * left - 0.5 * self._car_width, np.inf).min(axis=0)
+        free = np.where(np.isfinite(free), free, np.nan)
+        found = {
+            "x": quantity("cone", x, "position along the road", "m"),
+            "y": quantity("cone", y, "position across the road, positive to the left", "m"),
+            "clearance": quantity("cone", free, "distance of the side of the car", "m"),
+            "lane": ("cone", names),
+        }
+        size = {"car_front": front, "car_length": length, "car_width": self._car_width}
+        return xr.Dataset(found, attrs={"title": f"{self.title}: cones"} | size)
+
+    def _numbers(self, motion: xr.Dataset, cones: xr.Dataset, path: Path) -> dict[str, Judged]:
+        free = cones["clearance"].values
+        x, speed = motion["x"].values, motion["speed"].values
+        offsets = path.offsets(x, motion["y"].values)
+        rate = np.gradient(motion["steering_wheel_angle"].values, motion["time"].values)
+        found: dict[str, Judged] = {
+            "cones_hit": (
+                float(np.sum(~(free > 0.0))), "cones that the car touches, or never passes", "1"
+            ),
+            "clearance": (float(np.nanmin(free)), "smallest distance from a cone", "m"),
+            "entry_speed": (float(np.interp(0.0, x, speed)), "speed at the first cones", "m/s"),
+            "exit_speed": (float(speed[-1]), "speed behind the last cones", "m/s"),
+            "greatest_deviation": (
+                float(np.abs(offsets).max()), "greatest distance from the path", "m",
+            ),
+            "greatest_steering_wheel_angle": (
+                float(np.abs(motion["steering_wheel_angle"]).max()),
+                "greatest steering wheel angle, in size", "rad",
+            ),
+            "greatest_steering_wheel_rate": (
+                float(np.abs(rate).max()), "greatest rate of the steering wheel, in size", "rad/s",
+            ),
+        }  # fmt: skip
+        return found | greatest(motion)
+
+
+def _knowing(turns: Turns, straight: Steady) -> Callable[[float], float]:
+    """Return what a driver knows of the car: steering wheel angle by curvature, over speed.
+
+    It is that of a gentle turn at the speed of the manoeuvre, in which the part that grows with the
+    square of the speed is that of the understeer gradient.
+    """
+    turn = turns.to(turns.sense * _GENTLE)
+    speed = turns.first.value
+    curvature = turn.unknowns["yaw_rate"] / speed
+    ratio = steering_ratio(turns.car, straight)
+    angle = (turn.unknowns["steering_wheel"] - straight.unknowns["steering_wheel"]) / curvature
+    slow = ratio * turns.car.wheelbase
+    by_square = (angle - slow) / speed**2
+    return lambda at: slow + by_square * at * at
+
+
+def _delay(car: DrivingCar, straight: Steady) -> float:
+    """Return how late the lateral acceleration follows the steering wheel [s]."""
+    found = steering_response(car, straight, np.array([_SWERVING]))["lateral_acceleration"]
+    return float(-np.angle(found[0]) / (2.0 * np.pi * _SWERVING))

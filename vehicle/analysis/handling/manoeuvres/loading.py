@@ -1,0 +1,95 @@
+"""Reading the file of a manoeuvre."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, get_args
+
+from pydantic import ValidationError
+
+from .....core.errors import InputError
+from .....core.legible import short
+from .....core.suggestions import suggestion
+from .....core.validator import Validator
+from ....data import find
+from ....data.starter import manoeuvres
+from ....input.messages import messages_of
+from ....input.places import put
+from ....input.toml_file import read_toml
+from .acceleration import Acceleration
+from .braking import StraightBraking
+from .braking_in_turn import BrakingInTurn
+from .circle import Circle
+from .coast_down import CoastDown
+from .double_lane_change import DoubleLaneChange
+from .manoeuvre import Manoeuvre
+from .path_following import PathFollowing
+from .sine_sweep import SineSweep
+from .sine_with_dwell import SineWithDwell
+from .slowly_increasing_steer import SlowlyIncreasingSteer
+from .step_steer import StepSteer
+
+AnyManoeuvre = Manoeuvre | Circle
+
+_KEY = "manoeuvre"
+_CLASSES: tuple[type[AnyManoeuvre], ...] = (
+    StepSteer, SineSweep, SlowlyIncreasingSteer, SineWithDwell, DoubleLaneChange, PathFollowing,
+    StraightBraking, BrakingInTurn, Acceleration, CoastDown, Circle,
+)  # fmt: skip
+
+MANOEUVRES: Mapping[str, type[AnyManoeuvre]] = {
+    get_args(one.model_fields[_KEY].annotation)[0]: one for one in _CLASSES
+}
+"""The kinds of manoeuvres, by the word for each in a file."""
+
+
+def load_manoeuvre(
+    path_or_name: str | Path | Mapping[str, Any], changes: Mapping[str, Any] | None = None
+) -> AnyManoeuvre:
+    """Return the manoeuvre of a file.
+
+    Parameters
+    ----------
+    path_or_name : str, pathlib.Path or mapping
+        The file; as a string, the name of one that comes with kintrafo, such as ``"step_steer"``;
+        or its content.
+    changes : mapping of str to Any, optional
+        Other values, by section and key with dots between them: ``speed_km_per_h``. None removes an
+        optional key.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or nothing can be driven like this; it lists everything that is
+        wrong.
+
+    Examples
+    --------
+    >>> load_manoeuvre("step_steer", {"speed_km_per_h": 100.0}).speed_km_per_h
+    100.0
+    """
+    if isinstance(path_or_name, Mapping):
+        source, data = "manoeuvre", dict(path_or_name)
+    else:
+        with Validator(_KEY) as given:
+            given.path("path_or_name", path_or_name)
+        source = str(path_or_name)
+        data = read_toml(find(path_or_name, manoeuvres()))
+    for place, value in (changes or {}).items():
+        if value is None:
+            data.pop(place, None)
+        elif "." not in place:
+            data[place] = value
+        elif problem := put(data, place, value):
+            raise InputError([problem], source)
+    kind = str(data.get(_KEY, ""))
+    if kind not in MANOEUVRES:
+        what = f'{_KEY} = "{short(kind)}" is none' if _KEY in data else f"{_KEY} is missing"
+        known = ", ".join(f'"{one}"' for one in MANOEUVRES)
+        hint = suggestion(kind, MANOEUVRES) if kind else f'Add a line `{_KEY} = "step_steer"`.'
+        problem = f"{what}: it names what is driven, one of {known}. {hint}"
+        raise InputError([problem], source)
+    model = MANOEUVRES[kind]
+    try:
+        return model(**data)
+    except ValidationError as error:
+        raise InputError(messages_of(error, model, data), source) from None

@@ -1,0 +1,80 @@
+"""Driving along a path through points."""
+
+from typing import ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from ....input.section import Number, Positive
+from ..car import DrivingCar
+from ..drivers import Seen
+from ..paths import Path
+from ..result import HandlingResult
+from .double_lane_change import Driver
+from .manoeuvre import Manoeuvre, Progress, greatest
+from .manoeuvre import Number as Judged
+
+
+class PathFollowing(Manoeuvre):
+    """A driver follows a path, at constant speed."""
+
+    TITLE: ClassVar[str] = "path following"
+
+    manoeuvre: Literal["path_following"] = Field(description="which manoeuvre this is")
+    x_m: tuple[Number, ...] = Field(
+        default=(), description="points of the path, along the road; the car begins at the origin"
+    )
+    y_m: tuple[Number, ...] = Field(
+        default=(), description="points of the path, across the road, positive to the left"
+    )
+    driver: Driver = Field(default_factory=Driver, description="the driver")
+    duration_s: Positive = Field(default=120.0, description="longest duration of the simulation")
+
+    def problems(self) -> list[str]:
+        """Say what cannot be."""
+        found = super().problems()
+        if len(self.x_m) != len(self.y_m):
+            found.append(
+                f"x_m, y_m: {len(self.x_m)} and {len(self.y_m)} values: as many are needed."
+            )
+        elif len(self.x_m) < _FEWEST:
+            found.append(
+                f"x_m, y_m: {len(self.x_m)} points: the driver has no path. {_FEWEST} or more are "
+                "needed."
+            )
+        elif (np.hypot(np.diff(self.x_m), np.diff(self.y_m)) <= 0.0).any():
+            found.append("x_m, y_m: two points that follow each other are the same. Remove one.")
+        return found
+
+    def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
+        """Return how near the car is to the path, and the motion."""
+        turns, straight = self.straight(car)
+        origin = car.motion.reference[:2]
+        path = Path(np.array([self.x_m, self.y_m]).T)
+        here = Path(path.points + origin)
+        steers = self.driver.along(here, turns, straight)
+
+        def ended(seen: Seen) -> bool:
+            del seen
+            return steers.along >= here.length
+
+        motion = self.simulated(
+            car, straight, steers, self.holding(car, straight.unknowns["drive"]), self.duration_s,
+            until=ended, progress=progress,
+        )  # fmt: skip
+        for name, value in zip(("x", "y"), origin.tolist(), strict=True):
+            motion[name] = motion[name].copy(data=motion[name].values - value)
+        offsets = path.offsets(motion["x"].values, motion["y"].values)
+        numbers: dict[str, Judged] = {
+            "time": (float(motion["time"][-1]), "time", "s"),
+            "greatest_deviation": (
+                float(np.abs(offsets).max()), "greatest distance from the path", "m"
+            ),
+            "rms_deviation": (
+                float(np.sqrt(np.mean(offsets**2))), "mean square root of that distance", "m"
+            ),
+        }  # fmt: skip
+        return HandlingResult(self.judged(numbers | greatest(motion)), {"": motion})
+
+
+_FEWEST = 4

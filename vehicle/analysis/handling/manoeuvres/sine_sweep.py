@@ -1,0 +1,158 @@
+"""Sine sweep (ISO 7401, continuous sinusoidal input)."""
+
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from pydantic import Field
+
+from .....datasets.columns import AS_COLUMNS
+from ....input.section import Positive
+from ..car import DrivingCar
+from ..drivers import OpenLoop, Torque
+from ..linear import steering_response
+from ..responses import frequency_response
+from ..result import HandlingResult, quantity
+from ..steady import Steady
+from ..steering import sine_sweep
+from .manoeuvre import Manoeuvre, Number, Progress, greatest
+
+Array = NDArray[np.float64]
+
+_SOURCES = ("simulated", "linear")
+
+
+class SineSweep(Manoeuvre):
+    """The steering wheel swings, faster and faster."""
+
+    TITLE: ClassVar[str] = "sine sweep"
+    CURVES: ClassVar[tuple[str, ...]] = ("", "_response")
+
+    manoeuvre: Literal["sine_sweep"] = Field(description="which manoeuvre this is")
+    lateral_acceleration_m_per_s2: Positive | None = Field(
+        default=None, description="lateral acceleration of a steady turn with the amplitude"
+    )
+    steering_wheel_deg: Positive | None = Field(
+        default=None, description="amplitude, in place of a lateral acceleration"
+    )
+    lowest_Hz: Positive = Field(  # noqa: N815 (Hz is the hertz)
+        default=0.2, description="first frequency"
+    )
+    highest_Hz: Positive = Field(  # noqa: N815 (Hz is the hertz)
+        default=4.0, description="last frequency"
+    )
+    duration_s: Positive = Field(default=30.0, description="duration of the swinging")
+    settle_s: Positive = Field(
+        default=4.0, description="time after it, in which the car comes to rest again"
+    )
+    ease_ms: Positive = Field(
+        default=100.0, description="time in which the swinging begins, and in which it ends"
+    )
+    frequency_step_Hz: Positive = Field(  # noqa: N815 (Hz is the hertz)
+        default=0.05, description="step of the curves"
+    )
+
+    def problems(self) -> list[str]:
+        """Say what cannot be."""
+        found = super().problems()
+        if (self.lateral_acceleration_m_per_s2 is None) == (self.steering_wheel_deg is None):
+            found.append("lateral_acceleration_m_per_s2, steering_wheel_deg: give one of the two.")
+        if self.highest_Hz <= self.lowest_Hz:
+            found.append(
+                f"highest_Hz = {self.highest_Hz:g} Hz: more than lowest_Hz = {self.lowest_Hz:g} Hz "
+                "is needed."
+            )
+        if self.output_step_ms * self.highest_Hz > _COARSE:
+            found.append(
+                f"output_step_ms = {self.output_step_ms:g} ms: {_COARSE / self.highest_Hz:.3g} ms "
+                "at most is allowed, 20 outputs in a period."
+            )
+        return found
+
+    def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
+        """Return gains and phases by frequency, simulated and linear, and the motion."""
+        turns, straight = self.straight(car)
+        before = straight.unknowns["steering_wheel"]
+        if self.lateral_acceleration_m_per_s2 is not None:
+            wanted = self.lateral_acceleration_m_per_s2
+            turn = self.turned(turns, "lateral_acceleration_m_per_s2", wanted)
+            amplitude = turn.unknowns["steering_wheel"] - before
+        else:
+            amplitude = self.sense * np.deg2rad(self.steering_wheel_deg or 0.0)
+        course = sine_sweep(
+            amplitude, (self.lowest_Hz, self.highest_Hz), self.duration_s, ease=self.ease_ms / 1e3
+        )
+        torque = straight.unknowns["drive"]
+        motion = self.simulated(
+            car, straight, OpenLoop(course, before), Torque(torque, torque),
+            course.end + self.settle_s, progress=progress,
+        )  # fmt: skip
+        curves = self._by_frequency(car, straight, motion)
+        return HandlingResult(
+            self.judged(_numbers(curves, amplitude) | greatest(motion)),
+            {"": motion, "_response": curves},
+        )
+
+    def _by_frequency(self, car: DrivingCar, straight: Steady, motion: xr.Dataset) -> xr.Dataset:
+        step = self.frequency_step_Hz
+        count = int((self.highest_Hz - self.lowest_Hz) / step + 1e-9)
+        frequency = self.lowest_Hz + step * np.arange(count + 1, dtype=np.float64)
+        linear = steering_response(car, straight, frequency)
+        time = motion["time"].values
+
+        def moved(name: str) -> Array:
+            values: Array = motion[name].values
+            found: Array = values - values[0]
+            return found
+
+        over = ("source", "frequency")
+        found: dict[str, Any] = {}
+        for name, (words, unit) in _FOLLOWING.items():
+            simulated = frequency_response(
+                time, moved("steering_wheel_angle"), moved(name), frequency
+            )
+            both = np.stack([simulated, linear[name]])
+            found[f"{name}_gain"] = quantity(over, np.abs(both), f"gain of {words}", unit)
+            found[f"{name}_phase"] = quantity(
+                over, np.unwrap(np.angle(both)), f"phase of {words}, positive leading", "rad"
+            )
+        axis = ("frequency", frequency, {"units": "Hz", "long_name": "frequency"})
+        title = f"{self.title}: response to the steering wheel"
+        sources = ("source", list(_SOURCES), {"long_name": "source"} | AS_COLUMNS)
+        return xr.Dataset(found, {"frequency": axis, "source": sources}, {"title": title})
+
+
+# Outputs in a period: 20, in ms Hz.
+_COARSE = 50.0
+_FOLLOWING = {
+    "yaw_rate": ("yaw velocity", "1/s"),
+    "lateral_acceleration": ("lateral acceleration", "m/(s^2 rad)"),
+    "roll_angle": ("roll angle", "1"),
+    "sideslip_angle": ("sideslip angle", "1"),
+}
+
+
+def _numbers(curves: xr.Dataset, amplitude: float) -> dict[str, Number]:
+    frequency = curves["frequency"].values
+    found: dict[str, Number] = {
+        "steering_wheel_amplitude": (abs(amplitude), "amplitude of the steering wheel", "rad")
+    }
+    for name, words, unit in (
+        ("yaw_rate", "yaw velocity", "1/s"),
+        ("lateral_acceleration", "lateral acceleration", "m/(s^2 rad)"),
+    ):
+        gain, phase = (
+            curves[f"{name}_{what}"].sel(source=_SOURCES[0]).values for what in ("gain", "phase")
+        )
+        top = int(np.argmax(gain))
+        one = float(np.interp(1.0, frequency, phase))
+        found |= {
+            f"{name}_gain_low": (gain[0], f"gain of {words} at the lowest frequency", unit),
+            f"{name}_gain_peak": (gain[top], f"greatest gain of {words}", unit),
+            f"{name}_peak_frequency": (
+                frequency[top], f"frequency of the greatest gain of {words}", "Hz",
+            ),
+            f"{name}_delay": (-one / (2.0 * np.pi), f"delay of {words} at 1 Hz", "s"),
+        }  # fmt: skip
+    return found

@@ -1,0 +1,86 @@
+"""Slowly increasing steer (FMVSS 126, 49 CFR 571.126, S7.6)."""
+
+from typing import ClassVar, Literal
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from pydantic import Field
+
+from .....core.errors import InputError
+from ....input.section import Positive
+from ..car import DrivingCar
+from ..drivers import OpenLoop, Seen
+from ..result import HandlingResult
+from ..steering import ramp
+from .manoeuvre import Manoeuvre, Progress, greatest
+
+Array = NDArray[np.float64]
+
+# Acceleration of gravity by which the standard counts [m/s^2].
+GRAVITY = 9.80665
+# Lateral accelerations between which the angle is fitted, and that of the reference angle [g].
+_FROM, _TO, _REFERENCE = 0.1, 0.375, 0.3
+
+
+class SlowlyIncreasingSteer(Manoeuvre):
+    """The steering wheel turns slowly at constant speed, up to a lateral acceleration."""
+
+    TITLE: ClassVar[str] = "slowly increasing steer"
+
+    manoeuvre: Literal["slowly_increasing_steer"] = Field(description="which manoeuvre this is")
+    rate_deg_per_s: Positive = Field(default=13.5, description="rate of the steering wheel")
+    ease_ms: Positive = Field(default=100.0, description="time in which the rate rises")
+    until_lateral_acceleration_m_per_s2: Positive = Field(
+        default=5.4, description="lateral acceleration at which it ends"
+    )
+    largest_deg: Positive = Field(
+        default=360.0, description="steering wheel angle at which it ends at the latest"
+    )
+
+    def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
+        """Return the steering wheel angle at 0.3 g, and the motion."""
+        _, straight = self.straight(car)
+        motion = self.swept(car, progress)
+        before = straight.unknowns["steering_wheel"]
+        acceleration = self.sense * motion["lateral_acceleration"].values
+        angle = self.sense * (motion["steering_wheel_angle"].values - before)
+        within = (acceleration >= _FROM * GRAVITY) & (acceleration <= _TO * GRAVITY)
+        if acceleration.max() < _TO * GRAVITY:
+            problem = (
+                f"the lateral acceleration reaches {acceleration.max():.2f} m/s^2 up to a steering "
+                f"wheel angle of {np.rad2deg(angle[-1]):.0f} deg, and {_TO * GRAVITY:.2f} m/s^2 "
+                "are needed. Raise speed_km_per_h, largest_deg or "
+                "until_lateral_acceleration_m_per_s2."
+            )
+            raise InputError([problem], self.TITLE)
+        slope, offset = np.polyfit(acceleration[within], angle[within], 1)
+        reference = slope * _REFERENCE * GRAVITY + offset
+        numbers = {
+            "reference_angle": (
+                reference, "steering wheel angle A at a lateral acceleration of 0.3 g", "rad",
+            ),
+            "steering_wheel_gradient": (
+                slope, "change of the steering wheel angle by lateral acceleration", "rad s^2/m",
+            ),
+        }  # fmt: skip
+        return HandlingResult(self.judged(numbers | greatest(motion)), {"": motion})
+
+    def swept(self, car: DrivingCar, progress: Progress) -> xr.Dataset:
+        """Return the motion alone."""
+        _, straight = self.straight(car)
+        course = ramp(
+            self.sense * np.deg2rad(self.largest_deg),
+            np.deg2rad(self.rate_deg_per_s),
+            ease=self.ease_ms / 1e3,
+        )
+        most = self.until_lateral_acceleration_m_per_s2
+
+        def ended(seen: Seen) -> bool:
+            return self.sense * seen.speed * seen.yaw_rate >= most
+
+        return self.simulated(
+            car, straight, OpenLoop(course, straight.unknowns["steering_wheel"]),
+            self.holding(car, straight.unknowns["drive"]), course.end, until=ended,
+            progress=progress,
+        )  # fmt: skip

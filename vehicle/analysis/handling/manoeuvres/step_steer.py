@@ -1,0 +1,111 @@
+"""Step steer (ISO 7401, step input)."""
+
+from typing import ClassVar, Literal
+
+import numpy as np
+import xarray as xr
+from pydantic import Field
+
+from ....input.section import Flag, Positive
+from ..car import DrivingCar
+from ..drivers import OpenLoop
+from ..responses import step_response
+from ..result import HandlingResult
+from ..steering import SteeringCourse, ramp
+from .manoeuvre import Manoeuvre, Number, Progress, greatest
+
+
+class StepSteer(Manoeuvre):
+    """The steering wheel is turned quickly, and held."""
+
+    TITLE: ClassVar[str] = "step steer"
+
+    manoeuvre: Literal["step_steer"] = Field(description="which manoeuvre this is")
+    lateral_acceleration_m_per_s2: Positive | None = Field(
+        default=None, description="lateral acceleration of the steady turn that follows"
+    )
+    steering_wheel_deg: Positive | None = Field(
+        default=None, description="steering wheel angle, in place of a lateral acceleration"
+    )
+    rate_deg_per_s: Positive = Field(
+        default=400.0, description="rate of the steering wheel; the standard asks for 200 to 500"
+    )
+    ease_ms: Positive = Field(
+        default=20.0, description="time in which the rate rises, and in which it falls again"
+    )
+    start_s: Positive = Field(default=0.5, description="when the steering wheel is turned")
+    duration_s: Positive = Field(default=5.0, description="duration of the simulation")
+    settled_s: Positive = Field(
+        default=0.5, description="last part of it, whose mean is taken as the steady value"
+    )
+    holds_speed: Flag = Field(
+        default=False, description="whether the speed is held, and not the torque of the drive"
+    )
+
+    def problems(self) -> list[str]:
+        """Say what cannot be."""
+        found = super().problems()
+        if (self.lateral_acceleration_m_per_s2 is None) == (self.steering_wheel_deg is None):
+            found.append("lateral_acceleration_m_per_s2, steering_wheel_deg: give one of the two.")
+        if self.start_s + self.settled_s >= self.duration_s:
+            found.append(
+                f"duration_s = {self.duration_s:g} s: more than start_s + settled_s = "
+                f"{self.start_s + self.settled_s:g} s is needed."
+            )
+        return found
+
+    def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
+        """Return response times, gains and overshoots, and the motion."""
+        turns, straight = self.straight(car)
+        before = straight.unknowns["steering_wheel"]
+        if self.lateral_acceleration_m_per_s2 is not None:
+            wanted = self.lateral_acceleration_m_per_s2
+            turn = self.turned(turns, "lateral_acceleration_m_per_s2", wanted)
+            amplitude = turn.unknowns["steering_wheel"] - before
+        else:
+            amplitude = self.sense * np.deg2rad(self.steering_wheel_deg or 0.0)
+        course = ramp(
+            amplitude, np.deg2rad(self.rate_deg_per_s), start=self.start_s, ease=self.ease_ms / 1e3
+        )
+        torque = straight.unknowns["drive"]
+        motion = self.simulated(
+            car, straight, OpenLoop(course, before),
+            self.pedals(car, torque, held=self.holds_speed), self.duration_s, progress=progress,
+        )  # fmt: skip
+        return HandlingResult(self.judged(self._numbers(motion, course, amplitude)), {"": motion})
+
+    def _numbers(
+        self, motion: xr.Dataset, course: SteeringCourse, amplitude: float
+    ) -> dict[str, Number]:
+        time, half = motion["time"].values, 0.5 * (course.start + course.end)
+        settled = float(time[-1]) - self.settled_s
+        found: dict[str, Number] = {
+            "steering_wheel_step": (abs(amplitude), "step of the steering wheel angle", "rad"),
+        }
+        judged = {}
+        for name, words, unit, per_angle in _JUDGED:
+            one = step_response(time, motion[name].values, half, settled)
+            judged[name] = one
+            found |= {
+                f"{name}_steady": (one.steady, f"steady {words}", unit),
+                f"{name}_gain": (
+                    one.steady / amplitude, f"steady {words} by steering wheel angle", per_angle,
+                ),
+                f"{name}_response_time": (one.response_time, f"response time of {words}", "s"),
+                f"{name}_peak_time": (one.peak_time, f"peak response time of {words}", "s"),
+                f"{name}_overshoot": (one.overshoot, f"overshoot of {words}", "1"),
+            }  # fmt: skip
+        slip = float(np.mean(motion["sideslip_angle"].values[time >= settled]))
+        found["sideslip_steady"] = (slip, "steady sideslip angle, positive to the left", "rad")
+        peak = judged["yaw_rate"].peak_time
+        found["tb_factor"] = (
+            peak * abs(slip), "TB factor: peak response time of yaw times steady sideslip", "rad s"
+        )  # fmt: skip
+        return found | greatest(motion)
+
+
+_JUDGED = (
+    ("yaw_rate", "yaw velocity", "rad/s", "1/s"),
+    ("lateral_acceleration", "lateral acceleration", "m/s^2", "m/(s^2 rad)"),
+    ("roll_angle", "roll angle", "rad", "1"),
+)

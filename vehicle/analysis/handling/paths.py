@@ -1,0 +1,147 @@
+"""Paths on a level road, and lanes between cones."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline, PPoly
+
+Array = NDArray[np.float64]
+
+# Between two lanes the path is drawn by so many points.
+_TRANSITION = 25
+# Points of a path are nearer to each other than this [m].
+_CLOSE = 0.5
+
+
+@dataclass(frozen=True)
+class Path:
+    """A smooth path through points.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 2)
+        In order, no two of them in one place [m].
+    """
+
+    points: Array
+
+    @cached_property
+    def _curve(self) -> CubicSpline:
+        """The path over the length of the straight lines between its points."""
+        steps = np.hypot(*np.diff(self.points, axis=0).T)
+        along = np.concatenate([[0.0], np.cumsum(steps)])
+        return CubicSpline(along, self.points)
+
+    @property
+    def length(self) -> float:
+        """How long it is [m]."""
+        return float(self._curve.x[-1])
+
+    @cached_property
+    def _slope(self) -> PPoly:
+        return self._curve.derivative()
+
+    def at(self, along: float) -> tuple[float, float]:
+        """Return a point of the path; beyond its ends it goes straight on [m]."""
+        inside = min(max(along, 0.0), self.length)
+        x, y = self._curve(inside)
+        if inside != along:
+            dx, dy = self.towards(inside)
+            x, y = x + (along - inside) * dx, y + (along - inside) * dy
+        return float(x), float(y)
+
+    def towards(self, along: float) -> tuple[float, float]:
+        """Return the direction of the path, of length one."""
+        dx, dy = self._slope(min(max(along, 0.0), self.length))
+        size = float(np.hypot(dx, dy))
+        return float(dx) / size, float(dy) / size
+
+    def nearest(self, x: float, y: float, near: float) -> float:
+        """Return how far along the path the nearest point is, looked for near another one [m].
+
+        Parameters
+        ----------
+        x, y : float
+            [m]
+        near : float
+            Where the search begins [m].
+        """
+        along = near
+        for _ in range(4):
+            px, py = self.at(along)
+            dx, dy = self.towards(along)
+            along += (x - px) * dx + (y - py) * dy
+        return along
+
+    def offsets(self, x: Array, y: Array) -> Array:
+        """Return how far points are from the path, positive to the left of it [m]."""
+        found, along = np.empty(x.size), 0.0
+        for i, (px, py) in enumerate(zip(x.tolist(), y.tolist(), strict=True)):
+            along = self.nearest(px, py, along)
+            cx, cy = self.at(along)
+            dx, dy = self.towards(along)
+            found[i] = dx * (py - cy) - dy * (px - cx)
+        return found
+
+
+@dataclass(frozen=True)
+class Lane:
+    """A straight lane between cones along the road's x axis.
+
+    Attributes
+    ----------
+    start, end : float
+        [m]
+    right, left : float
+        Lateral positions of its edges, positive to the left [m].
+    """
+
+    start: float
+    end: float
+    right: float
+    left: float
+
+    @property
+    def length(self) -> float:
+        """How long it is [m]."""
+        return self.end - self.start
+
+    @property
+    def center(self) -> float:
+        """Lateral position of its centre line [m]."""
+        return 0.5 * (self.left + self.right)
+
+
+def through(lanes: Sequence[Lane], *, before: float, after: float) -> Path:
+    """Return the path along the centre lines of lanes, with smooth changes from one to the next.
+
+    A change has the shape 10 s^3 - 15 s^4 + 6 s^5, which has no curvature at its ends.
+
+    Parameters
+    ----------
+    lanes : sequence of Lane
+        In order.
+    before, after : float
+        How far it goes straight on before the first lane and behind the last one [m].
+    """
+    rows: list[tuple[float, float]] = [(lanes[0].start - before, lanes[0].center)]
+
+    def straight(start: float, end: float, y: float) -> None:
+        count = int(np.ceil((end - start) / _CLOSE))
+        rows.extend((float(x), y) for x in np.linspace(start, end, count + 1)[1:])
+
+    straight(lanes[0].start - before, lanes[0].end, lanes[0].center)
+    for one, other in pairwise(lanes):
+        if other.start > one.end:
+            s = np.linspace(0.0, 1.0, _TRANSITION + 1)[1:]
+            blend = s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
+            x = one.end + s * (other.start - one.end)
+            y = one.center + blend * (other.center - one.center)
+            rows.extend(zip(x.tolist(), y.tolist(), strict=True))
+        straight(other.start, other.end, other.center)
+    straight(lanes[-1].end, lanes[-1].end + after, lanes[-1].center)
+    return Path(np.array(rows))

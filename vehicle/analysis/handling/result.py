@@ -1,0 +1,46 @@
+"""What a manoeuvre is judged by, and what the car does in it."""
+
+import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import xarray as xr
+
+from ....core.quantities import variable
+
+
+class HandlingResult(NamedTuple):
+    """The result of a manoeuvre.
+
+    Attributes
+    ----------
+    metrics : xarray.Dataset
+        What it is judged by, each with its unit and meaning.
+    curves : dict of str to xarray.Dataset
+        Curves over time, lateral acceleration or frequency; by what is added to the name of a file.
+    """
+
+    metrics: xr.Dataset
+    curves: Mapping[str, xr.Dataset]
+
+
+def quantity(
+    dimensions: str | tuple[str, ...], values: Any, meaning: str, units: str
+) -> xr.Variable:
+    """Return a variable with its description, read in the units of those who drive cars."""
+    found = variable(dimensions, values, meaning, units)
+    if units in _READ:
+        display, factor = _READ[units]
+        found.attrs |= {"display_units": display, "display_factor": factor}
+    return found
+
+
+_DEGREES = 180.0 / math.pi
+# By SI unit: that in which a person reads it here, and what a value is multiplied with.
+_READ = {
+    "m": ("m", 1.0),
+    "m/s": ("km/h", 3.6),
+    "rad s^2/m": ("deg/g", 9.80665 * _DEGREES),
+    "m/(s^2 rad)": ("m/s^2/deg", 1.0 / _DEGREES),
+    "rad s": ("deg s", _DEGREES),
+}

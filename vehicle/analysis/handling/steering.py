@@ -1,0 +1,185 @@
+"""Steering wheel angles over time, with rate and acceleration.
+
+A rack is a prescribed position: its rate must not jump, which would need an infinite force. The
+angle is therefore a shape over a time of its own, whose rate rises from zero to one at the
+beginning and falls to zero at the end, both evenly within a short time: the eased time. Rate and
+acceleration of the angle follow exactly.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+
+class SteeringMotion(NamedTuple):
+    """The steering wheel at a time.
+
+    Attributes
+    ----------
+    angle : ndarray or float
+        Positive to the left [rad].
+    rate : ndarray or float
+        [rad/s]
+    acceleration : ndarray or float
+        [rad/s^2]
+    """
+
+    angle: Any
+    rate: Any
+    acceleration: Any
+
+
+Shape = Callable[[Array], tuple[Array, Array, Array]]
+"""An angle over the eased time, with its first and second derivative."""
+
+
+@dataclass(frozen=True)
+class SteeringCourse:
+    """A steering wheel angle over time.
+
+    Parameters
+    ----------
+    shape : callable
+        The angle over the eased time, with two derivatives.
+    length : float
+        The eased time at which it ends [s].
+    start : float
+        When it begins [s].
+    ease : float
+        How long its rate takes to rise, and to fall [s]. Half of it is the delay.
+    """
+
+    shape: Shape
+    length: float
+    start: float = 0.0
+    ease: float = 0.02
+
+    @property
+    def eased(self) -> float:
+        """How long the rate rises and falls: not longer than the whole takes [s]."""
+        return min(self.ease, self.length)
+
+    @property
+    def end(self) -> float:
+        """When it is completed [s]."""
+        return self.start + self.length + self.eased
+
+    def at(self, time: ArrayLike) -> SteeringMotion:
+        """Return the motion of the steering wheel.
+
+        Parameters
+        ----------
+        time : array_like
+            [s]
+        """
+        ease, length = self.eased, self.length
+        t = np.clip(np.asarray(time, dtype=float) - self.start, 0.0, length + ease)
+        rising, falling = t < ease, t > length
+        left = length + ease - t
+        own = np.where(
+            rising,
+            0.5 * t * t / ease,
+            np.where(falling, length - 0.5 * left * left / ease, t - 0.5 * ease),
+        )
+        rate = np.where(rising, t / ease, np.where(falling, left / ease, 1.0))
+        moving = (t > 0.0) & (left > 0.0)
+        change = np.where(moving & rising, 1.0, 0.0) - np.where(moving & falling, 1.0, 0.0)
+        value, slope, bend = self.shape(own)
+        return SteeringMotion(value, slope * rate, bend * rate * rate + slope * change / ease)
+
+
+def ramp(
+    amplitude: float, rate: float, *, start: float = 0.0, ease: float = 0.02
+) -> SteeringCourse:
+    """Return a steering wheel angle that rises at a rate, and stays.
+
+    Parameters
+    ----------
+    amplitude : float
+        The angle at the end [rad].
+    rate : float
+        Positive [rad/s].
+    start, ease : float, optional
+        [s]
+    """
+
+    def shape(t: Array) -> tuple[Array, Array, Array]:
+        slope = np.sign(amplitude) * rate * np.ones_like(t)
+        return slope * t, slope, np.zeros_like(t)
+
+    return SteeringCourse(shape, abs(amplitude) / rate, start, ease)
+
+
+def sine_with_dwell(
+    amplitude: float, frequency: float, dwell: float, *, start: float = 0.0, ease: float = 0.02
+) -> SteeringCourse:
+    """Return one period of a sine that rests at its second peak (FMVSS 126, S7.9).
+
+    Parameters
+    ----------
+    amplitude : float
+        [rad]
+    frequency : float
+        [Hz]
+    dwell : float
+        How long the second peak is held [s].
+    start, ease : float, optional
+        [s]
+    """
+    omega, peak = 2.0 * np.pi * frequency, 0.75 / frequency
+
+    def shape(t: Array) -> tuple[Array, Array, Array]:
+        held = (t > peak) & (t < peak + dwell)
+        phase = omega * np.where(t > peak, np.maximum(t - dwell, peak), t)
+        s, c = np.sin(phase), np.where(held, 0.0, np.cos(phase))
+        bend = np.where(held, 0.0, -s)
+        return amplitude * s, amplitude * omega * c, amplitude * omega**2 * bend
+
+    return SteeringCourse(shape, 1.0 / frequency + dwell, start, ease)
+
+
+def sine_sweep(
+    amplitude: float,
+    frequencies: tuple[float, float],
+    duration: float,
+    *,
+    start: float = 0.0,
+    ease: float = 0.02,
+) -> SteeringCourse:
+    """Return a sine whose frequency grows by equal factors in equal times.
+
+    It ends with a whole period, and so takes a little longer than is asked for.
+
+    Parameters
+    ----------
+    amplitude : float
+        [rad]
+    frequencies : tuple of float
+        The first and the last one [Hz].
+    duration : float
+        [s]
+    start, ease : float, optional
+        [s]
+    """
+    low, high = frequencies
+    growth = np.log(high / low)
+    periods = np.ceil(low * duration * np.expm1(growth) / growth)
+    length = periods * growth / (low * np.expm1(growth))
+
+    def shape(t: Array) -> tuple[Array, Array, Array]:
+        grown = np.exp(growth * t / length)
+        omega = 2.0 * np.pi * low * grown
+        phase = 2.0 * np.pi * low * length / growth * np.expm1(growth * t / length)
+        s, c = np.sin(phase), np.cos(phase)
+        return (
+            amplitude * s,
+            amplitude * omega * c,
+            amplitude * (omega * growth / length * c - omega**2 * s),
+        )
+
+    return SteeringCourse(shape, float(length), start, ease)

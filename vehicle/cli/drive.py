@@ -1,0 +1,144 @@
+"""``kintrafo drive``: manoeuvres of a car that drives."""
+
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+
+from ...core.tabulated import significant
+from ...terminal.console import console, note, print_json, problems, progress_bar, table
+from ...terminal.exits import Exit
+from ..data.starter import manoeuvres
+from .loading import car_of
+from .options import argument, option
+from .outputs import Outputs, PlotOptions, name_files, title_of
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from rich.table import Table
+    from xarray import DataArray
+
+    from ..analysis.handling import HandlingResult
+    from ..analysis.handling.manoeuvres import AnyManoeuvre
+
+EXAMPLES = (
+    "kintrafo drive driving_car",
+    "kintrafo drive driving_car --manoeuvre circle --plot circle.png",
+    "kintrafo drive driving_car --manoeuvre double_lane_change --speed 70 -o lane.csv",
+    "kintrafo new my_step.toml --template step_steer",
+)
+
+
+def command(
+    file: Annotated[
+        str, argument("File of a car (TOML), or the name of a packaged one: driving_car.", "FILE")
+    ],
+    *,
+    manoeuvre: Annotated[
+        str,
+        option(f"File of a manoeuvre (TOML), or one of {', '.join(manoeuvres())}.", "NAME"),
+    ] = "step_steer",
+    speed: Annotated[
+        float | None, option("Speed in place of that of the manoeuvre.", "KM/H")
+    ] = None,
+    turn: Annotated[
+        Literal["left", "right"] | None, option("Side in place of that of the manoeuvre.")
+    ] = None,
+    output: PlotOptions,
+) -> None:
+    """Drive a car through a manoeuvre: step steer, circle, lane change, braking, and others.
+
+    The car is one whose body moves freely, car = "full" in its file. A manoeuvre is a file that
+    can be edited; kintrafo new FILE --template NAME writes one that comes with kintrafo. Metrics
+    are those of the standards, in the axes of ISO 8855. Data files have the curves over time,
+    lateral acceleration or frequency; figures show them, and the path in a file whose name ends in
+    _path.
+    """
+    from ...datasets import export
+    from ..analysis import handling
+
+    changes = {"speed_km_per_h": speed, "turn": turn}
+    chosen = handling.load_manoeuvre(
+        manoeuvre, {name: value for name, value in changes.items() if value is not None}
+    )
+    pages = (*_drawn(chosen), *(("_path",) if chosen.TRAVELS else ()))
+    own = () if manoeuvre in manoeuvres() else (manoeuvre,)
+    outputs = output.files(file, *own, suffixes=chosen.CURVES, drawn=pages)
+    assembly = car_of(file, driving=True)
+    with progress_bar(chosen.TITLE) as progress:
+        found = handling.drive(assembly, chosen, progress=progress)
+    title = f"{title_of(file)}: {found.metrics.attrs['title']}"
+    written = _write(outputs, found, chosen, title)
+    left = [text for one in found.curves.values() for text in one.attrs.get("not_valid", ())]
+    if output.json:
+        print_json({"metrics": export.as_dict(found.metrics), "not_valid": left})
+    else:
+        for unused in assembly.car.unused:
+            note(f"not used: {unused}")
+        for made in _tables(found, title):
+            console.print(made)
+        name_files(written)
+    for text in left:
+        problems.print(f"not valid: {text}", style="red", highlight=False, markup=False)
+    if left:
+        raise typer.Exit(Exit.REFUSED)
+
+
+def _drawn(chosen: "AnyManoeuvre") -> tuple[str, ...]:
+    """Return what is added to the names of figures: cones are in the figure of the path."""
+    return tuple(suffix for suffix in chosen.CURVES if suffix != "_cones")
+
+
+def _write(
+    outputs: Outputs, found: "HandlingResult", chosen: "AnyManoeuvre", title: str
+) -> "list[Path]":
+    """Write data files and figures, and return them."""
+    written = []
+    for suffix, curves in found.curves.items():
+        written += outputs.write_data(curves, suffix)
+    if not outputs.pages:
+        return written
+    from ..plots.handling import write_curves, write_path
+
+    for suffix in _drawn(chosen):
+        curves = found.curves[suffix]
+        written += outputs.draw(write_curves, curves, title=title, suffix=suffix)
+    if chosen.TRAVELS:
+        cones = found.curves.get("_cones")
+        motion = found.curves[""]
+        written += outputs.draw(write_path, motion, cones=cones, title=title, suffix="_path")
+    return written
+
+
+def _tables(found: "HandlingResult", title: str) -> "list[Table]":
+    """Return a table of numbers, and one of those that there are for each run or turn."""
+    from ...core.quantities import displayed, heading_of
+
+    single = {n: data for n, data in found.metrics.data_vars.items() if not data.ndim}
+    rows = [(heading_of(data), significant(float(displayed(data)))) for data in single.values()]
+    made = [table(title, ("metric", "value"), rows)]
+    several = [data for name, data in found.metrics.data_vars.items() if name not in single]
+    if several:
+        made.append(_by_column(several, title))
+    curves = found.curves[""]
+    if _TURNS in curves.dims:
+        count = curves.sizes[_TURNS]
+        some = curves.isel({_TURNS: slice(None, None, -(-count // _MOST_COLUMNS))})
+        made.append(_by_column([some[name] for name in _OF_TURNS], title))
+    return made
+
+
+_TURNS = "lateral_acceleration"
+_MOST_COLUMNS = 9
+_OF_TURNS = (
+    "steering_wheel_angle", "understeer_gradient", "roll_angle", "sideslip_angle", "drive_torque",
+)  # fmt: skip
+
+
+def _by_column(several: "list[DataArray]", title: str) -> "Table":
+    from ...core.quantities import displayed, heading_of
+
+    along = several[0][str(several[0].dims[0])]
+    heads = (heading_of(along), *map(significant, displayed(along)))
+    rows = [(heading_of(data), *map(significant, displayed(data))) for data in several]
+    return table(title, heads, rows)

@@ -1,0 +1,1 @@
+"""Manoeuvres that come with the project."""

@@ -1,0 +1,141 @@
+"""Curves of manoeuvres over time, lateral acceleration or frequency, and paths between cones."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from matplotlib import colormaps, rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ...core.files import Paths
+from ...core.quantities import displayed, heading_of
+from ...pictures.curves import draw, varying
+from ...pictures.figures import BLUE, ORANGE, STYLE, save, written_plainly
+
+# What is drawn, by what the curves are over: in this order, as far as it is there and varies.
+_SHOWN: Mapping[str, tuple[str, ...]] = {
+    "time": (
+        "steering_wheel_angle", "lateral_acceleration", "yaw_rate", "sideslip_angle", "roll_angle",
+        "speed", "longitudinal_acceleration", "pitch_angle", "fz",
+    ),
+    "lateral_acceleration": (
+        "steering_wheel_angle", "steer_angle", "understeer_gradient", "sideslip_angle",
+        "roll_angle", "drive_torque", "slip_angle", "fz", "fy",
+    ),
+    "frequency": (
+        "yaw_rate_gain", "lateral_acceleration_gain", "sideslip_angle_gain", "yaw_rate_phase",
+        "lateral_acceleration_phase", "sideslip_angle_phase",
+    ),
+}  # fmt: skip
+_COLUMNS = 3
+# Time between two outlines of the car [s].
+_BETWEEN = 0.5
+# Width of the picture of a path, and its height at most [in].
+_WIDE, _HIGH = 10.0, 7.0
+
+
+def write_curves(
+    dataset: xr.Dataset,
+    path: str | Path,
+    *,
+    title: str = "",
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write the curves of a manoeuvre that are looked at first.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Curves over ``time``, ``lateral_acceleration`` or ``frequency``.
+    path : str or pathlib.Path
+        Its ending is the format.
+    title, force, inputs
+        As of `kintrafo.plots.write`.
+
+    Returns
+    -------
+    pathlib.Path
+    """
+    along = next(name for name in _SHOWN if name in dataset.dims)
+    # what comes first is along the axis: several runs are lines
+    dataset = dataset.transpose(along, ...)
+    moving = {str(name) for name in varying(dataset)}
+    names = [name for name in _SHOWN[along] if name in moving]
+    with rc_context(STYLE):
+        drawn = draw(dataset, names, title=title, alone=False, columns=_COLUMNS)
+        return save(drawn, path, force=force, inputs=inputs)
+
+
+def write_path(
+    motion: xr.Dataset,
+    path: str | Path,
+    *,
+    cones: xr.Dataset | None = None,
+    title: str = "",
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write the path of the reference point of a car, between cones where there are some.
+
+    Parameters
+    ----------
+    motion : xarray.Dataset
+        With ``x`` and ``y``, over time, and over amplitude too where there are several runs.
+    path : str or pathlib.Path
+        Its ending is the format.
+    cones : xarray.Dataset, optional
+        Their places, and how far from each the car passes.
+    title, force, inputs
+        As of `kintrafo.plots.write`.
+
+    Returns
+    -------
+    pathlib.Path
+    """
+    with rc_context(STYLE):
+        x, y = (np.atleast_2d(displayed(motion[name])) for name in ("x", "y"))
+        spans = [float(np.nanmax(values) - np.nanmin(values)) + 1.0 for values in (x, y)]
+        equal = spans[1] * _WIDE > 0.3 * _HIGH * spans[0]
+        height = min(max(_WIDE * spans[1] / spans[0] + 1.2, 3.0), _HIGH) if equal else 3.4
+        figure = Figure(figsize=(_WIDE, height), layout="constrained")
+        axes = figure.subplots()
+        scale = colormaps["viridis"]
+        colours = [scale(0.9 * i / (len(x) - 1)) for i in range(len(x))] if len(x) > 1 else [BLUE]
+        for row_x, row_y, colour in zip(x, y, colours, strict=True):
+            axes.plot(row_x, row_y, color=colour)
+        if cones is not None:
+            _draw_car(axes, motion, cones.attrs)
+            _draw_cones(axes, cones)
+        if equal:
+            axes.set_aspect("equal", adjustable="datalim")
+        axes.set_xlabel(heading_of(motion["x"]))
+        axes.set_ylabel(f"{heading_of(motion['y'])}\n{motion['y'].attrs['sign']}")
+        figure.suptitle(title, fontsize=11)
+        return save(written_plainly(figure), path, force=force, inputs=inputs)
+
+
+def _draw_car(axes: Axes, motion: xr.Dataset, size: Mapping[str, float]) -> None:
+    """Draw the outline of the car from time to time."""
+    front, half = size["car_front"], 0.5 * size["car_width"]
+    back = front - size["car_length"]
+    around = np.array([[front, half], [back, half], [back, -half], [front, -half], [front, half]])
+    time = motion["time"].values
+    for at in np.arange(time[0], time[-1], _BETWEEN):
+        x, y, yaw = (
+            float(np.interp(at, time, motion[name].values)) for name in ("x", "y", "yaw_angle")
+        )
+        c, s = np.cos(yaw), np.sin(yaw)
+        corners = around @ np.array([[c, s], [-s, c]]) + [x, y]
+        axes.plot(*corners.T, color="#999999", linewidth=0.8)
+
+
+def _draw_cones(axes: Axes, cones: xr.Dataset) -> None:
+    hit = ~(cones["clearance"].values > 0.0)
+    x, y = (displayed(cones[name]) for name in ("x", "y"))
+    axes.plot(x[~hit], y[~hit], "^", color=ORANGE, markersize=5, label="cones")
+    if hit.any():
+        axes.plot(x[hit], y[hit], "x", color="black", markersize=7, label="touched, or not passed")
+    axes.legend(fontsize=8, loc="best")
