@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..declare.joints import Prismatic, Revolute
+from ..declare.joints import Free, Prismatic, Revolute
 from ..program.functions import SignOf
 from ..program.vectors import UNIT_X, ZERO, Vector
 from .motion import BodyMotion, from_axes, to_axes
@@ -178,7 +178,9 @@ class DrivenCoordinate:
 
 def driven_coordinates(kin: Kinematics) -> Iterator[DrivenCoordinate]:
     """Yield each driven coordinate that moves something of a part."""
-    inside = [j for j in kin.coordinates.given if j.second.name in kin.bodies]
+    # loops on a body that moves freely close in its axes, and do not depend on where it is
+    given = (j for j in kin.coordinates.given if not isinstance(j, Free))
+    inside = [j for j in given if j.second.name in kin.bodies]
     for joint in dict.fromkeys(j.first_followed for j in inside):
         start = sp.Integer(0)
         if isinstance(joint, Revolute) and joint.angle_to is not None:

@@ -8,6 +8,7 @@ import kintrafo
 import numpy as np
 import pytest
 from driving_cars import FILE, TYRE, light_car
+from kintrafo.equations.layout import rotation
 from kintrafo.vehicle.assembly.car import CarAssembly
 from kintrafo.vehicle.models.car import Car
 from kintrafo.vehicle.models.car.car import center_of_gravity, masses
@@ -190,6 +191,43 @@ def test_the_rack_keeps_a_lopsided_car_straight(assembly: CarAssembly) -> None:
     found = kintrafo.simulate(lopsided.model, (0.0, 2.0), start, method="BDF", rtol=1e-8)
     assert found.y[0, -1] - found.y[0, 0] == pytest.approx(2.0 * SPEED, rel=1e-9)
     assert np.ptp(found.y[1]) < 1e-6
+
+
+def test_momentum_changes_by_what_the_road_and_the_air_do(assembly: CarAssembly) -> None:
+    """Of all masses, in the axes of the world, as the car turns, slides and leans on its tyres."""
+    model = assembly.model
+    state = assembly.running(SPEED)
+    inputs, state = np.array(state.inputs), np.array(state)
+    random = np.random.default_rng(2)
+    places = model.layout.positions + model.layout.speeds
+    state[model.layout.positions : places] += random.uniform(-0.5, 0.5, model.layout.speeds)
+    state[places:] += random.uniform(-0.01, 0.01, len(state) - places)
+    at = model.state_names.index("body_e0")
+    state[at : at + 4] = np.array([0.9, 0.01, -0.01, 0.4]) / np.linalg.norm([0.9, 0.01, 0.01, 0.4])
+    rates, step = model.evaluate("rhs", state, inputs), 1e-5
+    mass = np.array([model.parameters[f"{name}_mass"] for name in model.equations.BODIES])
+    before, after = (
+        mass @ model.evaluate("velocities", state + sign * step * rates, inputs)[:, 3:]
+        for sign in (-1.0, 1.0)
+    )
+    signals = {name: float(value) for name, value in model.signals(state, inputs).items()}
+    body = rotation(state[at : at + 4])
+    heading = np.arctan2(body[1, 0], body[0, 0])
+    # drag against the velocity of the body's centre of mass, lift along its z
+    velocity = body @ state[[model.state_names.index(f"body_{k}") for k in "uvw"]]
+    force = signals["air_lift"] * body[:, 2]
+    force -= signals["air_drag"] * velocity / np.linalg.norm(velocity)
+    force[2] -= 9.81 * mass.sum()
+    for wheel in assembly.wheels:
+        ahead = heading + signals[f"{wheel}_steer"]
+        fx, fy, fz = (signals[f"{wheel}_f{axis}"] for axis in "xyz")
+        force += [
+            fx * np.cos(ahead) - fy * np.sin(ahead),
+            fx * np.sin(ahead) + fy * np.cos(ahead),
+            fz,
+        ]
+    # rounding of 1e5 kg m/s over the step, and its third derivative
+    np.testing.assert_allclose((after - before) / (2.0 * step), force, atol=0.05)
 
 
 def test_braking_is_that_of_the_torques(assembly: CarAssembly) -> None:

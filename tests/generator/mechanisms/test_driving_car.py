@@ -40,6 +40,14 @@ def on_struts_and_a_beam() -> Formulation:
     return car.full("struts", "A car on struts and a beam", axles)
 
 
+def on_arms_and_rods() -> Formulation:
+    """Return a car with a driven rigid axle, whose loops close by Newton's method."""
+    arms = car.of_corners(model_named("trailing_arm"))
+    rods = car.of_whole_axle(model_named("rigid_axle"))
+    front = car.driving(arms, linear, relaxing=False, drive_on=None)
+    return car.full("rods", "A car on rods", (front, car.driving(rods, linear, drive_on="carrier")))
+
+
 def built_on(model: Formulation) -> Built:
     random = np.random.default_rng(1)
     module = own(model, arrays=True, derivatives=False)
@@ -51,6 +59,8 @@ def built_on(model: Formulation) -> Built:
     more = {k: 0.02 * random.uniform() for k in tyres if k.endswith("rolling_resistance")}
     more |= {k: 2e3 * random.uniform() for k in tyres if k.endswith("camber_stiffness")}
     more |= {k: 300.0 for k in tyres if k.endswith("damper_rate")}
+    if model.name == "rods":
+        more |= {k: 0.37 for k in tyres if k.startswith("rear_") and k.endswith("unloaded_radius")}
     return Built.of(model, module, PLACES | tyres | more)
 
 
@@ -79,7 +89,7 @@ def given(built: Built, random: np.random.Generator) -> np.ndarray:
     return np.array(limits) * random.uniform(-1.0, 1.0, len(limits))
 
 
-@pytest.mark.parametrize("model", [on_arms, on_struts_and_a_beam])
+@pytest.mark.parametrize("model", [on_arms, on_struts_and_a_beam, on_arms_and_rods])
 def test_accelerations_are_those_of_the_oracle(model: Callable[[], Formulation]) -> None:
     built, random = built_on(model()), np.random.default_rng(5)
     layout, names = built.module.LAYOUT, list(built.module.STATE)
