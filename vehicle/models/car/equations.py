@@ -44,7 +44,9 @@ class CarModel(System):
     parameters, constants, design_state
         As of `System`. States are those of the body, ``heave``, ``pitch`` and ``roll``, then those
         of the suspensions; their names, and those of inputs and signals, begin with that of the
-        wheel, ``front_left_``, or of the axle. Those of a quarter car have no such beginning.
+        wheel, ``front_left_``, or of the axle. Those of a quarter car have no such beginning. The
+        body of a car that drives moves freely, with ``body_x`` to ``body_r``; last are the
+        deflections of its tyres.
 
     Examples
     --------
