@@ -41,7 +41,7 @@ def replacing(path: str | Path, *, force: bool = False, inputs: Paths = ()) -> I
         The file to write; its folder is made if there is none. A file that is there already stays
         as it was if anything goes wrong. Through a link, what it points to is written.
     force : bool, optional
-        Whether a file that somebody else wrote is replaced.
+        Whether a file that kintrafo did not write is replaced.
     inputs : iterable of str or pathlib.Path, optional
         Files that are read, and never replaced.
 
@@ -101,7 +101,7 @@ def refuse(
     paths : iterable of str or pathlib.Path
         Files to be written.
     force : bool, optional
-        Whether files that somebody else wrote are replaced.
+        Whether files that kintrafo did not write are replaced.
     inputs : iterable of str or pathlib.Path, optional
         Files that are read, and never replaced.
     endings : sequence of str, optional

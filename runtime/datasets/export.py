@@ -51,7 +51,7 @@ def write(
     path : str or pathlib.Path
         ``.csv``, ``.xlsx`` (Excel), ``.nc`` (netCDF), ``.parquet`` or ``.mat`` (MATLAB).
     force : bool, optional
-        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
         Files that are never replaced.
     sheets : mapping of str to xarray.Dataset, optional

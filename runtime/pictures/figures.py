@@ -42,7 +42,7 @@ def save(figure: Figure, path: str | Path, *, force: bool = False, inputs: Paths
     figure : matplotlib.figure.Figure
     path : str or pathlib.Path
     force : bool, optional
-        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
         Files that are never replaced.
 

@@ -37,7 +37,7 @@ def write(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path:
     path : Path
         The folder; it may be there if nothing else is in it.
     force : bool
-        Whether files of this name that somebody else wrote are replaced.
+        Whether files of this name that kintrafo did not write are replaced.
     read : iterable of str or pathlib.Path
         Files that are never replaced.
 

@@ -60,7 +60,7 @@ def export_model(
     inputs : mapping, optional
         Values that inputs start with, by name, SI units; zero, or those of the state, by default.
     force : bool, optional
-        Whether files that somebody else wrote are replaced, see `kintrafo.core.files`.
+        Whether files that kintrafo did not write are replaced, see `kintrafo.core.files`.
     read : iterable of str or pathlib.Path, optional
         Files that are never replaced, such as that of the suspension.
     **options

@@ -39,7 +39,7 @@ def write(
     path : Path
         Ends in ``.fmu``.
     force : bool
-        Whether a file that somebody else wrote is replaced.
+        Whether a file that kintrafo did not write is replaced.
     read : iterable of str or pathlib.Path
         Files that are never replaced.
     fmi : {2, 3}, optional

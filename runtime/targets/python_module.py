@@ -41,7 +41,7 @@ def _write(library: str, emitted: Emitted, path: Path, *, force: bool, read: Pat
     path : Path
         Ends in ``.py``.
     force : bool
-        Whether a file that somebody else wrote is replaced.
+        Whether a file that kintrafo did not write is replaced.
     read : iterable of str or pathlib.Path
         Files that are never replaced.
 

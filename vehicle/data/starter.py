@@ -156,7 +156,7 @@ def write_starter(
     template : str, optional
         Name of the packaged data set that is copied, of any of them.
     force : bool, optional
-        Whether a file that somebody else wrote or changed is replaced, see `kintrafo.core.files`.
+        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
 
     Returns
     -------

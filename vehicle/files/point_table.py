@@ -372,7 +372,7 @@ def write_points(
     path : str or pathlib.Path
         A name that ends in ``.csv``.
     force : bool, optional
-        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
         Files that are never replaced.
 

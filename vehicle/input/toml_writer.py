@@ -71,7 +71,7 @@ def write_toml(
     head : sequence of str, optional
         Lines of the comment that the file begins with.
     force : bool, optional
-        Whether a file that somebody else wrote or changed is replaced, see `kintrafo.core.files`.
+        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or Path, optional
         Files that are never replaced.
 

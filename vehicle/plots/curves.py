@@ -94,7 +94,7 @@ def write(
     progress : callable, optional
         Called with the part that is done, up to 1.
     force : bool, optional
-        Whether files that somebody else wrote are replaced, see `kintrafo.core.files`.
+        Whether files that kintrafo did not write are replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
         Files that are never replaced.
 
@@ -156,7 +156,7 @@ def write_overview(
         Targets and limits, drawn into the curves that they are about; of an axle those over its
         motion alone.
     force : bool, optional
-        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
         Files that are never replaced.
 

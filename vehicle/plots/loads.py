@@ -63,7 +63,7 @@ def write_free_bodies(
         By default all that move.
     title : str, optional
     force : bool, optional
-        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
         Files that are never replaced.
 

@@ -42,7 +42,7 @@ def write_overview(model: Model, path: Path, travel: float = 0.08, *, force: boo
     travel : float, optional
         Wheel travel in bump and rebound [m].
     force : bool, optional
-        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
     """
     with rc_context(STYLE):
         figure = Figure(figsize=(10.0, 5.2), layout="constrained")

@@ -41,7 +41,7 @@ def write_panels(
     title : str
         Title of the figure.
     force : bool
-        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path
         Files that are never replaced.
 

@@ -44,7 +44,7 @@ def write_figures(
     data
         Name of the data set, for the line below each figure.
     force
-        Whether files that somebody else wrote are replaced, see `kintrafo.core.files`.
+        Whether files that kintrafo did not write are replaced, see `kintrafo.core.files`.
 
     Returns
     -------

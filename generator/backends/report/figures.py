@@ -56,7 +56,7 @@ def draw_figures(plan: Plan, folder: Path, *, force: bool = False) -> list[Path]
     folder
         Where to write; made if it is not there.
     force
-        Whether files that somebody else wrote are replaced, see `kintrafo.core.files`.
+        Whether files that kintrafo did not write are replaced, see `kintrafo.core.files`.
     """
     folder.mkdir(parents=True, exist_ok=True)
     written = []
@@ -88,7 +88,7 @@ def print_figures(plan: Plan, text: Path, *, force: bool = False) -> dict[str, s
     text
         The file of the text, beside which they are written under its name.
     force
-        Whether files that somebody else wrote are replaced, see `kintrafo.core.files`.
+        Whether files that kintrafo did not write are replaced, see `kintrafo.core.files`.
     """
     drawn = [bodies(plan), graph(plan, (False,)), graph(plan, (True,))]
     if plan.transformers:

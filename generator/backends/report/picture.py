@@ -35,7 +35,7 @@ def draw(plan: Plan, path: Path, *, force: bool = False) -> None:
     path
         Where to write; the ending gives the format.
     force
-        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
     """
     mechanism, topology = plan.formulation.mechanism, plan.topology
     positions = nx.kamada_kawai_layout(topology.graph, weight=None)

@@ -44,7 +44,7 @@ def write_report(
     path
         Ends in .md, or in .tex: the figures are written beside that, as PDF.
     force
-        Whether files that somebody else wrote are replaced, see `kintrafo.core.files`.
+        Whether files that kintrafo did not write are replaced, see `kintrafo.core.files`.
     inputs
         Files that are read, and never replaced.
     """

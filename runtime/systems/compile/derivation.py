@@ -32,7 +32,7 @@ def write_derivation(
     name : str, optional
         Which model or mechanism, where the file has several.
     force : bool, optional
-        Whether files that somebody else wrote are replaced.
+        Whether files that kintrafo did not write are replaced.
 
     Returns
     -------

@@ -155,7 +155,7 @@ class Car(Described):
         path : str or Path
             A name that ends in ``.toml``.
         force : bool, optional
-            Whether a file that somebody else wrote or changed is replaced.
+            Whether a file that kintrafo did not write is replaced.
 
         Raises
         ------

@@ -62,7 +62,7 @@ def write_cards(
     source : str, optional
         What was loaded, for the first line.
     force : bool, optional
-        Whether files that somebody else wrote are replaced.
+        Whether files that kintrafo did not write are replaced.
     inputs : iterable of str or pathlib.Path, optional
         Files that are never replaced.
 
