@@ -75,23 +75,24 @@ def scale_of(watched: Any, name: str, over: str) -> Any:
     """Return the pixel of a position and value in a chart, from where its marker stands."""
     key = name if over == "travel" else f"{name}_over_rack"
     figure = pages.show(watched.page, key)
-    seen = {}
+    # wheel travel is on the vertical axis
+    seen, along = {}, 0 if over == "travel" else 1
     for at in (-50.0, 40.0):
         pages.slide(watched.page, f"#{over}", at)
         value = value_at(name, over, at)
         # charts that have just come into sight are drawn a little later
         pages.until(lambda v=value: abs(shown(figure) - v) < LAST_DIGIT)
-        seen[value] = middle(figure.locator(".marker").bounding_box())[1]
+        seen[value] = middle(figure.locator(".marker").bounding_box())[along]
     pages.slide(watched.page, f"#{over}", 0)
     plot = figure.locator(".u-over").bounding_box()
     (first, top), (second, bottom) = seen.items()
 
     def place(millimetres: float, value: float) -> list[float]:
-        across = 0.5 * (1.0 + millimetres / ENDS[over])
-        return [
-            plot["x"] + across * plot["width"],
-            top + (value - first) / (second - first) * (bottom - top),
-        ]
+        part = 0.5 * (1.0 + millimetres / ENDS[over])
+        of_value = top + (value - first) / (second - first) * (bottom - top)
+        if over == "travel":
+            return [of_value, plot["y"] + (1.0 - part) * plot["height"]]
+        return [plot["x"] + part * plot["width"], of_value]
 
     return figure, place
 
@@ -116,19 +117,19 @@ def test_marks_are_where_their_numbers_say(watched: Any, width: int) -> None:
     np.testing.assert_allclose(points, expected, atol=PLACE)
     # what matters of a target, to either side
     for box, value in zip(boxes(figure.locator(".plot path.target")), TARGET["value"], strict=True):
-        ends = [place(0.0, value + side * TARGET["within"])[1] for side in (1.0, -1.0)]
-        assert [box["y"], box["y"] + box["height"]] == pytest.approx(ends, abs=PLACE)
-    # arrows stand beyond: below the least, above the most
+        ends = [place(0.0, value + side * TARGET["within"])[0] for side in (-1.0, 1.0)]
+        assert [box["x"], box["x"] + box["width"]] == pytest.approx(ends, abs=PLACE)
+    # arrows are beyond: left of the least, right of the most
     carets = boxes(figure.locator(".plot .caret"))
-    below, above = place(0.0, -4.0)[1], place(0.0, 5.0)[1]
-    tops, bottoms = [b["y"] for b in carets], [b["y"] + b["height"] for b in carets]
-    assert tops[:2] == pytest.approx([below] * 2, abs=PLACE)
-    assert bottoms[2:] == pytest.approx([above] * 2, abs=PLACE)
-    across = [middle(box)[0] for box in carets]
-    assert across == pytest.approx([place(at, 0.0)[0] for at in (-80, 80, -80, 80)], abs=PLACE)
+    least, most = place(0.0, -4.0)[0], place(0.0, 5.0)[0]
+    lefts, rights = [b["x"] for b in carets], [b["x"] + b["width"] for b in carets]
+    assert rights[:2] == pytest.approx([least] * 2, abs=PLACE)
+    assert lefts[2:] == pytest.approx([most] * 2, abs=PLACE)
+    upward = [middle(box)[1] for box in carets]
+    assert upward == pytest.approx([place(at, 0.0)[1] for at in (-80, 80, -80, 80)], abs=PLACE)
     # all of them are in sight
     plot = figure.locator(".u-over").bounding_box()
-    assert all(plot["y"] <= y <= plot["y"] + plot["height"] for y in [*tops, *bottoms])
+    assert all(plot["x"] <= x <= plot["x"] + plot["width"] for x in [*lefts, *rights])
     legend = figure.locator("p.goals")
     assert legend.inner_text().split() == ["target", "limit"]
     assert legend.is_visible()
@@ -159,10 +160,10 @@ def test_marks_are_printed(watched: Any) -> None:
     line = np.array(drawing.locator(".line").evaluate(numbers)).reshape(-1, 2)
     # the curve goes from end to end
     values = [value_at("camber", "travel", at) for at in (-100.0, 100.0)]
-    slope = (line[-1] - line[0]) / np.array([200.0, values[1] - values[0]])
+    slope = (line[-1] - line[0]) / np.array([values[1] - values[0], 200.0])
 
     def place(millimetres: float, value: float) -> Any:
-        return line[0] + slope * [millimetres + 100.0, value - values[0]]
+        return line[0] + slope * [value - values[0], millimetres + 100.0]
 
     centre = "c => [Number(c.getAttribute('cx')), Number(c.getAttribute('cy'))]"
     points = [c.evaluate(centre) for c in drawing.locator("circle.target").all()]

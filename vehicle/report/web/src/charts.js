@@ -1,10 +1,10 @@
 // Small charts, one for each characteristic. A marker follows the position; the curve follows the
-// slider that is not its abscissa.
+// slider that is not its abscissa. Wheel travel is on the vertical axis, as in all pictures.
 
 import uPlot from "uplot";
 
 import { inUnit, number, quantity, reading } from "./format.js";
-import { marked, marks, shape } from "./marks.js";
+import { marked, marks, placed, shape } from "./marks.js";
 import { drawing } from "./print.js";
 import { colour, onSchemeChange } from "./theme.js";
 
@@ -99,6 +99,7 @@ class Chart {
 
   constructor(figure, curve, along, samples, move) {
     Object.assign(this, { figure, curve, along, samples, move });
+    this.upright = curve.over === "travel";
     this.output = figure.querySelector("output");
     this.host = figure.querySelector(".plot");
     this.marker = element("div", "marker");
@@ -175,6 +176,10 @@ class Chart {
 
   #build(width) {
     const nothing = this.along.values.map(() => null);
+    const [across, upward] = [
+      { side: 2, size: 18, gap: 4, space: 60 },
+      { side: 3, size: roomFor, gap: 5, space: 25 },
+    ];
     const axis = {
       stroke: colour("muted"),
       font: FONT,
@@ -191,20 +196,23 @@ class Chart {
         padding: [8, 10, 0, 0],
         legend: { show: false },
         scales: {
-          x: { time: false, range: [this.along.values[0], this.along.values.at(-1)] },
-          y: { range: () => this.#verticalRange() },
+          x: {
+            time: false,
+            range: [this.along.values[0], this.along.values.at(-1)],
+            ori: this.upright ? 1 : 0,
+          },
+          y: { range: () => this.#valueRange(), ori: this.upright ? 0 : 1 },
         },
         axes: [
           {
             ...axis,
-            size: 18,
-            gap: 4,
+            ...(this.upright ? upward : across),
             label: `${this.along.name} [${this.along.unit}]`,
             labelSize: 16,
             labelGap: 0,
             labelFont: FONT,
           },
-          { ...axis, size: roomFor, gap: 5 },
+          { ...axis, ...(this.upright ? across : upward) },
         ],
         series: [
           {},
@@ -236,13 +244,14 @@ class Chart {
   }
 
   #drag(event) {
-    const left = event.clientX - this.#plot.over.getBoundingClientRect().left;
-    this.move(this.along.key, this.#plot.posToVal(left, "x") / this.along.factor);
+    const { left, top } = this.#plot.over.getBoundingClientRect();
+    const at = this.upright ? event.clientY - top : event.clientX - left;
+    this.move(this.along.key, this.#plot.posToVal(at, "x") / this.along.factor);
   }
 
   /** Around the curve and what is marked, and around the reference too if that does not press the
    *  curve flat. */
-  #verticalRange() {
+  #valueRange() {
     const { least } = this.curve;
     let [low, high] = extent(this.line, least);
     const [lowest, highest] = extent([...this.line, ...this.reference], least);
@@ -267,14 +276,14 @@ class Chart {
 
   #markerPlace() {
     const x = this.position[this.along.key] * this.along.factor;
-    return [this.#plot.valToPos(x, "x"), this.#plot.valToPos(this.shown, "y")];
+    return placed(this.#plot, x, this.shown);
   }
 
   #hover() {
-    const { left } = this.#plot.cursor;
+    const { left, top } = this.#plot.cursor;
     this.tip.hidden = left === undefined || left < 0;
     if (this.tip.hidden) return;
-    const x = this.#plot.posToVal(left, "x");
+    const x = this.#plot.posToVal(this.upright ? top : left, "x");
     const where = { ...this.#values(), [this.along.key]: x / this.along.factor };
     const value = this.samples.value(where);
     const place = quantity(x, this.along.decimals, this.along.unit, { signed: this.along.signed });

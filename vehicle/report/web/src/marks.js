@@ -10,36 +10,46 @@ export function marked(goals) {
   return goals.flatMap(({ value, within }) => value.flatMap((v) => [v - within, v + within]));
 }
 
+/** Where a chart has a value over its abscissa [px], which may be on the vertical axis. */
+export function placed(plot, x, y) {
+  const [along, value] = [plot.valToPos(x, "x"), plot.valToPos(y, "y")];
+  return plot.scales.x.ori === 1 ? [value, along] : [along, value];
+}
+
 /** All marks of a chart as a group of lines, in pixels of its plot. */
 export function marks(plot, goals) {
   const group = shape("g", { class: "goals" });
   for (const goal of goals) {
-    const places = goal.at.map((at, i) => [
-      plot.valToPos(at, "x"),
-      ...[0, 1, -1].map((side) => plot.valToPos(goal.value[i] + side * goal.within, "y")),
-    ]);
-    group.append(...(goal.kind === "target" ? target(places) : limit(places, goal.kind)));
+    const places = goal.at.map((at, i) =>
+      [0, 1, -1].map((side) => placed(plot, at, goal.value[i] + side * goal.within)),
+    );
+    const upright = plot.scales.x.ori === 1;
+    const drawn = goal.kind === "target" ? target(places, upright) : limit(places, goal, upright);
+    group.append(...drawn);
   }
   return group;
 }
 
-function target(places) {
-  const cap = (x, y) => `M${x - CAP} ${y}H${x + CAP}`;
-  return places.flatMap(([x, y, high, low]) => [
-    shape("path", { class: "target", d: `M${x} ${high}V${low}${cap(x, high)}${cap(x, low)}` }),
+function target(places, upright) {
+  const cap = ([x, y]) => (upright ? `M${x} ${y - CAP}V${y + CAP}` : `M${x - CAP} ${y}H${x + CAP}`);
+  return places.flatMap(([[x, y], high, low]) => [
+    shape("path", {
+      class: "target",
+      d: `M${high.join(" ")}L${low.join(" ")}${cap(high)}${cap(low)}`,
+    }),
     shape("circle", { class: "target", cx: x, cy: y, r: POINT }),
   ]);
 }
 
-function limit(places, kind) {
-  const away = kind === "least" ? CARET.height : -CARET.height; // pixels count downwards
-  const carets = places.map(([x, y]) =>
-    shape("path", {
-      class: "caret",
-      d: `M${x} ${y}l${CARET.width} ${away}h${-2 * CARET.width}z`,
-    }),
+function limit(places, { kind }, upright) {
+  // away from what is allowed: to the left or to the right, else pixels count downwards
+  const away = (kind === "least") === upright ? -CARET.height : CARET.height;
+  const { width } = CARET;
+  const body = upright ? `l${away} ${width}v${-2 * width}z` : `l${width} ${away}h${-2 * width}z`;
+  const carets = places.map(([[x, y]]) =>
+    shape("path", { class: "caret", d: `M${x} ${y}${body}` }),
   );
-  const line = places.map(([x, y]) => `${x} ${y}`).join("L");
+  const line = places.map(([[x, y]]) => `${x} ${y}`).join("L");
   return [shape("path", { class: "limit", d: `M${line}` }), ...carets];
 }
 

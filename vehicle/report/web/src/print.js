@@ -2,7 +2,7 @@
 // is shown, in light colours. What is on the screen comes back afterwards.
 
 import { quantity } from "./format.js";
-import { marks, shape } from "./marks.js";
+import { marks, placed, shape } from "./marks.js";
 
 const PICTURE = { width: 1500, height: 1000 }; // sharp on paper, half a page high [px]
 
@@ -37,21 +37,25 @@ function showPicture(view, { travel, rack, time, byHand }) {
 /** A chart as a drawing that keeps its lines sharp on paper, in the size of what was plotted. */
 export function drawing(plot, { lines, goals, marker }) {
   const { width, height } = plot;
-  const [left, right] = plot.scales.x.range(plot).map((value) => plot.valToPos(value, "x"));
-  const { offsetLeft, offsetTop, clientHeight: bottom } = plot.over;
+  const upright = plot.scales.x.ori === 1;
+  const { offsetLeft, offsetTop, clientHeight: bottom, clientWidth: right } = plot.over;
   const svg = shape("svg", { viewBox: `0 0 ${width} ${height}`, class: "printed" });
   const area = shape("g", { transform: `translate(${offsetLeft} ${offsetTop})` });
-  for (const [at, text] of ticks(plot, 1)) {
-    area.append(shape("path", { class: "grid", d: `M${left} ${at}H${right}` }));
-    area.append(label(left - 6, at + 3.5, "end", text));
+  for (const [at, text] of ticks(plot, upright ? 0 : 1)) {
+    area.append(shape("path", { class: "grid", d: `M0 ${at}H${right}` }));
+    area.append(label(-6, at + 3.5, "end", text));
   }
-  for (const [at, text] of ticks(plot, 0)) {
+  for (const [at, text] of ticks(plot, upright ? 1 : 0)) {
     area.append(shape("path", { class: "grid", d: `M${at} 0V${bottom}` }));
     area.append(label(at, bottom + 14, "middle", text));
   }
-  area.append(label((left + right) / 2, bottom + 30, "middle", plot.axes[0].label));
-  for (const [name, values] of Object.entries(lines)) {
-    area.append(shape("path", { class: name, d: path(plot, values) }));
+  const name = upright
+    ? label(-bottom / 2, 12 - offsetLeft, "middle", plot.axes[0].label)
+    : label(right / 2, bottom + 30, "middle", plot.axes[0].label);
+  if (upright) name.setAttribute("transform", "rotate(-90)");
+  area.append(name);
+  for (const [of, values] of Object.entries(lines)) {
+    area.append(shape("path", { class: of, d: path(plot, values) }));
   }
   area.append(marks(plot, goals));
   if (marker) area.append(shape("circle", { class: "at", cx: marker[0], cy: marker[1], r: 3.5 }));
@@ -73,7 +77,11 @@ function path(plot, values) {
         pen = "M";
         return "";
       }
-      const place = `${pen}${plot.valToPos(x, "x").toFixed(2)} ${plot.valToPos(values[i], "y").toFixed(2)}`;
+      const place =
+        pen +
+        placed(plot, x, values[i])
+          .map((pixel) => pixel.toFixed(2))
+          .join(" ");
       pen = "L";
       return place;
     })
