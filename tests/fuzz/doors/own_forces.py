@@ -1,4 +1,4 @@
-"""Forces of somebody's own, edited between compilations: formulas, what they import, constants.
+"""Forces of a user, edited between compilations: formulas, imported modules, constants.
 
 The same file is written again with another formula, another helper or another constant, and is
 compiled with the cache of before. What it computes is held against the text itself, evaluated by
