@@ -34,7 +34,7 @@ from ..program.functions import Frozen
 from ..program.vectors import ELEMENTS, NO_TWIST, ZERO, SymmetricTensor, Twist, Vector
 from .acting import acted, shown_by
 from .admissible import Admissible
-from .inertia import Inertia
+from .inertia import SpatialInertia
 from .on_base.loaded import Loaded
 from .on_base.moving import Moving
 from .on_base.sums import kind_of
@@ -59,7 +59,7 @@ and a quarter of those of a Stewart platform's; with two it takes more."""
 
 
 @dataclass(frozen=True)
-class Rotor:
+class ReducedRotor:
     """What remains of a body of revolution once its carrier has taken over the rest."""
 
     coordinate: str
@@ -86,8 +86,8 @@ class Dynamics:
         self.coordinates, self.names = moving.coordinates, moving.coordinates.unconstrained
         self.admissible = Admissible.of(moving)  # speeds that are not free have theirs by this
         self._of_base = {k: base.body for base in moving.bases for k in base.coordinates}
-        self.inertia: dict[str, Inertia] = {}
-        self.rotors: list[Rotor] = []
+        self.inertia: dict[str, SpatialInertia] = {}
+        self.rotors: list[ReducedRotor] = []
         self.accelerations: dict[str, sp.Expr] = {}
         self._loaded = {base.body: Loaded(self.program, base, self.names) for base in moving.bases}
         self.program.section("inertia")
@@ -96,7 +96,7 @@ class Dynamics:
         self._bias: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
         self._force: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
         self._momentum: Momenta = {}
-        self._wrenches: list[tuple[BodyMotion, Inertia, Twist]] = []
+        self._wrenches: list[tuple[BodyMotion, SpatialInertia, Twist]] = []
         self._factors: dict[tuple[str, str], sp.Expr] = {}
         self._actions: list[Action] = []
         self._add_bodies()
@@ -108,7 +108,7 @@ class Dynamics:
     def _gather_inertia(self) -> None:
         """Sum up inertia from the last placed body to the first, moving what can be moved."""
         for name in reversed(self.placed):
-            self.inertia.setdefault(name, Inertia.none())
+            self.inertia.setdefault(name, SpatialInertia.none())
         rotors = {body.name: k for k, body in self.coordinates.rotors.items()}
         for body in self.moving.formulation.massive:
             if body.name in rotors:
@@ -177,7 +177,7 @@ class Dynamics:
             sp.Symbol(f"{body.name}_mass"), self.part_of[carrier.body].local(carrier, body.center)
         )
         own.tensor += SymmetricTensor.transverse(across, axis)
-        self.rotors.append(Rotor(coordinate, body, carrier, axis, spin))
+        self.rotors.append(ReducedRotor(coordinate, body, carrier, axis, spin))
 
     def _bearing_axis(self, joint: Revolute, carrier: BodyMotion) -> Vector:
         """Return the axis about which the angle of a rotor's hinge is positive, on its carrier.
@@ -190,8 +190,8 @@ class Dynamics:
         n = to_axes(carrier.design_axes, positive)
         return self.program.vector(f"{joint.name}_axis_on_{carrier.body}", n, "123")
 
-    def _name_inertia(self, name: str, inertia: Inertia) -> Inertia:
-        return Inertia(
+    def _name_inertia(self, name: str, inertia: SpatialInertia) -> SpatialInertia:
+        return SpatialInertia(
             self.program.define(f"{name}_carried_mass", inertia.mass),
             self.program.vector(f"{name}_first_moment", inertia.moment, "123"),
             SymmetricTensor(
@@ -229,7 +229,7 @@ class Dynamics:
     def _is_rotor(self, name: str) -> bool:
         return any(rotor.body.name == name for rotor in self.rotors)
 
-    def _add_body(self, placed: BodyMotion, inertia: Inertia) -> None:
+    def _add_body(self, placed: BodyMotion, inertia: SpatialInertia) -> None:
         body = placed.body
         columns = self._own(placed)
         angular: dict[str, Vector] = {}
@@ -281,7 +281,7 @@ class Dynamics:
         linear = bias.linear - twist.angular.cross(twist.linear)
         self._bias[k] += angular.dot(bias.angular) + self._momentum[placed.body, k].dot(linear)
 
-    def _add_full_bias(self, placed: BodyMotion, inertia: Inertia) -> None:
+    def _add_full_bias(self, placed: BodyMotion, inertia: SpatialInertia) -> None:
         """Newton-Euler at the bias acceleration, projected on each column."""
         body, program = placed.body, self.program
         bias, omega = placed.bias(), self.part_of[placed.body].total(placed).angular
@@ -301,7 +301,7 @@ class Dynamics:
         self._wrenches.append((placed, inertia, wrench))
         self._project(placed, wrench, self._bias)
 
-    def _add_rotor(self, rotor: Rotor) -> None:
+    def _add_rotor(self, rotor: ReducedRotor) -> None:
         """Gyroscopic part of a rotor on its carrier; the rest is in `_solve` and `full`."""
         if self.coordinates.rate_scale_of(self._relative(rotor)) != 1 and not self._is_turned(
             rotor
@@ -318,11 +318,11 @@ class Dynamics:
         if loaded is not None:
             loaded.add_couple(columns, couple)
             return
-        self._wrenches.append((rotor.carrier, Inertia.none(), Twist(couple, ZERO)))
+        self._wrenches.append((rotor.carrier, SpatialInertia.none(), Twist(couple, ZERO)))
         for k, along in columns.items():
             self._bias[k] += along.dot(couple)
 
-    def _seen(self, rotor: Rotor) -> tuple[Vector, dict[str, Vector], Vector]:
+    def _seen(self, rotor: ReducedRotor) -> tuple[Vector, dict[str, Vector], Vector]:
         """Return the axis of a rotor, and how its carrier turns: with coordinates, and in all.
 
         In the axes of its base, without the coordinates of that; in those of the carrier where it
@@ -346,17 +346,17 @@ class Dynamics:
                 columns[k] = turning
         return axis, columns, program.vector(f"{body}_on_{base.body}_turning", omega)
 
-    def _relative(self, rotor: Rotor) -> BodyMotion:
+    def _relative(self, rotor: ReducedRotor) -> BodyMotion:
         """Return the motion of the carrier of a rotor on its base, or on the ground."""
         carried = self.moving.carried.get(rotor.carrier.body)
         return rotor.carrier if carried is None else carried.relative
 
-    def _is_turned(self, rotor: Rotor) -> bool:
+    def _is_turned(self, rotor: ReducedRotor) -> bool:
         """Return whether the carrier of a rotor is on a base that turns."""
         loaded = self._base_of(rotor.carrier.body)
         return loaded is not None and loaded.base.turns
 
-    def _carried(self, rotor: Rotor) -> list[str]:
+    def _carried(self, rotor: ReducedRotor) -> list[str]:
         return [k for k in self.names if k in rotor.carrier.motion]
 
     # -- forces ---------------------------------------------------------------------------------
@@ -512,12 +512,12 @@ class Dynamics:
         total = self.program.vector(f"{base.body}_bearings", total)
         return base.twists[k].angular.dot(total)
 
-    def _driven_on(self, k: str) -> list[Rotor]:
+    def _driven_on(self, k: str) -> list[ReducedRotor]:
         """Return the rotors with a torque on their bearing whose carrier a coordinate moves."""
         rotors = [r for r in self.rotors if self._force[r.coordinate] != 0]
         return [r for r in rotors if k in self._carried(r)]
 
-    def _spin_bias(self, rotor: Rotor, accelerations: dict[str, sp.Expr]) -> sp.Expr:
+    def _spin_bias(self, rotor: ReducedRotor, accelerations: dict[str, sp.Expr]) -> sp.Expr:
         """Return the rate of ``axis . omega`` of the carrier."""
         own = [k for k in self._carried(rotor) if k not in self._of_base]
         total = sum((self._rotor_share(rotor, k) * accelerations.get(k, NONE) for k in own), NONE)
@@ -533,7 +533,7 @@ class Dynamics:
         swing = self.program.vector(f"{rotor.body.name}_swing", omega.cross(axis))
         return total + axis.dot(base.angular) + loaded.base.omega.dot(swing)
 
-    def _rotor_share(self, rotor: Rotor, k: str) -> sp.Expr:
+    def _rotor_share(self, rotor: ReducedRotor, k: str) -> sp.Expr:
         axis, columns, _ = self._seen(rotor)
         base = self._of_base.get(k)
         along = columns[k] if base is None else self._loaded[base].base.twists[k].angular
@@ -699,7 +699,7 @@ class Dynamics:
                     matrix[i][j] += rotor.inertia * share[k] * share[other]
         return matrix
 
-    def _rotor_row(self, rotor: Rotor) -> dict[str, sp.Expr]:
+    def _rotor_row(self, rotor: ReducedRotor) -> dict[str, sp.Expr]:
         share = {k: self._rotor_share(rotor, k) for k in self._carried(rotor)}
         share[rotor.coordinate] = sp.Integer(1)
         return {k: share.get(k, NONE) for k in self.names}

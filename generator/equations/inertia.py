@@ -17,7 +17,7 @@ NONE = sp.Integer(0)
 
 
 @dataclass
-class Inertia:
+class SpatialInertia:
     """Mass, first moment and inertia tensor about the body's origin, in body axes."""
 
     mass: sp.Expr
@@ -25,12 +25,12 @@ class Inertia:
     tensor: SymmetricTensor
 
     @classmethod
-    def none(cls) -> Inertia:
+    def none(cls) -> SpatialInertia:
         """Return the inertia of a massless body."""
         return cls(NONE, Vector.of(0, 0, 0), SymmetricTensor.zero())
 
-    def __add__(self, other: Inertia) -> Inertia:
-        return Inertia(
+    def __add__(self, other: SpatialInertia) -> SpatialInertia:
+        return SpatialInertia(
             self.mass + other.mass, self.moment + other.moment, self.tensor + other.tensor
         )
 

@@ -53,7 +53,7 @@ class Command(TyperCommand):
         return left
 
 
-class Group(TyperGroup):
+class CommandGroup(TyperGroup):
     """Commands by name; one that there is not is answered with the nearest that there is.
 
     Attributes

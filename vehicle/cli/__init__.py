@@ -8,7 +8,7 @@ import typer
 from rich.markup import escape
 
 from ...terminal.exits import guarded, show_usage_error, standing_streams
-from ...terminal.usage import Command, Group
+from ...terminal.usage import Command, CommandGroup
 from . import (
     characteristics,
     check,
@@ -48,7 +48,7 @@ _EXIT_CODES = (
 )
 
 
-class _Commands(Group):
+class _Commands(CommandGroup):
     """All commands, with other names by which users look for them."""
 
     instead: ClassVar[Mapping[str, str]] = {
@@ -113,7 +113,7 @@ for _panel, _modules in _PANELS.items():
 for _module in _HIDDEN:
     _add(app, _module, hidden=True)
 _mechanism = typer.Typer(
-    cls=Group, no_args_is_help=True, help=mechanism.HELP, rich_markup_mode="rich"
+    cls=CommandGroup, no_args_is_help=True, help=mechanism.HELP, rich_markup_mode="rich"
 )
 for _module in mechanism.COMMANDS:
     _add(_mechanism, _module, group="mechanism ")

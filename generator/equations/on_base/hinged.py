@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import sympy as sp
 
     from ...kinematics.carried import Carried
-    from ..inertia import Inertia
+    from ..inertia import SpatialInertia
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Hinged:
         ``∫ r dm`` and ``∫ r r^T dm``.
     """
 
-    def __init__(self, carried: Carried, inertia: Inertia) -> None:
+    def __init__(self, carried: Carried, inertia: SpatialInertia) -> None:
         self._placed, self._part = carried.relative, carried.part
         self._program = carried.part.program
         self._name = f"{self._placed.body}_on_{carried.base.body}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ...program.vectors import NO_TWIST, SymmetricTensor, Twist, Vector
-from ..inertia import Inertia
+from ..inertia import SpatialInertia
 from .flow import NONE, Flow, named, squares_of
 from .sums import Sums
 
@@ -52,13 +52,13 @@ class Loaded:
         """Those of the base, and those of what hangs on it."""
         return [*self.base.twists, *dict.fromkeys(k for s in self._sums.values() for k in s.flows)]
 
-    def add(self, carried: Carried, inertia: Inertia) -> None:
+    def add(self, carried: Carried, inertia: SpatialInertia) -> None:
         """Add a body, with its inertia about its origin, in its axes."""
         scale = carried.part.coordinates.rate_scale_of(carried.relative)
         sums = self._sums.setdefault((id(carried.part), scale), Sums())
         sums.add(carried, inertia, self._names)
 
-    def complete(self, own: Inertia) -> None:
+    def complete(self, own: SpatialInertia) -> None:
         """Sum up.
 
         Parameters
@@ -73,7 +73,7 @@ class Loaded:
             first += s.first
             second += s.second
         second = named(program, f"{body}_second_of_all", second)
-        self.inertia = Inertia(
+        self.inertia = SpatialInertia(
             program.define(f"{body}_mass_of_all", mass),
             program.vector(f"{body}_first_moment_of_all", first),
             named(program, f"{body}_inertia_of_all", own.tensor + second.opposite),

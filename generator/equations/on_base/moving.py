@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ...kinematics.carried import Carried
     from ...kinematics.motion import Axes
     from ...program.program import Program
-    from ..inertia import Inertia
+    from ..inertia import SpatialInertia
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ class Moving:
         ``∫ r dm`` and ``∫ r r^T dm``.
     """
 
-    def __init__(self, carried: Carried, inertia: Inertia) -> None:
+    def __init__(self, carried: Carried, inertia: SpatialInertia) -> None:
         self._carried, self._placed, self._part = carried, carried.relative, carried.part
         self._program = carried.part.program
         self._name = f"{self._placed.body}_on_{carried.base.body}"

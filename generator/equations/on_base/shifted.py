@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import sympy as sp
 
     from ...kinematics.carried import Carried
-    from ..inertia import Inertia
+    from ..inertia import SpatialInertia
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class Shifted:
 
     second = SymmetricTensor.zero()
 
-    def __init__(self, carried: Carried, inertia: Inertia) -> None:
+    def __init__(self, carried: Carried, inertia: SpatialInertia) -> None:
         self._carried, self._inertia = carried, inertia
         self._placed, self._part = carried.relative, carried.part
         self._name, self._program = self._placed.body, carried.part.program

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import sympy as sp
 
     from ...kinematics.carried import Carried
-    from ..inertia import Inertia
+    from ..inertia import SpatialInertia
 
 
 def kind_of(carried: Carried) -> type[Shifted | Hinged | Moving]:
@@ -52,7 +52,7 @@ class Sums:
     bias: dict[str, sp.Expr] = field(default_factory=dict)
     across: dict[str, Vector] = field(default_factory=dict)
 
-    def add(self, carried: Carried, inertia: Inertia, names: Iterable[str]) -> None:
+    def add(self, carried: Carried, inertia: SpatialInertia, names: Iterable[str]) -> None:
         """Add a body.
 
         Parameters

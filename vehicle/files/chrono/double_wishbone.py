@@ -60,7 +60,7 @@ class WishbonePoints(SteeredPoints):
         return points | {"spring_top": self.spring.chassis, "spring_seat": self.spring.arm}
 
 
-class DoubleWishbone(KnuckleFile, WishbonePoints):
+class DoubleWishboneFile(KnuckleFile, WishbonePoints):
     """Two arms; spring and damper act on the lower one."""
 
     LINKED: ClassVar[str] = "lower_arm"

@@ -109,7 +109,7 @@ class Shock(Element):
         return self.given("Damping Coefficient", "Damping Curve Data", "Curve Data")
 
 
-class SpringLaw(NamedTuple):
+class ChronoSpringLaw(NamedTuple):
     """A spring: by its rate, or by its curve, which has the stiffer parts of its stops, too.
 
     Attributes
@@ -218,7 +218,7 @@ def _problems_of_stops(spring: Spring) -> list[str]:
     return [problem]
 
 
-def spring_law(spring: Spring) -> SpringLaw:
+def spring_law(spring: Spring) -> ChronoSpringLaw:
     """Return the spring of a file without `problems_of`, with its preload.
 
     Chrono's curve is over the length above the free one, and positive where the spring pulls.
@@ -230,10 +230,10 @@ def spring_law(spring: Spring) -> SpringLaw:
         stops = spring.stops()
         lengths = stops.stiffer() if stops else ()
         stiffer = [(round(free - at, _DIGITS), more) for at, more in lengths]
-        return SpringLaw(rate, free, tuple((x, rate * x + more) for x, more in stiffer))
+        return ChronoSpringLaw(rate, free, tuple((x, rate * x + more) for x, more in stiffer))
     curve = sorted((-longer + 0.0, spring.preload - force) for longer, force in points)
     kept = fewer(curve)
-    return SpringLaw(0.0, free, kept, tuple(point for point in curve[: -len(kept)]))
+    return ChronoSpringLaw(0.0, free, kept, tuple(point for point in curve[: -len(kept)]))
 
 
 def damper_law(spring: Spring, shock: Shock) -> DamperLaw:
@@ -247,7 +247,7 @@ def damper_law(spring: Spring, shock: Shock) -> DamperLaw:
     return DamperLaw(of.damping or 0.0, tuple(curve))
 
 
-def words_of_curves(stops: Stops | None, spring: SpringLaw, damper: DamperLaw) -> list[str]:
+def words_of_curves(stops: Stops | None, spring: ChronoSpringLaw, damper: DamperLaw) -> list[str]:
     """Return how curves go on at their ends, and which points of a spring are left out."""
     lines = [stops.words()] if stops else []
     beside = stops is None or stops.beside_a_curve

@@ -53,7 +53,7 @@ class ArmPoints(Part):
     upright: Point = Field(alias="Location Upright")
 
 
-class Body(Centre):
+class ChronoBody(Centre):
     """A rigid body; its inertia has two forms, of older and of newer templates."""
 
     mass: Finite = Field(alias="Mass", ge=0.0)
@@ -111,7 +111,7 @@ class Spindle(Centre):
     inertia: Point = Field(alias="Inertia")
 
 
-class Arm(Body):
+class ChronoArm(ChronoBody):
     """An arm as a body."""
 
     @abstractmethod
@@ -129,7 +129,7 @@ class Arm(Body):
         return np.column_stack((x, cross(z, x), z))
 
 
-class ControlArm(ArmPoints, Arm):
+class ControlArm(ArmPoints, ChronoArm):
     """An arm with two bearings and a joint on the upright."""
 
     UNREAD: ClassVar[frozenset[str]] = ArmPoints.UNREAD
@@ -139,7 +139,7 @@ class ControlArm(ArmPoints, Arm):
         return self.front, self.back, self.upright
 
 
-class Axle(Part):
+class ChronoAxle(Part):
     """The shaft that turns with the wheel."""
 
     inertia: Finite = Field(alias="Inertia", ge=0.0)

@@ -10,7 +10,7 @@ from ....core.validator import Validator
 from ...input.commented_json import content
 from ...kinds import Suspension
 from ..fitting import ground
-from .double_wishbone import DoubleWishbone, WishbonePoints
+from .double_wishbone import DoubleWishboneFile, WishbonePoints
 from .keys import Unread, checked, listed, others, shown
 from .macpherson import MacPhersonStrut, StrutPoints
 from .points_only import with_points
@@ -22,7 +22,7 @@ _TEMPLATES: Mapping[str, tuple[type[PointsFile], type[SuspensionFile]]] = {
     whole.TEMPLATE: (points, whole)
     for points, whole in (
         (StrutPoints, MacPhersonStrut),
-        (WishbonePoints, DoubleWishbone),
+        (WishbonePoints, DoubleWishboneFile),
         (TrailingPoints, SemiTrailingArm),
     )
 }

@@ -7,7 +7,7 @@ from pydantic import Field
 
 from .forces import Shock, Spring, damper_law, spring_law, words_of_curves
 from .keys import Part
-from .parts import DRAWING, POINTS_ONLY, Arm, Point
+from .parts import DRAWING, POINTS_ONLY, ChronoArm, Point
 from .suspension_file import PointsFile, SuspensionFile
 
 _SOURCES = {
@@ -27,7 +27,7 @@ class _Bearings(Part):
     inner: Point = Field(alias="Location Chassis Inner")
 
 
-class _TrailingArm(_Bearings, Arm):
+class _TrailingArm(_Bearings, ChronoArm):
     UNREAD: ClassVar[frozenset[str]] = _Bearings.UNREAD
 
     end: Point = Field(alias="Location Spindle")
@@ -93,7 +93,7 @@ class SemiTrailingArm(SuspensionFile, TrailingPoints):
     spring: _Spring = Field(alias="Spring")
     shock: _Shock = Field(alias="Shock")
 
-    def arms(self) -> dict[str, tuple[str, Arm]]:
+    def arms(self) -> dict[str, tuple[str, ChronoArm]]:
         """Return the arm."""
         return {"trailing_arm": ("Trailing Arm", self.arm)}
 

@@ -10,7 +10,17 @@ from pydantic import Field
 
 from .forces import Shock, Spring, problems_of
 from .keys import Part, Unread
-from .parts import Arm, Axle, Body, Centre, Ends, Finite, Point, Spindle, millimetres
+from .parts import (
+    Centre,
+    ChronoArm,
+    ChronoAxle,
+    ChronoBody,
+    Ends,
+    Finite,
+    Point,
+    Spindle,
+    millimetres,
+)
 from .tires import TYRE_RATE, USUAL, Tire
 
 _ALIKE = 0.01  # moments across a wheel that differ by less are taken as one without a word
@@ -100,15 +110,15 @@ class SuspensionFile(PointsFile):
 
     vehicle_axes: bool = Field(default=False, strict=True, alias="Vehicle-Frame Inertia")
     spindle: Spindle = Field(alias="Spindle")
-    axle: Axle = Field(alias="Axle")
+    axle: ChronoAxle = Field(alias="Axle")
     spring: Spring = Field(alias="Spring")
     shock: Shock = Field(alias="Shock")
 
     @abstractmethod
-    def arms(self) -> Mapping[str, tuple[str, Arm]]:
+    def arms(self) -> Mapping[str, tuple[str, ChronoArm]]:
         """Return the arms, with what the file calls them, by their names as bodies."""
 
-    def carriers(self) -> dict[str, tuple[str, Body]]:
+    def carriers(self) -> dict[str, tuple[str, ChronoBody]]:
         """Return the bodies whose inertia is in the axes of the vehicle, in the same way."""
         return {}
 
@@ -177,7 +187,7 @@ class SuspensionFile(PointsFile):
             )
         return lines + self.left_open()
 
-    def _axes(self, arm: Arm) -> Any:
+    def _axes(self, arm: ChronoArm) -> Any:
         return np.eye(3) if self.vehicle_axes else arm.axes()
 
     def _wheel(self, tire: Tire) -> dict[str, float]:
@@ -200,9 +210,9 @@ class KnuckleFile(SuspensionFile, SteeredPoints):
         "[bodies.knuckle]": "Upright",
     }
 
-    upright: Body = Field(alias="Upright")
+    upright: ChronoBody = Field(alias="Upright")
 
-    def carriers(self) -> dict[str, tuple[str, Body]]:
+    def carriers(self) -> dict[str, tuple[str, ChronoBody]]:
         """Return the upright."""
         return {"knuckle": ("Upright", self.upright)}
 

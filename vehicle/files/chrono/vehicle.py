@@ -25,7 +25,7 @@ from .suspension_file import RACK, SteeredPoints, SuspensionFile
 from .tires import TYRE_RATE, Tire, tire_of
 from .vehicle_file import AxlePlace, Folder, VehicleFile
 from .vehicle_parts import (
-    Bar,
+    BarFile,
     Brake,
     Chassis,
     Driveline,
@@ -321,7 +321,7 @@ class _Reader:
                 self.assumed.append(f"front: {RACK}")
         section: dict[str, Any] = {"axle": end, "side": side}
         if axle.place.bar is not None:
-            bar = self._part(Bar, axle.place.bar, "Axles > Antirollbar Input File")
+            bar = self._part(BarFile, axle.place.bar, "Axles > Antirollbar Input File")
             at = axle.place.bar_location - origin
             section["anti_roll_bar"] = bar.section(at, axle.suspension.LINKED)
         return section

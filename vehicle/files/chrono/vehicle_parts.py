@@ -42,7 +42,7 @@ class _Component(Part):
     void: bool = Field(default=False, strict=True, alias="Void")
 
 
-class Driver(Part):
+class DriverPlace(Part):
     """Where the driver is."""
 
     UNREAD: ClassVar[frozenset[str]] = frozenset({"Orientation"})
@@ -56,7 +56,7 @@ class Chassis(_File):
     type: Literal["Chassis"] = Field(alias="Type")
     template: Literal["RigidChassis"] = Field(alias="Template")
     components: tuple[_Component, ...] = Field(alias="Components", min_length=1)
-    driver: Driver | None = Field(default=None, alias="Driver Position")
+    driver: DriverPlace | None = Field(default=None, alias="Driver Position")
 
     def body(self) -> tuple[float, Array, Array]:
         """Return its mass [kg], centre of mass [m] and inertia about that [kg m^2]; axes of it."""
@@ -128,7 +128,7 @@ class _BarSpring(Part):
     rate: _Positive = Field(alias="Spring Coefficient")
 
 
-class Bar(_File):
+class BarFile(_File):
     """An anti-roll bar of two halves, which a torsional spring joins in its middle."""
 
     type: Literal["Antirollbar"] = Field(alias="Type")
