@@ -125,6 +125,8 @@ def _extrema(curve: PPoly) -> Array:
 
 def _swings(values: Array, least: float) -> list[int]:
     """Return which of alternating extrema exceed those beside them."""
+    if (np.abs(np.diff(values)) > least).all():
+        return list(range(1, values.size - 1))
     kept: list[int] = []
     best, sense = 0, 0
     low = high = 0
