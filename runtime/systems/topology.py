@@ -119,8 +119,8 @@ def _joint(joint: Mapping[str, Any], numbers: Mapping[str, int]) -> dict[str, st
         "type": joint["type"],
         "first body": f"{numbers[first]} {first}",
         "second body": f"{numbers[second]} {second}",
-        "degrees of freedom": str(joint["freedoms"]),
-        "in common": joint["common"],
+        "freedoms": str(joint["freedoms"]),
+        "leaves in common": joint["common"],
     }
 
 

@@ -19,6 +19,8 @@ EXAMPLES = (
     "kintrafo mechanism topology my_mechanism.py",
 )
 
+# Headings of the table of joints, where the keys of the result are other words.
+_HEADINGS = {"freedoms": "degrees of freedom", "leaves in common": "in common"}
 _SECONDS = 3.0  # of search for joints that can be independent
 _MOST_CHOICES = 6
 
@@ -59,7 +61,7 @@ def command(
         return
     joints = Table(title=f"{found.title}: joints")
     for column in found.joints[0]:
-        joints.add_column(column)
+        joints.add_column(_HEADINGS.get(column, column))
     for joint in found.joints:
         joints.add_row(*joint.values())
     console.print(joints)
