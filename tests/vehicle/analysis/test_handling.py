@@ -6,16 +6,17 @@ import numpy as np
 import pytest
 import rail_car
 import xarray as xr
-from kintrafo import InputError
+from kintrafo import CarModel, InputError, load
 from kintrafo.vehicle.analysis.handling import circle, load_manoeuvre, responses, steering
 from kintrafo.vehicle.analysis.handling.circle import Turns, steering_ratio
-from kintrafo.vehicle.analysis.handling.driven import driven
+from kintrafo.vehicle.analysis.handling.driven import Samples, driven
 from kintrafo.vehicle.analysis.handling.drivers import Fixed, OpenLoop, SpeedHeld, Torque
 from kintrafo.vehicle.analysis.handling.linear import steering_response
 from kintrafo.vehicle.analysis.handling.manoeuvres import MANOEUVRES
 from kintrafo.vehicle.analysis.handling.manoeuvres.sine_with_dwell import amplitudes_of, judge
 from kintrafo.vehicle.analysis.handling.paths import Lane, Path, through
 from kintrafo.vehicle.analysis.handling.steady import Condition
+from kintrafo.vehicle.analysis.handling.subject import driving_car
 from kintrafo.vehicle.data.starter import manoeuvres
 
 CORNERING, TRAIL = {"front": 160e3, "rear": 240e3}, 0.03  # of both wheels together
@@ -82,6 +83,25 @@ def test_a_turn_is_where_a_simulation_ends(car) -> None:
                         ("roll_angle", turn.unknowns["roll"])):  # fmt: skip
         assert float(last[name]) == pytest.approx(value, rel=1e-5)
     assert float(last["drive_torque"]) == pytest.approx(turn.unknowns["drive"], rel=1e-3)
+
+
+def test_a_turn_of_a_car_with_linkages_is_where_its_simulation_ends() -> None:
+    car = driving_car("test", CarModel(load("driving_car")))
+    turns = Turns(car, Condition("speed", 20.0), -1)
+    straight = turns.begin(0.0)
+    turn = turns.to(-5.0)
+    offset = straight.unknowns["steering_wheel"]
+    course = steering.ramp(turn.unknowns["steering_wheel"] - offset, 2.0)
+    motion = driven(
+        car, straight.state, OpenLoop(course, offset),
+        SpeedHeld(float(turn.unknowns["forward"]), turn.unknowns["drive"], 4e3, 0.3), 6.0,
+        samples=Samples(2e-3, 10),
+    )  # fmt: skip
+    last = motion.isel(time=-1)
+    # what the slowest mode has left after 6 s
+    assert float(last["yaw_rate"]) == pytest.approx(turn.unknowns["yaw_rate"], rel=1e-4)
+    assert float(last["roll_angle"]) == pytest.approx(turn.unknowns["roll"], rel=1e-4)
+    assert float(last["lateral_acceleration"]) == pytest.approx(-5.0, rel=1e-4)
 
 
 def test_a_turn_fulfils_the_balance_of_forces(car) -> None:
@@ -171,8 +191,8 @@ def test_a_driver_passes_between_the_cones(car) -> None:
 def test_a_driver_does_the_same_again_and_on_the_other_side(car) -> None:
     points = {"x_m": [0.0, 8.0, 16.0, 24.0, 32.0], "step_ms": 2.0, "output_step_ms": 4.0}
     left, again, right = (
-        run(car, "path_following", y_m=[0.0, 0.0, side, side, 0.0], turn=turn, **points).curves[""]
-        for side, turn in ((1.0, "left"), (1.0, "left"), (-1.0, "right"))
+        run(car, "path_following", y_m=[0.0, 0.0, side, side, 0.0], **points).curves[""]
+        for side in (1.0, 1.0, -1.0)
     )
     xr.testing.assert_identical(left, again)
     assert np.allclose(right["y"], -left["y"], atol=1e-6)
@@ -346,6 +366,7 @@ def test_a_packaged_manoeuvre_has_all_keys_with_a_comment(name) -> None:
 
 @pytest.mark.parametrize(("name", "changes", "words"), [
     ("step_steer", {"speed_km_per_h": 0.0}, "speed_km_per_h = 0.0 km/h is out of range"),
+    ("braking", {"turn": "left"}, "turn is not a known key"),
     ("step_steer", {"sped": 1.0}, "sped is not a known key"),
     ("step_steer", {"steering_wheel_deg": 10.0}, "give one of the two"),
     ("step_steer", {"duration_s": 0.6}, "more than start_s"),

@@ -14,13 +14,13 @@ from ..drivers import Braking, Fixed, Seen
 from ..result import HandlingResult
 from ..steady import Condition, NoSteadyMotionError, Steady
 from .brakes import Brakes
-from .manoeuvre import Number, Progress, at_time, greatest
+from .manoeuvre import Number, Progress, TurningManoeuvre, at_time, greatest
 
 # After the brake is pushed: where the motion is compared [s].
 _AFTER = 1.0
 
 
-class BrakingInTurn(Brakes):
+class BrakingInTurn(Brakes, TurningManoeuvre):
     """The brake is pushed in a steady turn, the steering wheel held."""
 
     TITLE: ClassVar[str] = "braking in a turn"

@@ -18,8 +18,8 @@ from ..linear import steering_response
 from ..paths import Lane, Path, through
 from ..result import HandlingResult, quantity
 from ..steady import Steady
-from .manoeuvre import Manoeuvre, Progress, greatest
 from .manoeuvre import Number as Judged
+from .manoeuvre import Progress, TurningManoeuvre, greatest
 
 Array = NDArray[np.float64]
 
@@ -88,7 +88,7 @@ class Driver(Section):
         )  # fmt: skip
 
 
-class DoubleLaneChange(Manoeuvre):
+class DoubleLaneChange(TurningManoeuvre):
     """A driver steers through lanes between cones."""
 
     TITLE: ClassVar[str] = "double lane change"

@@ -37,9 +37,6 @@ class Manoeuvre(Section):
     """Whether the car drives along a path that can be drawn."""
 
     speed_km_per_h: Positive = Field(description="speed at the beginning")
-    turn: Literal["left", "right"] = Field(
-        default="left", description='"left" or "right": to which side the car turns first'
-    )
     step_ms: Positive = Field(default=1.0, description="time between two decisions of the driver")
     output_step_ms: Positive = Field(default=5.0, description="time between two outputs")
 
@@ -74,8 +71,8 @@ class Manoeuvre(Section):
 
     @property
     def sense(self) -> int:
-        """1 to the left, -1 to the right."""
-        return 1 if self.turn == "left" else -1
+        """1 where the car turns to the left, -1 to the right."""
+        return 1
 
     @property
     def samples(self) -> Samples:
@@ -152,6 +149,19 @@ class Manoeuvre(Section):
             for name, (value, meaning, unit) in numbers.items()
         }
         return xr.Dataset(found, attrs={"title": self.title})
+
+
+class TurningManoeuvre(Manoeuvre):
+    """A manoeuvre in which the car turns to a side."""
+
+    turn: Literal["left", "right"] = Field(
+        default="left", description='"left" or "right": to which side the car turns first'
+    )
+
+    @property
+    def sense(self) -> int:
+        """1 where the car turns to the left, -1 to the right."""
+        return 1 if self.turn == "left" else -1
 
 
 def greatest(motion: xr.Dataset) -> dict[str, Number]:

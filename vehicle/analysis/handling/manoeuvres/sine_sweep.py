@@ -16,14 +16,14 @@ from ..responses import frequency_response
 from ..result import HandlingResult, quantity
 from ..steady import Steady
 from ..steering import sine_sweep
-from .manoeuvre import Manoeuvre, Number, Progress, greatest
+from .manoeuvre import Number, Progress, TurningManoeuvre, greatest
 
 Array = NDArray[np.float64]
 
 _SOURCES = ("simulated", "linear")
 
 
-class SineSweep(Manoeuvre):
+class SineSweep(TurningManoeuvre):
     """The steering wheel swings, faster and faster."""
 
     TITLE: ClassVar[str] = "sine sweep"

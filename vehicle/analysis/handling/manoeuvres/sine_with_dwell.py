@@ -14,7 +14,7 @@ from ..responses import first_crossing
 from ..result import HandlingResult, quantity
 from ..steady import Steady
 from ..steering import SteeringCourse, sine_with_dwell
-from .manoeuvre import Manoeuvre, Progress, at_time
+from .manoeuvre import Progress, TurningManoeuvre, at_time
 from .slowly_increasing_steer import SlowlyIncreasingSteer
 
 Array = NDArray[np.float64]
@@ -35,7 +35,7 @@ _YAW = ((1.0, 0.35), (1.75, 0.20))
 _FAR, _FAR_HEAVY, _HEAVY = 1.83, 1.52, 3500.0
 
 
-class SineWithDwell(Manoeuvre):
+class SineWithDwell(TurningManoeuvre):
     """One period of a sine that rests at its second peak, with growing amplitudes, coasting."""
 
     TITLE: ClassVar[str] = "sine with dwell"

@@ -13,7 +13,7 @@ from ..car import DrivingCar
 from ..drivers import OpenLoop, Seen
 from ..result import HandlingResult
 from ..steering import ramp
-from .manoeuvre import Manoeuvre, Progress, greatest
+from .manoeuvre import Progress, TurningManoeuvre, greatest
 
 Array = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ GRAVITY = 9.80665
 _FROM, _TO, _REFERENCE = 0.1, 0.375, 0.3
 
 
-class SlowlyIncreasingSteer(Manoeuvre):
+class SlowlyIncreasingSteer(TurningManoeuvre):
     """The steering wheel turns slowly at constant speed, up to a lateral acceleration."""
 
     TITLE: ClassVar[str] = "slowly increasing steer"

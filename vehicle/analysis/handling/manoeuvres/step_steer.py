@@ -12,10 +12,10 @@ from ..drivers import OpenLoop
 from ..responses import step_response
 from ..result import HandlingResult
 from ..steering import SteeringCourse, ramp
-from .manoeuvre import Manoeuvre, Number, Progress, greatest
+from .manoeuvre import Number, Progress, TurningManoeuvre, greatest
 
 
-class StepSteer(Manoeuvre):
+class StepSteer(TurningManoeuvre):
     """The steering wheel is turned quickly, and held."""
 
     TITLE: ClassVar[str] = "step steer"
