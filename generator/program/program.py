@@ -12,7 +12,8 @@ from __future__ import annotations
 
 import re
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
@@ -51,6 +52,9 @@ class Program:
     _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
     _varying: set[sp.Expr] = field(default_factory=set)  # nothing in them can be hoisted
     _spells: bool = False
+    # outputs of narrow parts with the inputs of these, and derivatives of the ones by the others
+    _narrow: dict[sp.Symbol, tuple[sp.Symbol, ...]] = field(default_factory=dict)
+    _partials: dict[tuple[sp.Symbol, sp.Symbol], sp.Expr] = field(default_factory=dict)
 
     def section(self, title: str) -> None:
         """Name the part of the derivation that the next steps belong to."""
@@ -241,18 +245,76 @@ class Program:
         self._extend(tangent, targets, label)
         return [chain_rule(target, tangent) for target in targets]
 
+    def narrow(self, inputs: Iterable[sp.Expr], outputs: Iterable[sp.Expr]) -> None:
+        """Have steps differentiated by few others that they depend on, once for all directions.
+
+        A direction then takes a product for each pair of them, and not all that is between.
+
+        Parameters
+        ----------
+        inputs, outputs
+            The few steps, and those that depend on them; on states and inputs, too, where need be.
+        """
+        given = {symbol for e in inputs for symbol in symbols_of(e)}
+        ends = [s for e in outputs for s in symbols_of(e) if s in self.steps and s not in given]
+        between = {symbol: step for symbol, step in self.steps.items() if symbol not in given}
+        inner = ancestors(between, ends)
+        read = {s for symbol in inner for s in symbols_of(self.steps[symbol].expression)}
+        found = [s for s in read - inner if not self.constants.contains(s)]
+        ordered = tuple(sorted(found, key=attrgetter("name")))
+        self._narrow |= dict.fromkeys(ends, ordered)
+
+    def _by_inputs(self, output: sp.Symbol, tangent: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
+        """Return the derivative of a step of a narrow part: its own ones by the inputs of that."""
+        inputs = self._narrow[output]
+        total = sp.Integer(0)
+        for symbol in inputs:
+            if tangent.get(symbol, 0) != 0:
+                total += self._partial(output, symbol) * tangent[symbol]
+        return total
+
+    def _partial(self, output: sp.Symbol, by: sp.Symbol) -> sp.Expr:
+        """Return the derivative of an output of a narrow part by one of its inputs."""
+        if (output, by) not in self._partials:
+            inputs = self._narrow[output]
+            together = [s for s, others in self._narrow.items() if others == inputs]
+            tangent = dict.fromkeys(inputs, sp.Integer(0)) | {by: sp.Integer(1)}
+            self._extend(tangent, together, f"by_{by}", frozenset(together))
+            self._partials |= {(s, by): tangent.get(s, sp.Integer(0)) for s in together}
+        return self._partials[output, by]
+
     def _extend(
-        self, tangent: dict[sp.Symbol, sp.Expr], targets: Iterable[sp.Expr], label: str
+        self,
+        tangent: dict[sp.Symbol, sp.Expr],
+        targets: Iterable[sp.Expr],
+        label: str,
+        through: frozenset[sp.Symbol] = frozenset(),
     ) -> None:
-        """Add the derivatives of all steps that some expressions need, where they are not zero."""
+        """Add the derivatives of all steps that some expressions need, where they are not zero.
+
+        Parameters
+        ----------
+        tangent
+            Those that are known, by the steps.
+        targets, label
+            As in `along`.
+        through
+            Outputs of a narrow part that are not differentiated by its inputs.
+        """
         moving = {
             symbol: step
             for symbol, step in self.steps.items()
             if symbol not in tangent and not isinstance(step.expression, Frozen)
         }
+        for output, inputs in self._narrow.items():
+            if output in moving and output not in through:
+                moving[output] = replace(moving[output], expression=sp.Add(*inputs))
         needed = ancestors(moving, targets)
         for step in [s for s in moving.values() if s.symbol in needed]:
-            derivative = chain_rule(step.expression, tangent, step.symbol)
+            if step.symbol in self._narrow and step.symbol not in through:
+                derivative = self._by_inputs(step.symbol, tangent)
+            else:
+                derivative = chain_rule(step.expression, tangent, step.symbol)
             if derivative != 0:
                 tangent[step.symbol] = self.define(f"{step.symbol}__{label}", derivative)
 

@@ -23,6 +23,7 @@ from .force import Action, Description, Force
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from ....formulas.magic_formula import Forces
     from ..surroundings import Surroundings
     from ..wheel import WheelAttitude
 
@@ -145,7 +146,7 @@ class RollingTyre(Force):
         arm = down * (self.law.radius - deflection / cosine)
         rolling = self._rolling(at, steps, axes, load, (velocity, turning, arm, upright))
         rolling, rates = self._relaxed(steps, rolling)
-        found = self.law.forces(steps, rolling)
+        found = self._forces(steps, rolling)
         along = self._along(axes, (found.fx, found.fy, sp.Integer(0)))
         upward = upright.up * load
         moment = arm.cross(along) + (down * self.law.radius).cross(upward)
@@ -238,12 +239,19 @@ class RollingTyre(Force):
             load=load,
             longitudinal=steps.define("slip", (radius * spin - ahead) / size),
             lateral=steps.define("lateral_slip", sideways / size),
-            inclination=upright.axis.dot(upright.up),
+            inclination=steps.define("inclination", upright.axis.dot(upright.up)),
             direction=steps.define("direction", ahead / both),
             rolling=steps.define("rolling", ahead / size),
             speed=ahead,
             size=size,
         )
+
+    def _forces(self, steps: Steps, at: RollingState) -> Forces:
+        """Return the forces of the law: of all motion, they depend on a few numbers alone."""
+        found = self.law.forces(steps, at)
+        named = {n: steps.define(f"contact_{n}", v) for n, v in vars(found).items()}
+        steps.program.narrow(vars(at).values(), named.values())
+        return replace(found, **named)
 
     def _relaxed(self, steps: Steps, at: RollingState) -> tuple[RollingState, dict[str, sp.Expr]]:
         """Return how the tyre rolls with slips that follow, and the rates of the deflections."""

@@ -314,3 +314,27 @@ def test_without_derivatives_the_other_functions_are_the_same(four_bar: Derivati
     assert four_bar.functions.keys() - bare.functions.keys() == left_out
     for name, function in bare.functions.items():
         assert operations_of(function) == operations_of(four_bar.functions[name]), name
+
+
+def test_a_narrow_part_is_differentiated_once():
+    program = Program(ConstantStage((sp.Symbol("p"),)))
+    x, y = sp.symbols("x y")
+    inner = program.define("inner", x * y)
+    bent = program.define("bent", sp.sin(inner) + y * inner)
+    out = program.define("out", bent**2 + sp.Symbol("p") * bent)
+    direct = [program.tangents(s, [out], f"d{s}")[0] for s in (x, y)]
+    program.narrow([inner], [out])
+    narrowed = [program.tangents(s, [out], f"n{s}")[0] for s in (x, y)]
+    names = [step.name for step in program.steps]
+    assert "bent__by_inner" in names
+    assert not any(name in names for name in ("bent__nx", "bent__ny"))
+    written = {s: step.expression for s, step in program.steps.items()}
+    values = {x: 0.3, y: 0.7, sp.Symbol("p"): 1.9}
+
+    def number(expression):
+        while expression.free_symbols & written.keys():
+            expression = expression.xreplace(written)
+        return float(expression.evalf(subs=values))
+
+    found = [number(derivative) for derivative in narrowed]
+    assert found == pytest.approx([number(derivative) for derivative in direct], rel=1e-14)
