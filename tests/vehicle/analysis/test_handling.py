@@ -57,6 +57,7 @@ def test_gradients_are_those_of_the_bicycle_model(car, speed) -> None:
     _, b, front, rear = bicycle(car)
     # of small turns: the next term is of the second order in the acceleration
     found = circle(car, speed=speed, lateral_acceleration=[1e-4]).metrics
+    assert "greatest_lateral_acceleration" not in found  # of which nothing is known here
     by_front = car.mass * rear / car.wheelbase / CORNERING["front"]
     by_rear = car.mass * front / car.wheelbase / CORNERING["rear"]
     for name in ("understeer_gradient", "understeer_gradient_of_wheels"):
@@ -131,6 +132,26 @@ def test_turns_to_both_sides_are_mirror_images_and_end_at_the_friction(car) -> N
     beyond = most + 0.2
     with pytest.raises(InputError, match=r"lateral_acceleration_m_per_s2 = .*no steady turn above"):
         run(car, "step_steer", lateral_acceleration_m_per_s2=beyond, speed_km_per_h=90.0)
+
+
+def test_a_car_that_oversteers_is_unstable_above_its_critical_speed(car) -> None:
+    swapped = {"front": CORNERING["rear"], "rear": CORNERING["front"]}
+    changed = {f"{end}_tyre_cornering_stiffness": 0.5 * c for end, c in swapped.items()}
+    loose = rail_car.car(**(car.model.parameters | changed))
+    _, _, front, rear = bicycle(loose)
+    gradient = loose.mass / loose.wheelbase * (rear / swapped["front"] - front / swapped["rear"])
+    critical = np.sqrt(-loose.wheelbase / gradient)
+    below, above = (
+        float(
+            circle(loose, speed=part * critical, lateral_acceleration=[1e-3]).curves[""]["growth"][
+                0
+            ]
+        )
+        for part in (0.97, 1.03)
+    )
+    # the speed and the place are neutral: what is left of them is rounding
+    assert below < 1e-3
+    assert above > 1e-2
 
 
 def test_slow_harmonic_steering_is_a_steady_turn(car) -> None:

@@ -44,6 +44,7 @@ _OF_DRIVER = {
     "travel_speed": ("horizontal speed of the reference point", "m/s"),
     "curvature": ("curvature of the path, positive to the left", "1/m"),
     "drive_torque": ("torque of all driven wheels together", "N m"),
+    "growth": ("growth rate of the least stable small motion, positive unstable", "1/s"),
 }
 _GRADIENTS = {
     "steering_wheel_gradient": "change of the steering wheel angle by lateral acceleration",
@@ -275,9 +276,10 @@ def _described(
     dataset = xr.Dataset(curves, coordinates, {"title": title})
     metrics = {name: quantity((), gradients[name][0], _GRADIENTS[name], _PER) for name in gradients}
     metrics["steering_ratio"] = quantity((), ratio, "overall steering ratio, straight ahead", "1")
-    metrics["greatest_lateral_acceleration"] = quantity(
-        (), limit, "greatest lateral acceleration of a steady turn", "m/s^2"
-    )
+    if np.isfinite(limit):  # else there may be turns beyond the last one that is asked for
+        metrics["greatest_lateral_acceleration"] = quantity(
+            (), limit, "greatest lateral acceleration of a steady turn", "m/s^2"
+        )
     return xr.Dataset(metrics, attrs={"title": title}), {"": dataset}
 
 
@@ -318,6 +320,8 @@ def _of_turn(car: DrivingCar, steady: Steady) -> tuple[dict[str, float], dict[st
     body["curvature"] = body["yaw_rate"] / body["travel_speed"]
     values = {name: float(np.real(value)) for name, value in body.items()}
     slopes = {name: float(np.imag(value)) / _IMAGINARY for name, value in body.items()}
+    values["growth"] = float(car.model.eigenvalues(steady.state, steady.inputs).real.max())
+    slopes["growth"] = np.nan
     names = {"steering_wheel_angle": "steering_wheel", "drive_torque": "drive"}
     for name, unknown in names.items():
         values[name] = steady.unknowns[unknown]
