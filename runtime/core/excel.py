@@ -62,7 +62,7 @@ def pages_of(file: Path) -> list[Page]:
         raise InputError([_NO_WORKBOOK], str(file)) from None
 
 
-_NO_WORKBOOK = "the file is no Excel workbook that can be read. Save it as .xlsx or .csv."
+_NO_WORKBOOK = "the file is not a readable Excel workbook. Save it as .xlsx or .csv."
 
 
 def _refuse_large(file: Path) -> None:

@@ -139,7 +139,7 @@ def _paths(paths: Paths, inputs: Paths, force: object) -> tuple[list[Path], list
     """
     listed = {"path": _listed(paths), "inputs": _listed(inputs)}
     problems = [
-        f"{name}: {type(wrong).__name__} is no path of a file, as 'out/curves.csv' is."
+        f"{name}: {type(wrong).__name__} is not the path of a file, such as 'out/curves.csv'."
         for name, some in listed.items()
         for wrong in some
         if not isinstance(wrong, str | os.PathLike)
@@ -167,7 +167,7 @@ def _listed(some: Paths) -> list[str | Path]:
 def _resolved(path: Path) -> Path:
     """Return where a file is, through all links."""
     if "\0" in str(path):
-        raise OSError(errno.EINVAL, "no name has a zero byte in it")
+        raise OSError(errno.EINVAL, "a zero byte is not allowed in a name")
     try:
         return path.resolve()
     except RuntimeError as error:  # pathlib's, before Python 3.13, of links that lead in a circle
@@ -192,7 +192,7 @@ def _in_the_way(target: Path, force: bool, inputs: Paths) -> str:
     if force or target.stat().st_size == 0 or written.known(target):
         return ""
     return (
-        "this file is there already, and it is not as kintrafo wrote it here. Choose another name, "
+        "this file exists already, and is not unchanged output of kintrafo. Choose another name, "
         "or have it replaced: --force (in Python: force=True)."
     )
 

@@ -170,8 +170,8 @@ def _impossible_tensors(values: Mapping[str, float]) -> Iterator[str]:
             small, middle, large = moments.tolist()
             yield (
                 f"inertia of {body!r}: the principal moments {small:.4g}, {middle:.4g} and "
-                f"{large:.4g} kg m^2 are those of no body, since the largest is at most the sum of "
-                "the others and none is negative. Check the diagonal and the signs of xy, xz and "
+                f"{large:.4g} kg m^2 are impossible: none may be negative, nor greater than the "
+                "sum of the other two. Check the diagonal and the signs of xy, xz and "
                 "yz (elements of the tensor: minus the products of inertia). In a plane, where "
                 "only the moment about the normal counts, give each of the others half of it"
             )

@@ -71,6 +71,6 @@ def text_of(file: str | Path | Traversable, most: int = MOST_OF_DATA) -> str:
         raise InputError([problem], str(file)) from None
     if "\0" in text:
         line = text.count("\n", 0, text.index("\0")) + 1
-        problem = f"Line {line} has a zero byte, so that it is no text. Save it as plain text."
+        problem = f"Line {line} has a zero byte, so it is not a text. Save it as plain text."
         raise InputError([problem], str(file))
     return text

@@ -173,7 +173,7 @@ class Table:
         if in_si(given or "")[0] != unit:
             return (
                 f"column {short(heading.text)!r}: the unit {short(given or '(none)')} does not fit "
-                f"{column.name}, which is in {unit} or what people use of it."
+                f"{column.name}, which is in {unit} or a display unit of it."
             )
         elsewhere = [self.units[column.at], *self.stated]
         others = [o for o in elsewhere if o is not None and _contradicts(o, given or "")]
@@ -236,7 +236,7 @@ class Table:
         if len(marks) < 2:
             return []
         return [
-            "numbers have points and commas: write one of them, for decimals, and no thousands."
+            "numbers have points and commas: use one of them, for decimals, none for thousands."
         ]
 
     def number(self, cell: Any) -> float:

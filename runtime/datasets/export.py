@@ -80,7 +80,7 @@ def write(
         for name, sheet in given.mapping("sheets", sheets, "names and datasets").items():
             given.instance(f"sheets[{name!r}]", sheet, xr.Dataset, "an xarray.Dataset is needed")
             if not _SHEET.fullmatch(str(name)):
-                given.fail(f"sheets: {shown(name)} is no name of a sheet: {_NAMED}.")
+                given.fail(f"sheets: {shown(name)} is not a name of a sheet: {_NAMED}.")
         if sheets == {}:
             given.fail("sheets: one or more are needed.")
     ending = check_format(path)
@@ -98,7 +98,7 @@ def check_format(path: str | Path) -> str:
         given.path("path", path)
     ending = Path(path).suffix.lower()
     if ending not in _FORMATS:
-        found = f"{ending} is no format" if ending else "the name has no ending"
+        found = f"{ending} is not a format" if ending else "the name has no ending"
         problem = (
             f"{found} of data files. Use .csv, .xlsx (Excel), .nc (netCDF), .parquet or .mat "
             "(MATLAB)."

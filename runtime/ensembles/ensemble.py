@@ -247,7 +247,7 @@ def _check_results(given: Validator, asked: OutputSpec, own: Variants) -> None:
     results = {*asked.signals, *(reduced.name for reduced in asked.reduced)}
     for name in sorted(varied & results):
         given.fail(
-            f"{name!r} is both what varies and a result that was asked for: keep another one, such "
+            f"{name!r} is both a variant and a result: keep another result, such "
             "as the signal itself over time."
         )
 
@@ -255,7 +255,7 @@ def _check_results(given: Validator, asked: OutputSpec, own: Variants) -> None:
 def _span(given: Validator, t_span: Any) -> tuple[float, float]:
     first, last = span_of(given, t_span)
     if last < first:
-        given.fail(f"t_span = {shown(t_span)}: an ensemble goes forward, from earlier to later.")
+        given.fail(f"t_span = {shown(t_span)}: the first time must be the earlier one.")
     return min(first, last), max(first, last)
 
 

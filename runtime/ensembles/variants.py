@@ -142,7 +142,7 @@ def _columns(
         if array is None:
             arguments.fail(
                 f"variants {shown(name)} = {shown(values)}: one number, or a row of one for each "
-                "system, is needed. What goes over several dimensions is an xarray.DataArray."
+                "system, is needed. For several dimensions, give an xarray.DataArray."
             )
         else:
             found[str(name)] = xr.DataArray(array, dims=(CAR,) * array.ndim)
@@ -239,7 +239,7 @@ def _check_dimensions(
     for dimension in given.dims:
         if dimension not in over:
             arguments.fail(
-                f"variants: nothing goes over the dimension {dimension!r}. "
+                f"variants: no value has the dimension {dimension!r}. "
                 f"{suggestion(str(dimension), _described(model))}"
             )
 
@@ -263,7 +263,7 @@ def _broadcast(
     except ValueError as error:
         what = "variants" if rows is None else "variants and the rows of y0"
         arguments.fail(
-            f"{what} do not go together: rows as long as each other, and the same labels in the "
+            f"{what} do not match: rows of equal length, and the same labels in the "
             f"same order, are needed ({error})."
         )
         return {}, {}

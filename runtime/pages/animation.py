@@ -92,7 +92,7 @@ def _write_gif(path: Path, result: Simulation, fps: float, slower: float) -> Non
     if count > _MOST_FRAMES:
         least = _MOST_FRAMES / fps / slower
         words = (
-            f"a GIF of {count} frames is more than the {_MOST_FRAMES} that viewers bear. Take "
+            f"a GIF of {count} frames is too long for viewers: allowed are {_MOST_FRAMES}. Take "
             f"fewer per second (fps), a motion of at most {least:g} s, or a page (.html)."
         )
         raise InputError([words], "animate")

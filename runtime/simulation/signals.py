@@ -199,7 +199,7 @@ def time_inputs(
     names, inputs = model.input_names, model.equations.INPUTS
     with Validator("inputs") as given:
         courses = given.mapping(
-            "inputs", {} if signals is None else signals, "input names, what they do"
+            "inputs", {} if signals is None else signals, "input names and their values"
         )
     derived = derived_inputs(inputs) if courses else {}
     collected = _Collected(np.zeros(len(names)) if held is None else held.copy())
@@ -303,8 +303,8 @@ def _check_jump(name: str, time: float, order: int, rates: int) -> None:
         return
     what, needs = (("", "velocity"), ("the velocity of ", "acceleration"))[order]
     problem = (
-        f"{what}{name!r} jumps at t = {time:g} s: what it moves would need an infinite {needs} "
-        "there. Give one value for each time, and a smooth way between them."
+        f"{what}{name!r} jumps at t = {time:g} s: the driven body would need an infinite {needs} "
+        "there. Give one value for each time, and a smooth curve between them."
     )
     raise InputError([problem], "inputs")
 

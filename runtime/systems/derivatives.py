@@ -262,7 +262,7 @@ def _go_together(given: Validator, what: str, shapes: list[tuple[int, ...]]) -> 
         np.broadcast_shapes(*shapes)
     except ValueError:
         text = ", ".join(map(str, shapes))
-        given.fail(f"{what}: the leading dimensions {text} must go together.")
+        given.fail(f"{what}: the leading dimensions {text} must be equal, or broadcast.")
         return False
     return True
 

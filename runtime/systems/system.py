@@ -284,5 +284,5 @@ def _check_leading(given: Validator, state: Array, inputs: Array) -> None:
     except ValueError:
         given.fail(
             f"state and inputs have the shapes {state.shape} and {inputs.shape}: their leading "
-            "dimensions must go together."
+            "dimensions must be equal, or broadcast."
         )

@@ -119,4 +119,4 @@ def _refuse_options(given: Validator, to: str, options: Mapping[str, Any]) -> No
     for name in options:
         if name not in known:
             has = ", ".join(known) or "none"
-            given.fail(f"{name} is no option of an export to {to!r}, which has {has}.")
+            given.fail(f"{name} is not an option of an export to {to!r}, which has {has}.")

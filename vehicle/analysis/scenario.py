@@ -231,7 +231,7 @@ def started(
 def _refuse_unusable(given: Validator, assembly: Assembly, scenario: Scenario) -> None:
     """Refuse times that cannot be, and a start and inputs that the assembly does not have."""
     scenario.checked(given)
-    inputs = given.mapping("inputs", scenario.inputs, "input names, what they do")
+    inputs = given.mapping("inputs", scenario.inputs, "input names and their values")
     if _RACK in inputs and not assembly.steered:
         given.fail(f"{_RACK}: it has no rack, and nothing steers its wheels. Leave that out.")
     refuse_missing_loads(given, assembly, inputs)

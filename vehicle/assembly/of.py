@@ -132,7 +132,7 @@ MODELS = (Model, AxleModel, WholeAxleModel, CarModel)
 
 _MODEL_NEEDED = (
     'a kintrafo.Model of a suspension, such as Model("reference_car"), an AxleModel or a '
-    "RigidAxleModel is needed; where another mechanism is at rest, kintrafo.rest says"
+    "RigidAxleModel is needed; for another mechanism, use kintrafo.rest"
 )
 
 

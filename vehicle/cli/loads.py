@@ -126,7 +126,7 @@ def command(
     parts = among(part, dict.fromkeys(with_totals(found)["part"].values), "--part") if part else []
     bodies = [name for name in parts if name != ALL]
     if outputs.pages and parts and not bodies:
-        problem = f"{ALL} is no part that can be drawn. Name one, or leave --plot out."
+        problem = f"{ALL} is not a part that can be drawn. Name one, or leave --plot out."
         raise InputError([problem], "--part")
     written = [
         each

@@ -123,7 +123,7 @@ def _reductions(model: "System", kept: tuple[str, ...] | list[str]) -> dict[str,
         entry: Any = word
         if word == "psd":
             raise typer.BadParameter(
-                f"{text!r}: a spectrum is no number for a table; kintrafo.ensemble keeps spectra"
+                f"{text!r}: a spectrum is not a number for a table; kintrafo.ensemble keeps spectra"
             )
         if mark and signal in model.signal_names:
             unit = model.equations.SIGNALS[signal]["unit"]
@@ -131,7 +131,7 @@ def _reductions(model: "System", kept: tuple[str, ...] | list[str]) -> dict[str,
                 factor = display_of(attributes("", unit)).factor if word == "above" else 1.0
                 entry = word, float(level) / factor
             except ValueError:
-                raise typer.BadParameter(f"{text!r}: {level!r} is no number") from None
+                raise typer.BadParameter(f"{text!r}: {level!r} is not a number") from None
         found.setdefault(signal, []).append(entry)
     return found
 

@@ -315,7 +315,7 @@ def _curve(given: Validator, title: str, table: Mapping[str, Any], which: str) -
     if key not in table:
         return None
     if rate in table:
-        given.fail(f"{title}: {key} and {rate} both say how stiff it is. Keep one.")
+        given.fail(f"{title}: {key} and {rate} both give the stiffness. Keep one.")
     return curve_of(given, f"{title} {key}", table[key], odd=which == "radial")
 
 
@@ -420,7 +420,7 @@ def _direction(
         return usual
     values = given.array(f"{title} {key}", table[key], dimensions=[1])
     if values.shape != (3,) or not 1e-6 < np.abs(values).max() < 1e6:
-        problem = "three numbers are needed, of which the largest is between 1e-6 and 1e6."
+        problem = "three numbers are needed, the largest between 1e-6 and 1e6."
         given.fail(f"{title} {key}: {problem}")
         return np.array([1.0, 0.0, 0.0])
     return unit_vector(values)

@@ -123,7 +123,7 @@ def read_names(texts: Iterable[str]) -> dict[str, str]:
     for text in listed:
         ours, equals, theirs = (part.strip() for part in text.partition("="))
         if not (ours and equals and theirs):
-            problems.append(f"{text!r} has no two names. Write lower_ball_joint=my_lca_outer.")
+            problems.append(f"{text!r} is not a pair. Write lower_ball_joint=my_lca_outer.")
         elif ours in found:
             problems.append(f"{ours} is named twice: {found[ours]} and {theirs}. Keep one.")
         else:
@@ -165,7 +165,7 @@ def matched(
         if name != by_key[key(name)]
     ]
     problems += [
-        f"{ours} is no hardpoint of a {KINDS[kind].TITLE}. {suggestion(ours, known(kind))}"
+        f"{ours} is not a hardpoint of a {KINDS[kind].TITLE}. {suggestion(ours, known(kind))}"
         for ours in given
         if ours not in known(kind)
     ]
@@ -206,8 +206,8 @@ def kind_of(there: Collection[str], given: Mapping[str, str], source: str) -> st
         return near[0]
     if missing:
         problem = (
-            f"its hardpoints are those of no kind of suspension. Nearest is {near[0]}, of which "
-            f"{', '.join(missing)} are missing. Say the kind, and what the points are called: "
+            f"its hardpoints match no kind of suspension. The nearest is {near[0]}; missing are: "
+            f"{', '.join(missing)}. Give the kind, and the names of these points: "
             f"--kind {near[0]} --name {missing[0]}=NAME. It has: {listed(there)}."
         )
     else:

@@ -170,7 +170,7 @@ def _unit(found: NamedColumns, given: str | None) -> str:
     problems = [problem for c in lengths if (problem := table.unit_problem(c, "m"))]
     wanted = None if given is None else unit_of(given)
     if given is not None and wanted not in LENGTHS:
-        problems.append(f"unit {given!r} is no length. There are {', '.join(LENGTHS)}.")
+        problems.append(f"unit {given!r} is not a length. There are {', '.join(LENGTHS)}.")
     elif wanted and every - {wanted}:
         problems.append(f"the unit of the table is {', '.join(sorted(every))}, and not {wanted}.")
     elif not (every or wanted):
@@ -181,7 +181,7 @@ def _unit(found: NamedColumns, given: str | None) -> str:
     elif not every <= LENGTHS.keys() or (len(every) > 1 and not problems):
         words = short(", ".join(sorted(every)))
         problems.append(
-            f"the unit of x, y and z must be {', '.join(LENGTHS)}, of all the same; it is {words}."
+            f"the unit of x, y and z must be {', '.join(LENGTHS)}, the same for all; it is {words}."
         )
     if problems:
         raise InputError(problems, table.source)
@@ -410,7 +410,7 @@ def doubts(found: Merged) -> str:
         return ""
     rows = len(found.left_out) + len(found.read)
     return (
-        f"{len(found.left_out)} of {rows} rows are no hardpoints: {listed(found.left_out)}; and "
+        f"{len(found.left_out)} of {rows} rows are not hardpoints: {listed(found.left_out)}; and "
         f"{listed(found.missing)} stay as in the file. If a row is one of them, say so: --name "
         f"{found.missing[0]}={short(found.left_out[0])} (names=)."
     )

@@ -53,7 +53,7 @@ def curve_of(given: Validator, title: str, described: Any, *, odd: bool) -> Curv
 def _problem(places: Array, forces: Array, *, odd: bool) -> str:
     """Say why some points are no curve of a bush."""
     if places.size != forces.size or places.size < 2:
-        return f"mm has {places.size} values and N {forces.size}; as many are needed, two or more."
+        return f"mm has {places.size} values and N {forces.size}; give two or more of each."
     if not (np.abs(places) <= _MOST_MM).all() or not (np.abs(forces) <= _MOST_N).all():
         return f"values up to {_MOST_MM:g} mm and {_MOST_N:g} N are needed."
     for key, values in (("mm", places), ("N", forces)):

@@ -27,7 +27,7 @@ def content(path: str | Path) -> dict[str, Any]:
         problem = f"Line {error.lineno} is not valid JSON: {error.msg}."
         raise InputError([problem], str(path)) from error
     except RecursionError as error:
-        problem = "has lists or keys in each other too deeply. Give a file of Project Chrono."
+        problem = "lists or keys are nested too deeply. Give a file of Project Chrono."
         raise InputError([problem], str(path)) from error
     except _TwiceError as error:
         raise InputError([str(error)], str(path)) from None
@@ -49,7 +49,7 @@ def _keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """Return the contents of braces; two keys of one name are refused."""
     ((most, times),) = Counter(key for key, _ in pairs).most_common(1) or [("", 0)]
     if times > 1:
-        raise _TwiceError(f'"{legible(short(most))}" is there {times} times. Keep one of them.')
+        raise _TwiceError(f'"{legible(short(most))}" is given {times} times. Keep one of them.')
     return dict(pairs)
 
 

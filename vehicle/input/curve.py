@@ -53,8 +53,8 @@ def point_problems(
     """
     if len(places) != len(forces):
         problem = (
-            f"{key} has {len(places)} values and force_N {len(forces)}; as many are needed. Give "
-            "one force for each of the others."
+            f"{key} has {len(places)} values and force_N {len(forces)}; equal counts are "
+            "needed. Give one force for each of the others."
         )
         return [problem]
     if not 2 <= len(places) <= SEGMENTS + 1:

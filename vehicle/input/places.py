@@ -26,7 +26,7 @@ def put(data: dict[str, Any], place: str, value: Any) -> str:
     if isinstance(table, list) and key in _COMPONENTS:
         table[_COMPONENTS[key]] = value
         return ""
-    return f"{place}: {key} is no part of {sections[-1]}. Points have x, y and z; numbers no parts."
+    return f"{place}: {key} is not a part of {sections[-1]}. Points have x, y and z."
 
 
 def reverse(values: Any, index: int | str) -> None:

@@ -57,7 +57,7 @@ NonNegative = Annotated[
 Positive = Annotated[
     Number,
     Field(gt=0.0),
-    AllowedRange("more than 0 {unit}", "Enter a positive value: no wheel is without it."),
+    AllowedRange("more than 0 {unit}", "Enter a positive value."),
 ]
 
 Triple = Annotated[tuple[Number, Number, Number], BeforeValidator(_three_numbers)]

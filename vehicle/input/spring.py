@@ -79,7 +79,7 @@ class SpringSection(Section):
                 "spring; one is allowed. Remove the other."
             )
             return [problem]
-        problems = self._problems_of_free(" and ".join(_FREE))
+        problems = self._problems_of_free(f"{' and '.join(_FREE)} is needed")
         if not problems and self.force_at_design_N is not None and self.rate_N_per_m == 0.0:
             problem = (
                 f"force_at_design_N = {self.force_at_design_N} N needs a spring, but rate_N_per_m "
@@ -93,8 +93,8 @@ class SpringSection(Section):
         given = [key for key in _FREE if getattr(self, key) is not None]
         if len(given) == 1:
             return []
-        found = "both are given" if given else "neither is given"
-        return [f"where the spring is free of force is said by one of {ways}; {found}. Keep one."]
+        found = "both are given. Keep one." if given else "neither is given. Add one."
+        return [f"exactly one of {ways}; {found}"]
 
     def _problems_of_curve(self) -> list[str]:
         """See that the points are a curve, and that its lengths are known."""
@@ -103,7 +103,7 @@ class SpringSection(Section):
             found = ", ".join(key for key in _BY_CURVE if getattr(self, key) is not None)
             problem = (
                 "a curve needs force_N, and either length_mm or compression_mm; given are "
-                f"{found}. Enter what is missing, or remove what is too much."
+                f"{found}. Enter the missing key, or remove the extra one."
             )
             return [problem]
         (key,) = over
@@ -121,7 +121,7 @@ class SpringSection(Section):
                 if getattr(self, free) is not None
             ]
         problems = self._problems_of_free(
-            "free_length_mm and force_at_design_N, from where compression_mm counts"
+            "free_length_mm and force_at_design_N is needed, for the zero of compression_mm"
         )
         return problems or self._problems_of_force(places, force)
 
@@ -234,7 +234,7 @@ def _problems_of_spring(key: str, places: tuple[float, ...], force: tuple[float,
             )
             return [problem]
     if force[0] == force[-1]:
-        return [f"force_N = {force[0]} N everywhere: this is no spring. Enter its forces."]
+        return [f"force_N = {force[0]} N everywhere: this is not a spring. Enter its forces."]
     return []
 
 

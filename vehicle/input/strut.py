@@ -63,11 +63,8 @@ class StrutSection(Section):
         if self.spring_rate_N_per_m is None:
             return []  # whether there is a [spring] instead is seen with it
         if len(given) != 1:
-            found = f"{' and '.join(given)} are given" if given else "none of them is given"
-            problem = (
-                f"where the spring is free of force is said by one of {', '.join(_FREE)}; {found}. "
-                "Keep one."
-            )
+            found = f"{' and '.join(given)} are given. Keep" if given else "none is given. Add"
+            problem = f"exactly one of {', '.join(_FREE)} is needed; {found} one."
             return [problem]
         by_force = given[0].endswith("_N")
         if by_force and self.spring_rate_N_per_m == 0.0:

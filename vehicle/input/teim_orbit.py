@@ -130,7 +130,7 @@ def read_blocks(path: str | Path) -> list[FileBlock]:
     blocks.append(FileBlock(name, start, tuple(lines)))
     if len(blocks) == 1:
         problem = (
-            "there is no [BLOCK] in it, so that it is no file in the TeimOrbit format. Give the "
+            "there is no [BLOCK] in it, so it is not a file in the TeimOrbit format. Give the "
             "subsystem as text (TeimOrbit), not as XML."
         )
         raise InputError([problem], str(path))
@@ -141,7 +141,7 @@ def _text_of(file: Path) -> str:
     """Return the file's text; every byte is a character of Latin-1."""
     content = bytes_of(file)
     if b"\0" in content:
-        raise InputError(["the file is no text. Save it as plain text."], str(file))
+        raise InputError(["the file is not a text. Save it as plain text."], str(file))
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError:

@@ -99,7 +99,7 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
         except ValueError:
             given.fail(
                 f"height and rack_position have the shapes {heights.shape} and {racks.shape}, "
-                "which do not go together. Give one of them as a single number."
+                "which do not broadcast. Give one of them as a single number."
             )
     if heights.size == 0:
         return np.empty(heights.shape)

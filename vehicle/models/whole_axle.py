@@ -314,8 +314,8 @@ class WholeAxle(DescribedSection):
             notes += beyond_the_table(self.parameters_of(side), self.length("spring", side))
         if self.tyre_radius() is None:
             notes.append(
-                "[tyre] radius_mm is not given, and wheel_center is no wheel's radius above z = 0: "
-                "what needs the ground is left out"
+                "[tyre] radius_mm is not given, and wheel_center is not a wheel's radius above "
+                "z = 0: results that need the ground are left out"
             )
         return Plausibility(tuple(self._unlikely()), tuple(notes))
 

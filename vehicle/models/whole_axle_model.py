@@ -125,7 +125,7 @@ class WholeAxleModel(System):
             rights = given.array("right", right, "m", dimensions=[0, 1])
             if lefts.ndim and rights.ndim and lefts.shape != rights.shape:
                 given.fail(
-                    f"left has {lefts.size} travels and right {rights.size}: as many are needed."
+                    f"left has {lefts.size} travels, right {rights.size}: equal counts are needed."
                 )
         lefts, rights = np.broadcast_arrays(lefts, rights)
         parts = self.parts_of_ways(lefts.ravel(), rights.ravel())

@@ -214,7 +214,7 @@ def check_formats(paths: Sequence[str | Path] = (), formats: Sequence[str] = ())
     wrong = [given for given, ending in endings.items() if ending not in FORMATS]
     problems = [f"{given}: a figure ends in .{', .'.join(FORMATS)}." for given in wrong]
     problems += [
-        f"{name!r} is no format of figures; there are {', '.join(FORMATS)}."
+        f"{name!r} is not a format of figures; there are {', '.join(FORMATS)}."
         for name in formats
         if name not in FORMATS
     ]

@@ -51,8 +51,8 @@ class Road:
             given.flag("stationary", self.stationary)
             if not given.failed and (left.shape != right.shape or left.size < 4):
                 given.fail(
-                    f"left has {left.size} points and right {right.size}: as many are needed of "
-                    "both, and four or more."
+                    f"left has {left.size} points and right {right.size}: equal counts are "
+                    "needed, four or more."
                 )
         for name, value in (("spacing", spacing), ("left", left), ("right", right)):
             object.__setattr__(self, name, value)

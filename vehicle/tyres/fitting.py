@@ -230,7 +230,7 @@ def _chosen(
         with Validator("fit") as given:
             names = given.names("coefficients", coefficients, sorted(known.USED))
             if len(set(names)) < len(names):
-                given.fail("coefficients: a name is there twice.")
+                given.fail("coefficients: a name is given twice.")
             if not names:
                 given.fail("coefficients: there is none; name one or more.")
         _see_determined(problem, names)

@@ -137,7 +137,7 @@ class MagicFormula(Tyre):
         """
         unknown = [k for k in changes if k not in known.USED]
         if unknown:
-            raise InputError([f"{k} is no coefficient that is used." for k in unknown], self.name)
+            raise InputError([f"{k} is not a coefficient in use." for k in unknown], self.name)
         return replace(self, coefficients={**self.coefficients, **changes})
 
     def mirrored(self) -> Self:

@@ -60,7 +60,7 @@ class Kept:
             if name is None:
                 continue
             if not path.is_file():  # nor could it be replaced by one
-                _refuse(path, "this is no file, where one is kept. Remove it.")
+                _refuse(path, "not a file, but named as a saved piece. Remove it.")
             span = int(name[1]), int(name[2])
             try:
                 yield self._found(span, _arrays_in(path.read_bytes()))
@@ -149,7 +149,7 @@ def kept_in(folder: str | Path, collected: Collected) -> Kept:
     path, identity = Path(folder), identity_of(collected)
     with as_input_errors(path):
         if path.exists() and not path.is_dir():
-            _refuse(path, "this is no folder. Name a folder that is empty, or that is not there.")
+            _refuse(path, "this is not a folder. Name a folder that is empty, or a new one.")
         there = {entry.name for entry in path.iterdir()} if path.exists() else set()
         if _NAME in there:
             _check(path, identity)

@@ -107,7 +107,7 @@ def given_by(
     if isinstance(declared, str | Path):
         if Path(declared).suffix.lower() == ".toml":
             problem = (
-                "this is no Python file with a declaration. Suspensions have their equations: a "
+                "this is not a Python file with a declaration. Suspensions have their equations: a "
                 "hardpoint file (TOML) is for kintrafo check, simulate and so on, in Python for "
                 "kintrafo.Model."
             )
@@ -131,7 +131,7 @@ def _run(path: Path) -> ModuleType:
         with as_input_errors(path, "cannot be read"):
             source = path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
-        problem = f"is no text in UTF-8 (byte {error.start}). Give a Python file."
+        problem = f"is not a text in UTF-8 (byte {error.start}). Give a Python file."
         raise InputError([problem], str(path)) from error
     module = ModuleType(path.stem)
     module.__file__ = str(path)

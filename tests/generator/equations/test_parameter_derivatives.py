@@ -229,7 +229,10 @@ def test_arguments_are_refused_by_name() -> None:
         ((system, "rhs", {"crank_mas": 1.0}, at), "crank_mass"),
         ((system, "rhss", {}, at), "rhs"),
         ((system, "rhs", {"crank_mass": np.nan}, at), "finite"),
-        ((system, "rhs", {"crank_mass": [1.0, 2.0], "coupler_mass": [1.0] * 3}, at), "go together"),
+        (
+            (system, "rhs", {"crank_mass": [1.0, 2.0], "coupler_mass": [1.0] * 3}, at),
+            "be equal, or broadcast",
+        ),
         ((kintrafo.Model("reference_car"), "rhs", {}, at), "parameter_derivatives=True"),
     ):
         with pytest.raises(InputError, match=message):

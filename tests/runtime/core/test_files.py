@@ -62,7 +62,7 @@ def test_what_is_somebody_elses_is_kept(tmp_path, cache, how):
     else:
         (cache / "written").unlink()
     before = path.read_bytes()
-    with pytest.raises(InputError, match=r"there already.*--force.*force=True"):
+    with pytest.raises(InputError, match=r"exists already.*--force.*force=True"):
         put(path, "new")
     assert path.read_bytes() == before
     put(path, "new", force=True)
@@ -96,7 +96,7 @@ def test_a_file_that_appears_meanwhile_is_kept(tmp_path):
             temporary.write_text("new")
             path.write_text("from another window")
 
-    with pytest.raises(InputError, match="there already"):
+    with pytest.raises(InputError, match="exists already"):
         slowly()
     assert path.read_text() == "from another window"
 
@@ -113,7 +113,7 @@ def test_several_are_refused_together(tmp_path):
 def test_data_files(tmp_path, name):
     path = tmp_path / name
     path.write_text("mine")
-    with pytest.raises(InputError, match="there already"):
+    with pytest.raises(InputError, match="exists already"):
         export.write(LINE, path)
     export.write(LINE, path, force=True)
     export.write(LINE, path)
@@ -125,7 +125,7 @@ def test_input_files_of_a_person(tmp_path):
     write_starter(path)  # as it was written: nothing is lost
     path.write_text(path.read_text() + "# mine\n")
     for write in (write_starter, lambda p: write_toml(read(chrono).suspension, p)):
-        with pytest.raises(InputError, match="there already"):
+        with pytest.raises(InputError, match="exists already"):
             write(path)
     with pytest.raises(InputError, match=r"ends in|end in \.toml"):
         write_starter(tmp_path / "car.py", force=True)
@@ -133,7 +133,7 @@ def test_input_files_of_a_person(tmp_path):
 
 def test_figures_are_refused_before_one_is_drawn(tmp_path):
     (tmp_path / "camber.png").write_text("mine")
-    with pytest.raises(InputError, match=r"camber\.png.*\n.*there already"):
+    with pytest.raises(InputError, match=r"camber\.png.*\n.*exists already"):
         plots.write(LINE, tmp_path)
     assert [path.name for path in tmp_path.iterdir()] == ["camber.png"]
 
@@ -178,7 +178,7 @@ def test_the_register_does_not_grow_without_end(tmp_path, cache, monkeypatch):
 def test_without_a_register_nothing_is_lost(tmp_path, cache):
     (cache / "written").mkdir()
     put(tmp_path / "a.csv", "x")
-    with pytest.raises(InputError, match="there already"):
+    with pytest.raises(InputError, match="exists already"):
         put(tmp_path / "a.csv", "y")
 
 

@@ -65,7 +65,7 @@ def test_a_file_without_end() -> None:
 def test_a_zero_byte(reader: str, tmp_path: Path) -> None:
     path = tmp_path / f"zero{READERS[reader][0]}"
     path.write_bytes(b"[a]\nb = 'x\0'\n")
-    assert "no text" in refusal(reader, path)
+    assert "not a text" in refusal(reader, path)
 
 
 @pytest.mark.parametrize("text", ['a = "b\\u0000"', '"b\\u001b" = 1', "[x]\na = ['\\b', \"\\b\"]"])
@@ -179,4 +179,4 @@ def test_a_workbook_that_unpacks_to_much(tmp_path: Path) -> None:
 def test_what_is_no_workbook(content: bytes, tmp_path: Path) -> None:
     path = tmp_path / "a.xlsx"
     path.write_bytes(content)
-    assert "no Excel workbook" in refusal("points", path)
+    assert "not a readable Excel workbook" in refusal("points", path)

@@ -135,7 +135,7 @@ def test_what_is_not_at_rest_has_its_own_unit() -> None:
 
 
 def test_rest_of_a_mechanism_is_named() -> None:
-    with pytest.raises(InputError, match=r"at rest, kintrafo\.rest says"):
+    with pytest.raises(InputError, match=r"for another mechanism, use kintrafo\.rest"):
         kintrafo.equilibrium(kintrafo.System(four_bar))  # type: ignore[arg-type]
 
 

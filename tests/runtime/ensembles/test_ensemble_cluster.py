@@ -500,7 +500,7 @@ def test_a_folder_where_a_file_should_be(car: Model, tmp_path: Path) -> None:
     ensemble(car, None, SPAN, kept=tmp_path)
     (tmp_path / "systems-000000000-000000001.npz").unlink()
     (tmp_path / "systems-000000000-000000001.npz").mkdir()
-    with pytest.raises(InputError, match="no file, where one is kept"):
+    with pytest.raises(InputError, match="not a file, but named as a saved piece"):
         ensemble(car, None, SPAN, kept=tmp_path)
 
 

@@ -432,7 +432,7 @@ class TestMistakes:
     def test_binary_files_and_other_things(self, tmp_path):
         path = tmp_path / "mine.py"
         path.write_bytes(b"\xff\xfe\x00")
-        with pytest.raises(kintrafo.InputError, match="no text in UTF-8"):
+        with pytest.raises(kintrafo.InputError, match="not a text in UTF-8"):
             kintrafo.compile(path)
         path.write_bytes(b"import math\n\0\n")
         with pytest.raises(kintrafo.InputError, match="null bytes") as raised:

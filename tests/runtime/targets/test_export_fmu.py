@@ -659,14 +659,14 @@ def test_what_cannot_be_exported(tmp_path):
     for options, words in (
         ({"fmi": 1}, "fmi '1' is not known"),
         ({"platforms": ["amiga"]}, "'amiga' is not known"),
-        ({"speed": 1}, "speed is no option of an export to 'fmu', which has fmi, platforms"),
+        ({"speed": 1}, "speed is not an option of an export to 'fmu', which has fmi, platforms"),
     ):
         with pytest.raises(kintrafo.InputError, match=words):
             kintrafo.export_model(system, tmp_path / "a.fmu", "fmu", **options)
     with pytest.raises(kintrafo.InputError, match=r"must end in \.fmu"):
         kintrafo.export_model(system, tmp_path / "a.zip", "fmu")
     (tmp_path / "a.fmu").write_text("a year of work")
-    with pytest.raises(kintrafo.InputError, match="there already"):
+    with pytest.raises(kintrafo.InputError, match="exists already"):
         kintrafo.export_model(system, tmp_path / "a.fmu", "fmu")
     assert [file.name for file in tmp_path.iterdir()] == ["a.fmu"]
     assert (tmp_path / "a.fmu").read_text() == "a year of work"
@@ -686,7 +686,7 @@ def test_the_command(kintrafo, tmp_path):
         assert "binaries/x86_64-linux/four_bar.so" in archive.namelist()
     code, _, err = kintrafo("export", "four_bar", "--to", "c", "--fmi", 3)
     assert code == 2
-    assert "fmi is no option" in err
+    assert "fmi is not an option" in err
     code, _, err = kintrafo("export", "four_bar", "--to", "fmu", "--platform", "amiga")
     assert code == 2
     assert "'amiga' is not known" in err

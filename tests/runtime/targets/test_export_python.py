@@ -319,10 +319,10 @@ def test_what_cannot_be_exported_is_refused(tmp_path):
     refused("pose_of_knuckle: Newton's method", system_named("multi_link"))
     refused(r"such as bar_casadi\.py", name="bar.txt")
     refused(r"such as casadi_casadi\.py", name="casadi.py")
-    refused("fmi is no option of an export to 'casadi', which has none", fmi=2)
+    refused("fmi is not an option of an export to 'casadi', which has none", fmi=2)
     assert not [*tmp_path.iterdir()]
     (tmp_path / "bar_casadi.py").write_text("by hand")
-    refused("there already")
+    refused("exists already")
 
 
 def test_equations_must_be_those_of_their_declaration(tmp_path, monkeypatch):

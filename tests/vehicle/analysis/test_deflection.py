@@ -412,7 +412,7 @@ def test_what_cannot_be_is_refused(refused: Any) -> None:
                          "braking", [9e5])  # fmt: skip
     for curve, words in (
         ({"mm": [0.0, 1.0]}, "two lists"),
-        ({"mm": [0.0, 1.0], "N": [0.0]}, "as many are needed"),
+        ({"mm": [0.0, 1.0], "N": [0.0]}, "give two or more of each"),
         ({"mm": [0.0, 1.0], "N": [0.0, -5.0]}, "-5 follows 0"),
         ({"mm": [1.0, 2.0], "N": [1.0, 2.0]}, "0 mm, 0 N"),
     ):

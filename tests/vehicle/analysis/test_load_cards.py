@@ -125,7 +125,7 @@ def test_what_cannot_be_written(
 
 def test_files_of_others_stay(tmp_path: Path, found: dict[str, xr.Dataset]) -> None:
     (tmp_path / "l_rack.bdf").write_text("mine", encoding="utf-8")
-    with pytest.raises(InputError, match="there already"):
+    with pytest.raises(InputError, match="exists already"):
         loads.write_cards(found["corner"], tmp_path / "l.bdf")
     assert [file.read_text(encoding="utf-8") for file in tmp_path.iterdir()] == ["mine"]
     assert len(loads.write_cards(found["corner"], tmp_path / "l.bdf", force=True)) == 7

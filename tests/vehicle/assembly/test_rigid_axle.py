@@ -587,7 +587,7 @@ def test_an_unusual_camber_is_noted() -> None:
 def test_rods_have_names_that_files_and_tables_can_hold(name: str) -> None:
     data = AXLE.to_dict()
     data["rods"][name] = data["rods"].pop("upper_link")
-    with pytest.raises(InputError, match=rf"\[rods\] '{re.escape(name)}' is no name"):
+    with pytest.raises(InputError, match=rf"\[rods\] '{re.escape(name)}' is not a name"):
         RigidAxle.from_dict(data)
 
 

@@ -129,7 +129,7 @@ def test_new_refuses_to_overwrite(kintrafo, tmp_path):
     (tmp_path / "my_car.toml").write_text("# mine", encoding="utf-8")
     code, _, err = kintrafo("new", "my_car.toml")
     assert code == 2
-    assert "there already" in err
+    assert "exists already" in err
     assert (tmp_path / "my_car.toml").read_text(encoding="utf-8") == "# mine"
     assert kintrafo("new", "my_car.toml", "--force")[0] == 0
     assert kintrafo("check", "my_car.toml")[0] == 0

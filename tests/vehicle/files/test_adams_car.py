@@ -348,8 +348,8 @@ LEFT_OUT = {
         SPRING + "".join(f"{x} {x**2}\n" for x in range(101, 120)),
         "its curve has 22 points; 11 are the most",
     ),
-    "words": (SPRING.replace("4500.0", "many"), "a row that is no two numbers"),
-    "xml": ("<?xml version='1.0'?>", "no file in the TeimOrbit format"),
+    "words": (SPRING.replace("4500.0", "many"), "a row that is not two numbers"),
+    "xml": ("<?xml version='1.0'?>", "not a file in the TeimOrbit format"),
     "units": (SPRING.replace("'newton'", "'stone'"), "FORCE is 'stone', which is not known"),
 }
 

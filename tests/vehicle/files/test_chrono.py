@@ -833,7 +833,7 @@ class TestCommand:
         monkeypatch.chdir(tmp_path)
         Path("car.toml").write_text("mine")
         run = CliRunner().invoke
-        with pytest.raises(InputError, match="there already"):
+        with pytest.raises(InputError, match="exists already"):
             run(app, ["import", str(STRUT), "car.toml"], catch_exceptions=False)
         assert run(app, ["import", str(STRUT), "x.toml", "--side", "up"]).exit_code == 2
         assert [path.name for path in tmp_path.iterdir()] == ["car.toml"]

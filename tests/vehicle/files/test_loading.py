@@ -41,5 +41,5 @@ def test_what_is_saved_is_loaded_again(tmp_path: Path, name: str) -> None:
     file = subject.save(tmp_path / "saved.toml")
     assert kintrafo.load(file).to_dict() == subject.to_dict()
     file.write_text("# mine", encoding="utf-8")
-    with pytest.raises(kintrafo.InputError, match="there already"):
+    with pytest.raises(kintrafo.InputError, match="exists already"):
         subject.save(file)

@@ -69,7 +69,7 @@ def test_excel_is_read(tmp_path: Path) -> None:
     book.save(tmp_path / "points.xlsx")
     points = read_points(tmp_path / "points.xlsx").points
     assert points == {"ball_joint": (5.0, -711.5, 180.0), "strut_top": (-28.0, -585.0, 820.0)}
-    with pytest.raises(InputError, match="no Excel workbook"):
+    with pytest.raises(InputError, match="not a readable Excel workbook"):
         read_points(table(tmp_path, "no book", "other.xlsx"))
 
 
@@ -172,7 +172,7 @@ def test_a_unit_that_is_given_must_not_contradict(tmp_path: Path) -> None:
     assert read_points(path, unit="millimetre").unit == "mm"
     with pytest.raises(InputError, match="unit of the table is mm, and not in"):
         read_points(path, unit="in")
-    with pytest.raises(InputError, match="'parsec' is no length"):
+    with pytest.raises(InputError, match="'parsec' is not a length"):
         read_points(path, unit="parsec")
 
 
@@ -212,7 +212,7 @@ def test_names_of_the_user(tmp_path: Path) -> None:
     assert found.left_out == ("other",)
     for names, words in (
         ({"ball_joint": "x"}, "there is no hardpoint x"),
-        ({"bal_joint": "other"}, "bal_joint is no hardpoint"),
+        ({"bal_joint": "other"}, "bal_joint is not a hardpoint"),
     ):
         with pytest.raises(InputError, match=words):
             merged(points, "reference_car", names=names)
@@ -312,7 +312,9 @@ CELLS = [True, "two", "#DIV/0!", "1,5", None, "=1+1", float("inf"), "1_0"]
 @pytest.mark.parametrize("cell", CELLS, ids=str)
 def test_cells_that_are_no_numbers(cell: Any, tmp_path: Path) -> None:
     rows = (("point", "x [mm]", "y [mm]", "z [mm]"), ("ball_joint", 5, cell, 180.0))
-    with pytest.raises(InputError, match=r"row 2, ball_joint: three numbers|no Excel workbook"):
+    with pytest.raises(
+        InputError, match=r"row 2, ball_joint: three numbers|not a readable Excel workbook"
+    ):
         read_points(workbook(tmp_path, {"a": rows}))
 
 
@@ -336,7 +338,7 @@ def test_a_table_of_another_car_is_doubted(kintrafo: Any, tmp_path: Path) -> Non
     code, _, err = kintrafo("import", "other.csv", "new.toml", "--from", "reference_car")
     told = " ".join(err.split())
     assert code == 0
-    assert "2 of 3 rows are no hardpoints: lower_arm_front, lower_arm_rear; and " in told
+    assert "2 of 3 rows are not hardpoints: lower_arm_front, lower_arm_rear; and " in told
     assert "arm_front, arm_rear, ball_joint, " in told
     assert " stay as in the file. " in told
     assert "--name arm_front=lower_arm_front" in told

@@ -191,7 +191,7 @@ def test_other_files_are_refused(load, tmp_path):
 def test_changes_are_checked(load):
     tyre = load(NEWER)
     assert tyre.with_changes({"LMUY": 0.5}).evaluate(4000.0, 0.2).fy > -2100.0
-    with pytest.raises(kintrafo.InputError, match="LMUQ is no coefficient"):
+    with pytest.raises(kintrafo.InputError, match="LMUQ is not a coefficient"):
         tyre.with_changes({"LMUQ": 0.5})
     with pytest.raises(kintrafo.InputError, match="LMUY = -1: more than zero"):
         tyre.with_changes({"LMUY": -1.0})

@@ -85,7 +85,7 @@ def over(
         speed = given.number("speed", speed, "m/s", above=0.0)
         step = given.number("output_step", output_step, "s", above=0.0)
         for name in options.keys() & {"inputs", "t_eval"}:
-            given.fail(f"{name} is that of the road. Leave it out; see output_step and duration.")
+            given.fail(f"{name} follows from the road. Leave it out; see output_step and duration.")
         if not given.failed:
             longest = (road.length + max(assembly.behind().values())) / speed
             end = (

@@ -62,6 +62,6 @@ def _shipped(file: str) -> "Formulation":
     if file in known:
         return known[file]
     if not Path(file).suffix and file not in all_packaged() and not Path(file).exists():
-        problem = f"is no file and no name. {suggestion(file, [*known, *all_packaged()])}"
+        problem = f"is neither a file nor a name. {suggestion(file, [*known, *all_packaged()])}"
         raise InputError([problem], file)
     return declaration_of(load(file))

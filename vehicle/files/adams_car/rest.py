@@ -40,7 +40,7 @@ def rest_of(
 ) -> TemplateFile:
     """Return the file that the rest is from: what the user names, or the packaged one of a kind."""
     if kind is not None and kind not in KINDS:
-        problem = f"{kind!r} is no kind of suspension. {suggestion(kind, KINDS)}"
+        problem = f"{kind!r} is not a kind of suspension. {suggestion(kind, KINDS)}"
         raise InputError([problem], "kind")
     if base is not None:
         return _users(subsystem, kind, base, given)

@@ -183,7 +183,7 @@ def _points(blocks: list[FileBlock]) -> list[tuple[float, float]]:
     rows = [cells for b in blocks if b.name == "curve" for _, _, cells in b.rows()]
     points = [tuple(map(number, cells or ())) for cells in rows]
     if any(len(point) != 2 or not all(map(math.isfinite, point)) for point in points):
-        raise InputError(["its curve has a row that is no two numbers."])
+        raise InputError(["its curve has a row that is not two numbers."])
     return [(point[0], point[1]) for point in points]
 
 

@@ -219,7 +219,7 @@ def _problem_of(cells: list[str] | None, count: int, order: list[int], numbers: 
     if cells[order[1]].lower() not in _SYMMETRIES:
         return f"symmetry is {shown(cells[order[1]])!r}; it can be {', '.join(_SYMMETRIES)}"
     wrong = [cells[i] for i in order[-numbers:] if not math.isfinite(number(cells[i]))]
-    return f"{shown(wrong[0])!r} is no number" if wrong else ""
+    return f"{shown(wrong[0])!r} is not a number" if wrong else ""
 
 
 def _other_parameters(blocks: Iterable[FileBlock]) -> list[str]:
@@ -236,7 +236,7 @@ def _twice(block: FileBlock) -> list[str]:
     """Say which keys a block has more than once."""
     counts = Counter(key for key, _ in block.values())
     return [
-        f"line {block.number}: {shown(key.upper())} is there {count} times in "
+        f"line {block.number}: {shown(key.upper())} is given {count} times in "
         f"[{shown(block.name.upper())}]. Keep one of them."
         for key, count in counts.items()
         if count > 1
@@ -250,7 +250,7 @@ def _put(rows: dict[str, dict[str, _Value]], row: _Row, value: _Value, problems:
     if row.symmetry in there or (there and both):
         sides = " and ".join((*there, row.symmetry))
         problems.append(
-            f"line {row.line}: {shown(row.name)} is there twice, as {sides}. Keep one of them."
+            f"line {row.line}: {shown(row.name)} is given twice, as {sides}. Keep one of them."
         )
     else:
         there[row.symmetry] = value

@@ -181,7 +181,7 @@ def problems_of(spring: Spring, shock: Shock) -> list[str]:
     if spring.rate == 0.0 and spring.preload:
         lines.append(
             f'"Spring > Preload" = {spring.preload:g} N without a rate is a constant force, which '
-            "has no place here. Remove it, or enter a rate."
+            "cannot be read. Remove it, or enter a rate."
         )
     lines += _problems_of_stops(spring)
     second = shock.springs() if shock.rate or shock.curve else []
@@ -189,7 +189,7 @@ def problems_of(spring: Spring, shock: Shock) -> list[str]:
         second = [*(["Preload"] if shock.preload else []), *(_STOPS if shock.stops() else ())]
     if second:
         lines.append(
-            f'"Shock > {second[0]}" is a second spring, which has no place here. Remove '
+            f'"Shock > {second[0]}" is a second spring, which cannot be read. Remove '
             'it, as older versions of Chrono did not use it, or add it to the spring of "Spring".'
         )
     if spring.damping or spring.damping_curve:
@@ -212,8 +212,8 @@ def _problems_of_stops(spring: Spring) -> list[str]:
         return []
     given = f'"Spring > Minimum Length" = {stops.shortest} m and "Maximum Length" = {stops.longest}'
     problem = (
-        f"{given} m are no stops: the first must be more than {LONGEST:g} m, by which a stop of "
-        f"Chrono can be pressed in, and less than the other. Correct them, or {POINTS_ONLY}."
+        f"{given} m: the first must be more than {LONGEST:g} m, by which a stop of Chrono can be "
+        f"pressed in, and less than the other. Correct them, or {POINTS_ONLY}."
     )
     return [problem]
 

@@ -49,7 +49,7 @@ class Part(BaseModel):
     def _is_there(cls, value: Any) -> Any:
         """Refuse null, which is neither a value nor left out."""
         if value is None:
-            raise PydanticCustomError("null", "null is no value")
+            raise PydanticCustomError("null", "null is not a value")
         return value
 
 
@@ -130,7 +130,7 @@ def meant(key: str, known: Collection[str]) -> str:
 def slip(place: Place, right: str) -> str:
     """Say that a key seems to be another one."""
     return (
-        f'"{_words(place)}" is no key of Chrono\'s templates. Is it "{right}"? Correct it, or '
+        f'"{_words(place)}" is not a key of Chrono\'s templates. Is it "{right}"? Correct it, or '
         "remove it."
     )
 

@@ -346,7 +346,7 @@ class _Reader:
             return {}
         place = vehicle.steerings[index]
         if not is_rotation(place.orientation):
-            problem = f'"Orientation" = {list(place.orientation)} is no unit quaternion.'
+            problem = f'"Orientation" = {list(place.orientation)} is not a unit quaternion.'
             raise InputError([problem], str(self.path))
         key = "Steering Subsystems > Input File"
         file = self.folder.find(place.file, key)

@@ -92,7 +92,7 @@ class VehicleFile(Part):
         if front.steering is not None and not 0 <= front.steering < len(self.steerings):
             lines.append(
                 f'"Axles > Steering Index" = {front.steering} of {len(self.steerings)} "Steering '
-                'Subsystems", of which the first is 0.'
+                'Subsystems"; the first has the index 0.'
             )
         return lines
 
@@ -142,7 +142,7 @@ class Folder:
         """
         parts = PureWindowsPath(name).parts
         if not parts or ".." in parts or PureWindowsPath(name).is_absolute():
-            problem = f'"{key}" = "{legible(short(name))}" is no path within a folder of data.'
+            problem = f'"{key}" = "{legible(short(name))}" is not a path within a folder of data.'
             raise InputError([problem], str(self._path))
         for root in self._roots:
             file = root.joinpath(*parts)

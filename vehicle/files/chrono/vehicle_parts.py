@@ -79,8 +79,8 @@ class Chassis(_File):
     def problems(self) -> list[str]:
         """Say why no body can be like this."""
         lines = [
-            f'"Components > Centroidal Frame > Orientation" = {list(one.frame.orientation)} is no '
-            "unit quaternion. Correct it."
+            f'"Components > Centroidal Frame > Orientation" = {list(one.frame.orientation)} is not '
+            "a unit quaternion. Correct it."
             for one in self.components
             if not is_rotation(one.frame.orientation)
         ]

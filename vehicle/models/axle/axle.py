@@ -349,7 +349,7 @@ def _problems_of_sides(axle: Axle) -> list[str]:
         if right != left:
             problems.append(
                 f"[{section}] {key} is {_in_words(right)} in the file of the right side and "
-                f"{_in_words(left)} in that of the left: they have one of it. Make them equal."
+                f"{_in_words(left)} in that of the left. Make them equal."
             )
     return problems
 
@@ -373,8 +373,8 @@ def _problems_of_bar(axle: Axle) -> list[str]:
     if axle.bar.link_on not in known:
         meant = suggestion(axle.bar.link_on, known)
         problems.append(
-            f'[anti_roll_bar] link_on = "{axle.bar.link_on}" is no part of a {axle.right.TITLE} '
-            f"that a drop link can be joined to. {meant}"
+            f'[anti_roll_bar] link_on = "{axle.bar.link_on}" is not a part of a '
+            f"{axle.right.TITLE} that a drop link can be joined to. {meant}"
         )
     sign = axle.sides[axle.bar_side].vehicle.sign
     across = [

@@ -169,8 +169,8 @@ class AntiRollBar(Section):
             return [problem]
         if self.diameter_mm is not None and self.inner_diameter_mm >= self.diameter_mm:
             problem = (
-                f"inner_diameter_mm = {self.inner_diameter_mm} mm leaves nothing of diameter_mm = "
-                f"{self.diameter_mm} mm: allowed is less. Correct one of them."
+                f"inner_diameter_mm = {self.inner_diameter_mm} mm is not less than diameter_mm = "
+                f"{self.diameter_mm} mm. Correct one of them."
             )
             return [problem]
         return []

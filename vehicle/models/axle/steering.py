@@ -34,8 +34,8 @@ class SteeringCurve(Section):
         angles, racks = self.angle_deg, self.rack_mm
         if len(angles) != len(racks) or len(angles) < _LEAST_POINTS:
             problem = (
-                f"angle_deg has {len(angles)} values and rack_mm {len(racks)}; as many are needed, "
-                f"{_LEAST_POINTS} or more. Give one displacement for each angle."
+                f"angle_deg has {len(angles)} values and rack_mm {len(racks)}; equal counts are "
+                f"needed, {_LEAST_POINTS} or more. Give one displacement for each angle."
             )
             return [problem]
         problems = [

@@ -420,7 +420,7 @@ def _axle(given: Any, key: str, folder: Path) -> AnyAxle:
         if sort == AXLE or not Path(file).is_file() or AXLE in read_toml(Path(file)):
             return Axle.load(file)
         problem = (
-            f"{given} is no axle: it has no line `{AXLE} = ...`, nor any of "
+            f"{given} is not the file of an axle: it has no line `{AXLE} = ...`, nor any of "
             f"{', '.join(f'`{known} = ...`' for known in whole_axles())}. Name an axle's file, "
             "which names the hardpoint file of its sides."
         )

@@ -222,7 +222,7 @@ are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center
     def _own_problems(self) -> list[str]:
         problems, ends = [], self.ends()
         problems += [
-            f"[rods] {name!r} is no name; letters, digits, _ and - are needed, a letter first. "
+            f"[rods] {name!r} is not a name; letters, digits, _ and - are needed, a letter first. "
             "Rename the rod."
             for name in ends
             if not re.fullmatch("[A-Za-z][A-Za-z0-9_-]*", name)
