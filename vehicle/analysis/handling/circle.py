@@ -5,7 +5,7 @@ become shorter where a turn is not found, up to the greatest lateral acceleratio
 Gradients are the tangents of the branch, exact at every point.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -14,10 +14,7 @@ from numpy.typing import NDArray
 
 from ....core.errors import InputError
 from ....equations.errors import ModelError
-from ....core.quantities import Display
-from ...assembly.by_wheel import WHEEL, of_wheel, wheel_coordinate
-from ...assembly.quantity import Quantity
-from ...models.reach import PositionError
+from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from .body_motion import QUANTITIES
 from .car import DrivingCar
 from .result import HandlingResult, quantity
@@ -68,25 +65,6 @@ _OF_WHEELS = {
     "steer": "steer angle of the wheel to the body, positive to the left",
 }
 _UNITS = {"fx": "N", "fy": "N", "fz": "N", "slip": "1"}
-
-
-def columns_of_turns(wheels: Sequence[str]) -> dict[str, Quantity]:
-    """Return what is known of steady turns, by the names of the columns of a flat table."""
-    every = {**_OF_DRIVER, **{name: QUANTITIES[name] for name in _OF_BODY}}
-    every |= {name: (words, _PER) for name, words in _GRADIENTS.items()}
-    found = {name: _column(name, *described) for name, described in every.items()}
-    by_wheel = [
-        of_wheel(_column(name, words, _UNITS.get(name, "rad")), wheel)
-        for name, words in _OF_WHEELS.items()
-        for wheel in wheels
-    ]
-    return found | {each.name: each for each in by_wheel}
-
-
-def _column(name: str, meaning: str, units: str) -> Quantity:
-    shown = quantity((), 0.0, meaning, units).attrs
-    display = Display(shown["display_units"], shown["display_factor"])
-    return Quantity(name, units, shown["long_name"], "", "", display)
 
 
 class Turns:
@@ -241,45 +219,6 @@ def steady_turns(
     if not found:
         raise InputError([_beyond(first, limit)], "circle")
     return HandlingResult(*_described(turns, found, limit))
-
-
-def turns_at(car: DrivingCar, speed: float, accelerations: Array) -> xr.Dataset:
-    """Return steady turns of one speed at some lateral accelerations, of either sign, and zero.
-
-    Parameters
-    ----------
-    car : DrivingCar
-    speed : float
-        [m/s]
-    accelerations : ndarray, shape (n,)
-        Lateral accelerations, positive in turns to the left [m/s^2].
-
-    Returns
-    -------
-    xarray.Dataset
-        Curves over ``lateral_acceleration``, as of `steady_turns`.
-
-    Raises
-    ------
-    PositionError
-        If the tyres carry no such turn, or the car no such speed.
-    """
-    first = Condition("speed", speed)
-    turns = [Turns(car, first, sense) for sense in (1, -1)]
-    found: dict[float, Steady] = {}
-    for each in turns:
-        asked = np.unique(each.sense * accelerations[each.sense * accelerations > 0.0])
-        try:
-            found.setdefault(0.0, each.begin(0.0))
-        except NoSteadyMotionError:
-            raise PositionError(_none(first)) from None
-        found, limit = _followed(each, found, asked, None) if asked.size else (found, np.nan)
-        if np.isfinite(limit):
-            raise PositionError(_beyond(first, limit))
-    _, curves = _described(turns[0], found, np.nan)
-    order = [*found]
-    places = [order.index(value) for value in (accelerations + 0.0).tolist()]
-    return curves[""].isel(lateral_acceleration=places)
 
 
 def _followed(
