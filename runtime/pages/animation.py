@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.errors import InputError
 from ..core.files import Paths, refuse, replacing
@@ -11,6 +12,9 @@ from ..pictures.animation import write_gif
 from ..simulation.result import Simulation
 from ..systems.skeleton import Skeleton
 from .mechanism.page import motion_page
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
 
 ENDINGS = (".gif", ".html", ".htm")
 _QUICKEST = 50.0  # frames per second: no viewer of GIFs is quicker
@@ -87,7 +91,29 @@ def animate(
 
 def _write_gif(path: Path, result: Simulation, fps: float, slower: float) -> None:
     skeleton = Skeleton(result.signals.model)
-    seconds = slower * abs(float(result.t[-1] - result.t[0]))
+    wanted, rows = frames(result.t, fps, slower)
+    places = skeleton.places(result.y.T[rows], result.inputs[rows])
+    write_gif(path, skeleton, wanted, places, fps)
+
+
+def frames(times: Array, fps: float, slower: float = 1.0) -> tuple[Array, Indices]:
+    """Return the times of the frames of a GIF, and the outputs that are nearest to them.
+
+    Parameters
+    ----------
+    times : ndarray, shape (n,)
+        Of the outputs [s].
+    fps : float
+        Frames that are shown per second.
+    slower : float, optional
+        How many times slower than real time it plays.
+
+    Raises
+    ------
+    InputError
+        If there are more frames than viewers show.
+    """
+    seconds = slower * abs(float(times[-1] - times[0]))
     count = max(2, round(seconds * fps) + 1)
     if count > _MOST_FRAMES:
         least = _MOST_FRAMES / fps / slower
@@ -96,7 +122,5 @@ def _write_gif(path: Path, result: Simulation, fps: float, slower: float) -> Non
             f"fewer per second (fps), a motion of at most {least:g} s, or a page (.html)."
         )
         raise InputError([words], "animate")
-    wanted = np.linspace(result.t[0], result.t[-1], count)
-    rows = np.abs(result.t[None, :] - wanted[:, None]).argmin(axis=1)
-    places = skeleton.places(result.y.T[rows], result.inputs[rows])
-    write_gif(path, skeleton, wanted, places, fps)
+    wanted = np.linspace(times[0], times[-1], count)
+    return wanted, np.abs(times[None, :] - wanted[:, None]).argmin(axis=1)

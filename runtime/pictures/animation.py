@@ -1,5 +1,6 @@
 """A motion of a mechanism as an animated picture."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -48,14 +49,35 @@ def write_gif(
         Frames that are shown per second.
     """
     drawer = _Drawer(skeleton, places)
-    canvas = FigureCanvasAgg(drawer.figure)
+    save_frames(
+        path, drawer.figure, lambda i: drawer.draw(i, f"t = {times[i]:.3f} s"), len(times), fps
+    )
+
+
+def save_frames(
+    path: Path, figure: Figure, draw: Callable[[int], None], count: int, fps: float
+) -> None:
+    """Write the frames of a figure as a GIF.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+    figure : matplotlib.figure.Figure
+    draw : callable
+        Draws a frame, by its number, in the place of the one before.
+    count : int
+        How many frames there are.
+    fps : float
+        Frames that are shown per second.
+    """
+    canvas = FigureCanvasAgg(figure)
     canvas.figure.set_dpi(_DPI)
     frames: list[Image.Image] = []
     palette: Image.Image | None = None
-    for index, time in enumerate(times):
-        drawer.draw(index, f"t = {time:.3f} s")
+    for index in range(count):
+        draw(index)
         canvas.draw()  # type: ignore[no-untyped-call] # Matplotlib declares none
-        drawer.figure.set_layout_engine("none")  # as the first is laid out: all are alike
+        figure.set_layout_engine("none")  # as the first is laid out: all are alike
         pixels = canvas.buffer_rgba()  # type: ignore[no-untyped-call]
         shown = Image.fromarray(np.asarray(pixels)).convert("RGB")
         palette = palette or _palette(shown)
@@ -104,7 +126,17 @@ def projection(points: Array) -> Array:
     for axis, kept in ((1, (0, 2)), (2, (0, 1)), (0, (1, 2))):
         if spans[axis] < 1e-6 * spans.max():
             return np.eye(3)[list(kept)]
-    turn, tilt = np.radians(_TURN), np.radians(_TILT)
+    return seen_from(np.radians(_TURN), np.radians(_TILT))
+
+
+def seen_from(turn: float, tilt: float) -> Array:
+    """Return the two directions of a picture, right and up, shape (2, 3).
+
+    Parameters
+    ----------
+    turn, tilt : float
+        Where it is seen from: angle about z from the x axis, and above the horizontal [rad].
+    """
     right = [-np.sin(turn), np.cos(turn), 0.0]
     up = [-np.sin(tilt) * np.cos(turn), -np.sin(tilt) * np.sin(turn), np.cos(tilt)]
     return np.array([right, up])

@@ -1,5 +1,6 @@
 """``kintrafo drive``: manoeuvres of a car that drives."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
@@ -9,12 +10,10 @@ from ...terminal.console import console, note, print_json, problems, progress_ba
 from ...terminal.exits import Exit
 from ..data.starter import manoeuvres
 from .loading import car_of
-from .options import argument, option
+from .options import OUTPUT, argument, option
 from .outputs import Outputs, PlotOptions, name_files, title_of
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from rich.table import Table
     from xarray import DataArray
 
@@ -25,6 +24,7 @@ EXAMPLES = (
     "kintrafo drive driving_car",
     "kintrafo drive driving_car --manoeuvre circle --plot circle.png",
     "kintrafo drive driving_car --manoeuvre double_lane_change --speed 70 -o lane.csv",
+    "kintrafo drive driving_car --manoeuvre double_lane_change --animate lane.gif",
     "kintrafo new my_step.toml --template step_steer",
 )
 
@@ -44,6 +44,10 @@ def command(
     turn: Annotated[
         Literal["left", "right"] | None, option("Side in place of that of the manoeuvre.")
     ] = None,
+    animate: Annotated[
+        Path | None,
+        option("Write the motion, in real time: .gif.", "PATH", panel=OUTPUT),
+    ] = None,
     output: PlotOptions,
 ) -> None:
     """Drive a car through a manoeuvre: step steer, circle, lane change, braking, and others.
@@ -52,7 +56,7 @@ def command(
     can be edited; kintrafo new FILE --template NAME writes one that comes with kintrafo. Metrics
     are those of the standards, in the axes of ISO 8855. Data files have the curves over time,
     lateral acceleration or frequency; figures show them, and the path in a file whose name ends in
-    _path.
+    _path; --animate shows the car in motion, with the forces on its tyres.
     """
     from ...datasets import export
     from ..analysis import handling
@@ -64,11 +68,18 @@ def command(
     pages = (*_drawn(chosen), *(("_path",) if chosen.TRAVELS else ()))
     own = () if manoeuvre in manoeuvres() else (manoeuvre,)
     outputs = output.files(file, *own, suffixes=chosen.CURVES, drawn=pages)
+    if animate is not None:
+        _refuse_animation(animate, outputs, chosen)
     assembly = car_of(file, driving=True)
     with progress_bar(chosen.TITLE) as progress:
         found = handling.drive(assembly, chosen, progress=progress)
     title = f"{title_of(file)}: {found.metrics.attrs['title']}"
     written = _write(outputs, found, chosen, title)
+    if animate is not None:
+        from ..plots.driving import animate as written_motion
+
+        with problems.status("animation"):
+            written.append(written_motion(found, animate, title=title, **outputs.rule))
     left = [text for one in found.curves.values() for text in one.attrs.get("not_valid", ())]
     if output.json:
         print_json({"metrics": export.as_dict(found.metrics), "not_valid": left})
@@ -82,6 +93,18 @@ def command(
         problems.print(f"not valid: {text}", style="red", highlight=False, markup=False)
     if left:
         raise typer.Exit(Exit.REFUSED)
+
+
+def _refuse_animation(path: Path, outputs: Outputs, chosen: "AnyManoeuvre") -> None:
+    """Refuse what cannot be written, before computing."""
+    from ...core.errors import InputError
+    from ...core.files import refuse
+    from ..plots.driving import ENDINGS
+
+    refuse([path], endings=ENDINGS, **outputs.rule)
+    if not chosen.TRAVELS:
+        problem = "steady turns are not simulated: there is no motion to show. Leave it out."
+        raise InputError([problem], "--animate")
 
 
 def _drawn(chosen: "AnyManoeuvre") -> tuple[str, ...]:

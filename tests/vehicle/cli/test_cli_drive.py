@@ -82,6 +82,8 @@ def test_runs_are_lines(tmp_path):
      "a car that does not move is on no circle"),
     (["driving_car", "--speed", "-5"], "speed_km_per_h = -5.0 km/h is out of range"),
     (["driving_car", "--manoeuvre", "circle", "--speed", "50"], "give one of the two"),
+    (["driving_car", "--manoeuvre", "circle", "--animate", "a.gif"], "no motion to show"),
+    (["driving_car", "--animate", "a.mp4"], ".gif"),
 ])  # fmt: skip
 def test_mistakes_are_named_before_equations_are_derived(kintrafo, words, said):
     code, out, err = kintrafo("drive", *words)

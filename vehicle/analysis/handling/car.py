@@ -1,11 +1,12 @@
 """What handling asks of a car: its equations, what the driver works, and how its body moves."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from ....systems.system import System
@@ -61,6 +62,8 @@ class DrivingCar:
         Of the whole car [kg].
     steering_input : str
         The input that the steering wheel moves; its rates are inputs, too.
+    watched : callable, optional
+        Called with each `Run` of it.
     """
 
     model: System
@@ -75,6 +78,7 @@ class DrivingCar:
     front: float
     mass: float
     steering_input: str = "rack_position"
+    watched: "Callable[[Run], None] | None" = None
 
     @property
     def steered(self) -> tuple[str, ...]:
@@ -130,3 +134,21 @@ class DrivingCar:
         for name, value in values.items():
             found[self._places[name]] = value
         return found
+
+
+class Run(NamedTuple):
+    """A simulation of a car that is driven.
+
+    Attributes
+    ----------
+    car : DrivingCar
+    motion : xarray.Dataset
+        What is known of it over time.
+    states, inputs : ndarray, shape (n, states) and (n, inputs)
+        Of its equations, at the same times.
+    """
+
+    car: DrivingCar
+    motion: xr.Dataset
+    states: Array
+    inputs: Array

@@ -13,7 +13,7 @@ from ....simulation.stepper import Stepper
 from ....simulation.validity import bounds_of, excursions
 from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from .body_motion import QUANTITIES
-from .car import DrivingCar
+from .car import DrivingCar, Run
 from .drivers import Pedals, Pushes, Seen, Steers
 from .result import quantity
 
@@ -127,6 +127,9 @@ def driven(
     found = _dataset(car, rows)
     if fallen:
         found.attrs["not_valid"].insert(0, f"the car overturns at {seen.time:.2f} s")
+    if car.watched is not None:
+        states, inputs = (np.array(each) for each in zip(*(row[1:3] for row in rows), strict=True))
+        car.watched(Run(car, found, states, inputs))
     return found
 
 

@@ -1,8 +1,9 @@
 """A car in a manoeuvre, and in steady turns."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -12,6 +13,9 @@ from .manoeuvres import AnyManoeuvre, load_manoeuvre
 from .result import HandlingResult
 from .steady import Condition
 from .subject import driving_car
+
+if TYPE_CHECKING:
+    from .car import Run
 
 
 def drive(
@@ -39,7 +43,7 @@ def drive(
     HandlingResult
         ``metrics``: what the standard judges the manoeuvre by, each with unit and meaning;
         ``curves``: by name datasets over time, and over lateral acceleration or frequency where
-        there are such. All are in SI units, signs are those of ISO 8855.
+        there are such; ``runs``: its simulations. All are in SI units, signs are those of ISO 8855.
 
     Raises
     ------
@@ -55,7 +59,9 @@ def drive(
         found = manoeuvre
     else:
         found = load_manoeuvre(manoeuvre, changes)
-    return found.run(driving_car("drive", subject), progress or _nothing)
+    runs: list[Run] = []
+    car = replace(driving_car("drive", subject), watched=runs.append)
+    return found.run(car, progress or _nothing)._replace(runs=tuple(runs))
 
 
 def circle(

@@ -1,12 +1,13 @@
 """What a manoeuvre is judged by, and what the car does in it."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import xarray as xr
 
 from ....core.quantities import variable
+from .car import Run
 
 
 class HandlingResult(NamedTuple):
@@ -18,10 +19,13 @@ class HandlingResult(NamedTuple):
         What it is judged by, each with its unit and meaning.
     curves : dict of str to xarray.Dataset
         Curves over time, lateral acceleration or frequency; by what is added to the name of a file.
+    runs : sequence of Run
+        The simulations, with the states of the equations; none of steady turns.
     """
 
     metrics: xr.Dataset
     curves: Mapping[str, xr.Dataset]
+    runs: Sequence[Run] = ()
 
 
 def quantity(

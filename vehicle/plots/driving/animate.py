@@ -1,0 +1,67 @@
+"""Writing the motion of a car that drives as a GIF."""
+
+from pathlib import Path
+
+from ....core.errors import InputError
+from ....core.files import Paths, refuse, replacing
+from ....core.validator import Validator
+from ....pages.animation import frames
+from ...analysis.handling.result import HandlingResult
+from .picture import write_gif
+from .scene import scene_of
+
+ENDINGS = (".gif",)
+_FPS = 25.0
+
+
+def animate(
+    result: HandlingResult,
+    path: str | Path,
+    *,
+    title: str | None = None,
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write the motion of a car in a manoeuvre as something to look at, in real time.
+
+    Body, links, springs and wheels are drawn from the solved positions, with the forces of the road
+    on the tyres, the path of the reference point and cones. The outline of the body is not that of
+    the car: it has the car's wheelbase and track. Of several simulations the last one is shown.
+
+    Parameters
+    ----------
+    result : HandlingResult
+        What `kintrafo.handling.drive` returned.
+    path : str or pathlib.Path
+        Ends in ``.gif``. There are 25 frames per second.
+    title : str, optional
+        By default that of the manoeuvre.
+    force : bool, optional
+        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InputError
+        If nothing was simulated, as in steady turns; if a GIF would have too many frames; or if the
+        file must not be written.
+    """
+    with Validator("animate") as given:
+        given.instance("result", result, HandlingResult, "what kintrafo.handling.drive returns")
+        if title is not None:
+            given.text("title", title)
+    refuse([path], force=force, inputs=inputs, endings=ENDINGS)
+    if not result.runs:
+        raise InputError(["steady turns are not simulated: there is no motion to show"], "animate")
+    run = result.runs[-1]
+    _, rows = frames(run.motion["time"].values, _FPS)
+    scene = scene_of(run, rows, cones=result.curves.get("_cones"))
+    heading = title or str(result.metrics.attrs["title"])
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        write_gif(temporary, scene, heading, _FPS)
+    return Path(path)
