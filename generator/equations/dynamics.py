@@ -36,7 +36,7 @@ from .acting import acted, shown_by
 from .admissible import Admissible
 from .inertia import SpatialInertia
 from .on_base.loaded import Loaded
-from .on_base.moving import Moving
+from .on_base.moving import MovingBody
 from .on_base.sums import kind_of
 from .surroundings import Seen
 
@@ -126,7 +126,7 @@ class Dynamics:
     def _is_centred(self, body: str) -> bool:
         """Return whether a body on a base is seen about its centre of mass, so that it keeps it."""
         carried = self.moving.carried.get(body)
-        return carried is not None and body not in self._loaded and kind_of(carried) is Moving
+        return carried is not None and body not in self._loaded and kind_of(carried) is MovingBody
 
     def _add_rigid(self, body: Body) -> None:
         """Add a body given by mass, centre and tensor in ground axes at the design position."""

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Column:
+class PartialMotion:
     """How a body moves on its base with a coordinate, or at all rates.
 
     Attributes
@@ -37,13 +37,13 @@ class Column:
     spin: Vector
     flow: Flow
 
-    def __mul__(self, rate: sp.Expr) -> Column:
+    def __mul__(self, rate: sp.Expr) -> PartialMotion:
         velocity, omega = self.velocity * rate, self.omega * rate
-        return Column(velocity, omega, self.spin * rate, self.flow * rate)
+        return PartialMotion(velocity, omega, self.spin * rate, self.flow * rate)
 
 
 @dataclass(frozen=True)
-class Taken:
+class InertiaWrench:
     """What the own motion of a body takes, without accelerations of the coordinates.
 
     Attributes
@@ -58,7 +58,7 @@ class Taken:
     wrench: Twist
 
 
-class Moving:
+class MovingBody:
     """A body on a base; everything is in the axes of the base, about the centre of mass.
 
     Parameters
@@ -94,7 +94,7 @@ class Moving:
         """Return a vector in the axes of the body in those of the base."""
         return self._vector(what, from_axes(self._axes, v))
 
-    def column(self, k: str | None) -> Column:
+    def column(self, k: str | None) -> PartialMotion:
         """Return how it moves with a coordinate, or at all rates."""
         label = "now" if k is None else k
         own = self._part.total(self._placed) if k is None else self._placed.motion[k]
@@ -114,9 +114,9 @@ class Moving:
         )
         rate = SymmetricTensor(2 * x.x, 2 * y.y, 2 * z.z, x.y + y.x, x.z + z.x, y.z + z.y)
         flow = Flow(momentum, angular_of((x, y, z)), rate)
-        return Column(velocity, omega, spin, flow)
+        return PartialMotion(velocity, omega, spin, flow)
 
-    def taken(self, now: Column) -> Taken:
+    def taken(self, now: PartialMotion) -> InertiaWrench:
         """Return what its own motion takes.
 
         Parameters
@@ -133,9 +133,9 @@ class Moving:
         turn = self._vector("own_turn", slowed + omega.cross(now.spin))
         wrench = Twist(self._at.cross(force) + turn, force)
         single = len(self._placed.motion) == 1  # what is across omega does no work then
-        return Taken(slowed if single else turn, wrench)
+        return InertiaWrench(slowed if single else turn, wrench)
 
-    def work(self, column: Column, taken: Taken) -> sp.Expr:
+    def work(self, column: PartialMotion, taken: InertiaWrench) -> sp.Expr:
         """Return ``∫ r_k' . r'' dm``.
 
         Parameters
@@ -145,7 +145,7 @@ class Moving:
         """
         return column.velocity.dot(taken.wrench.linear) + column.omega.dot(taken.turn)
 
-    def energy(self, one: Column, other: Column) -> sp.Expr:
+    def energy(self, one: PartialMotion, other: PartialMotion) -> sp.Expr:
         """Return ``∫ r_k' . r_l' dm``.
 
         Parameters
@@ -155,7 +155,7 @@ class Moving:
         """
         return one.velocity.dot(other.flow.momentum) + one.omega.dot(other.spin)
 
-    def across(self, now: Column, column: Column) -> Vector:
+    def across(self, now: PartialMotion, column: PartialMotion) -> Vector:
         """Return ``∫ r' x r_k' dm``.
 
         Parameters

@@ -17,19 +17,19 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Column:
+class PartialTwist:
     """How a body moves with a coordinate, or at all rates: its twist, and its momentum."""
 
     twist: Twist
     momentum: Twist
     flow: Flow
 
-    def __mul__(self, rate: sp.Expr) -> Column:
-        return Column(self.twist * rate, self.momentum * rate, self.flow * rate)
+    def __mul__(self, rate: sp.Expr) -> PartialTwist:
+        return PartialTwist(self.twist * rate, self.momentum * rate, self.flow * rate)
 
 
 @dataclass(frozen=True)
-class Taken:
+class InertiaForce:
     """Couple and force on a body, in its axes; and the force on the base, in those of the base."""
 
     own: Twist
@@ -80,13 +80,13 @@ class Shifted:
             ),
         )
 
-    def column(self, k: str | None) -> Column:
+    def column(self, k: str | None) -> PartialTwist:
         """Return how it moves with a coordinate, or at all rates."""
         own = self._part.total(self._placed) if k is None else self._placed.motion[k]
         momentum = self._momentum("now" if k is None else k, own)
-        return Column(own, momentum, Flow(from_axes(self._carried.axes, momentum.linear)))
+        return PartialTwist(own, momentum, Flow(from_axes(self._carried.axes, momentum.linear)))
 
-    def taken(self, now: Column) -> Taken:
+    def taken(self, now: PartialTwist) -> InertiaForce:
         """Return what its own motion takes.
 
         Parameters
@@ -102,10 +102,10 @@ class Shifted:
             spin = self._program.vector(f"{self._name}_turning", inertia.tensor @ omega, "123")
             couple += omega.cross(spin)
         own = self._twist("own", Twist(couple, force))
-        return Taken(own, Twist(ZERO, from_axes(self._carried.axes, own.linear)))
+        return InertiaForce(own, Twist(ZERO, from_axes(self._carried.axes, own.linear)))
 
     @staticmethod
-    def work(column: Column, taken: Taken) -> sp.Expr:
+    def work(column: PartialTwist, taken: InertiaForce) -> sp.Expr:
         """Return ``∫ r_k' . r'' dm``.
 
         Parameters
@@ -116,7 +116,7 @@ class Shifted:
         return column.twist.dot(taken.own)
 
     @staticmethod
-    def energy(one: Column, other: Column) -> sp.Expr:
+    def energy(one: PartialTwist, other: PartialTwist) -> sp.Expr:
         """Return ``∫ r_k' . r_l' dm``.
 
         Parameters
@@ -127,7 +127,7 @@ class Shifted:
         return one.twist.dot(other.momentum)
 
     @staticmethod
-    def across(now: Column, column: Column) -> Vector:
+    def across(now: PartialTwist, column: PartialTwist) -> Vector:
         """Return ``∫ r' x r_k' dm``, which the turning of the base makes use of: nothing here.
 
         Parameters

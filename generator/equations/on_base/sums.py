@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ...program.vectors import NO_TWIST, ZERO, SymmetricTensor, Twist, Vector
 from .flow import NONE, Flow
 from .hinged import Hinged
-from .moving import Moving
+from .moving import MovingBody
 from .shifted import Shifted
 
 if TYPE_CHECKING:
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
     from ..inertia import SpatialInertia
 
 
-def kind_of(carried: Carried) -> type[Shifted | Hinged | Moving]:
+def kind_of(carried: Carried) -> type[Shifted | Hinged | MovingBody]:
     """Return by what a body is best described."""
     fitting = (kind for kind in (Hinged, Shifted) if kind.fits(carried))
-    return next(fitting, Moving)
+    return next(fitting, MovingBody)
 
 
 @dataclass
