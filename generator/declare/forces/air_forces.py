@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ...program.vectors import UNIT_Y, UNIT_Z, Vector
+from ...program.vectors import Vector
 from ..bodies import Body
 from ..declared import DeclarationError, Name, declared
-from ..geometry import Point
+from ..geometry import FORWARD, UP, Point
 from ..parameters import Parameter
 from ..shown import Shown
 from .force import Action, Description, Force
@@ -30,7 +30,8 @@ _UNITS = {"density": "kg/m^3", "drag": "m^2", "lift": "m^2", "pitching": "m^3"}
 class AirForces(Force):
     """Drag, lift and pitching moment of still air, at a point of a body.
 
-    With V the velocity of the point and V_x its component along x of the body::
+    With V the velocity of the point, V_x its component along x of the body, and the axes of the
+    body those of the world at the design position::
 
         F = -density/2 drag |V| V + density/2 lift V_x^2 e_z,  M = density/2 pitching V_x^2 e_y
 
@@ -89,13 +90,16 @@ class AirForces(Force):
         for k, rate in moving.items():
             velocity += rate * at.rate(k)
         velocity = program.vector(f"{own}velocity", velocity)
+        # axes of the body at design are not always those in which it is seen
+        forward, up = (at.direction(body, axis) for axis in (FORWARD, UP))
+        ahead = program.define(f"{own}ahead", velocity.dot(forward))
         half = program.define(f"{own}half_density", self.density.symbol / 2)
         speed = program.define(f"{own}speed", sp.sqrt(velocity.dot(velocity) + _SMALL))
         drag = program.define(f"{own}drag", half * self.drag.symbol * speed)
-        pressure = program.define(f"{own}pressure", half * velocity.x * velocity.x)
+        pressure = program.define(f"{own}pressure", half * ahead * ahead)
         lift = program.define(f"{own}lift", self.lift.symbol * pressure)
-        force = program.vector(f"{own}force", velocity * (-drag) + UNIT_Z * lift)
-        moment = UNIT_Y * (self.pitching.symbol * pressure)
+        force = program.vector(f"{own}force", velocity * (-drag) + up * lift)
+        moment = up.cross(forward) * (self.pitching.symbol * pressure)
         forces = {
             k: force.dot(rate) + moment.dot(twists[k].angular)
             for k, rate in moving.items()

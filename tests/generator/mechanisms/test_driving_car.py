@@ -10,10 +10,12 @@ import pytest
 from kintrafo import generator as g
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import car, model_named
+from oracle_check import check_with_the_oracle
 from own_models import Built, own
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
     from kintrafo.generator import Formulation
 
@@ -103,6 +105,18 @@ def test_accelerations_are_those_of_the_oracle(model: Callable[[], Formulation])
         found = built("rhs", state, inputs)[rates]
         scale = np.abs(expected).max()
         np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9 * scale)
+
+
+def test_axes_of_the_air_are_those_of_the_body_at_design(tmp_path: Path) -> None:
+    """An arm turns about a line of its own, which is the first of the axes that it has itself."""
+    arms = model_named("trailing_arm")
+    air = next(f for f in on_arms().mechanism.forces if isinstance(f, g.AirForces))
+    sizes = {"drag": 0.7, "lift": 20.0, "pitching": -30.0}
+    more = {what: replace(getattr(air, what), default=size) for what, size in sizes.items()}
+    place = g.Point("air_center", (-0.3, 0.2, 0.4), "where the air acts")
+    acting = replace(air, body=arms.mechanism.body("trailing_arm"), point=place, **more)
+    mechanism = replace(arms.mechanism, forces=(*arms.mechanism.forces, acting))
+    check_with_the_oracle(replace(arms, mechanism=mechanism), tmp_path, 0.1, count=3)
 
 
 def test_normal_forces_and_torques_at_rest_conserve_energy() -> None:
