@@ -15,6 +15,9 @@ _NOISE = (1e-9, 1e-6, 1e-3)
 # the swing beside it. For a sine that is 2.4 times the time between two turns, so that about one at
 # most is between two stages of a step: errors by pulses are those of steps that end at all turns.
 _NEAR, _STEPS = 0.1, 12.0
+# Nor so many times as long as it needs for most of the swing, which for a sine is as long: a value
+# may stay near the turn, as on a flat top, and then be gone within the step.
+_FAR, _FAR_STEPS = 0.9, 3.1
 
 
 def turning_points(curve: PPoly, orders: Sequence[int]) -> Array:
@@ -41,7 +44,7 @@ def turning_points(curve: PPoly, orders: Sequence[int]) -> Array:
     >>> from scipy.interpolate import CubicSpline
     >>> wave = CubicSpline([0.0, 1.0, 2.0, 3.0, 4.0], [0.0, 1.0, 0.0, -1.0, 0.0])
     >>> turning_points(wave, [0]).round(2).tolist()
-    [[0.85, 3.15], [3.58, 3.58]]
+    [[0.85, 3.15], [2.36, 2.36]]
     """
     return merged([_of(curve.derivative(order), _NOISE[order]) for order in orders])
 
@@ -78,7 +81,7 @@ def _of(curve: PPoly, noise: float) -> Array:
 
 
 def _reaches(times: Array, values: Array, turns: NDArray[np.intp], bends: Array) -> Array:
-    """Return how long steps may be that pass over turns, by how long the values stay near them.
+    """Return how long steps may be that pass over turns, by how long the values stay beside them.
 
     Parameters
     ----------
@@ -96,16 +99,20 @@ def _reaches(times: Array, values: Array, turns: NDArray[np.intp], bends: Array)
     part = (values - values[borders[swing]]) / np.where(rise == 0.0, 1.0, rise)[swing]
     along = np.maximum.accumulate(swing + np.clip(part, 0.0, 1.0))
     number = np.arange(1, turns.size + 1)
-    near = np.full(turns.size, np.inf)
+    reaches = np.full(turns.size, np.inf)
     for sense in (-1, 1):
-        straight = np.abs(np.interp(number + sense * _NEAR, along, times) - times[turns])
+        straight, most = (
+            np.abs(np.interp(number + sense * part, along, times) - times[turns])
+            for part in (_NEAR, _FAR)
+        )
         # beside the turn the curve is a parabola, and a straight line between its points farther on
         size = np.abs(rise[number if sense > 0 else number - 1])
         with np.errstate(divide="ignore"):
             bent = np.sqrt(2.0 * _NEAR * size / bends)
         beside = np.abs(times[turns + sense] - times[turns])
-        near = np.minimum(near, np.maximum(straight, np.minimum(bent, beside)))
-    return _STEPS * near
+        near = np.maximum(straight, np.minimum(bent, beside))
+        reaches = np.minimum(reaches, np.minimum(_STEPS * near, _FAR_STEPS * most))
+    return reaches
 
 
 def _extrema(curve: PPoly) -> Array:

@@ -291,6 +291,31 @@ def test_steps_pass_over_slow_turns_of_several_inputs():
     assert truths[1] > 2.0 * truths[0]  # which the pulses move
 
 
+@pytest.mark.skipif(not native_available(), reason="nothing is integrated in C")
+@pytest.mark.parametrize("middle", [0.3, 0.31])
+def test_a_flat_top_is_not_passed_over(middle):
+    """A pulse of 4 ms whose top is flat, beside another road, in steps of 20 ms.
+
+    Its half width would be near its turn; the stages of a step are half of its length apart.
+    """
+    axle = System(front_axle)
+
+    def pulse(time):
+        begins, ends = ((time - middle + side * 2e-3) / 3e-4 for side in (1.0, -1.0))
+        return 0.01 * (np.tanh(begins) - np.tanh(ends))
+
+    roads = {"right_road_height": pulse, "left_road_height": lambda t: 1e-6 * np.sin(3.0 * t)}
+    start, span = rest(axle, axle.design_state), (0.0, 1.0)
+    coarse = simulate(
+        axle, span, start, inputs=roads, method="DormandPrince", rtol=1e-4, atol=1e-6,
+        max_step=0.02,
+    )  # fmt: skip
+    fine = simulate(axle, span, start, inputs=roads, max_step=5e-4)
+    found, truth = (np.ptp(one.signals["right_front_wheel_center_z"]) for one in (coarse, fine))
+    # the output has the steps' ends only, between which the top is
+    assert found == pytest.approx(truth, rel=0.05)
+
+
 def test_fixed_steps_end_at_fast_turns_alone():
     times = np.linspace(0.0, 2.0, 2001)
     road = 0.005 * np.sin(20.0 * times)
