@@ -113,7 +113,7 @@ int kt_rates_by_time(worker *w, double time, const double *state, double lapse, 
     double *const rates[2] = {scratch, out};
     for (int i = 0; i < 2; ++i) {
         double moved = time + (i ? lapse : -lapse);
-        evaluate_inputs_near(w, time, moved);
+        evaluate_inputs_near(w, time + lapse, moved); /* where the step goes, also backward from a kink */
         int status = p->rhs(p->constants, state, w->inputs, rates[i]);
         if (status) {
             return refuse(w, status, moved, state);

@@ -78,7 +78,7 @@ int kt_jacobian(worker *w, double time, const double *state, double *out);
 
 /*
  * Evaluate how rates change with time by the inputs alone, as the central difference over so long a time to
- * both sides; all within the polynomials of the inputs that hold at the time. Likewise.
+ * both sides; all by the polynomials of the inputs that hold after it, which has the sign of the step. Likewise.
  */
 int kt_rates_by_time(worker *w, double time, const double *state, double lapse, double *out,
                      double *scratch);

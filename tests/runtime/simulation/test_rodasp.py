@@ -13,7 +13,15 @@ import numpy as np
 import pytest
 import sympy as sp
 from folders import ROOT
-from kintrafo import InputError, Model, SimulationError, System, simulate, state_at_height
+from kintrafo import (
+    InputError,
+    Model,
+    SimulationError,
+    System,
+    equilibrium,
+    simulate,
+    state_at_height,
+)
 from kintrafo import generator as g
 from kintrafo.generator.declare.forces.force import Action, Force
 from kintrafo.simulation.solvers import native_available
@@ -178,6 +186,18 @@ def test_it_is_of_fourth_order(road: Callable[[float], float] | None) -> None:
         assert one.nfev == (6 if road is None else 8) * one.steps + 1
         assert one.njev == one.nlu == one.steps
     assert found[0].order == 4
+
+
+def test_it_is_of_fourth_order_backward_from_kinks() -> None:
+    """How inputs move at a kink is taken from the side to which the step goes."""
+    times = np.linspace(0.0, 0.2, 5)
+    road = kintrafo.Samples(times, np.array([0.0, 0.01, -0.005, 0.008, 0.0]), "linear")
+    inputs, span, start = {"road_height": road}, (0.2, 0.0), equilibrium(MODEL)
+    truth = simulate(MODEL, span, start, method="Verner", rtol=1e-12, atol=1e-13, inputs=inputs)
+    found = [run(step, start=start, span=span, inputs=inputs) for step in (4e-4, 2e-4)]
+    errors = [np.abs(one.y[:, -1] - truth.y[:, -1]).max() for one in found]
+    # the next term of the error is a step times as large
+    assert errors[0] / errors[1] > 11.0, errors
 
 
 def test_events_are_found_by_the_polynomial() -> None:
