@@ -140,7 +140,7 @@ def modes_of(matrix: Array, names: tuple[str, ...], lift: Array | None = None) -
 def mode_of_states(
     matrix: Array, names: tuple[str, ...], places: Sequence[int], lift: Array | None = None
 ) -> Mode:
-    """Return the pair of eigenvalues in which some states take part most.
+    """Return the pair of eigenvalues, or the only one, in which some states take part most.
 
     The participation of a state in an eigenvalue is the product of its elements in the left and in
     the right eigenvector, which do not depend on units.
@@ -159,7 +159,8 @@ def mode_of_states(
     Returns
     -------
     Mode
-        A conjugate pair, or the two real eigenvalues in which the states take part most.
+        A conjugate pair, or the two real eigenvalues in which the states take part most; one
+        where they take part in one alone.
     """
     values, left, right = _decompose(matrix)
     shares = _participation(left, right)[list(places)].sum(axis=0)
@@ -172,15 +173,17 @@ def mode_of_states(
             else int(np.argmin(np.abs(values - values[best].conj())))
         )
         return _mode((values[upper], values[upper].conjugate()), shapes[:, upper], names)
-    shares[values.imag != 0.0] = -1.0
-    pair = sorted(np.argsort(shares)[-2:], key=lambda k: values[k].real)
+    # the next one may be of a conjugate pair, or of another motion: with these it makes no pair
+    real = np.flatnonzero((values.imag == 0.0) & (shares > _LEAST_SHARE))
+    real = real if real.size else np.array([best])
+    pair = sorted(real[np.argsort(shares[real])[-2:]], key=lambda k: values[k].real)
     return _mode(tuple(values[k] for k in pair), shapes[:, pair[0]], names)
 
 
 def modes_of_motions(
     matrix: Array, names: tuple[str, ...], motions: Sequence[Sequence[int]]
 ) -> tuple[Mode, ...]:
-    """Return the mode of each motion, and none of them twice.
+    """Return the mode of each motion, and none of them twice where there are enough.
 
     As `mode_of_states` for each. Where two motions take part most in the same mode, as wheels of
     equal axles do, modes are shared out so that the sum of all participations is greatest; so are

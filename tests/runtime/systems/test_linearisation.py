@@ -404,3 +404,16 @@ def test_motions_share_out_what_oscillates_and_what_creeps():
     )
     ratios = [mode.damping_ratio for mode in found]
     np.testing.assert_allclose(ratios, damping[:4] / (2.0 * roots), rtol=1e-9)
+
+
+def test_a_real_eigenvalue_makes_no_pair_with_one_of_an_oscillation():
+    """A coordinate that relaxes, moved by an oscillator: three states, and one real eigenvalue."""
+    matrix = np.array([[-5.0, 0.1, 0.0], [0.0, 0.0, 1.0], [0.0, -100.0, -1.0]])
+    names, alone = ("a", "q", "q_rate"), (-5.0 + 0.0j,)
+    assert mode_of_states(matrix, names, [0]).eigenvalues == pytest.approx(alone)
+    found = modes_of_motions(matrix, names, [[0], [1, 2]])
+    assert found[0].eigenvalues == pytest.approx(alone)
+    assert found[1].natural_frequency == pytest.approx(10.0 / (2.0 * np.pi))
+    # nor with that of a motion in which the coordinate has no part
+    apart = np.diag([-5.0, -7.0])
+    assert mode_of_states(apart, ("a", "b"), [0]).eigenvalues == pytest.approx(alone)
