@@ -32,7 +32,7 @@ app = typer.Typer(help=__doc__, no_args_is_help=True, add_completion=False)
 console = Console(width=None if sys.stdout.isatty() else 110)
 
 
-# In the head of every file that is emitted; one without it is somebody's own.
+# In the head of every file that is emitted; one without it is a user's own.
 _MARK = "do not edit"
 
 

@@ -1,4 +1,4 @@
-"""How much SymPy remembers of its own results, and that nobody looks through it meanwhile.
+"""How much SymPy remembers of its own results, which the garbage collector skips meanwhile.
 
 By default SymPy remembers the last thousand. A derivation comes back to far more of them, and takes
 half as long again without; what it keeps in all is some 100 MB. SymPy reads the number when it is

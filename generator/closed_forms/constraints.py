@@ -7,7 +7,7 @@ Every joint that closes a loop gives what it leaves in common, every rod its len
     Perpendicular   a1 . b2 = 0                           hinge, cross, guide: a right angle
     FixedDistance   (|p2 - p1|^2 - l^2) / (2 l c) = 0     rod
 
-Both bodies are seen from the same axes, whichever these are. The rate of an equation is linear in
+Both bodies are seen from the same axes, which may be any. The rate of an equation is linear in
 the motions of its two bodies: with a unit rate of an unknown as that motion it is an element of the
 Jacobian, with what else moves it is the right side. A factor like 1 / c is named ``scale``; it is
 one where nothing is made free of units.

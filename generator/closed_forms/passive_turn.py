@@ -1,6 +1,6 @@
 """A link whose turn about its line nothing holds.
 
-It has no mass, so its turn is nobody's business. It gets that of a cross at its first end, with an
+It has no mass, so its turn has no effect. It gets that of a cross at its first end, with an
 axis across the line at the design position.
 """
 

@@ -152,7 +152,7 @@ class Parts:
         """Links that may turn about their line as they like, since only two joints hold them.
 
         Both are ball joints, or one of them is that of a telescope. The turn moves nothing else,
-        and is none of the degrees of freedom that anybody drives.
+        and is not a degree of freedom that is driven.
         """
         return tuple(
             body.name

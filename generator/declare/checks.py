@@ -40,18 +40,18 @@ def check_mechanism(mechanism: Parts) -> None:
         *name_problems(mechanism),
         *text_problems(mechanism),
     ]
-    # ranges and lines are those of the parameters; of two of one name nobody knows which
+    # ranges and lines are those of the parameters; of two with one name it is unknown which
     problems += [] if problems else value_problems(mechanism)
     if problems:
         raise DeclarationError(mechanism.name, problems)
 
 
 def _force_problems(mechanism: Parts) -> list[str]:
-    """See that forces, also those of somebody's own, can be distinguished."""
+    """See that forces, also those of users, can be distinguished."""
     problems = []
     for force in mechanism.forces:
         kind = type(force).__name__
-        found: Any = force.identity  # whatever a class of somebody's own returns
+        found: Any = force.identity  # a user's own class may return anything
         along: Any = force.along
         if not (isinstance(found, tuple) and [type(part) for part in found] == [str, str]):
             problems.append(f"identity of a {kind} is {found!r}; two texts are needed: kind, name")
@@ -69,7 +69,7 @@ def _ground_problems(mechanism: Parts) -> list[str]:
         return [f"body {WORLD.name!r} has the name of the world; choose another one"]
     if not grounds:
         problem = (
-            "there is no ground, so that nothing says where it is in the world: declare a Ground "
+            "there is no ground, so its place in the world is unknown: declare a Ground "
             "and join the bodies to it, or let one move by a joint Free(name, body)"
         )
         return [problem]
@@ -121,7 +121,7 @@ def _stranger_problems(mechanism: Parts) -> list[str]:
     """Find joints and bodies that forces and coordinates refer to, but that are not joined."""
     joined = {body for joint in mechanism.joints for body in (joint.first, joint.second)}
     problems = [
-        f"joint {joint.name!r}, which a force or a coordinate refers to, is none of its joints; "
+        f"joint {joint.name!r}, which a force or a coordinate refers to, is not one of its joints; "
         "add it"
         for joint in mechanism.every(Joint)
         if joint not in mechanism.joints
@@ -176,7 +176,7 @@ def _is_across(joint: Joint, normal: Direction) -> bool:
 def check_symbols(
     name: str, used: Iterable[str], declared: Collection[str], mechanism: Parts
 ) -> None:
-    """Raise `DeclarationError` if equations read what nobody declares.
+    """Raise `DeclarationError` if equations read undeclared symbols.
 
     Parameters
     ----------

@@ -95,7 +95,7 @@ class Copy:
             if not isinstance(thing, Motion) and thing not in known
         ]
         problems += [
-            f"own {getattr(thing, 'name', thing)!r} is no parameter, point or direction of it"
+            f"own {getattr(thing, 'name', thing)!r} is not a parameter, point or direction of it"
             for thing in self.own
             if thing not in owners
         ]

@@ -202,7 +202,7 @@ class MagicFormulaContact(AnyContactLaw):
     def __post_init__(self) -> None:
         unknown = [key for key in self.without if key not in IN_EQUATIONS]
         if unknown:
-            problems = [f"{key!r} is no coefficient of these equations" for key in unknown]
+            problems = [f"{key!r} is not a coefficient of these equations" for key in unknown]
             raise DeclarationError(f"MagicFormulaContact {self.name!r}", problems)
 
     _SIZES: ClassVar[Mapping[str, tuple[float, str, str]]] = {

@@ -33,7 +33,7 @@ Declared = TypeVar("Declared", bound=type)
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 _MOST_SHOWN = 90  # characters of a value
-_UNNAMED = ("self", "order", "image", "axial")  # arguments that nobody writes
+_UNNAMED = ("self", "order", "image", "axial")  # arguments that are never written
 
 
 class DeclarationError(KintrafoError, ValueError):
@@ -78,7 +78,7 @@ def _real(value: object) -> float:
         except (TypeError, ValueError, OverflowError):  # a symbol, a signalling NaN, 10**400
             number = math.nan
     if not math.isfinite(number):
-        raise PydanticCustomError("declared", "is no finite real number; give one, in SI units")
+        raise PydanticCustomError("declared", "is not a finite real number; give one, in SI units")
     return number
 
 
@@ -183,7 +183,7 @@ def _place(field: str, rest: Sequence[int | str], given: Mapping[str, Any]) -> t
 def _problem(place: str, value: Any, found: list[Any], fields: list[str]) -> str:
     detail, kind = found[0], found[0]["type"]
     if kind == "unexpected_keyword_argument":
-        return f"{place} is none of its fields. {suggestion(place, fields)}"
+        return f"{place} is not one of its fields. {suggestion(place, fields)}"
     if kind == "unexpected_positional_argument":
         return f"{_shown(detail['input'])} is one argument too many; its fields are {_list(fields)}"
     if kind == "multiple_argument_values":
@@ -237,6 +237,8 @@ def _wanted(detail: Any) -> str:
     name = context.get("class_name", context.get("class"))
     if name:
         return f"{'an' if name[0] in 'AEIOU' else 'a'} {name}"
+    if detail["type"] == "declared":  # "is not a finite real number; give one"
+        return str(detail["msg"]).removeprefix("is not ").partition(";")[0]
     return _WANTED.get(detail["type"], str(detail["msg"]))
 
 
@@ -295,7 +297,7 @@ def parts(value: object) -> Iterator[Any]:
 
 
 def is_own(kind: type) -> bool:
-    """Return whether a class is somebody's own, and none that a module of the generator defines."""
+    """Return whether a class is a user's own, not defined in a module of the generator."""
     package = __name__.removesuffix("declare.declared")
     found: Any = sys.modules.get(kind.__module__) if kind.__module__.startswith(package) else None
     for name in kind.__qualname__.split("."):

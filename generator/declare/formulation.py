@@ -118,7 +118,7 @@ def _check(formulation: Formulation) -> None:
         p for name, text in formulation.cites.items() for p in unwritable(f"cites: {name}", text)
     ]
     problems += [
-        f"variant {name!r} would be the function rhs_{name}, which there is already; rename it"
+        f"variant {name!r} would be the function rhs_{name}, which exists already; rename it"
         for name in formulation.held
         if name in _FUNCTIONS
     ]
@@ -211,7 +211,7 @@ def _eliminated_problems(formulation: Formulation) -> list[str]:
     known, needed = ", ".join(speeds), sum(c.count for c in formulation.mechanism.constraints)
     problems = repeated("eliminated speed", formulation.eliminated)
     problems += [
-        f"eliminated {name!r} is no speed of the independent joints; these are {known}"
+        f"eliminated {name!r} is not a speed of the independent joints; these are {known}"
         for name in formulation.eliminated
         if name not in speeds
     ]

@@ -27,7 +27,7 @@ def _vector(given: Any) -> Any:
     except (TypeError, ValueError, AttributeError, sp.SympifyError):
         usable = False
     if not usable or vector.is_zero:
-        problem = "is no direction; give three numbers, not all of them zero"
+        problem = "is not a direction; give three numbers, not all of them zero"
         raise PydanticCustomError("declared", problem)
     norm = sp.sqrt(vector.dot(vector))
     return Vector(*(c if norm == 1 else _written_out(c / norm) for c in vector))

@@ -342,7 +342,7 @@ class RelativeCoordinate:
         joint = self.joint
         if self.kind in joint.coordinates and not isinstance(joint, Spherical):
             return
-        problem = f"kind {self.kind!r} is none of {joint.name!r}, which is {joint.kind}"
+        problem = f"kind {self.kind!r} is not a coordinate of {joint.name!r}, which is {joint.kind}"
         known = ", ".join(() if isinstance(joint, Spherical) else joint.coordinates)
         problem += f"; there are {known}" if known else "; its angles have no names to report"
         raise DeclarationError(f"RelativeCoordinate {self.name!r}", [problem])

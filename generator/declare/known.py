@@ -1,4 +1,4 @@
-"""What is there twice, and what is not there at all."""
+"""Parts that are declared twice, and parts that are not declared."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def strangers(what: str, used: Iterable[Named], known: Collection[Named]) -> lis
     """
     names = ", ".join(thing.name for thing in known) or "none"
     return [
-        f"{what} {thing.name!r} is none of its mechanism; there are {names}"
+        f"{what} {thing.name!r} is not in its mechanism; there are {names}"
         for thing in used
         if thing not in known
     ]

@@ -128,7 +128,7 @@ class AlongTelescope(AnyPath):
     joint
         The telescope.
     longest
-        The length at which it comes apart [m]; None: nobody asks.
+        The length at which it comes apart [m]; None: not checked.
     """
 
     joint: Cylindrical

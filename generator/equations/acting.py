@@ -1,6 +1,6 @@
 """What a force does, seen through: it is complete, it can be emitted, and nothing of it is lost.
 
-The forces of the generator are right by their tests. One of somebody's own may name what is not
+The forces of the generator are right by their tests. One of a user may name what is not
 there, return something else, or have a formula without a spelling; each is refused, with the line
 of the code where that is known.
 """
@@ -85,7 +85,7 @@ def shown_by(force: Force, at: Seen, action: Action) -> Iterator[Shown]:
 
 
 def _has_own_code(force: Force) -> bool:
-    """Return whether a force, or a law or a path in it, is of a class of somebody's own."""
+    """Return whether a force, or a law or a path in it, is of a user's own class."""
     return any(is_own(type(part)) for part in (force, *parts(force)))
 
 
@@ -102,7 +102,7 @@ def _all_spelled(at: Seen, values: Mapping[str, Any], what: str) -> dict[str, sp
 
 @contextmanager
 def _told(force: Force, at: Seen, method: str) -> Iterator[None]:
-    """Let formulas be written as anybody writes them, and say of which force an error is."""
+    """Let formulas be written in any form, and name the force of an error."""
     try:
         with at.program.spelling():
             yield
@@ -150,12 +150,12 @@ def _shown(name: Any, at: Seen) -> str:
     joints = [joint.name for joint in at.mechanism.joints]
     if name in joints:
         return (
-            f"{name!r}, which is a joint, and no coordinate: at.coordinate({name!r}) is that of a "
+            f"{name!r}, which is a joint, not a coordinate: at.coordinate({name!r}) is that of a "
             f"driven joint. There are {coordinates}"
         )
     if isinstance(name, str):
         return (
-            f"{name!r}, which is no independent or prescribed coordinate. "
+            f"{name!r}, which is not an independent or prescribed coordinate. "
             f"{suggestion(name, at.driven)} (There are {coordinates}.)"
         )
-    return f"{name!r}, which is no name: give one of {coordinates}"
+    return f"{name!r}, which is not a name: give one of {coordinates}"

@@ -381,8 +381,8 @@ class Dynamics:
             for name in a.rates
         ]
         problems = [
-            f"{' '.join(force.identity)}: a rate of {name!r}, which is no internal state of the "
-            "mechanism; have an InternalState among the fields of the force"
+            f"{' '.join(force.identity)}: a rate of {name!r}, which is not an internal state of "
+            "the mechanism; have an InternalState among the fields of the force"
             for name, force in given
             if name not in names
         ]

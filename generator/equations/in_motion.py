@@ -259,8 +259,8 @@ def _refuse_loop(plan: Plan, bases: set[str], group: set[str]) -> NoReturn:
     """Refuse bodies that hang on two bases: what is free there is not free."""
     names, hung = (", ".join(map(repr, sorted(n))) for n in (bases, group))
     problem = (
-        f"{hung} hang on several of the bodies {names}, of which one rests or moves freely, so "
-        "that the free one is not free. Leave out a joint of the loop through both, or let a "
+        f"{hung} hang on several of the bodies {names}; one of these rests or moves freely, so "
+        "the free one is not free. Leave out a joint of the loop through both, or let a "
         "ForceElement connect the two"
     )
     raise DeclarationError(plan.formulation.name, [problem])

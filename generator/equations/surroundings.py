@@ -217,5 +217,5 @@ def _known(what: str, name: Any, names: Iterable[str]) -> str:
     if isinstance(name, str):
         problem = f"there is no {what} {name!r}. {suggestion(name, names)}"
     else:
-        problem = f"{name!r} is no name of a {what}: give one of {', '.join(names)}"
+        problem = f"{name!r} is not the name of a {what}: give one of {', '.join(names)}"
     raise UnseenError(problem)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ..declare.mechanism import Mechanism
     from ..program.vectors import Vector
 
-# Below it directions are equal but for rounding, above it nobody takes them for parallel [rad].
+# Below it directions are equal but for rounding, above it they are not parallel [rad].
 _EQUAL, _FAR = 1e-9, math.radians(1.0)
 
 

@@ -3,7 +3,7 @@
 A direction is a difference of positions over its length. The positions have the extent L of the
 loop, the greatest distances in it, and are rounded to u L, u = 1.1e-16; so the direction of a
 length l is off by some u L / l, and so are the distances of all that is placed by it. With some ten
-roundings on the way, l > 1e-5 L leaves 1e-10 of them, ten times less than anybody is promised.
+roundings on the way, l > 1e-5 L leaves 1e-10 of them, ten times less than the promised error.
 Guarded quantities are squares: `DIRECTION`.
 
 Where the normal of two vectors is divided by its square, the same happens to the square of their

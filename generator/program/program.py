@@ -93,7 +93,7 @@ class Program:
 
     @contextmanager
     def spelling(self) -> Iterator[None]:
-        """Let steps have formulas as anybody writes them; see `spelled`.
+        """Let steps have formulas in any form; see `spelled`.
 
         Raises
         ------

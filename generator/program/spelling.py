@@ -1,4 +1,4 @@
-"""Formulas that somebody wrote, in the operations that are emitted.
+"""Formulas of users, in the operations that are emitted.
 
 What is emitted has sums, products, quotients, square roots, sine, cosine, the inverses of both,
 exponential function and logarithm, all with the same bits on every machine, and with exact
@@ -71,7 +71,7 @@ def spelled(define: Define, formula: Any) -> sp.Expr:
     except (sp.SympifyError, TypeError, ValueError):
         expression = None
     if not isinstance(expression, sp.Expr):
-        message = f"{_shown(formula)} is no formula: give an expression of SymPy or a number"
+        message = f"{_shown(formula)} is not a formula: give an expression of SymPy or a number"
         raise SpellingError(message)
     return _Speller(define).spell(expression)
 
@@ -106,7 +106,7 @@ class _Speller:
     def _symbol(symbol: sp.Symbol) -> sp.Symbol:
         """Return a symbol without assumptions: steps and states have none."""
         if symbol.name.startswith("given_"):
-            message = f"{symbol} is no name of a state, an input, a parameter or a step"
+            message = f"{symbol} is not the name of a state, an input, a parameter or a step"
             raise SpellingError(message)
         return sp.Symbol(symbol.name)
 
@@ -184,7 +184,7 @@ def _number(number: sp.Expr) -> sp.Expr:
     except (TypeError, OverflowError):
         value = math.nan
     if not math.isfinite(value):
-        message = f"{_shown(number)} is no finite real number of double precision"
+        message = f"{_shown(number)} is not a finite real number of double precision"
         raise SpellingError(message)
     exact = number.is_Rational and max(abs(number.p), number.q) <= _EXACT
     return number if exact else sp.Float(value)

@@ -175,7 +175,7 @@ def _ends(steps: Sequence[Assignment], alive: Sequence[int]) -> Iterator[tuple[i
 def _places(
     pieces: Sequence[Piece], places: Mapping[str, int], sizes: Mapping[str, int]
 ) -> tuple[dict[str, int], int]:
-    """Give places to what is handed over; a place is used again when nobody reads it any more."""
+    """Return places of values handed over; a place is used again after its last reading."""
     last = {name: k for k, piece in enumerate(pieces) for name in piece.reads if name in places}
     kept: dict[str, int] = {}
     free: list[int] = []

@@ -18,5 +18,5 @@ KINDS = tuple(c for c in defined_in(__name__) if issubclass(c, _Force) and c is 
 if TYPE_CHECKING:
     Force = _Force
 else:
-    # a refusal names every kind; whoever declares a mechanism may have one of his own besides
+    # an error names every kind; besides these, a user may declare his own
     Force = Union[(*KINDS, _Force)]

@@ -51,8 +51,8 @@ class ForceElement(Force):
         problems += [problem for law in self.laws for problem in law.problems(self.path)]
         wanted = "an angle or a moment" if self.turns else "a length or a force"
         problems += [
-            f"{number.name!r} is in {number.unit}; {type(self.path).__name__} needs what is about "
-            f"{wanted}"
+            f"{number.name!r} is in {number.unit}; {type(self.path).__name__} needs a parameter "
+            f"of {wanted}"
             for law in self.laws
             for number in vars(law).values()
             if isinstance(number, Parameter) and number.of_angle not in (None, self.turns)
@@ -65,8 +65,8 @@ class ForceElement(Force):
         ]
         events = [e.name for law in self.laws for e in law.events_of_length(self.name)]
         problems += [
-            f"event {name!r} is there twice; an element has one stop of each side: put the other "
-            "one on an element of its own"
+            f"event {name!r} is declared twice; an element has one stop of each side: put the "
+            "other one on an element of its own"
             for name in dict.fromkeys(events)
             if events.count(name) > 1
         ]

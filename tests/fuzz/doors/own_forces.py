@@ -110,7 +110,7 @@ def _formula(random: np.random.Generator, depth: int) -> str:
 def _judge(text: str, parts: dict[str, str]) -> None:
     """See that a refusal names what cannot be emitted, and that there is such a thing."""
     named = [w for w in ("exp", "log", "**0.3", "tanh", "floor") if w in "".join(parts.values())]
-    if not named and "is no finite real number" not in text:
+    if not named and "is not a finite real number" not in text:
         raise RawError(f"{parts}: {text}")
     if "Mine force" not in text or "act" not in text:
         raise RawError(text)

@@ -187,7 +187,9 @@ class TestTexts:
 class TestNumbers:
     @pytest.mark.parametrize("value", [float("nan"), float("inf"), "1.0", None, 1j])
     def test_that_are_none(self, value):
-        with pytest.raises(DeclarationError, match=r"'crank_pin_x':\n.* is no finite real number"):
+        with pytest.raises(
+            DeclarationError, match=r"'crank_pin_x':\n.* is not a finite real number"
+        ):
             replace(RUSR.parameters[0], default=value)
 
     @pytest.mark.parametrize(
@@ -229,7 +231,9 @@ class TestJoints:
             RelativeCoordinate("turn", BALL, "x", "turn")
 
     def test_a_coordinate_is_one_of_its_joint(self):
-        with pytest.raises(DeclarationError, match=r"kind 'slide' is none of 'A'.*there are angle"):
+        with pytest.raises(
+            DeclarationError, match=r"kind 'slide' is not a coordinate of 'A'.*there are angle"
+        ):
             RelativeCoordinate("slide", CRANK, "slide", "slide")
 
     def test_none_reported_at_the_ground(self, tmp_path):

@@ -346,7 +346,7 @@ def test_coefficients_that_do_nothing_cost_nothing(folder, system_of):
     assert arcs <= every - 14
     with pytest.raises(kintrafo.InputError, match=r"QSX4 = 0\.02: the equations leave it out"):
         system_of.tyre("newer").parameters(without=WITHOUT)
-    with pytest.raises(g.DeclarationError, match="'LONGVL' is no coefficient of these"):
+    with pytest.raises(g.DeclarationError, match="'LONGVL' is not a coefficient of these"):
         replace(LAWS["newer"], without=("PTX1", "LONGVL"))
 
 
