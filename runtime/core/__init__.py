@@ -9,7 +9,7 @@
 `physical`     what the parameters of a mechanism can be
 `memory`       how much there is, before it is taken
 `interrupts`   Ctrl-C: none is lost, and nothing is left half done
-`files`        writing a file as a whole, and replacing none of somebody else's
+`files`        writing a file as a whole, and replacing only those of this program
 `folders`      where things are kept between two runs
 `written`      which files this program wrote
 """

@@ -12,7 +12,7 @@ from .legible import readable, short
 __all__ = ["InputError", "KintrafoError"]
 
 
-# What is repeated of a file in messages: nobody reads more.
+# How much of a file is repeated in messages.
 _MOST_PROBLEMS, _LONGEST = 100, 2000
 
 

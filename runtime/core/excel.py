@@ -58,7 +58,7 @@ def pages_of(file: Path) -> list[Page]:
         raise
     except OSError as error:
         raise InputError([f"the file cannot be read: {reason(error)}"], str(file)) from None
-    except Exception:  # noqa: BLE001 (whatever a damaged workbook makes of its reader)
+    except Exception:  # noqa: BLE001 (a damaged workbook raises any error)
         raise InputError([_NO_WORKBOOK], str(file)) from None
 
 
@@ -70,7 +70,7 @@ def _refuse_large(file: Path) -> None:
     try:
         packed = file.stat().st_size
         with ZipFile(file) as archive:
-            # no more than this is unpacked of a member, whatever is in it
+            # at most this is unpacked of a member
             unpacked = sum(member.file_size for member in archive.infolist())
     except OSError as error:
         raise InputError([f"the file cannot be read: {reason(error)}"], str(file)) from None

@@ -1,7 +1,7 @@
-"""Writing files whole or not at all, and never over what somebody else wrote.
+"""Writing files whole or not at all, and never over those of other programs.
 
 One rule for all of this package: a file that is there is replaced only if this program wrote it
-and nobody has changed it since, or if it is empty, or if ``force`` says so. A file that is read is
+and it has not changed since, or if it is empty, or if ``force`` says so. A file that is read is
 never written, and neither is anything that is no ordinary file.
 """
 
@@ -48,8 +48,8 @@ def replacing(path: str | Path, *, force: bool = False, inputs: Paths = ()) -> I
     Yields
     ------
     pathlib.Path
-        A temporary file of the same name, to be written: in a folder beside the target that nobody
-        else may enter.
+        A temporary file of the same name, to be written: in a folder beside the target that no
+        other user may enter.
 
     Raises
     ------
@@ -70,7 +70,7 @@ def replacing(path: str | Path, *, force: bool = False, inputs: Paths = ()) -> I
     with as_input_errors(path):
         target = _resolved(Path(path))
         target.parent.mkdir(parents=True, exist_ok=True)
-        # a name that nobody can foresee, made by us and open to us alone
+        # a name that cannot be predicted, made by us and open to us alone
         folder = None
         try:
             with interrupts.held():

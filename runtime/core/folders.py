@@ -47,7 +47,7 @@ def make_folder(folder: Path) -> None:
 
 
 def keep_to_owner(path: Path) -> None:
-    """Let nobody but the owner write to a file or a folder.
+    """Let only the owner write to a file or a folder.
 
     Parameters
     ----------
@@ -58,12 +58,12 @@ def keep_to_owner(path: Path) -> None:
 
 
 def shared(*paths: Path) -> str:
-    """Say which of some files and folders somebody else may have written to.
+    """Return which of some files and folders another user may have written to.
 
     Parameters
     ----------
     *paths : Path
-        One that does not exist is nobody's. Of a link, both ends count.
+        One that does not exist has no owner. Of a link, both ends count.
 
     Returns
     -------
@@ -74,7 +74,7 @@ def shared(*paths: Path) -> str:
 
 
 def refuse_shared(*paths: Path) -> None:
-    """Refuse what somebody else may have written to.
+    """Refuse files and folders that another user may have written to.
 
     Parameters
     ----------

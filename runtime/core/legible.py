@@ -31,7 +31,7 @@ def legible(text: str) -> str:
 
 
 def short(text: str, most: int = 80) -> str:
-    """Return the beginning of a text that nobody would read to its end.
+    """Return the beginning of a text that is too long to be read.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Guessing what somebody meant who misspelt a name."""
+"""Guessing the name that was meant by a misspelt one."""
 
 import difflib
 from collections.abc import Iterable

@@ -33,7 +33,7 @@ def shown(value: Any) -> str:
     """Return a value as a message shows it, cut where it is long."""
     try:
         text = " ".join(repr(value).split())
-    except Exception:  # noqa: BLE001 (whatever a stranger's __repr__ does, it is not the problem)
+    except Exception:  # noqa: BLE001 (errors of a foreign __repr__ are not the problem)
         text = f"a {type(value).__name__}"
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
 

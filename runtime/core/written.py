@@ -1,10 +1,10 @@
 """Which files this program wrote, so that it replaces no other.
 
 Every file that is written is noted by a hash of its place and its content: a file that is there is
-this program's own as long as it lies where it was written and nobody changed it. No name and no
+this program's own as long as it lies where it was written, unchanged. No name and no
 content is kept, and nothing is added to the files themselves, of which some have no room for a
 mark. Where nothing can be noted, or the note is lost, or others could have written it, a file
-counts as somebody else's: it is kept.
+counts as foreign: it is kept.
 """
 
 import hashlib
@@ -36,7 +36,7 @@ def note(target: Path, content: Path) -> None:
         if shared(register.parent, register):
             return
         _shorten(register)
-        # appended in one piece, whoever else does so at the time
+        # appended in one piece, also if other processes do so
         flags = os.O_WRONLY | os.O_APPEND | os.O_CREAT
         descriptor = os.open(register, flags, 0o644)
         try:

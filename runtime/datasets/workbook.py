@@ -73,7 +73,7 @@ def _fill(sheet: Any, frame: Any) -> None:
 
     def text(words: object) -> Any:
         cell = WriteOnlyCell(sheet, legible(str(words)))
-        cell.data_type = "s"  # whatever it begins with
+        cell.data_type = "s"  # a text, also where it begins as a formula
         return cell
 
     heading = [text(name) for name in frame.columns]

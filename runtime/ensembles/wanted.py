@@ -61,7 +61,7 @@ class Reduced:
         return texts[self.kind].format(self.signal.replace("_", " "), self.level)
 
     def _level(self, unit: str) -> str:
-        """Return the level in the display unit, with all digits that somebody may have given."""
+        """Return the level in the display unit, with all digits that a user may have given."""
         shown = display_of({"units": unit})
         return f"{self.level * shown.factor:.12g} {shown.units}".removesuffix(" 1").strip()
 

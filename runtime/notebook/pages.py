@@ -49,7 +49,7 @@ def simulation(shown: Simulation) -> str:
 
 
 def motion(shown: Simulation, drawn: Callable[[xr.Dataset], Iterable[Figure]]) -> str:
-    """Return the page of a motion, whose curves somebody else draws.
+    """Return the page of a motion, with curves drawn by a function.
 
     Parameters
     ----------

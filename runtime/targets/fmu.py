@@ -75,7 +75,7 @@ def contents(emitted: Emitted, fmi: int, platforms: Sequence[str]) -> dict[str, 
     known = ModelDescription(emitted)
     token = known.token(fmi)
     sources = source_files(known, [version.FRONT], token, known.values)
-    # the library of a model is compiled once, for both versions and whatever its numbers
+    # the library of a model is compiled once, for both versions and all values of its parameters
     any_numbers = source_files(known, HEADERS, "", [0.0] * len(known.values))
     compiled = [name for name in sources if name.endswith(".c")]
     found = {"modelDescription.xml": version.model_description(known, compiled).encode()}

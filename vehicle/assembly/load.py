@@ -1,4 +1,4 @@
-"""A force and a moment on a part, and what acts without anybody's doing."""
+"""A force and a moment on a part, and the forces that need no input."""
 
 from dataclasses import dataclass
 
@@ -36,7 +36,7 @@ class Load:
 
 
 def known(poses: PartPoses) -> list[Load]:
-    """Return what acts without anybody's doing: weights, spring, damper and stops."""
+    """Return the forces that need no input: weights, spring, damper and stops."""
     structure, still = poses.structure, np.zeros(3)
     weights, forces = poses.weights(), poses.forces_along_lines()
     loads = [

@@ -41,7 +41,7 @@ class AxisOfPoints:
 
 
 class AxisOfTheScrew:
-    """The axis of a motion; what nobody asks for is not computed.
+    """The axis of a motion; only requested values are computed.
 
     Parameters
     ----------

@@ -187,7 +187,7 @@ class WholeAxleParts(ABC):
     # -- what acts ------------------------------------------------------------------------------
 
     def acting(self) -> list[Load]:
-        """Return what acts without anybody's doing: weights, springs, dampers, stops, the bar."""
+        """Return the forces that need no input: weights, springs, dampers, stops, the bar."""
         return [*known(self), *self._of_bar()]
 
     def weights(self) -> dict[str, Array]:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from ...systems.system import System
 
-# More values of one place than anybody looks at.
+# Most values of one place.
 _MOST_VALUES = 100_000
 
 EXAMPLES = (
@@ -106,7 +106,7 @@ def _numbers(text: str) -> tuple[str, list[float]]:
 
 
 def _usual(model: "System") -> tuple[str, ...]:
-    """Return what is kept where nobody says: of a rigid axle that of both wheels."""
+    """Return the default results: of a rigid axle those of both wheels."""
     if _USUAL[0].partition(":")[0] in model.signal_names:
         return _USUAL
     return tuple(f"{side}_axle_{kept}" for kept in _USUAL for side in SIDES)

@@ -204,7 +204,7 @@ class Suspension(DescribedSection):
         Parameters
         ----------
         what : str
-            What somebody asked for.
+            The argument that needs a rack.
 
         Raises
         ------

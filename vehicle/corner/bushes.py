@@ -288,7 +288,7 @@ def bushes_of(
             axes=axes,
             soft=np.array([_at_rest(c) if c else s for s, c in zip(soft, curves, strict=True)]),
             tilt=np.array([1.0 / rate if is_bearing and rate else 0.0 for rate in tilt]),
-            # a bearing tilts across the axis of the wheel, whatever its own is
+            # a bearing tilts across the axis of the wheel, not its own
             tilts_about=_across(given, title, table, spin)
             if is_bearing and "axis" in table
             else axes[1:],

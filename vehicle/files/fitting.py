@@ -1,4 +1,4 @@
-"""A file that somebody else's hardpoints are put into: its side, and what goes along with them."""
+"""A file into which imported hardpoints are put: its side, and what goes along with them."""
 
 import math
 import re

@@ -12,7 +12,7 @@ from ...core.legible import short
 from ...core.suggestions import nearest, suggestion
 from .section import AllowedRange, Section
 
-_MOST_LOOKED_AT = 200  # errors: nobody reads more, and each is compared with all known keys
+_MOST_LOOKED_AT = 200  # errors: each is compared with all known keys
 _EXPECTATIONS = {
     "finite_number": "must be a finite number. Enter the measured or estimated value.",
     "float_type": "must be a number. Write digits without quotes, with a point for decimals.",

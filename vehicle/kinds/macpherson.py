@@ -224,7 +224,7 @@ class MacPherson(Suspension):
     """A MacPherson suspension at its design position; see `Suspension`."""
 
     TITLE: ClassVar[str] = "MacPherson suspension"
-    # the equations of the paper's suspension, whatever was added to it, keep the paper's names
+    # the equations of the paper's suspension keep the paper's names, also with additions
     NAMES: ClassVar[Names] = Names("beta1", "beta5", "beta9", "strut_force")
     STARTER: ClassVar[str] = "reference_car"
     STOPPED: ClassVar[str] = "strut"

@@ -290,7 +290,7 @@ def _refuse_out_of_reach(
     beyond = _beyond(heights, table, index)
     if not beyond.any():
         return
-    # the one that somebody asked for is at the end of a range, not the first one beyond
+    # the position asked for is at the end of a range, not the first one beyond
     worst = np.abs(heights[beyond] - design_height(model)).argmax()
     height, rack = float(heights[beyond][worst]), float(racks[beyond][worst])
     reach = travel_range(model, rack)

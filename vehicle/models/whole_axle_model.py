@@ -131,7 +131,7 @@ class WholeAxleModel(System):
         parts = self.parts_of_ways(lefts.ravel(), rights.ravel())
         missed = parts < 1.0
         if missed.any():
-            # the one that somebody asked for is at the end of a range
+            # the position asked for is at the end of a range
             far = np.where(missed, np.maximum(np.abs(lefts), np.abs(rights)).ravel(), -1.0)
             worst = int(far.argmax())
             where = float(lefts.ravel()[worst]), float(rights.ravel()[worst])

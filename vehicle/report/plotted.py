@@ -14,7 +14,7 @@ _SHOWN_OF_POLE = 3.0
 # What interpolation may add to the extremes of the samples, as part of their range.
 _OVERSHOOT = 0.02
 _MOST_DECIMALS = 5
-# More than these nobody can build or measure.
+# More decimals can be neither built nor measured.
 _MOST_OF_UNIT = {"deg": 2, "mm": 2, "%": 1, "N/mm": 2, "m": 2, "m/s": 2, "m/s\u00b2": 1, "N": 0}
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _POINTS = 1201
-_GREATEST = {"slip_angle": 0.5, "slip": 1.0}  # farther nobody looks for it
+_GREATEST = {"slip_angle": 0.5, "slip": 1.0}  # beyond, it is not searched
 _SMALL = 1e-4  # inclination of the camber stiffness [rad]
 _SHARES = (0.5, 1.0, 1.5)
 _PER_DEGREE = np.pi / 180.0

@@ -25,7 +25,7 @@ _GROUPS: Mapping[str, tuple[str, ...]] = {
     "mx": keys("QSX1-3"),
     "my": keys("QSY1-2"),
 }
-"""What is fitted to a force where nobody says what."""
+"""Coefficients that are fitted to a force by default."""
 _COMBINED = keys("RBX1-2 RCX1 REX1 RHX1 RBY1-3 RCY1 REY1 RHY1 RVY1 RVY4-6")
 _BOUNDS: Mapping[str, tuple[float, float]] = {
     "PCX1": (1.0, 2.5), "PCY1": (0.8, 2.5), "QCZ1": (0.8, 2.5), "RCX1": (0.5, 2.0),

@@ -165,7 +165,7 @@ def kept_in(folder: str | Path, collected: Collected) -> Kept:
 def _check(path: Path, identity: Identity) -> None:
     """Refuse the folder of another ensemble."""
     try:
-        # a pipe would keep whoever reads it waiting
+        # reading a pipe would wait without end
         known: Any = json.loads((path / _NAME).read_bytes()) if (path / _NAME).is_file() else None
         other = [name for name, digest in identity.items() if known.get(name) != digest]
     except (ValueError, AttributeError, RecursionError):

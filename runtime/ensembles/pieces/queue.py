@@ -147,7 +147,7 @@ def _result(future: Any, span: Span) -> ChunkResult:
         )
         raise ClusterError(message) from error
     except CancelledError as error:
-        message = "the scheduler was lost, or somebody else cancelled what it does."
+        message = "the scheduler was lost, or another client cancelled the work."
         raise ClusterError(message) from error
     return found
 

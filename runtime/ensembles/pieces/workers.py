@@ -110,7 +110,7 @@ def _local_workers(given: Validator, cluster: Any, cores: int) -> Workers:
 
 
 def _is_usable(client: Any) -> bool:
-    distributed = sys.modules.get("distributed")  # whoever has a client has imported it
+    distributed = sys.modules.get("distributed")  # a client exists only after its import
     if distributed is None or not isinstance(client, distributed.Client):
         return False
     return not client.asynchronous and bool(client.status == "running")

@@ -36,7 +36,7 @@ def library_of(equations: ModuleType, width: int, part: str = "") -> Path:
     Raises
     ------
     InputError
-        If there is no compiler, or what was compiled cannot be kept, or somebody else may have
+        If there is no compiler, or what was compiled cannot be kept, or another user may have
         written to it.
     CompilerError
         If it fails.

@@ -67,7 +67,7 @@ def compile_mechanism(
     folder : str or Path, optional
         Where compiled mechanisms are kept; by default what the environment variable
         ``KINTRAFO_CACHE`` names, or else the user's cache folder. What is in it is run, so that
-        it must be the user's own, and nobody else may write there.
+        it must be the user's own, and no other user may write there.
     progress : callable, optional
         Called with what is being done, in a few words: what of it, how much there is, and, of what
         takes more than ten seconds, how long it takes. Without it, that is shown on standard error
@@ -83,7 +83,7 @@ def compile_mechanism(
     ------
     InputError
         If the file cannot be run or an argument is not known; if the folder cannot be written, or
-        what is in it cannot be loaded; if somebody else owns it, or can write there.
+        what is in it cannot be loaded; if another user owns it, or can write there.
     MechanismError
         If the declaration contradicts itself, or a loop does not close in closed form.
     CompilerError

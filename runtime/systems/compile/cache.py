@@ -1,4 +1,4 @@
-"""How compiled mechanisms are kept: under which name, whole, and not changed by anybody.
+"""How compiled mechanisms are kept: under which name, complete and unchanged.
 
 The folder of one has a manifest with size and digest of each of its files. What is read is compared
 with it, so that a file that was cut off, changed or lost is found before any of it runs.
@@ -161,7 +161,7 @@ def foreign(folder: Path) -> str:
 
 
 def refuse_foreign(folder: Path) -> None:
-    """Refuse a compiled mechanism that somebody else may have written to.
+    """Refuse a compiled mechanism that another user may have written to.
 
     Parameters
     ----------
@@ -260,7 +260,7 @@ def _move(temporary: Path, target: Path) -> None:
 def _remove_leftovers(folder: Path) -> None:
     """Remove the temporary folders of processes that were killed long ago."""
     for entry in folder.glob(".*-????????????????-*"):
-        # somebody else may be removing the same one
+        # another process may be removing the same one
         with suppress(OSError):
             mark = entry / _MARK
             ours = not entry.is_symlink() and mark.is_file() and mark.read_bytes() == _MARKED

@@ -22,8 +22,8 @@ def identity(model: "Formulation") -> str | None:
     """Return a hash of a declaration; None where not all that counts can be read from it.
 
     All fields count, also those that its text leaves out. The code of the generator's own classes
-    is hashed with the generator (`cache.fingerprint`). A force, a law or a path of somebody's own
-    calls what it likes, so that only what is derived says what it does.
+    is hashed with the generator (`cache.fingerprint`). A force, a law or a path of a user's own
+    class may call any code, so only the derived equations identify it.
 
     Parameters
     ----------

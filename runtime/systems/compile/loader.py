@@ -41,7 +41,7 @@ def load(folder: Path) -> ModuleType:
     Raises
     ------
     InputError
-        If the system does not load it, or somebody else may have written to it.
+        If the system does not load it, or another user may have written to it.
     """
     model, _, key = folder.name.rpartition("-")
     package = f"kintrafo_{model}_{key}"

@@ -66,7 +66,7 @@ WHEELS = {
 
 _PARALLEL = "parallel"
 _GREATEST = 1e6
-# A tyre slides before it gives way so far [m].
+# A tyre slides before it deflects so far [m].
 _FARTHEST_TYRE = 0.2
 # A part of a load that is a step too small to go on with.
 _LEAST_STEP = 1e-3

@@ -174,7 +174,7 @@ def _law(file: Path) -> AdamsSpring:
 
 
 def _rounded(value: float) -> float:
-    """Return so many digits as anybody measures; the unit has brought the others."""
+    """Return a value without the digits that come from converting its unit."""
     return float(f"{value:.12g}")
 
 

@@ -80,7 +80,7 @@ def checked(model: type[Kind], data: dict[str, Any], path: str | Path) -> Kind:
         found = model.model_validate(data)
     except ValidationError as error:
         details = _causes(error)
-        # of another kind of file, nothing else is worth telling
+        # in another kind of file, no other problem matters
         other = [detail for detail in details if detail["type"] == "literal_error"]
         problems = [problem_of(detail) for detail in other or details]
         raise InputError(problems if other else [*problems, *slips], str(path)) from None
