@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import count as counted
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from kintrafo.generator import Formulation
+
+_numbers = counted()
 
 
 def check_with_the_oracle(
@@ -37,7 +40,8 @@ def check_with_the_oracle(
     derived = generate(model, derivatives=False)
     if operations is not None:
         assert operations_of(derived.functions["rhs"]).total() <= operations
-    target = folder / f"{model.name}-arrays"
+    # a module is known by the name of its folder: another model of that name would be taken for it
+    target = folder / f"{model.name}-{next(_numbers)}"
     target.mkdir()
     build(derived, target, None)
     built = Built.of(model, load(target))
