@@ -74,11 +74,20 @@ class AnyContactLaw(Owner):
 
     name: Name
 
+    _POSITIVE: ClassVar[tuple[str, ...]] = ("vxlow",)
+    """What is divided by, and what no tyre has otherwise."""
+
     @cached_property
     def numbers(self) -> tuple[Parameter, ...]:
         """All of them."""
         return tuple(
-            Parameter(f"{self.name}_{what}", default, unit, meaning)
+            Parameter(
+                f"{self.name}_{what}",
+                default,
+                unit,
+                meaning,
+                above=0.0 if what in self._POSITIVE else None,
+            )
             for what, default, unit, meaning in self._entries()
         )
 
@@ -133,6 +142,10 @@ class LinearContact(AnyContactLaw):
     name
         Begins the names of its parameters: ``<name>_vertical_stiffness``, ``<name>_friction``.
     """
+
+    _POSITIVE: ClassVar[tuple[str, ...]] = (
+        "unloaded_radius", "effective_radius", "vertical_stiffness", "vxlow",
+    )  # fmt: skip
 
     def _entries(self) -> Iterator[tuple[str, float, str, str]]:
         yield "unloaded_radius", 0.3, "m", "radius of the tyre without load"
@@ -215,6 +228,7 @@ class MagicFormulaContact(AnyContactLaw):
         "INFLPRES": (220e3, "Pa", "inflation pressure of the tyre"),
         "NOMPRES": (220e3, "Pa", "inflation pressure at which the tyre was measured"),
     }
+    _POSITIVE: ClassVar[tuple[str, ...]] = tuple(key.lower() for key in _SIZES)
     _USUAL: ClassVar[Mapping[str, float]] = {
         "PCX1": 1.6, "PDX1": 1.1, "PKX1": 22.0, "PCY1": 1.35, "PDY1": 1.0, "PKY1": -20.0,
         "PKY2": 1.8, "QBZ1": 10.0, "QBZ9": 10.0, "QCZ1": 1.1, "QDZ1": 0.1, "RBX1": 12.0,
@@ -315,6 +329,8 @@ class TMeasyContact(AnyContactLaw):
     name
         Begins the names of its parameters: ``<name>_x_slope_1``, ``<name>_friction``.
     """
+
+    _POSITIVE: ClassVar[tuple[str, ...]] = ("radius", "nominal_load", "vxlow")
 
     def _entries(self) -> Iterator[tuple[str, float, str, str]]:
         yield "vxlow", 1.0, "m/s", "speed below which slips are smoothed"

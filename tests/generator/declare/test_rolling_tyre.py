@@ -202,6 +202,13 @@ def test_standstill_reversing_and_the_air(system_of, name):
     assert [in_air[f"tyre_{k}"] for k in ("fx", "fy", "fz", "mz")] == [0.0] * 4
 
 
+@pytest.mark.parametrize("name", ["vxlow", "vertical_stiffness", "effective_radius"])
+def test_what_no_tyre_has_is_refused(system_of, name):
+    """Without a lowest speed a slip at standstill would be no number."""
+    with pytest.raises(kintrafo.ParameterError, match=f"'tyre_{name}' = 0 .* give more than 0"):
+        kintrafo.System(system_of("linear").equations, {f"tyre_{name}": 0.0})
+
+
 def test_a_wheel_that_is_let_go_rolls_without_slip(system_of):
     """Thrown ahead without spin, it is spun up, and loses what friction takes from it."""
     system = system_of("linear")
