@@ -41,7 +41,7 @@ def dataset_of(model: System, result: Simulation) -> xr.Dataset:
     """
     with Validator("dataset_of") as given:
         given.instance("model", model, System, System.NEEDED)
-        given.instance("result", result, Simulation, "what kintrafo.simulate returns is needed")
+        given.instance("result", result, Simulation, "a result of kintrafo.simulate is needed")
         if not given.failed and tuple(result.signals) != model.signal_names:
             given.fail(f"result: it is not a motion of this model, {model!r}.")
     equations = model.equations

@@ -307,7 +307,7 @@ class CarAssembly(Assembly):
 
         if held.loads:
             problem = (
-                "wheel_load: the wheels of a car carry what its weight asks for. Leave it out."
+                "wheel_load: the loads of a car's wheels follow from its weight. Leave it out."
             )
             raise InputError([problem], "equilibrium")
         model = self.model

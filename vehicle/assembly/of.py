@@ -90,7 +90,7 @@ def model_of(
     """
     with Validator("model_of") as given:
         kinds = (Suspension, Axle, WholeAxle, Car)
-        given.instance("subject", subject, kinds, "what kintrafo.load returns is needed")
+        given.instance("subject", subject, kinds, "a result of kintrafo.load is needed")
         given.flag("wheel_loads", wheel_loads)
         given.function("progress", progress)
     if isinstance(subject, Car):

@@ -255,9 +255,9 @@ def merged(
         If no suspension can be like this, no row is a hardpoint, or one may be two.
     """
     with Validator("merged") as given:
-        given.instance("table", table, PointTable, "what read_points returns is needed")
+        given.instance("table", table, PointTable, "a result of read_points is needed")
         given.flag("mirrored", mirrored)
-        called = given.mapping("names", names or {}, "hardpoints and what they are called there")
+        called = given.mapping("names", names or {}, "hardpoints and their names there")
     old = Suspension.load(file)
     points = _of_side(table, old.vehicle.side, mirrored=mirrored)
     read = matched(points, old.suspension, called, table.source)
@@ -354,7 +354,7 @@ def write_merged(
         If the file must not or cannot be written.
     """
     with Validator("write_merged") as given:
-        given.instance("found", found, Merged, "what merged returns is needed")
+        given.instance("found", found, Merged, "a result of merged is needed")
     refuse([path], force=force, inputs=inputs, endings=[".toml"])
     with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_text(found.text, encoding="utf-8", newline="\n")
@@ -405,7 +405,7 @@ def doubts(found: Merged) -> str:
     A table that leaves nothing out, or has every hardpoint that is needed, is as it is meant.
     """
     with Validator("doubts") as given:
-        given.instance("found", found, Merged, "what merged returns is needed")
+        given.instance("found", found, Merged, "a result of merged is needed")
     if not (found.left_out and found.missing):
         return ""
     rows = len(found.left_out) + len(found.read)
@@ -427,9 +427,9 @@ def as_words(found: Merged, table: PointTable | None = None) -> Mapping[str, str
         From `read_points`; with it, also its unit, its axes, and what of it was not read.
     """
     with Validator("as_words") as given:
-        given.instance("found", found, Merged, "what merged returns is needed")
+        given.instance("found", found, Merged, "a result of merged is needed")
         if table is not None:
-            given.instance("table", table, PointTable, "what read_points returns is needed")
+            given.instance("table", table, PointTable, "a result of read_points is needed")
     read = (n if n == called else f"{n} (from {called})" for n, called in found.read.items())
     said = {
         "read": ", ".join(read),

@@ -121,7 +121,7 @@ def write(
         if title is not None:
             given.text("title", title)
         if motion is not None:
-            given.instance("motion", motion, Simulation, "what kintrafo.simulate returns is needed")
+            given.instance("motion", motion, Simulation, "a result of kintrafo.simulate is needed")
             if isinstance(model, Model):
                 given.fail("motion: the report of a suspension has a simulated second of its own")
             elif not given.failed and not is_motion_of(model, motion):

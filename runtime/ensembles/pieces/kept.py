@@ -66,7 +66,7 @@ class Kept:
                 yield self._found(span, _arrays_in(path.read_bytes()))
             except (OSError, ValueError):
                 message = (
-                    f"{path}: what was kept is damaged. Systems {span[0]} to {span[1]} are "
+                    f"{path}: the saved piece is damaged. Systems {span[0]} to {span[1]} are "
                     "simulated again."
                 )
                 warnings.warn(message, RuntimeWarning, stacklevel=2)
@@ -173,7 +173,7 @@ def _check(path: Path, identity: Identity) -> None:
     if other:
         _refuse(
             path,
-            f"what is kept here is of another ensemble, with other {', '.join(other)}. Name "
+            f"this folder is of another ensemble, with other {', '.join(other)}. Name "
             "another folder, or remove this one.",
         )
 

@@ -112,7 +112,7 @@ def refuse_damaged(folder: Path) -> None:
     """
     problem = damage(folder)
     if problem:
-        text = f"{problem}: what was compiled is damaged. Compile the mechanism again."
+        text = f"{problem}: the compiled files are damaged. Compile the mechanism again."
         raise InputError([text], str(folder))
 
 
@@ -129,7 +129,7 @@ def find(name: str, file: str) -> ModuleType:
     Raises
     ------
     InputError
-        If what was compiled is damaged.
+        If the compiled files are damaged.
     """
     if name.startswith("kintrafo."):
         return import_module(name)

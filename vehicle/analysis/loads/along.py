@@ -76,7 +76,7 @@ def along(model: System, result: Simulation) -> xr.Dataset:
         given.instance("model", model, System, _NEEDED)
         if not given.failed:
             assembly = given_assembly(given, model, "model")
-        given.instance("result", result, Simulation, "what kintrafo.simulate returns is needed")
+        given.instance("result", result, Simulation, "a result of kintrafo.simulate is needed")
         if not given.failed and not is_motion_of(model, result):
             given.fail(f"result: it is not a motion of this model, {model!r}.")
     return over_time(partial(in_motion, assembly), result)

@@ -96,10 +96,10 @@ def imported(
         If a hardpoint is missing, or no suspension can be like this; with all problems.
     """
     with Validator("imported") as arguments:
-        arguments.instance("subsystem", subsystem, Subsystem, "what read returns is needed")
+        arguments.instance("subsystem", subsystem, Subsystem, "a result of read is needed")
         if side is not None:
             arguments.among("side", side, SIDES)
-        given = arguments.mapping("names", names or {}, "hardpoints and what they are called there")
+        given = arguments.mapping("names", names or {}, "hardpoints and their names there")
     rest = rest_of(subsystem, kind, base, given)
     wanted: Side = side or ("left" if rest.packaged else rest.suspension.vehicle.side)
     read = matched(subsystem.points, rest.kind, given, subsystem.source)
@@ -167,7 +167,7 @@ def _angles(subsystem: Subsystem, side: Side) -> dict[str, float]:
 
 def _other_side(name: str, rows: Iterable[str], side: Side) -> str:
     return (
-        f"{shown(name)} is there as {' and '.join(rows)}; a row for the {side} side is needed, or "
+        f"{shown(name)} is given as {' and '.join(rows)}; a row for the {side} side is needed, or "
         "one for left/right."
     )
 
