@@ -46,7 +46,7 @@ def command(
     ] = None,
     animate: Annotated[
         Path | None,
-        option("Write the motion, in real time: .gif.", "PATH", panel=OUTPUT),
+        option("Write the motion, in real time: .gif, or .html to play.", "PATH", panel=OUTPUT),
     ] = None,
     output: PlotOptions,
 ) -> None:

@@ -1,5 +1,8 @@
 """Pictures of a car that drives: wheels, forces and path against the simulation they are from."""
 
+import json
+import re
+
 import numpy as np
 import pytest
 import rail_car
@@ -69,6 +72,20 @@ def test_a_car_is_seen_in_real_time(result, tmp_path) -> None:
         seconds = float(np.ptp(short.motion["time"].values))
         assert picture.n_frames == round(25 * seconds) + 1
         assert picture.info["duration"] == 40
+
+
+def test_a_page_has_the_places_of_the_scene(result, scene, tmp_path) -> None:
+    text = animate(result, tmp_path / "a.html", title="a </script> car").read_text(encoding="utf-8")
+    assert "a </script> car" not in text
+    data = json.loads(re.search(r'id="payload">(.*?)</script>', text).group(1))
+    rows = [int(np.argmin(np.abs(scene.times - time))) for time in data["times"]]
+    assert len(rows) == round(25 * (scene.times[-1] - scene.times[0])) + 1
+    contacts = np.array(data["contacts"]).reshape(-1, 4, 3)
+    contacts[..., :2] += np.array(data["places"])[:, None]
+    np.testing.assert_allclose(contacts, 1e3 * scene.contacts[rows], atol=1.01)
+    np.testing.assert_allclose(
+        np.array(data["forces"]).reshape(-1, 4, 3), scene.forces[rows], atol=0.5
+    )
 
 
 def test_what_does_not_move_is_not_shown(tmp_path) -> None:

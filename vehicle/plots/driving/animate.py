@@ -1,4 +1,4 @@
-"""Writing the motion of a car that drives as a GIF."""
+"""Writing the motion of a car that drives as a GIF, or as a page that plays it."""
 
 from pathlib import Path
 
@@ -7,11 +7,14 @@ from ....core.files import Paths, refuse, replacing
 from ....core.validator import Validator
 from ....pages.animation import frames
 from ...analysis.handling.result import HandlingResult
+from .page import driving_page
 from .picture import write_gif
 from .scene import scene_of
 
-ENDINGS = (".gif",)
+ENDINGS = (".gif", ".html", ".htm")
 _FPS = 25.0
+# Positions of a page at most: one for a tenth of a second of a manoeuvre of 100 s.
+_MOST_POSITIONS = 1000
 
 
 def animate(
@@ -33,7 +36,8 @@ def animate(
     result : HandlingResult
         What `kintrafo.handling.drive` returned.
     path : str or pathlib.Path
-        Ends in ``.gif``. There are 25 frames per second.
+        Ends in ``.gif``, for an animated picture with 25 frames per second, or ``.html``, for a
+        page to play, stop and turn.
     title : str, optional
         By default that of the manoeuvre.
     force : bool, optional
@@ -59,9 +63,16 @@ def animate(
     if not result.runs:
         raise InputError(["steady turns are not simulated: there is no motion to show"], "animate")
     run = result.runs[-1]
-    _, rows = frames(run.motion["time"].values, _FPS)
+    times, picture = run.motion["time"].values, Path(path).suffix.lower() == ".gif"
+    seconds = float(times[-1] - times[0])
+    per_second = _FPS if picture else min(_FPS, (_MOST_POSITIONS - 1) / max(seconds, 1.0))
+    _, rows = frames(times, per_second)
     scene = scene_of(run, rows, cones=result.curves.get("_cones"))
     heading = title or str(result.metrics.attrs["title"])
     with replacing(path, force=force, inputs=inputs) as temporary:
-        write_gif(temporary, scene, heading, _FPS)
+        if picture:
+            write_gif(temporary, scene, heading, _FPS)
+        else:
+            page = driving_page(scene, heading)
+            temporary.write_text(page, encoding="utf-8", newline="\n")
     return Path(path)
