@@ -66,7 +66,7 @@ def compare(
         If one of them does not reach a position.
     """
     with Validator("compare") as given:
-        assemblies = given_assemblies(given, "subjects", subjects)
+        assemblies = given_assemblies(given, "subjects", subjects, cars=True)
         given.function("progress", progress)
     if len(assemblies) < 2:
         problem = f"{len(assemblies)} data set; two or more are needed for a comparison."

@@ -123,6 +123,11 @@ class Assembly(ABC):
         return False
 
     @property
+    def drives(self) -> bool:
+        """Whether it is a car that drives on tyres that roll."""
+        return False
+
+    @property
     def moves_rigidly(self) -> bool:
         """Whether it moves with rigid joints: five rods hold a rigid axle."""
         return True

@@ -41,8 +41,9 @@ from .whole_axle import WholeAxleAssembly, whole_axle_assembly
 
 NOT_A_CAR = (
     "this is a whole car, and a suspension or an axle is needed. The commands check, "
-    "characteristics, simulate and ride take a car; for others name the file of its axle or "
-    'corner. In Python: car.axles["front"], car.axles["rear"], car.corner.'
+    "characteristics, simulate, ride, drive, sensitivity, tolerance, optimise, pareto and compare "
+    "take a car; for others name the file of its axle or corner. In Python: "
+    'car.axles["front"], car.axles["rear"], car.corner.'
 )
 """Said where something else is needed than a car."""
 
@@ -126,9 +127,25 @@ class CarAssembly(Assembly):
         return found
 
     @property
+    def design_sections(self) -> dict[str, dict[str, Any]]:
+        """The sections of the files of its axles, or of its corner, and those of its own."""
+        own = self.car.to_dict()
+        found = {
+            f"{name}.{begin}": sections
+            for name, part in self.held_parts.items()
+            for begin, sections in part.design_sections.items()
+        }
+        return found | {"": {name: v for name, v in own.items() if name not in self.held_parts}}
+
+    @property
     def body_moves(self) -> bool:
         """It does."""
         return True
+
+    @property
+    def drives(self) -> bool:
+        """Whether it drives on tyres that roll."""
+        return self.car.drives
 
     @property
     def steered(self) -> bool:

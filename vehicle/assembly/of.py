@@ -149,7 +149,9 @@ def given_model(given: Validator, model: Any) -> Assembly:
     return assembly_of(model) if isinstance(model, MODELS) else None  # type: ignore[return-value]
 
 
-def given_assemblies(given: Validator, name: str, subjects: Any) -> dict[str, Assembly]:
+def given_assemblies(
+    given: Validator, name: str, subjects: Any, *, cars: bool = False
+) -> dict[str, Assembly]:
     """Return the assemblies of an argument by their names, or refuse what is none.
 
     Parameters
@@ -158,13 +160,16 @@ def given_assemblies(given: Validator, name: str, subjects: Any) -> dict[str, As
     name : str
         Of the argument.
     subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
+    cars : bool, optional
+        Whether they may be cars.
     """
     by_name = given.mapping(name, subjects, "names and suspensions or axles")
     for known in by_name:
         given.text(f"name in {name}", known)
     given.labels(name, by_name)
     return {
-        known: given_assembly(given, one, f"{name}[{known!r}]") for known, one in by_name.items()
+        known: given_assembly(given, one, f"{name}[{known!r}]", cars=cars)
+        for known, one in by_name.items()
     }
 
 

@@ -91,3 +91,10 @@ PITCH = Quantity(
     "turn of the body about the axis to the left, by the travels of its axles over their distance",
     "positive nose down",
 )
+LATERAL_ACCELERATION = Quantity(
+    "lateral_acceleration",
+    "m/s^2",
+    "lateral acceleration",
+    "acceleration of the centre of gravity across the heading, in a steady turn on a level road",
+    "positive to the left",
+)

@@ -68,7 +68,7 @@ def read(
         problem = (
             f"it has no [targets.NAME] and no [limits.NAME] {_or(list(map(_over, looked_at)))}: "
             f"one is needed, such as [limits.{example}] with "
-            f"at_{sweep_axis(looked_at[0]).unit}, least and most."
+            f"{sweep_axis(looked_at[0]).key}, least and most."
         )
         raise InputError([problem], str(path))
     others = dict.fromkeys(_said(goal) for goal in every if goal.over not in ways)

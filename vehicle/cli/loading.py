@@ -10,9 +10,7 @@ if TYPE_CHECKING:
     from ..assembly.assembly import Assembly
     from ..assembly.car import CarAssembly
     from ..assembly.of import AnyModel
-    from ..kinds import Suspension
-    from ..models.axle import Axle
-    from ..models.whole_axle import WholeAxle
+    from ..studies.evaluation import Subject
 
 
 def assembly_of_file(file: str) -> "Assembly":
@@ -48,17 +46,11 @@ def model_of(file: str, *, wheel_loads: bool = False) -> "AnyModel":
         )
 
 
-def variable_subject(file: str) -> "Suspension | Axle | WholeAxle":
-    """Return what a file describes, whose values studies vary; a car is refused."""
-    from ...core.errors import InputError
-    from ..assembly.car import NOT_A_CAR
+def variable_subject(file: str) -> "Subject":
+    """Return what a file describes, whose values studies vary."""
     from ..files.loading import load
-    from ..models.car import Car
 
-    found = load(file)
-    if isinstance(found, Car):
-        raise InputError([NOT_A_CAR], file)
-    return found
+    return load(file)
 
 
 def car_of(file: str, *, driving: bool = False) -> "CarAssembly":

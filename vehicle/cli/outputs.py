@@ -11,9 +11,7 @@ from .options import OUTPUT, Force, Json, among, option
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from ..kinds import Suspension
-    from ..models.axle import Axle
-    from ..models.whole_axle import WholeAxle
+    from ..studies.evaluation import Subject
     from ..studies.goals import Goal
 
 Out = Annotated[
@@ -256,7 +254,7 @@ class Outputs:
         paths = [_named(path, suffix) for path in self.pages]
         return [write(shown, path, *rest, **options, **self.rule) for path in paths]
 
-    def write_car(self, subject: "Suspension | Axle | WholeAxle", head: str) -> list[Path]:
+    def write_car(self, subject: "Subject", head: str) -> list[Path]:
         """Write the hardpoint file that was found, with a comment at its head, and return it."""
         from ..input.toml_writer import write_toml
 

@@ -12,14 +12,21 @@ if TYPE_CHECKING:
     from ..studies.evaluation import Subject
 
 Over = Annotated[
-    Literal["travel", "rack", "bump", "roll", "left", "right"] | None,
+    Literal[
+        "travel", "rack", "bump", "roll", "left", "right", "heave", "pitch", "lateral_acceleration"
+    ]
+    | None,
     option(
-        "Motion along the curves: travel or rack of a suspension, the last four of an axle. "
-        "Default: travel, bump of an axle.",
+        "What varies along the curves: travel or rack of a suspension; bump, roll, left or right "
+        "of an axle; heave, pitch or roll of the body of a car, or the lateral acceleration of "
+        "steady turns at 100 km/h. Default: travel, bump of an axle, heave of a car.",
         show_default=False,
     ),
 ]
-At = Annotated[float, option("Position of the table; over roll in deg.", "MM")]
+At = Annotated[
+    float,
+    option("Position of the table; over roll and pitch in deg, over acceleration in m/s^2.", "MM"),
+]
 
 
 @dataclass(frozen=True)
@@ -52,7 +59,25 @@ _USUAL = {
         "motion_ratio",
     ),
     "rack": ("camber", "caster", "scrub_radius", "trail", "steer_gradient", "steering_ratio"),
+    "lateral_acceleration": (
+        "understeer_gradient",
+        "steering_wheel_gradient",
+        "roll_gradient",
+        "sideslip_gradient",
+        "steering_wheel_angle",
+    ),
 }
+# Of cars these are of each axle.
+_OF_ENDS = (
+    "bump_steer_front_left",
+    "bump_steer_rear_left",
+    "camber_gradient_front_left",
+    "camber_gradient_rear_left",
+    "roll_center_height_front",
+    "roll_center_height_rear",
+    "roll_stiffness_front",
+    "roll_stiffness_rear",
+)
 _USUAL_OF_AXLES = (
     "bump_steer_left",
     "camber_gradient_left",
@@ -121,7 +146,8 @@ def _chosen(assembly: "Assembly", wanted: list[str] | None, over: str) -> list[s
     known = available(assembly, over)
     if wanted is not None:
         return among(wanted, known)
-    usual = known if over in UNDER_LOADS else _USUAL.get(over, _USUAL_OF_AXLES)
+    moved = (*_USUAL_OF_AXLES, *_OF_ENDS) if len(assembly.wheels) > 1 else _USUAL["travel"]
+    usual = known if over in UNDER_LOADS else _USUAL.get(over, moved)
     return [name for name in usual if name in known]
 
 

@@ -28,7 +28,7 @@ from ..kinds import Suspension
 from ..models.model_batch import ModelBatch
 from ..models.positions import arm_angles_of_batch
 from .curves import Curves, changed
-from .design_variables import DesignVariable, is_factor
+from .design_variables import DesignVariable, is_factor, names_bushes
 from .evaluation import Subject
 
 Array = NDArray[np.float64]
@@ -119,7 +119,7 @@ def _some(
     together = np.zeros(count, dtype=bool)
     alone = any(look.over in HELD for look in looks)
     alone = alone or any(map(is_factor, values))
-    alone = alone or any("bushings" in place.split(".")[:2] for place in values)
+    alone = alone or any(map(names_bushes, values))
     if isinstance(suspension, Suspension) and count >= _FEWEST and not alone:
         together = _together(suspension, values, looks, found)
     for car in np.flatnonzero(~together).tolist():

@@ -132,7 +132,9 @@ def _held(given: Validator, suspension: Subject, over: Any, held: Any) -> Any:
         given.fail(
             f"held: compliance is over {sweep_axis(usual).words}. Leave over = {over!r} out."
         )
-    if not assembly_of(suspension).has_bushes:
+    if assembly_of(suspension).body_moves:
+        given.fail("held: compliance is that of an axle. Look at the file of an axle of the car.")
+    elif not assembly_of(suspension).has_bushes:
         given.fail("held: compliance needs a file with [bushings]. Add them.")
     return given.among("held", held, HELD)
 

@@ -26,8 +26,9 @@ _TO_SI = {"mm": 1e-3, "deg": _DEG, "N/mm^3": 1e9, "N/mm": 1e3, "N m/deg": 1.0 / 
 _SI = {"mm": "m", "deg": "rad", "N/mm^3": "N/m^3", "N/mm": "N/m", "N m/deg": "N m/rad", "": "1"}
 
 
-# What begins the values of one side of an axle whose image the other one is, and of each.
-_SIDE, _APART = "side.", ("right", "left")
+# What begins the values of one side of an axle whose image the other one is, and of a side apart;
+# before them is the end of a car at which the axle is.
+_SIDE, _APART = "side.", re.compile(r"(front\.|rear\.|)(right|left)\.")
 # Sections of points in the unit of the hardpoints: of a file, and of each rod of a rigid axle.
 _POINTS, _RODS = ("hardpoints.", "left_hardpoints."), "rods."
 _OF_A_BAR = ("bush", "link_top", "link_foot")
@@ -60,12 +61,13 @@ class DesignVariable:
     @property
     def of_bushes(self) -> bool:
         """Whether it is one of a bush."""
-        return "bushings" in self.name.split(".")[:2]
+        return names_bushes(self.name)
 
     @property
     def words(self) -> str:
         """What it is called for a person: ``ball joint z``, ``strut spring rate``."""
-        words = without_unit(self.name).removeprefix(_SIDE).replace("hardpoints.", "", 1)
+        words = f".{without_unit(self.name)}".replace(f".{_SIDE}", ".", 1)[1:]
+        words = words.replace("hardpoints.", "", 1)
         return words.translate(_SPACES) + (" factor" if is_factor(self.name) else "")
 
     @property
@@ -93,6 +95,11 @@ class DesignVariable:
     def moved_all(self, by: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
         """Return the changes of many files, as `moved` of each."""
         return {self.name: (self.value + by / self.to_si) * self.in_file}
+
+
+def names_bushes(pattern: str) -> bool:
+    """Return whether a place, or a pattern of places, is in the section of the bushes."""
+    return "bushings" in pattern.split(".")[:3]
 
 
 def places_of(suspension: Subject) -> dict[str, DesignVariable]:
@@ -161,27 +168,28 @@ def matching(given: Validator, suspension: Subject, patterns: Any) -> dict[str, 
 
 
 def _of_both(pattern: str, known: Mapping[str, DesignVariable]) -> str:
-    """Return a pattern that names a value of a side, of an axle: that of one and its image."""
-    both = f"{_SIDE}{pattern}"
-    if any(_fits(name, pattern) for name in known):
-        return pattern
-    return both if any(_fits(name, both) for name in known) else pattern
+    """Return a pattern that names a value of a side, of an axle: that of one and its image.
+
+    Of a car it is that of both of its axles.
+    """
+    tried = (pattern, f"{_SIDE}{pattern}", f"*.{pattern}")
+    return next((p for p in tried if any(_fits(name, p) for name in known)), pattern)
 
 
 def _is_meant(name: str, pattern: str, known: Mapping[str, DesignVariable]) -> bool:
     """Return whether a pattern means a value: of sides that are images, each only by its name."""
     if is_factor(name) and pattern.rpartition(".")[2] != name.rpartition(".")[2]:
         return False  # an amount is meant for numbers of other units
-    side = name.partition(".")[0]
-    if side not in _APART or not any(other.startswith(_SIDE) for other in known):
+    found = _APART.match(name)
+    if found is None or not any(other.startswith(f"{found[1]}{_SIDE}") for other in known):
         return True
-    return pattern.startswith(side)
+    return f".{found[2]}." in f".{pattern}."
 
 
 def _hint(pattern: str, known: Mapping[str, DesignVariable]) -> str:
     """Return what a pattern may have meant that names nothing of a file."""
     has_bushes = any(place.of_bushes for place in known.values())
-    if "bushings" in pattern.split(".")[:2] and not has_bushes:
+    if names_bushes(pattern) and not has_bushes:
         return "The file has no [bushings]. Add them."
     levels = {".".join(name.split(".")[:depth]) for name in known for depth in (1, 2, 3)}
     found = nearest(pattern, levels) if len(pattern) > 2 else ""

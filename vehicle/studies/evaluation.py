@@ -14,29 +14,43 @@ from ..analysis.compliance.flexibility import HELD, WheelSupport
 from ..analysis.compliance.linear import linear
 from ..assembly.assembly import Assembly
 from ..assembly.by_wheel import flat
+from ..assembly.car import NOT_A_CAR
 from ..kinds import Suspension
 from ..models.axle import Axle
+from ..models.car import Car
 from ..models.whole_axle import WholeAxle
+from .sweep_axes import sweep_axis
 
 Array = NDArray[np.float64]
-Subject = Suspension | Axle | WholeAxle
+Subject = Suspension | Axle | WholeAxle | Car
 """What has design variables: the numbers of its files."""
 
-_NEEDED = "a kintrafo.Suspension, a kintrafo.Axle or a kintrafo.RigidAxle is needed"
+_NEEDED = "a kintrafo.Suspension, kintrafo.Axle, kintrafo.RigidAxle or kintrafo.Car is needed"
 
 
 def check_subject(given: Validator, subject: Any) -> None:
     """Refuse what has no design variables."""
-    given.instance("suspension", subject, (Suspension, Axle, WholeAxle), _NEEDED)
+    given.instance("suspension", subject, (Suspension, Axle, WholeAxle, Car), _NEEDED)
+
+
+def check_held_subject(given: Validator, subject: Any) -> None:
+    """Refuse what has no design variables, and a car, whose body moves."""
+    check_subject(given, subject)
+    if isinstance(subject, Car):
+        given.fail(f"suspension: {NOT_A_CAR}")
 
 
 def usual_positions(assembly: Assembly, over: str) -> Array:
-    """Return the usual positions, as far as the wheels go [m] or [rad]."""
+    """Return the usual positions, as far as the wheels go, SI units."""
+    if usual := sweep_axis(over).usual:
+        return np.array(usual)
     return assembly.usual(assembly.usual_motion if over in HELD else over)
 
 
 def common_positions(assemblies: Sequence[Assembly], over: str) -> Array:
-    """Return the usual positions that all of some cars reach [m] or [rad], zero included."""
+    """Return the usual positions that all of some cars reach, SI units, zero included."""
+    if usual := sweep_axis(over).usual:
+        return np.array(usual)
     return common_to(assemblies, assemblies[0].usual_motion if over in HELD else over)
 
 
@@ -45,14 +59,15 @@ def curves_over(assembly: Assembly, over: str, positions: Array) -> xr.Dataset:
     if over in HELD:
         found = linear(assembly, None, positions, held=cast("WheelSupport", over))
         return found.drop_dims(["moved", "by"])
-    return dataset(assembly, over, positions)
+    curves = sweep_axis(over).curves
+    return curves(assembly, positions) if curves else dataset(assembly, over, positions)
 
 
 def values_of(
     assembly: Assembly, over: str, positions: Array, names: Collection[str] | None = None
 ) -> dict[str, Array]:
     """Return characteristics or compliances by the names of their columns, all or some."""
-    if over not in HELD:
+    if over not in HELD and not assembly.axles:
         return assembly.values(over, positions, names)
     curves = flat(curves_over(assembly, over, positions))
     return {str(name): data.values for name, data in curves.items()}

@@ -13,7 +13,7 @@ from ...core.quantities import display_of
 from ...core.validator import Validator
 from ..analysis.compliance.flexibility import HELD, WheelSupport
 from .design_variables import DesignVariable, amounts
-from .evaluation import Subject, check_subject
+from .evaluation import Subject, check_held_subject
 from .goals import GREATEST, LEAST, TargetValue, check_data
 from .search import Search, in_words, least
 from .sweep_axes import SWEEP_AXES, UNDER_LOADS, sweep_axes_of
@@ -171,7 +171,7 @@ def fit(
     [-0.1, 1.98]
     """
     with Validator("fit") as given:
-        check_subject(given, suspension)
+        check_held_subject(given, suspension)
         given.function("progress", progress)
         given.dataset(measured)
         accuracies = given.mapping(

@@ -30,6 +30,8 @@ _SECTIONS = (
     "limits",
     "accuracy",
 )
+# What is not named where curves are over it.
+_USUAL = ("travel", "bump", "heave")
 # No characteristic is as great as this in any unit, and no deviation as small matters.
 GREATEST, LEAST = 1e9, 1e-9
 
@@ -60,7 +62,7 @@ class Goal:
     @property
     def over_words(self) -> str:
         """What follows the name where it is not over the usual: `` over the rack``."""
-        usual = self.over in ("travel", "bump") or self.over in HELD
+        usual = self.over in _USUAL or self.over in HELD
         return "" if usual else f" over {sweep_axis(self.over).words}"
 
     @property
@@ -207,7 +209,7 @@ def words_of(kind: str, name: str, over: str) -> str:
     words = f"{kind}: {bracketed(quantity.long_name, quantity.attributes())}"
     if over in HELD:
         return f"{words} (held: {over})"
-    return words if over in ("travel", "bump") else f"{words} over {sweep_axis(over).words}"
+    return words if over in _USUAL else f"{words} over {sweep_axis(over).words}"
 
 
 @dataclass(frozen=True)
@@ -266,7 +268,7 @@ def judge(suspension: Any, wanted: Sequence[Goal]) -> list[Verdict]:
     [('toe', False, -0.05)]
     """
     with Validator("judge") as given:
-        given_assembly(given, suspension, "suspension")
+        given_assembly(given, suspension, "suspension", cars=True)
         check_goals(given, "wanted", wanted)
         if not given.failed:
             assembly = assembly_of(suspension)
@@ -334,7 +336,7 @@ def check_data(
             places = ", ".join(f"{over.factor * at:g} {over.unit}" for at in missing)
             given.fail(
                 f"{name}: it has no finite value at {places}, as a turning circle straight ahead. "
-                f"Leave that position out of at_{over.unit}."
+                f"Leave that position out of {over.key}."
             )
 
 
@@ -408,7 +410,7 @@ class _Table:
         if values.size not in (1, self.at.size):
             self.given.fail(
                 f"{name}: {values.size} numbers and {self.at.size} in "
-                f"at_{sweep_axis(self.over).unit}: one for each position is needed, or one for all."
+                f"{sweep_axis(self.over).key}: one for each position is needed, or one for all."
             )
             return np.zeros_like(self.at)
         if (np.abs(values) > GREATEST).any():
@@ -428,12 +430,12 @@ def _tables(
     for name, table in _listed(described):
         title = f"[{section}.{name}]"
         if not isinstance(table, Mapping):
-            at_key = f"at_{SWEEP_AXES[ways[0]].unit}"
+            at_key = SWEEP_AXES[ways[0]].key
             given.fail(f"{title} must be a section, with {' and '.join([at_key, *sorted(keys)])}.")
             continue
         over = given.among(f"{title} over", table.get("over", ways[0]), ways)
         under_loads = compliances_over(over)
-        at_key, known = f"at_{SWEEP_AXES[over].unit}", {**SWEEP_AXES[over].known, **under_loads}
+        at_key, known = SWEEP_AXES[over].key, {**SWEEP_AXES[over].known, **under_loads}
         known_keys = [at_key, "over", *sorted(keys)]
         if name in under_loads:
             known_keys.append("held")

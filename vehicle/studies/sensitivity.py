@@ -15,7 +15,7 @@ from ..analysis.compliance.flexibility import HELD, WheelSupport
 from ..assembly.of import assembly_of
 from .batch import curves_of_many, moved_by
 from .curves import Curves, changed, curves_of, refuse_bushes
-from .design_variables import DesignVariable, matching
+from .design_variables import DesignVariable, matching, names_bushes
 from .evaluation import Subject, check_subject
 from .sweep_axes import SWEEP_AXES, UNDER_LOADS
 
@@ -151,9 +151,7 @@ _NAMED = 3
 
 def _is_asked_for(place: DesignVariable, patterns: Sequence[str]) -> bool:
     """Return whether this value is asked for by name, and not by a pattern or a section."""
-    return any(
-        p == place.name or (place.of_bushes and "bushings" in p.split(".")[:2]) for p in patterns
-    )
+    return any(p == place.name or (place.of_bushes and names_bushes(p)) for p in patterns)
 
 
 def _message(left_out: Mapping[str, str]) -> str:

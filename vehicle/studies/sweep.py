@@ -17,7 +17,7 @@ from ..assembly.of import AnyModel, model_of
 from ..corner.wheel_loads import UNITS
 from .curves import changed, refuse_bushes
 from .design_variables import DesignVariable, matching
-from .evaluation import Subject, check_subject
+from .evaluation import Subject, check_held_subject
 
 Array = NDArray[np.float64]
 
@@ -79,7 +79,7 @@ def sweep(
     ('strut.damper_rate_N_s_per_m',)
     """
     with Validator("sweep") as given:
-        check_subject(given, suspension)
+        check_held_subject(given, suspension)
         scenario = Scenario() if scenario is None else scenario
         given.instance("scenario", scenario, Scenario, "a Scenario is needed")
         given.function("progress", progress)

@@ -10,11 +10,13 @@ from ....core.validator import Validator
 from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import axle_coordinate, of_wheels, wheel_coordinate
 from ...assembly.measures import axle, corner, of_whole_axles
-from ...assembly.measures.measure import columns
+from ...assembly.measures.measure import columns, of_side
 from ...assembly.of import given_assembly
 from ...assembly.quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from ...assembly.rig import SweepRange
 from ...corner.corner import Array
+from ...models.car.car import WHEELS
+from ...models.car.file import ENDS
 from ...models.sides import SIDES
 
 DATA_SET = "data_set"
@@ -38,6 +40,14 @@ OF_AXLES = {
     STEERING_WHEEL.name: _STEERED | {RACK.name: RACK},
 }
 """Characteristics of axles by the names of their columns, by what they are over."""
+
+OF_CARS = columns(corner.OVER_TRAVEL, ["left"]) | {
+    each.name: each
+    for measure in (*axle.OVER_TRAVEL, *of_whole_axles())
+    for place in (WHEELS if measure.scope == "wheel" else ENDS)
+    for each in [of_side(measure.quantity, place)]
+}
+"""Characteristics of cars by the names of their columns, over the motions of the body."""
 
 
 def over(

@@ -5,7 +5,7 @@ become shorter where a turn is not found, up to the greatest lateral acceleratio
 Gradients are the tangents of the branch, exact at every point.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,8 +13,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ....core.errors import InputError
+from ....core.quantities import Display
 from ....equations.errors import ModelError
-from ...assembly.by_wheel import WHEEL, wheel_coordinate
+from ...assembly.by_wheel import WHEEL, of_wheel, wheel_coordinate
+from ...assembly.quantity import Quantity
+from ...models.reach import PositionError
 from .body_motion import QUANTITIES
 from .car import DrivingCar
 from .result import HandlingResult, quantity
@@ -65,6 +68,25 @@ _OF_WHEELS = {
     "steer": "steer angle of the wheel to the body, positive to the left",
 }
 _UNITS = {"fx": "N", "fy": "N", "fz": "N", "slip": "1"}
+
+
+def columns_of_turns(wheels: Sequence[str]) -> dict[str, Quantity]:
+    """Return what is known of steady turns, by the names of the columns of a flat table."""
+    every = {**_OF_DRIVER, **{name: QUANTITIES[name] for name in _OF_BODY}}
+    every |= {name: (words, _PER) for name, words in _GRADIENTS.items()}
+    found = {name: _column(name, *described) for name, described in every.items()}
+    by_wheel = [
+        of_wheel(_column(name, words, _UNITS.get(name, "rad")), wheel)
+        for name, words in _OF_WHEELS.items()
+        for wheel in wheels
+    ]
+    return found | {each.name: each for each in by_wheel}
+
+
+def _column(name: str, meaning: str, units: str) -> Quantity:
+    shown = quantity((), 0.0, meaning, units).attrs
+    display = Display(shown["display_units"], shown["display_factor"])
+    return Quantity(name, units, shown["long_name"], "", "", display)
 
 
 class Turns:
@@ -218,7 +240,48 @@ def steady_turns(
         found = {a: each for a, each in found.items() if (wanted == abs(a)).any()}
     if not found:
         raise InputError([_beyond(first, limit)], "circle")
-    return HandlingResult(*_described(turns, found, limit))
+    return HandlingResult(*_described(turns, slowest, found, limit))
+
+
+def turns_at(car: DrivingCar, speed: float, accelerations: Array) -> xr.Dataset:
+    """Return steady turns of one speed at some lateral accelerations, of either sign, and zero.
+
+    Parameters
+    ----------
+    car : DrivingCar
+    speed : float
+        [m/s]
+    accelerations : ndarray, shape (n,)
+        Lateral accelerations, positive in turns to the left [m/s^2].
+
+    Returns
+    -------
+    xarray.Dataset
+        Curves over ``lateral_acceleration``, as of `steady_turns`.
+
+    Raises
+    ------
+    PositionError
+        If the tyres carry no such turn, or the car no such speed.
+    """
+    first = Condition("speed", speed)
+    found: dict[float, Steady] = {}
+    for sense in (1, -1):
+        turns = Turns(car, first, sense)
+        asked = np.unique(np.maximum(sense * accelerations, 0.0))
+        if sense < 0 and asked[-1] == 0.0:
+            continue
+        try:
+            found.setdefault(0.0, turns.begin(0.0))
+        except NoSteadyMotionError:
+            raise PositionError(_none(first)) from None
+        found, limit = _followed(turns, found, asked[asked > 0.0], None)
+        if np.isfinite(limit):
+            raise PositionError(_beyond(first, limit))
+    _, curves = _described(turns, found[0.0], found, np.nan)
+    order = [*found]
+    places = [order.index(value) for value in (accelerations + 0.0).tolist()]
+    return curves[""].isel(lateral_acceleration=places)
 
 
 def _followed(
@@ -228,7 +291,7 @@ def _followed(
     progress: Callable[[float], None] | None,
 ) -> tuple[dict[float, Steady], float]:
     """Return turns by lateral acceleration, and the greatest one where that is before the last."""
-    far = min(_USUAL, float(asked[-1]))
+    far = min(_USUAL, float(asked[-1])) if asked.size else _USUAL
     for each in asked.tolist():
         if turns.sense * each == turns.reached:
             continue
@@ -242,12 +305,15 @@ def _followed(
 
 
 def _described(
-    turns: Turns, found: dict[float, Steady], limit: float
+    turns: Turns, slowest: Steady, found: dict[float, Steady], limit: float
 ) -> tuple[xr.Dataset, dict[str, xr.Dataset]]:
-    """Return the gradients of a car that is nearly straight, and all curves."""
+    """Return the gradients of the first turn, and all curves.
+
+    The steering ratio is that of the slowest turn, for any that are asked for.
+    """
     axis, steady = np.array(list(found)), list(found.values())
     values, slopes = _columns([_of_turn(turns.car, one) for one in steady])
-    ratio = steering_ratio(turns.car, steady[0])
+    ratio = steering_ratio(turns.car, slowest)
     ackermann = turns.car.wheelbase * slopes["curvature"]
     gradients = {
         "steering_wheel_gradient": slopes["steering_wheel_angle"],

@@ -2,6 +2,8 @@
 
 import importlib
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -111,46 +113,130 @@ def _equations(car: Car, progress: Report | None) -> ModuleType:
     """Return the equations that come with the project, or those that are compiled here."""
     name = name_of(car)
     if car.drives:  # which terms its equations have depends on the coefficients of its tyres
-        return compile_mechanism(declared(car), progress=progress)
+        return _compiled(car, progress)
     try:
         return importlib.import_module(f"kintrafo.generated.{name}")
     except ModuleNotFoundError as error:
         if error.name != f"kintrafo.generated.{name}":
             raise
-    return compile_mechanism(declared(car), progress=progress)
+    return _compiled(car, progress)
+
+
+def _compiled(car: Car, progress: Report | None) -> ModuleType:
+    """Return the equations that are compiled here: of cars that differ in values the same ones."""
+    declaration = declared(car)
+    known = _LAST.get(declaration.name)
+    if known is not None and known[0] is declaration:
+        return known[1]
+    found = compile_mechanism(declaration, progress=progress)
+    _LAST[declaration.name] = declaration, found
+    return found
+
+
+# By name the last declaration that was compiled, and its equations: a study varies values of one
+# car, and to identify a declaration takes longer than a steady turn.
+_LAST: "dict[str, tuple[Formulation, ModuleType]]" = {}
 
 
 def declared(car: Car) -> "Formulation":
-    """Return the declaration of a car, whose values are apart from it."""
+    """Return the declaration of a car, whose values are apart from it.
+
+    That of cars that differ in values is the same one, made once: a study varies them.
+    """
     require_generator()
+    if car.corner is not None:
+        return _declared_quarter(str(Model(car.corner).equations.NAME))
+    heading = car.heading()
+    title = heading[:1].upper() + heading[1:]
+    ends = tuple(_End.of(car, end) for end in car.axles)
+    return _declared(name_of(car), title, ends, None if car.drives else tuple(car.coordinates))
+
+
+@dataclass(frozen=True)
+class _End:
+    """What the equations of a car depend on at an axle, without values.
+
+    Attributes
+    ----------
+    suspension : str
+        What its equations are called.
+    whole : bool
+        Whether it has no sides.
+    pulls : str
+        What the drop links of its anti-roll bar pull at.
+    steered : bool
+    law, relaxing, brakes_on, drive_on
+        Of a car that drives, see `generator.mechanisms.car.driving`.
+    """
+
+    suspension: str
+    whole: bool
+    pulls: str = ""
+    steered: bool = False
+    law: Any = None
+    relaxing: bool = False
+    brakes_on: Any = None
+    drive_on: Any = None
+
+    @classmethod
+    def of(cls, car: Car, end: str) -> "_End":
+        """Return what they depend on at an axle of a car."""
+        axle = car.axles[end]
+        rolling: dict[str, Any] = {}
+        if car.drives:
+            rolling = {
+                "law": car.tyres[end].contact_law(),
+                "relaxing": car.relaxing,
+                "brakes_on": axle.brakes.torque_on,
+                "drive_on": drive.torque_on if (drive := axle.drive) else None,
+            }
+        if isinstance(axle, WholeAxle):
+            return cls(axle.KEY, whole=True, **rolling)
+        pulls = axle.bar.link_on if axle.bar else ""
+        return cls(corner_of(axle), whole=False, pulls=pulls, steered=end == "front", **rolling)
+
+    def declared(self) -> "Formulation":
+        """Return the declaration of the axle."""
+        from ....generator.mechanisms import car as page  # noqa: PLC0415 (an extra)
+        from ....generator.mechanisms import model_named  # noqa: PLC0415
+
+        found = (
+            page.of_whole_axle(model_named(self.suspension))
+            if self.whole
+            else page.of_corners(
+                model_named(self.suspension), pulls=self.pulls, steered=self.steered
+            )
+        )
+        if self.law is None:
+            return found
+        return page.driving(
+            found,
+            lambda name: replace(self.law, name=name),
+            relaxing=self.relaxing,
+            brakes_on=self.brakes_on,
+            drive_on=self.drive_on,
+        )
+
+
+@lru_cache(maxsize=8)
+def _declared_quarter(corner: str) -> "Formulation":
     from ....generator.mechanisms import car as page  # noqa: PLC0415 (an extra)
     from ....generator.mechanisms import model_named  # noqa: PLC0415
 
-    if car.corner is not None:
-        return page.quarter(model_named(str(Model(car.corner).equations.NAME)))
+    return page.quarter(model_named(corner))
 
-    def of(end: str, axle: AnyAxle) -> "Formulation":
-        if isinstance(axle, WholeAxle):
-            return page.of_whole_axle(model_named(axle.KEY))
-        pulls = axle.bar.link_on if axle.bar else ""
-        return page.of_corners(model_named(corner_of(axle)), pulls=pulls, steered=end == "front")
 
-    axles = {end: of(end, axle) for end, axle in car.axles.items()}
-    heading = car.heading()
-    title = heading[:1].upper() + heading[1:]
-    if not car.drives:
-        return page.car(name_of(car), title, list(axles.values()), car.coordinates)
-    driving = [
-        page.driving(
-            one,
-            car.tyres[end].contact_law,
-            relaxing=car.relaxing,
-            brakes_on=car.axles[end].brakes.torque_on,
-            drive_on=drive.torque_on if (drive := car.axles[end].drive) else None,
-        )
-        for end, one in axles.items()
-    ]
-    return page.full(name_of(car), title, driving)
+@lru_cache(maxsize=8)
+def _declared(
+    name: str, title: str, ends: tuple[_End, ...], coordinates: tuple[str, ...] | None
+) -> "Formulation":
+    """Return the declaration of a car by the coordinates of its body, or of one that drives."""
+    from ....generator.mechanisms import car as page  # noqa: PLC0415 (an extra)
+
+    axles = [end.declared() for end in ends]
+    if coordinates is None:
+        return page.full(name, title, axles)
+    return page.car(name, title, axles, coordinates)
 
 
 def _parameters(car: Car, described: Mapping[str, Mapping[str, Any]]) -> dict[str, float]:

@@ -1,0 +1,161 @@
+"""Studies of whole cars: motions of the body, and steady turns of cars that drive."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import kintrafo
+import numpy as np
+import pytest
+from driving_cars import light_car
+from kintrafo import InputError, characteristics, variation
+from kintrafo.vehicle.analysis.compare import compare
+from kintrafo.vehicle.analysis.handling import circle
+from kintrafo.vehicle.assembly.by_wheel import flat
+from kintrafo.vehicle.models.car import equations
+from kintrafo.vehicle.models.car.equations import CarModel
+from kintrafo.vehicle.studies.design_variables import places_of
+from kintrafo.vehicle.studies.sweep_axes import TURNING_SPEED, TURNS
+
+RIDES = kintrafo.load("reference_vehicle")
+DRIVES = light_car()
+ROD, MASS = "front.side.hardpoints.tie_rod_inner.z", "body.mass_kg"
+RATE = "rear.side.spring.rate_N_per_m"
+# Central differences of second order over 0.5 mm of lengths of 300 mm, (0.5 / 300)^2 = 3e-6, where
+# curves change as quickly as the geometry; steer angles are small differences of larger ones.
+SECOND_ORDER = 1e-4
+
+
+def turn(car: Any, acceleration: float) -> Any:
+    found = circle(car, speed=TURNING_SPEED, lateral_acceleration=[acceleration])
+    return flat(found.curves[""].isel(lateral_acceleration=0))
+
+
+def understeer(car: Any, acceleration: float) -> float:
+    """Return the understeer gradient by its definition, from angles of two turns beside it."""
+    near = 1e-3
+    more, less = turn(car, acceleration + near), turn(car, acceleration - near)
+    gentle = circle(car, speed=TURNING_SPEED, lateral_acceleration=[1e-6])
+    angle = (more - less) / (2.0 * near)
+    wheelbase = 2.6
+    ratio = float(gentle.metrics["steering_ratio"])
+    return float(angle["steering_wheel_angle"] / ratio - wheelbase * angle["curvature"])
+
+
+def test_values_are_those_of_its_own_file_and_of_its_axles() -> None:
+    known = places_of(DRIVES)
+    assert {ROD, RATE, MASS, "body.com_mm.z", "tyres.front.friction"} <= {*known}
+    assert known[ROD].words == "front tie rod inner z"
+    assert known[MASS].value == 1300.0
+    both = variation.sensitivity(
+        RIDES, ["wheel_center.z"], names=["camber_front_left"], positions=[0.0]
+    )
+    assert both["place"].values.tolist() == [
+        f"{end}.side.hardpoints.wheel_center.z" for end in ("front", "rear")
+    ]
+    assert both["camber_front_left"].values[1] == 0.0
+
+
+@pytest.mark.parametrize("motion", ["heave", "pitch", "roll"])
+def test_derivatives_over_motions_of_the_body(motion: str) -> None:
+    at, step = np.array([0.01]), 0.5
+    found = variation.sensitivity(
+        RIDES, [ROD], over=motion, names=["toe_front_left", "camber_rear_left"], positions=at
+    )
+    height = places_of(RIDES)[ROD].value
+
+    def toe(by: float) -> float:
+        moved = RIDES.with_changes({ROD: height + by})
+        return float(characteristics.over(moved, motion, at)["toe"].sel(wheel="front_left")[0])
+
+    wanted = (toe(step) - toe(-step)) / (2e-3 * step)
+    assert found["toe_front_left"].item() == pytest.approx(wanted, rel=SECOND_ORDER)
+    assert found["camber_rear_left"].item() == 0.0
+
+
+def test_derivatives_of_steady_turns() -> None:
+    at = np.array([-3.0, 0.0, 3.0])
+    found = variation.sensitivity(
+        DRIVES, [ROD, MASS], over=TURNS, positions=at,
+        names=["understeer_gradient", "roll_angle", "fz_front_left", "fz_front_right"],
+    )  # fmt: skip
+    for row, (place, step, si) in enumerate([(ROD, 0.5, 1e-3), (MASS, 1.0, 1.0)]):
+        value = places_of(DRIVES)[place].value
+        more, less = (turn(DRIVES.with_changes({place: value + d}), 3.0) for d in (step, -step))
+        wanted = (more - less) / (2.0 * step * si)
+        for name in ("roll_angle", "fz_front_left"):
+            here = float(found[name].sel(lateral_acceleration=3.0)[row])
+            assert here == pytest.approx(float(wanted[name]), rel=SECOND_ORDER)
+    # the car is symmetric
+    np.testing.assert_allclose(
+        found["understeer_gradient"][:, 0], found["understeer_gradient"][:, 2], rtol=1e-6
+    )
+    np.testing.assert_allclose(found["fz_front_left"], found["fz_front_right"][:, ::-1], rtol=1e-5)
+
+
+def test_an_understeer_gradient_comes_to_its_target() -> None:
+    wanted = 0.3  # deg/g
+    found = variation.optimise(
+        DRIVES,
+        {ROD: 10.0, RATE: 5000.0},
+        {"understeer_gradient": {
+            "over": TURNS, "at_m_per_s2": [3.0], "value": wanted, "within": 0.01
+        }},
+    )  # fmt: skip
+    assert found.success, found.message
+    per_g = np.deg2rad(1.0) / 9.80665
+    assert abs(understeer(DRIVES, 3.0) / per_g - wanted) > 0.3
+    # a hundredth of what matters is what moving values is worth; the rest is `near`
+    assert understeer(found.suspension, 3.0) / per_g == pytest.approx(wanted, abs=0.01)
+
+
+def test_a_car_that_varies_is_derived_and_compiled_once(monkeypatch: Any) -> None:
+    CarModel(DRIVES)
+
+    def compiled(*_: Any, **__: Any) -> Any:
+        raise AssertionError("other values need no other equations")
+
+    monkeypatch.setattr(equations, "compile_mechanism", compiled)
+    found = variation.tolerance(
+        DRIVES, {ROD: 1.0, MASS: 5.0}, count=8, over=TURNS, positions=[2.0],
+        names=["understeer_gradient", "roll_gradient"],
+        limits={"understeer_gradient": {"over": TURNS, "at_m_per_s2": 2.0, "least": -90.0}},
+    )  # fmt: skip
+    assert found.attrs["yield"] == 1.0
+    assert found["understeer_gradient_share"].sum().item() == pytest.approx(1.0)
+    low, high = (float(found["understeer_gradient"].sel(quantile=q)[0]) for q in (0.0, 1.0))
+    assert low < float(found["understeer_gradient_nominal"][0]) < high
+
+
+def test_the_steering_ratio_is_that_straight_ahead() -> None:
+    ratios = [
+        float(circle(DRIVES, speed=TURNING_SPEED, lateral_acceleration=at).metrics[
+            "steering_ratio"
+        ])
+        for at in ([3.0], [1.0, 3.0])
+    ]  # fmt: skip
+    assert ratios[0] == ratios[1]
+
+
+def test_cars_are_compared() -> None:
+    other = RIDES.with_changes({ROD: places_of(RIDES)[ROD].value + 2.0})
+    found = compare({"one": RIDES, "other": other}, [0.0])
+    assert found["toe"].dims == ("data_set", "wheel", "body_heave")
+
+
+@pytest.mark.parametrize(
+    ("study", "error", "words"),
+    [
+        (lambda: variation.sensitivity(RIDES, [ROD], over=TURNS), InputError, "heave, pitch, roll"),
+        (lambda: variation.sensitivity(DRIVES, [MASS], over=TURNS, positions=[30.0]),
+         InputError, "no steady turn above"),
+        (lambda: variation.sensitivity(RIDES, [ROD], held="height"), InputError, "of an axle"),
+        (lambda: variation.sweep(RIDES, {MASS: [1.0]}), InputError, "this is a whole car"),
+        (lambda: variation.judge(RIDES, variation.goals(
+            {"limits": {"toe_front_left": {"over": TURNS, "most": 1.0}}}, ["heave", TURNS])),
+         InputError, "toe_front_left"),
+    ],
+)  # fmt: skip
+def test_what_a_car_has_not_is_refused(study: Any, error: Any, words: str) -> None:
+    with pytest.raises(error, match=words):
+        study()
