@@ -293,17 +293,31 @@ def _lines(data: xr.DataArray) -> tuple[str, list[tuple[str, Array]]]:
     across = next(d for d in data.dims if d != along)
     if data.dims[0] == along:
         values = values.T
-    count = data.sizes[across]
+    return along, [(label, values[i]) for i, label in named_values(data[across]).items()]
+
+
+def named_values(coordinate: xr.DataArray) -> dict[int, str]:
+    """Return the labels of those values of a coordinate for which lines are drawn, by index.
+
+    Parameters
+    ----------
+    coordinate : xarray.DataArray
+        Over one dimension.
+    """
+    count = coordinate.size
     chosen = np.unique(np.linspace(0, count - 1, min(count, _MOST_LINES)).round().astype(int))
-    labels = _labels(data[across])
-    return along, [(labels[i], values[i]) for i in chosen]
+    labels = _labels(coordinate)
+    return {int(i): labels[i] for i in chosen}
 
 
 def _labels(coordinate: xr.DataArray) -> list[str]:
+    """Return names, or numbers of few digits, of more where some would be alike."""
     if coordinate.dtype.kind != "f":
         return [str(value) for value in coordinate.values]
     unit = display_of(coordinate.attrs).units
-    return [f"{value:g} {unit}" for value in displayed(coordinate)]
+    values = displayed(coordinate)
+    short = [f"{value:.4g} {unit}" for value in values]
+    return short if len(set(short)) == len(short) else [f"{value:g} {unit}" for value in values]
 
 
 def is_constant(values: Array) -> bool:

@@ -68,7 +68,7 @@ def test_what_contradicts_itself_is_refused(changes: dict[str, Any], refused: An
 
 def test_what_is_not_taken_is_named() -> None:
     car = Car.load("reference_vehicle")
-    assert [word.partition(":")[0] for word in car.unused] == ["rear"]
+    assert [word.partition(":")[0] for word in car.unused] == ["rear axle"]
     ride = car.with_changes({"car": "ride"})
     assert ride.unused[:2] == ("[body] inertia_xx_kg_m2", "[body] inertia_zz_kg_m2")
 

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from ...core.tabulated import significant
-from ...terminal.console import console, note, print_json, problems, progress_bar, table
+from ...terminal.console import console, print_json, problems, progress_bar, table
 from ...terminal.exits import Exit
 from ..data.starter import manoeuvres
-from .loading import car_of
+from .loading import car_of, note_unused
 from .options import OUTPUT, argument, option
 from .outputs import Outputs, PlotOptions, name_files, title_of
 
@@ -84,8 +84,7 @@ def command(
     if output.json:
         print_json({"metrics": export.as_dict(found.metrics), "not_valid": left})
     else:
-        for unused in assembly.car.unused:
-            note(f"not used: {unused}")
+        note_unused(assembly.car, file)
         for made in _tables(found, title):
             console.print(made)
         name_files(written)
@@ -146,22 +145,31 @@ def _tables(found: "HandlingResult", title: str) -> "list[Table]":
     curves = found.curves[""]
     if _TURNS in curves.dims:
         count = curves.sizes[_TURNS]
-        some = curves.isel({_TURNS: slice(None, None, -(-count // _MOST_COLUMNS))})
+        some = curves.isel({_TURNS: slice(None, None, -(-count // _most_columns()))})
         made.append(_by_column([some[name] for name in _OF_TURNS], title))
     return made
 
 
 _TURNS = "lateral_acceleration"
-_MOST_COLUMNS = 9
+# Letters that the heads of rows take, and a column of numbers [1].
+_HEADS, _COLUMN = 30, 10
 _OF_TURNS = (
     "steering_wheel_angle", "understeer_gradient", "roll_angle", "sideslip_angle", "drive_torque",
 )  # fmt: skip
 
 
+def _most_columns() -> int:
+    """Return how many columns of numbers are as wide as the terminal at most."""
+    return max(3, (console.width - _HEADS) // _COLUMN)
+
+
 def _by_column(several: "list[DataArray]", title: str) -> "Table":
+    """Return a table with a column for each run or turn; with a row, where these are many."""
     from ...core.quantities import displayed, heading_of
 
     along = several[0][str(several[0].dims[0])]
     heads = (heading_of(along), *map(significant, displayed(along)))
     rows = [(heading_of(data), *map(significant, displayed(data))) for data in several]
+    if along.size > _most_columns():
+        heads, *rows = zip(heads, *rows, strict=True)
     return table(title, heads, rows)

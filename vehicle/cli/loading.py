@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from ..assembly.assembly import Assembly
     from ..assembly.car import CarAssembly
     from ..assembly.of import AnyModel
+    from ..models.car import Car
     from ..studies.evaluation import Subject
 
 
@@ -44,6 +45,13 @@ def model_of(file: str, *, wheel_loads: bool = False) -> "AnyModel":
             wheel_loads=wheel_loads,
             progress=lambda text: status.update(f"the equations: {text}"),
         )
+
+
+def note_unused(car: "Car", file: str) -> None:
+    """Name how many values of the files of a car are not used; `kintrafo check` lists them."""
+    if car.unused:
+        many = f"{len(car.unused)} entries" if len(car.unused) > 1 else "1 entry"
+        note(f"not used: {many} of the files of this car, listed by kintrafo check {file}")
 
 
 def variable_subject(file: str) -> "Subject":
@@ -86,7 +94,10 @@ def car_of(file: str, *, driving: bool = False) -> "CarAssembly":
         )
         raise InputError([problem], file)
     if driving:
-        CarAssembly(subject).require_driving()
+        try:
+            CarAssembly(subject).require_driving()
+        except InputError as error:
+            raise InputError(error.problems, file) from None
     with problems.status("preparing the equations") as status:
         model = of_subject(subject, progress=lambda text: status.update(f"the equations: {text}"))
     assert isinstance(model, CarModel)

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from ...core.tabulated import significant
-from ...terminal.console import console, note, print_json, problems, table
+from ...terminal.console import console, print_json, problems, table
 from ...terminal.exits import Exit
-from .loading import car_of
+from .loading import car_of, note_unused
 from .options import argument, option
 from .outputs import PlotOptions, name_files, title_of
 
@@ -114,8 +114,7 @@ def command(
         judged = {str(n): _judged(d) for n, d in motion.items()}
         print_json({n: export.as_dict(d) for n, d in found.items() if n != "linear"} | judged)
         return
-    for unused in assembly.car.unused:
-        note(f"not used: {unused}")
+    note_unused(assembly.car, file)
     for made in [*_rest(found["at_rest"], file), _modes(found["modes"], file)]:
         console.print(made)
     title = f"{file}: {profile.words}, {speed:g} km/h, {duration:g} s"

@@ -1,6 +1,6 @@
 """Curves of manoeuvres over time, lateral acceleration or frequency, and paths between cones."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -8,11 +8,13 @@ import xarray as xr
 from matplotlib import colormaps, rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from ...core.files import Paths
-from ...core.quantities import displayed, heading_of
-from ...pictures.curves import draw, varying
+from ...core.quantities import displayed, heading_of, long_name
+from ...pictures.curves import draw, named_values, varying
 from ...pictures.figures import BLUE, ORANGE, STYLE, save, written_plainly
+from ..assembly.by_wheel import WHEEL
 
 # What is drawn, by what the curves are over: in this order, as far as it is there and varies.
 _SHOWN: Mapping[str, tuple[str, ...]] = {
@@ -29,7 +31,10 @@ _SHOWN: Mapping[str, tuple[str, ...]] = {
         "lateral_acceleration_phase", "sideslip_angle_phase",
     ),
 }  # fmt: skip
+_SIDESLIP = "sideslip_angle"
 _COLUMNS = 3
+# Less width of a path is drawn as little as it is [m].
+_LEAST = 2.0
 # Time between two outlines of the car [s].
 _BETWEEN = 0.5
 # Width of the picture of a path, and its height at most [in].
@@ -64,9 +69,25 @@ def write_curves(
     dataset = dataset.transpose(along, ...)
     moving = {str(name) for name in varying(dataset)}
     names = [name for name in _SHOWN[along] if name in moving]
+    dataset = _for_print(dataset, along)
     with rc_context(STYLE):
         drawn = draw(dataset, names, title=title, alone=False, columns=_COLUMNS)
         return save(drawn, path, force=force, inputs=inputs)
+
+
+def _for_print(dataset: xr.Dataset, along: str) -> xr.Dataset:
+    """Return curves with the names of wheels in words, and a sideslip angle that does not leap.
+
+    That of a car that turns round passes 180 degrees.
+    """
+    if WHEEL in dataset.dims:
+        words = [str(name).replace("_", " ") for name in dataset[WHEEL].values]
+        dataset = dataset.assign_coords({WHEEL: words})
+    if along == "time" and _SIDESLIP in dataset:
+        angle = dataset[_SIDESLIP]
+        turned = np.unwrap(angle.values, axis=angle.get_axis_num(along))
+        dataset = dataset.assign({_SIDESLIP: angle.copy(data=turned)})
+    return dataset
 
 
 def write_path(
@@ -104,8 +125,16 @@ def write_path(
         axes = figure.subplots()
         scale = colormaps["viridis"]
         colours = [scale(0.9 * i / (len(x) - 1)) for i in range(len(x))] if len(x) > 1 else [BLUE]
-        for row_x, row_y, colour in zip(x, y, colours, strict=True):
-            axes.plot(row_x, row_y, color=colour)
+        lines = [
+            axes.plot(row_x, row_y, color=colour)[0]
+            for row_x, row_y, colour in zip(x, y, colours, strict=True)
+        ]
+        if len(lines) > 1:
+            _name_runs(axes, lines, motion)
+        low, high = axes.get_ylim()
+        if high - low < _LEAST:
+            middle = 0.5 * (low + high)
+            axes.set_ylim(middle - 0.5 * _LEAST, middle + 0.5 * _LEAST)
         if cones is not None:
             _draw_car(axes, motion, cones.attrs)
             _draw_cones(axes, cones)
@@ -115,6 +144,16 @@ def write_path(
         axes.set_ylabel(f"{heading_of(motion['y'])}\n{motion['y'].attrs['sign']}")
         figure.suptitle(title, fontsize=11)
         return save(written_plainly(figure), path, force=force, inputs=inputs)
+
+
+def _name_runs(axes: Axes, lines: Sequence[Line2D], motion: xr.Dataset) -> None:
+    """Name some of the paths of several runs."""
+    runs = motion[next(str(name) for name in motion["x"].dims if name != "time")]
+    names = named_values(runs)
+    axes.legend(
+        [lines[i] for i in names], list(names.values()), title=long_name(runs), loc="best",
+        fontsize=8, title_fontsize=8,
+    )  # fmt: skip
 
 
 def _draw_car(axes: Axes, motion: xr.Dataset, size: Mapping[str, float]) -> None:

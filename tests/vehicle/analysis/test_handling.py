@@ -400,7 +400,7 @@ def test_a_packaged_manoeuvre_has_all_keys_with_a_comment(name) -> None:
     ("double_lane_change", {"lanes.second.start_m": 2.0}, "where lanes.first ends"),
     ("double_lane_change", {"lanes.second.width_of_car": 0.5}, "narrower than the car"),
     ("path_following", {"x_m": [], "y_m": []}, "the driver has no path"),
-    ("path_following", {"x_m": [0.0]}, "as many are needed"),
+    ("path_following", {"x_m": [0.0]}, "equal numbers are needed"),
     ("braking", {"pedal": 0.3}, "give one of the two"),
     ("braking", {"deceleration_m_per_s2": None, "pedal": 1.5}, "1 at most"),
     ("braking", {"until_km_per_h": 120.0}, "less than speed_km_per_h"),

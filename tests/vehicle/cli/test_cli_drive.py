@@ -2,14 +2,17 @@
 
 from pathlib import Path
 
+import kintrafo
 import numpy as np
 import pytest
 from kintrafo.core.quantities import variable
 from kintrafo.vehicle.analysis.handling import HandlingResult, load_manoeuvre
 from kintrafo.vehicle.analysis.handling.result import quantity
 from kintrafo.vehicle.cli import drive
+from kintrafo.vehicle.cli.loading import note_unused
 from kintrafo.vehicle.cli.outputs import PlotOptions
-from kintrafo.vehicle.plots.handling import write_curves
+from kintrafo.vehicle.plots import handling
+from kintrafo.vehicle.plots.handling import write_curves, write_path
 from rich.text import Text
 from xarray import Dataset
 
@@ -68,9 +71,62 @@ def test_curves_and_path_with_cones_are_written(tmp_path):
     assert all(path.stat().st_size for path in written)
 
 
-def test_runs_are_lines(tmp_path):
-    path = write_curves(motion(runs=3), tmp_path / "runs.svg")
-    assert path.read_text(encoding="utf-8").count("rad") >= 0
+def test_many_runs_have_a_row_each():
+    runs = variable("amplitude", np.deg2rad(np.arange(20.0)), "amplitude", "rad")
+    ratio = quantity("amplitude", np.arange(20.0), "ratio", "1")
+    metrics = Dataset({"ratio": ratio}, {"amplitude": runs})
+    lines = lines_of(drive._tables(HandlingResult(metrics, {"": motion()}), "a car"))
+    assert lines[-20] == ["0", "0"]
+    assert lines[-1] == ["19", "19"]
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    """Return the figures that are drawn, in place of files."""
+    figures = []
+    monkeypatch.setattr(handling, "save", lambda figure, path, **_: figures.append(figure) or path)
+    return figures
+
+
+def names_in(figure):
+    return [
+        text.get_text()
+        for axes in figure.axes
+        for text in (*axes.texts, *(axes.get_legend().get_texts() if axes.get_legend() else ()))
+    ]
+
+
+def test_wheels_and_runs_have_names(drawn):
+    wheels = ["front_left", "front_right", "rear_left", "rear_right"]
+    loads = np.linspace(0.0, 1.0, 11)[:, None] * [1.0, 2.0, 3.0, 4.0]
+    car = motion().assign(fz=quantity(("time", "wheel"), loads, "load", "N"))
+    write_curves(car.assign_coords(wheel=wheels), "wheels.svg")
+    write_path(motion(runs=3), "path.svg")
+    assert names_in(drawn[0]) == ["front left", "front right", "rear left", "rear right"]
+    assert names_in(drawn[1]) == ["57.3 deg", "114.6 deg", "171.9 deg"]
+
+
+def test_a_straight_path_is_drawn_straight(drawn):
+    car = motion()
+    car["x"], car["y"] = 100.0 * car["x"], 1e-14 * car["y"]
+    write_path(car, "path.svg")
+    low, high = drawn[0].axes[0].get_ylim()
+    assert high - low >= 1.0
+
+
+def test_the_sideslip_angle_of_a_car_that_turns_round_does_not_leap():
+    turning = np.linspace(0.0, 4.0, 11)
+    car = motion().assign(
+        sideslip_angle=quantity("time", np.angle(np.exp(1j * turning)), "sideslip angle", "rad")
+    )
+    drawn = handling._for_print(car, "time")
+    np.testing.assert_allclose(drawn["sideslip_angle"], turning, atol=1e-12)
+
+
+def test_values_that_are_not_used_are_counted(capsys):
+    note_unused(kintrafo.load("driving_car"), "my_car.toml")
+    said = "not used: 5 entries of the files of this car, listed by kintrafo check my_car.toml"
+    assert " ".join(capsys.readouterr().err.split()) == said
 
 
 @pytest.mark.parametrize(("words", "said"), [

@@ -326,14 +326,14 @@ class Car(Described):
         words += self._unused_of_driving()
         rear = self.axles.get("rear")
         if isinstance(rear, Axle) and rear.steered():
-            words.append("rear: [rack], which is a part of the body: its tie rods hold the toe")
+            words.append("rear axle: [rack] (a part of the body, and its tie rods hold the toe)")
         return tuple(words)
 
     def _unused_of_driving(self) -> list[str]:
         """Return what only a car that drives takes; of that one what its tyres have instead."""
         if not self.drives:
             return [f"[{k}]" for k in OF_DRIVING if getattr(self.described, k) is not None]
-        words = [f"{end}: [tyre], in whose place that of [tyres] is" for end in self.axles]
+        words = [f"{end} axle: [tyre] (a car that drives takes [tyres])" for end in self.axles]
         return words + [
             f"[tyres] {end}: {', '.join(tyre.left_out)}"
             for end, tyre in self.tyres.items()

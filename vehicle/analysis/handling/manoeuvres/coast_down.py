@@ -49,8 +49,8 @@ class CoastDown(Manoeuvre):
         if speed[-1] > end:
             problem = (
                 f"until_km_per_h = {self.until_km_per_h:g} km/h: after duration_s = "
-                f"{self.duration_s:g} s the speed is {3.6 * speed[-1]:.1f} km/h: nothing, or "
-                "little, resists. Give the car [aero] and tyres with rolling resistance, or raise "
+                f"{self.duration_s:g} s the speed is {3.6 * speed[-1]:.1f} km/h, by little or "
+                "no resistance. Give the car [air] and tyres with rolling resistance, or raise "
                 "duration_s."
             )
             raise InputError([problem], self.TITLE)
@@ -62,10 +62,10 @@ class CoastDown(Manoeuvre):
             "coast_down_time": (reached, "time", "s"),
             "coast_down_distance": (float(np.interp(reached, time, x)) - x[0], "distance", "m"),
             "resistance_constant": (
-                constant, "driving resistance, part that is constant, by the mass", "N"
+                constant, "constant part of the driving resistance, as mass times deceleration", "N"
             ),
             "resistance_by_square": (
-                by_square, "driving resistance, part by the square of the speed", "N s^2/m^2"
+                by_square, "part of the driving resistance by the square of the speed", "N s^2/m^2"
             ),
         }  # fmt: skip
         return HandlingResult(self.judged(numbers), {"": motion})

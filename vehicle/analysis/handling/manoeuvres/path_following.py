@@ -35,7 +35,7 @@ class PathFollowing(Manoeuvre):
         found = super().problems()
         if len(self.x_m) != len(self.y_m):
             found.append(
-                f"x_m, y_m: {len(self.x_m)} and {len(self.y_m)} values: as many are needed."
+                f"x_m has {len(self.x_m)} values, y_m {len(self.y_m)}: equal numbers are needed."
             )
         elif len(self.x_m) < _FEWEST:
             found.append(

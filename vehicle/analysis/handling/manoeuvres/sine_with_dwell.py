@@ -111,7 +111,7 @@ class SineWithDwell(TurningManoeuvre):
             for name, described in _DESCRIBED.items()
         }
         found["fulfilled"] = quantity(
-            "amplitude", (stable & responsive).astype(float), "whether the limits are kept", "1"
+            "amplitude", (stable & responsive).astype(float), "limits kept: 1 is yes", "1"
         )
         found["reference_angle"] = quantity(
             (), np.deg2rad(reference), "steering wheel angle A at 0.3 g", "rad"
