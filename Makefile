@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
 .PHONY: docs drawings help setup sundials generate build run test test-elsewhere golden fuzz package wheel lint tree types format baseline clean \
-	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-braking benchmark-bushes benchmark-cluster benchmark-derivatives benchmark-ensemble benchmark-export benchmark-growth benchmark-loads benchmark-loops benchmark-microcontroller benchmark-page benchmark-peers benchmark-real-time benchmark-ride benchmark-speed benchmark-stiff benchmark-studies format-page front-axle-page report-assets
+	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-braking benchmark-bushes benchmark-cluster benchmark-derivatives benchmark-drive benchmark-ensemble benchmark-export benchmark-growth benchmark-loads benchmark-loops benchmark-microcontroller benchmark-page benchmark-peers benchmark-real-time benchmark-ride benchmark-speed benchmark-stiff benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/equations/*.pyx runtime/simulation/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
@@ -101,6 +101,9 @@ benchmark-microcontroller: build ## Exported C on an emulated Cortex-M7: bits, i
 
 benchmark-ride: build ## How fast cars ride: operations, and simulations over a rough road
 	@$(PYTHON) -m benchmarks.ride --page $(ARGS)
+
+benchmark-drive: build ## How fast cars drive: operations, derivation, and a swing of the steering wheel
+	@$(PYTHON) -m benchmarks.drive --page $(ARGS)
 
 benchmark-braking: build ## A wheel that brakes to standstill: where a tyre is stiff, by all methods
 	@$(PYTHON) -m benchmarks.braking --page docs/theory/gear-against-runge-kutta.md

@@ -113,7 +113,8 @@ def write_several(
     InputError
         If one of the files cannot be written.
     """
-    rule: dict[str, Any] = {"force": force, "inputs": list(inputs)}
+    read = inputs if isinstance(inputs, str) else list(inputs)  # a text is refused below
+    rule: dict[str, Any] = {"force": force, "inputs": read}
     refuse(files, endings=[_ENDING], **rule)
     with ExitStack() as complete:
         for path, described in files.items():

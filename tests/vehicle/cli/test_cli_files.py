@@ -102,6 +102,7 @@ WRITING = {
     "export --to fmu": (["export", "four_bar", "--to", "fmu"], "four_bar.fmu"),
     "paper": (["paper", "."], "figure_6_wheel_motion.svg"),
     "tyre": (["tyre", "passenger_205_55", "-o", "a.csv"], "a.csv"),
+    "drive": (["drive", "driving_car", "-o", "a.csv"], "a.csv"),
     "ride": (["ride", "quarter_car", "--duration", "2", "-o", "a.nc"], "a.nc"),
 }
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.errors import InputError
+from ....core.validator import Validator
 from ...input.commented_json import content
 from ...models.car import Car
 from ...models.car.car import center_of_gravity
@@ -98,6 +99,10 @@ def read_vehicle(path: str | Path, *, tire: str | Path | None = None) -> Importe
         If a file is missing or no file of Chrono, or a part is of a kind that cannot be had; by
         the keys of the files.
     """
+    with Validator("read_vehicle") as given:
+        given.path("path", path)
+        if tire is not None:
+            given.path("tire", tire)
     reader = _Reader(Path(path), None if tire is None else Path(tire))
     return reader.read()
 
