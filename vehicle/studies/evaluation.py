@@ -19,7 +19,7 @@ from ..kinds import Suspension
 from ..models.axle import Axle
 from ..models.car import Car
 from ..models.whole_axle import WholeAxle
-from .sweep_axes import sweep_axis
+from .sweep_axes import SWEEP_AXES
 
 Array = NDArray[np.float64]
 Subject = Suspension | Axle | WholeAxle | Car
@@ -40,16 +40,21 @@ def check_held_subject(given: Validator, subject: Any) -> None:
         given.fail(f"suspension: {NOT_A_CAR}")
 
 
+def _usual_of_axis(over: str) -> tuple[float, ...]:
+    """Return the usual positions of a sweep axis with its own; motions of a rig have none here."""
+    return SWEEP_AXES[over].usual if over in SWEEP_AXES else ()
+
+
 def usual_positions(assembly: Assembly, over: str) -> Array:
     """Return the usual positions, as far as the wheels go, SI units."""
-    if usual := sweep_axis(over).usual:
+    if usual := _usual_of_axis(over):
         return np.array(usual)
     return assembly.usual(assembly.usual_motion if over in HELD else over)
 
 
 def common_positions(assemblies: Sequence[Assembly], over: str) -> Array:
     """Return the usual positions that all of some cars reach, SI units, zero included."""
-    if usual := sweep_axis(over).usual:
+    if usual := _usual_of_axis(over):
         return np.array(usual)
     return common_to(assemblies, assemblies[0].usual_motion if over in HELD else over)
 
@@ -59,7 +64,7 @@ def curves_over(assembly: Assembly, over: str, positions: Array) -> xr.Dataset:
     if over in HELD:
         found = linear(assembly, None, positions, held=cast("WheelSupport", over))
         return found.drop_dims(["moved", "by"])
-    curves = sweep_axis(over).curves
+    curves = SWEEP_AXES[over].curves if over in SWEEP_AXES else None
     return curves(assembly, positions) if curves else dataset(assembly, over, positions)
 
 

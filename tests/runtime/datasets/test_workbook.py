@@ -92,7 +92,7 @@ def test_what_no_sheet_holds_is_refused(tmp_path, monkeypatch):
     with pytest.raises(InputError, match=r"holds 3 rows .* data has 4 of 2\. Use \.csv"):
         export.write(data, tmp_path / "a.xlsx")
     for wrong, words in (
-        ({"a/b": data}, "no name of a sheet"),
+        ({"a/b": data}, "not a name of a sheet"),
         ({"x" * 32: data}, "1 to 31 characters"),
         ({"a": 1.0}, "xarray.Dataset is needed"),
         ({}, "one or more"),

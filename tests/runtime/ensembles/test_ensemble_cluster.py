@@ -328,7 +328,7 @@ def test_a_folder_of_something_else_is_refused(car: Model, tmp_path: Path) -> No
     (tmp_path / "mine").write_text("x", encoding="utf-8")
     with pytest.raises(InputError, match="other things are in this folder"):
         ensemble(car, None, SPAN, kept=tmp_path)
-    with pytest.raises(InputError, match="no folder"):
+    with pytest.raises(InputError, match="not a folder"):
         ensemble(car, None, SPAN, kept=tmp_path / "mine")
     assert [entry.name for entry in tmp_path.iterdir()] == ["mine"]
     for text in ("", "[]", "{}"[:1]):

@@ -417,7 +417,7 @@ def test_a_mistake_in_a_manoeuvre_is_named(name, changes, words) -> None:
     ("braking", {"deceleration_m_per_s2": 50.0}, "the brakes of this car have torque for"),
     ("braking", {"duration_s": 1.0}, "Raise duration_s"),
     ("braking_in_turn", {"radius_m": 20.0}, "the tyres of this car carry no steady turn above"),
-    ("coast_down", {"duration_s": 0.5}, "little, resists"),
+    ("coast_down", {"duration_s": 0.5}, "little or no resistance"),
     ("acceleration", {"duration_s": 0.5}, "Raise torque_Nm"),
     ("slowly_increasing_steer", {"largest_deg": 10.0}, "Raise speed_km_per_h"),
 ])  # fmt: skip

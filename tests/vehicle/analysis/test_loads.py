@@ -432,7 +432,7 @@ def test_totals_are_shown_alone(kintrafo: Any, tmp_path: Path, file: str) -> Non
         assert re.search(rf"total, {re.escape(row[3])}, .*" + ".* ".join(forces), out)
     code, _, err = kintrafo(*arguments, "--plot", "b.png")
     assert code == 2
-    assert "total is no part that can be drawn" in " ".join(err.split())
+    assert "total is not a part that can be drawn" in " ".join(err.split())
 
 
 def test_extremes_are_printed(kintrafo: Any) -> None:

@@ -362,7 +362,7 @@ class TestKeys:
         path.write_text(
             text.replace('"Axle":', '"Axle": {"Inertia": 1}, "Axle":'), encoding="utf-8"
         )
-        with pytest.raises(InputError, match='"Axle" is there 2 times'):
+        with pytest.raises(InputError, match='"Axle" is given 2 times'):
             chrono.read(path)
 
 
