@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ...program.vectors import NO_TWIST, ZERO, SymmetricTensor, Twist, Vector
 from .flow import NONE, Flow
 from .hinged import Hinged
+from .in_plane import in_plane
 from .moving import MovingBody
 from .shifted import Shifted
 
@@ -62,6 +63,7 @@ class Sums:
         names
             The coordinates along which equations are needed.
         """
+        inertia = in_plane(carried, inertia)
         body: Any = kind_of(carried)(carried, inertia)  # each kind has columns of its own
         self.mass += inertia.mass
         self.first += body.first

@@ -1,0 +1,48 @@
+"""Bodies that move in a plane with their base: one moment of inertia is all that counts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from ...program.vectors import SymmetricTensor, Vector
+from .flow import HALF, NONE
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from ...kinematics.carried import Carried
+    from ..inertia import SpatialInertia
+
+
+def in_plane(carried: Carried, inertia: SpatialInertia) -> SpatialInertia:
+    """Return the inertia of a body, or of a lamina with the same equations in a plane.
+
+    Where base and body turn about one direction only, the second moments along the plane enter the
+    equations by their sum, which is the moment of inertia about the normal; so a body of a plane
+    has no other. Each of the two is taken as half of it.
+
+    Parameters
+    ----------
+    carried, inertia
+        The body, and its inertia about its origin, in its axes.
+    """
+    normal = _normal(twist.angular for twist in carried.base.twists.values())
+    along = None if normal is None else _along(carried.axes, normal)
+    if along is None:
+        return inertia
+    moment = tuple(inertia.tensor)[along]
+    diagonal = [moment if i == along else HALF * moment for i in range(3)]
+    return replace(inertia, tensor=SymmetricTensor(*diagonal, NONE, NONE, NONE))
+
+
+def _normal(turning: Iterable[Vector]) -> int | None:
+    """Return the one axis of a base about which it turns; None where it has not one."""
+    turned = {i for omega in turning for i, part in enumerate(omega) if part != 0}
+    return turned.pop() if len(turned) == 1 else None
+
+
+def _along(axes: Iterable[Vector], normal: int) -> int | None:
+    """Return which axis of a body is along an axis of the base, at all times."""
+    found = [i for i, axis in enumerate(axes) if tuple(axis)[normal] != 0]
+    return found[0] if len(found) == 1 else None
