@@ -127,7 +127,7 @@ def car(**parameters):
     """Return it as handling sees it."""
     import kintrafo
     import numpy as np
-    from kintrafo.vehicle.analysis.handling.body_motion import BodyMotion
+    from kintrafo.vehicle.analysis.handling.body_motion import ReferencePoint
     from kintrafo.vehicle.analysis.handling.car import DrivingCar
 
     model = kintrafo.System(kintrafo.compile(declared()), parameters)
@@ -142,7 +142,7 @@ def car(**parameters):
     reference = (MASS * center + wheels.sum(axis=0)) / total
     return DrivingCar(
         model, rest, np.array(rest.inputs), Controls(),
-        BodyMotion(model.state_names, center, reference),
+        ReferencePoint(model.state_names, center, reference),
         WHEELS, tuple(f"{wheel}_spin" for wheel in WHEELS), (0.29,) * 4, FRONT - REAR,
         FRONT - reference[0], total,
     )  # fmt: skip

@@ -1,5 +1,6 @@
 """What a driver does, as inputs of the equations of a car: steering wheel, pedals."""
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from ..models.axle.axle import Axle
 from ..models.car.car import Car
 from ..models.sides import SIDES
 from . import motions
-from .steering_wheel import rack_motion
+from .steering_wheel import rack_motion, sense_of_rack
 
 Array = NDArray[np.float64]
 
@@ -36,6 +37,13 @@ class Controls:
 
     def __init__(self, car: Car) -> None:
         self.car = car
+
+    @cached_property
+    def _sense(self) -> float:
+        """The sense of the rack: it needs the positions of the axle, and is asked for often."""
+        front = self.car.axles["front"]
+        assert isinstance(front, Axle)
+        return sense_of_rack(front)
 
     def rack(
         self, angle: ArrayLike, rate: ArrayLike = 0.0, acceleration: ArrayLike = 0.0
@@ -73,7 +81,8 @@ class Controls:
                 "[steering] of the axle."
             )
             raise InputError([problem], self.car.heading())
-        found = rack_motion(front, *np.broadcast_arrays(*values))
+        turned, rates, accelerations = np.broadcast_arrays(*values)
+        found = rack_motion(front, turned, rates, accelerations, self._sense)
         names = ("rack_position", "rack_velocity", "rack_acceleration")
         return {name: _plain(value) for name, value in zip(names, found, strict=True)}
 

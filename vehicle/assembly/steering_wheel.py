@@ -10,11 +10,21 @@ from .axle_kinematics import AxleKinematics
 from .wheel import steer_gradient
 
 
-def rack_of(axle: Axle, angles: Array) -> tuple[Array, Array]:
-    """Return rack displacements at angles, and the travel for a turn there, with its sign [m]."""
+def rack_of(axle: Axle, angles: Array, sense: float | None = None) -> tuple[Array, Array]:
+    """Return rack displacements at angles, and the travel for a turn there, with its sign [m].
+
+    Parameters
+    ----------
+    axle : Axle
+    angles : ndarray
+        Of the steering wheel, positive to the left [rad].
+    sense : float, optional
+        That of `sense_of_rack`, where it is known already.
+    """
+    sense = sense_of_rack(axle) if sense is None else sense
     if axle.steering is not None:
         rises = axle.steering.rack_mm[-1] > axle.steering.rack_mm[0]
-        if (1.0 if rises else -1.0) * _sense_of_rack(axle) < 0.0:
+        if (1.0 if rises else -1.0) * sense < 0.0:
             problem = (
                 f"[steering] rack_mm {'rises' if rises else 'falls'} with the angle, and that "
                 "steers to the right: angles of the steering wheel are positive to the left. "
@@ -25,7 +35,7 @@ def rack_of(axle: Axle, angles: Array) -> tuple[Array, Array]:
     amount = motions.travel_per_turn(axle)
     assert amount is not None
     # the files give it without sign: the wheel turned to the left steers to the left
-    per_turn = amount * _sense_of_rack(axle)
+    per_turn = amount * sense
     return angles * per_turn / (2.0 * np.pi), np.full_like(angles, per_turn)
 
 
@@ -37,17 +47,17 @@ def per_turn_at(axle: Axle, racks: Array) -> Array | None:
     if axle.steering is not None:
         return axle.steering.travel_per_turn_at(racks)
     amount = motions.travel_per_turn(axle)
-    return None if amount is None else np.full_like(racks, amount * _sense_of_rack(axle))
+    return None if amount is None else np.full_like(racks, amount * sense_of_rack(axle))
 
 
-def _sense_of_rack(axle: Axle) -> float:
+def sense_of_rack(axle: Axle) -> float:
     """Return +1 where a positive displacement of the rack steers to the left, or -1."""
     design = AxleKinematics.at(axle, 0.0, 0.0, 0.0)
     return float(np.sign(sum(steer_gradient(corner) for corner in design.corners.values())))
 
 
 def rack_motion(
-    axle: Axle, angle: Array, rate: Array, acceleration: Array
+    axle: Axle, angle: Array, rate: Array, acceleration: Array, sense: float | None = None
 ) -> tuple[Array, Array, Array]:
     """Return displacement, velocity and acceleration of the rack [m, m/s, m/s^2].
 
@@ -56,8 +66,10 @@ def rack_motion(
     axle : Axle
     angle, rate, acceleration : ndarray
         Of the steering wheel, positive to the left [rad, rad/s, rad/s^2].
+    sense : float, optional
+        That of `sense_of_rack`, where it is known already.
     """
-    position, per_turn = rack_of(axle, angle)
+    position, per_turn = rack_of(axle, angle, sense)
     slope = per_turn / (2.0 * np.pi)
     bend = np.zeros_like(slope) if axle.steering is None else axle.steering.bend(angle)
     return position, slope * rate, slope * acceleration + bend * rate * rate

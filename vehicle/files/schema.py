@@ -20,7 +20,7 @@ from ..input.section import Section
 from ..input.units import unit_of
 from ..kinds import KINDS
 from ..models.axle.file import AxleFile
-from ..models.car.driving import LinearTyre
+from ..models.car.driving import LinearTyreSection
 from ..models.car.file import CarFile
 from ..models.whole_axle import WholeAxle, whole_axle_class
 
@@ -147,7 +147,13 @@ def schema() -> dict[str, Any]:
         that of a car; of others the kind that they name decides which sections there are.
     """
     whole = _whole_axles()
-    models: list[type[Section]] = [*KINDS.values(), AxleFile, *whole.values(), CarFile, LinearTyre]
+    models: list[type[Section]] = [
+        *KINDS.values(),
+        AxleFile,
+        *whole.values(),
+        CarFile,
+        LinearTyreSection,
+    ]
     _, made = models_json_schema([(model, "validation") for model in models])
     sections = {name: _with_units(section) for name, section in made["$defs"].items()}
     kinds = {"description": "the kind of suspension", "enum": list(KINDS), "default": DEFAULT}
@@ -243,7 +249,7 @@ def page_text() -> str:
         parts += _described(sections, axle, own)
     parts += [_A_CAR, *_table(sections[CarFile.__name__])]
     parts += _described(sections, CarFile, CarFile.model_fields)
-    parts += [_A_LINEAR_TYRE, *_table(sections[LinearTyre.__name__])]
+    parts += [_A_LINEAR_TYRE, *_table(sections[LinearTyreSection.__name__])]
     return "\n".join(parts).rstrip() + "\n"
 
 

@@ -32,8 +32,8 @@ def in_plane(carried: Carried, inertia: SpatialInertia) -> SpatialInertia:
     if along is None:
         return inertia
     moment = tuple(inertia.tensor)[along]
-    diagonal = [moment if i == along else HALF * moment for i in range(3)]
-    return replace(inertia, tensor=SymmetricTensor(*diagonal, NONE, NONE, NONE))
+    xx, yy, zz = (moment if i == along else HALF * moment for i in range(3))
+    return replace(inertia, tensor=SymmetricTensor(xx, yy, zz, NONE, NONE, NONE))
 
 
 def _normal(turning: Iterable[Vector]) -> int | None:

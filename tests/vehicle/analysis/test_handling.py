@@ -9,13 +9,13 @@ import xarray as xr
 from kintrafo import CarModel, InputError, load
 from kintrafo.vehicle.analysis.handling import circle, load_manoeuvre, responses, steering
 from kintrafo.vehicle.analysis.handling.circle import Turns, steering_ratio
-from kintrafo.vehicle.analysis.handling.driven import Samples, driven
-from kintrafo.vehicle.analysis.handling.drivers import Fixed, OpenLoop, SpeedHeld, Torque
+from kintrafo.vehicle.analysis.handling.driven import Sampling, driven
+from kintrafo.vehicle.analysis.handling.drivers import Fixed, HeldTorque, OpenLoop, SpeedHeld
 from kintrafo.vehicle.analysis.handling.linear import steering_response
 from kintrafo.vehicle.analysis.handling.manoeuvres import MANOEUVRES
 from kintrafo.vehicle.analysis.handling.manoeuvres.sine_with_dwell import amplitudes_of, judge
 from kintrafo.vehicle.analysis.handling.paths import Lane, Path, through
-from kintrafo.vehicle.analysis.handling.steady import Condition
+from kintrafo.vehicle.analysis.handling.steady import SteadyCondition
 from kintrafo.vehicle.analysis.handling.subject import driving_car
 from kintrafo.vehicle.data.starter import manoeuvres
 
@@ -70,7 +70,7 @@ def test_gradients_are_those_of_the_bicycle_model(car, speed) -> None:
 
 
 def test_a_turn_is_where_a_simulation_ends(car) -> None:
-    turns = Turns(car, Condition("speed", 20.0), 1)
+    turns = Turns(car, SteadyCondition("speed", 20.0), 1)
     straight = turns.begin(0.0)
     turn = turns.to(5.0)
     angle = turn.unknowns["steering_wheel"]
@@ -88,7 +88,7 @@ def test_a_turn_is_where_a_simulation_ends(car) -> None:
 
 def test_a_turn_of_a_car_with_linkages_is_where_its_simulation_ends() -> None:
     car = driving_car("test", CarModel(load("driving_car")))
-    turns = Turns(car, Condition("speed", 20.0), -1)
+    turns = Turns(car, SteadyCondition("speed", 20.0), -1)
     straight = turns.begin(0.0)
     turn = turns.to(-5.0)
     offset = straight.unknowns["steering_wheel"]
@@ -96,7 +96,7 @@ def test_a_turn_of_a_car_with_linkages_is_where_its_simulation_ends() -> None:
     motion = driven(
         car, straight.state, OpenLoop(course, offset),
         SpeedHeld(float(turn.unknowns["forward"]), turn.unknowns["drive"], 4e3, 0.3), 6.0,
-        samples=Samples(2e-3, 10),
+        samples=Sampling(2e-3, 10),
     )  # fmt: skip
     last = motion.isel(time=-1)
     # what the slowest mode has left after 6 s
@@ -155,7 +155,7 @@ def test_a_car_that_oversteers_is_unstable_above_its_critical_speed(car) -> None
 
 
 def test_slow_harmonic_steering_is_a_steady_turn(car) -> None:
-    turns = Turns(car, Condition("speed", 20.0), 1)
+    turns = Turns(car, SteadyCondition("speed", 20.0), 1)
     straight = turns.begin(0.0)
     found = steering_response(car, straight, np.array([1e-4]))
     slope = straight.slopes["yaw_rate"] / straight.slopes["steering_wheel"]
@@ -427,8 +427,8 @@ def test_what_a_car_cannot_do_is_named(car, name, changes, words) -> None:
 
 
 def test_a_car_that_stays_straight_stays_straight(car) -> None:
-    turns = Turns(car, Condition("speed", 15.0), 1)
+    turns = Turns(car, SteadyCondition("speed", 15.0), 1)
     straight = turns.begin(0.0)
-    motion = driven(car, straight.state, Fixed(0.0), Torque(0.0, 0.0), 0.5)
+    motion = driven(car, straight.state, Fixed(0.0), HeldTorque(0.0, 0.0), 0.5)
     assert np.allclose(motion["speed"], 15.0, rtol=1e-9)
     assert np.abs(motion["y"] - motion["y"][0]).max() < 1e-12

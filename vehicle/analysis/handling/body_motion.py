@@ -31,7 +31,7 @@ QUANTITIES = {
 
 
 @dataclass(frozen=True)
-class BodyMotion:
+class ReferencePoint:
     """The motion of a point that is fixed to a free body.
 
     Parameters

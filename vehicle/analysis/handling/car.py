@@ -3,34 +3,17 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from ....systems.system import System
-from .body_motion import BodyMotion
+from ...assembly.controls import Controls
+from .body_motion import ReferencePoint
 
 Array = NDArray[np.float64]
-
-
-class Controls(Protocol):
-    """What a driver works, as inputs of the equations: torques are linear in what is asked for."""
-
-    def rack(
-        self, angle: float, rate: float = 0.0, acceleration: float = 0.0
-    ) -> Mapping[str, float]:
-        """Return the inputs of the rack, by the angle of the steering wheel [rad]."""
-        ...
-
-    def brakes(self, pedal: float) -> Mapping[str, float]:
-        """Return the inputs of the brakes; with 1 the pedal is down."""
-        ...
-
-    def drive(self, torque: float) -> Mapping[str, float]:
-        """Return the inputs of the drive, by the torque of all driven wheels together [N m]."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -46,7 +29,7 @@ class DrivingCar:
     base : ndarray
         Inputs that the driver does not work.
     controls : Controls
-    motion : BodyMotion
+    motion : ReferencePoint
         Of the centre of gravity of the whole car at design, as a point of the body.
     wheels : sequence of str
         Their names: front ones first, the left one of an axle before the right one.
@@ -70,7 +53,7 @@ class DrivingCar:
     rest: Array
     base: Array
     controls: Controls
-    motion: BodyMotion
+    motion: ReferencePoint
     wheels: Sequence[str]
     spins: Sequence[str]
     radii: Sequence[float]

@@ -21,7 +21,7 @@ from ...models.reach import PositionError
 from .body_motion import QUANTITIES
 from .car import DrivingCar
 from .result import HandlingResult, quantity
-from .steady import Condition, NoSteadyMotionError, Steady, SteadyMotion
+from .steady import NoSteadyMotionError, Steady, SteadyCondition, SteadyMotion
 
 Array = NDArray[np.float64]
 
@@ -95,13 +95,13 @@ class Turns:
     Parameters
     ----------
     car : DrivingCar
-    first : Condition
+    first : SteadyCondition
         What holds in all of them.
     sense : {1, -1}
         1 for turns to the left.
     """
 
-    def __init__(self, car: DrivingCar, first: Condition, sense: int) -> None:
+    def __init__(self, car: DrivingCar, first: SteadyCondition, sense: int) -> None:
         self.car, self.first, self.sense = car, first, sense
         self.equations = SteadyMotion(car)
         self._unknown: Array | None = None
@@ -117,19 +117,19 @@ class Turns:
             Where it is on a given radius: more than zero, since a car that does not move has no
             steady turn [m/s^2].
         """
-        last = Condition("lateral_acceleration", 0.0)
+        last = SteadyCondition("lateral_acceleration", 0.0)
         if self.first.kind == "speed":
             unknown, found = self.equations.solve(
                 self.equations.near_straight(self.first.value), self.first, last
             )
         else:
-            last = Condition("lateral_acceleration", self.sense * acceleration)
+            last = SteadyCondition("lateral_acceleration", self.sense * acceleration)
             speed = float(np.sqrt(acceleration / abs(self.first.value)))
             near = self.equations.near_straight(speed)
             for share in (0.0, 0.5, 1.0):
                 # the circle is closed in steps: a small one is far from straight running
-                around = Condition("curvature", share * self.first.value)
-                near, found = self.equations.solve(near, Condition("speed", speed), around)
+                around = SteadyCondition("curvature", share * self.first.value)
+                near, found = self.equations.solve(near, SteadyCondition("speed", speed), around)
             unknown, found = self.equations.solve(near, self.first, last)
         self._unknown, self._reached, self._tangent = unknown, last.value, found.tangent
         return found
@@ -176,7 +176,7 @@ class Turns:
         if abs(near) > abs(self._reached):
             self.to(near)
         assert self._unknown is not None
-        _, found = self.equations.solve(self._unknown, self.first, Condition("speed", speed))
+        _, found = self.equations.solve(self._unknown, self.first, SteadyCondition("speed", speed))
         return found
 
     @property
@@ -189,13 +189,13 @@ class Turns:
         near = self._unknown
         if self._tangent is not None:
             near = near + self._tangent * (acceleration - self._reached)
-        last = Condition("lateral_acceleration", acceleration)
+        last = SteadyCondition("lateral_acceleration", acceleration)
         return self.equations.solve(near, self.first, last)
 
 
 def steady_turns(
     car: DrivingCar,
-    first: Condition,
+    first: SteadyCondition,
     *,
     sense: int = 1,
     step: float = 0.25,
@@ -207,7 +207,7 @@ def steady_turns(
     Parameters
     ----------
     car : DrivingCar
-    first : Condition
+    first : SteadyCondition
         Speed or curvature of all of them.
     sense : {1, -1}, optional
         1 for turns to the left.
@@ -264,7 +264,7 @@ def turns_at(car: DrivingCar, speed: float, accelerations: Array) -> xr.Dataset:
     PositionError
         If the tyres carry no such turn, or the car no such speed.
     """
-    first = Condition("speed", speed)
+    first = SteadyCondition("speed", speed)
     found: dict[float, Steady] = {}
     for sense in (1, -1):
         turns = Turns(car, first, sense)
@@ -349,21 +349,21 @@ def _described(
     return xr.Dataset(metrics, attrs={"title": title}), {"": dataset}
 
 
-def _beyond(first: Condition, limit: float) -> str:
+def _beyond(first: SteadyCondition, limit: float) -> str:
     return (
         f"lateral_acceleration: the tyres of this car carry no steady turn above {limit:.2f} m/s^2 "
         f"at a {_words(first)}. Choose less."
     )
 
 
-def _none(first: Condition) -> str:
+def _none(first: SteadyCondition) -> str:
     return (
         f"there is no steady turn at a {_words(first)}: the steering does not go so far, or the "
         "car is too fast for its drive. Choose a larger radius, or another speed."
     )
 
 
-def _words(first: Condition) -> str:
+def _words(first: SteadyCondition) -> str:
     if first.kind == "speed":
         return f"constant speed of {3.6 * first.value:g} km/h"
     return f"constant radius of {abs(1.0 / first.value):g} m"

@@ -14,7 +14,7 @@ from ....simulation.validity import bounds_of, excursions
 from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from .body_motion import QUANTITIES
 from .car import DrivingCar, Run
-from .drivers import Pedals, Pushes, Seen, Steers
+from .drivers import Observation, Pedals, Pushes, Steers
 from .result import quantity
 
 Array = NDArray[np.float64]
@@ -41,7 +41,7 @@ _OF_DRIVER = {
 }
 
 
-class Samples(NamedTuple):
+class Sampling(NamedTuple):
     """How a simulation is sampled.
 
     Attributes
@@ -63,8 +63,8 @@ def driven(
     pushes: Pushes,
     duration: float,
     *,
-    samples: Samples | None = None,
-    until: Callable[[Seen], bool] | None = None,
+    samples: Sampling | None = None,
+    until: Callable[[Observation], bool] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Return the motion of a car that is driven.
@@ -82,7 +82,7 @@ def driven(
         The driver.
     duration : float
         [s]
-    samples : Samples, optional
+    samples : Sampling, optional
     until : callable, optional
         Ends the simulation where it is true of what the driver sees.
     progress : callable, optional
@@ -100,7 +100,7 @@ def driven(
     SimulationError
         If the motion cannot go on: it says when, where, and what to try.
     """
-    how = samples or Samples()
+    how = samples or Sampling()
     count = max(round(duration / how.step), 1)
     with Validator("drive") as given:
         if count > _MOST_SAMPLES:
@@ -133,14 +133,14 @@ def driven(
     return found
 
 
-def _look(car: DrivingCar) -> Callable[[float, Array], Seen]:
+def _look(car: DrivingCar) -> Callable[[float, Array], Observation]:
     """Return the function that shows a driver the car."""
     motion = car.motion
     rows = motion.rows(("x", "y", "e0", "e1", "e2", "e3", "u", "v", "w", "p", "q", "r"))
     ax, ay, az = (motion.reference - motion.center).tolist()
     cx, cy, _ = motion.center.tolist()
 
-    def look(time: float, state: Array) -> Seen:
+    def look(time: float, state: Array) -> Observation:
         x, y, a, b, c, d, u, v, w, p, q, r = state[rows].tolist()
         first = 1 - 2 * (c * c + d * d), 2 * (b * c - a * d), 2 * (b * d + a * c)
         second = 2 * (b * c + a * d), 1 - 2 * (b * b + d * d), 2 * (c * d - a * b)
@@ -154,7 +154,7 @@ def _look(car: DrivingCar) -> Callable[[float, Array], Seen]:
         vy = second[0] * u + second[1] * v + second[2] * w
         yaw = math.atan2(second[0], first[0])
         cosine, sine = math.cos(yaw), math.sin(yaw)
-        return Seen(
+        return Observation(
             time,
             x + cx + first[0] * ax + first[1] * ay + first[2] * az,
             y + cy + second[0] * ax + second[1] * ay + second[2] * az,

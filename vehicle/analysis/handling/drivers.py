@@ -20,7 +20,7 @@ from .steering import SteeringCourse, SteeringMotion
 _SLOWEST = 0.1
 
 
-class Seen(NamedTuple):
+class Observation(NamedTuple):
     """What a driver sees of the car.
 
     Attributes
@@ -67,7 +67,7 @@ class Pedals(NamedTuple):
 class Steers(Protocol):
     """What turns the steering wheel."""
 
-    def decide(self, seen: Seen, step: float) -> SteeringMotion:
+    def decide(self, seen: Observation, step: float) -> SteeringMotion:
         """Return angle and rate now, and the acceleration until the next sample."""
         ...
 
@@ -75,7 +75,7 @@ class Steers(Protocol):
 class Pushes(Protocol):
     """What works the pedals."""
 
-    def decide(self, seen: Seen, step: float) -> Pedals:
+    def decide(self, seen: Observation, step: float) -> Pedals:
         """Return what the pedals ask for until the next sample."""
         ...
 
@@ -98,7 +98,7 @@ class OpenLoop:
     offset: float = 0.0
     _next: tuple[float, SteeringMotion] | None = field(default=None, init=False)
 
-    def decide(self, seen: Seen, step: float) -> SteeringMotion:
+    def decide(self, seen: Observation, step: float) -> SteeringMotion:
         """Return the motion of the course; the acceleration is its mean until the next sample."""
         known = self._next is not None and self._next[0] == seen.time
         now = self._next[1] if known and self._next is not None else self.course.at(seen.time)
@@ -120,7 +120,7 @@ class Fixed:
 
     angle: float = 0.0
 
-    def decide(self, seen: Seen, step: float) -> SteeringMotion:
+    def decide(self, seen: Observation, step: float) -> SteeringMotion:
         """Return the angle at which it is held."""
         del seen, step
         return SteeringMotion(self.angle, 0.0, 0.0)
@@ -166,7 +166,7 @@ class PathFollower:
     _angle: float = field(default=0.0, init=False)
     _rate: float = field(default=0.0, init=False)
 
-    def decide(self, seen: Seen, step: float) -> SteeringMotion:
+    def decide(self, seen: Observation, step: float) -> SteeringMotion:
         """Return angle and rate now, and the acceleration with which the arms follow."""
         angle, rate = self._angle, self._rate
         wanted = float(np.clip(self._wanted(seen), -self.largest, self.largest))
@@ -182,7 +182,7 @@ class PathFollower:
         """How far along the path the car was at the last sample [m]."""
         return self._along
 
-    def _wanted(self, seen: Seen) -> float:
+    def _wanted(self, seen: Observation) -> float:
         speed = max(math.hypot(seen.speed, seen.lateral_velocity), _SLOWEST)
         turned = seen.yaw_rate * self.anticipation
         course = seen.yaw + math.atan2(seen.lateral_velocity, seen.speed)
@@ -200,7 +200,7 @@ class PathFollower:
 
 
 @dataclass
-class Torque:
+class HeldTorque:
     """Holds the torque of the drive from a time on.
 
     Parameters
@@ -218,7 +218,7 @@ class Torque:
     at: float = 0.0
     rise: float = 0.0
 
-    def decide(self, seen: Seen, step: float) -> Pedals:
+    def decide(self, seen: Observation, step: float) -> Pedals:
         """Return the torque in the middle of the time until the next sample."""
         share = _risen(seen.time + 0.5 * step - self.at, self.rise)
         return Pedals(self.before + share * (self.after - self.before), 0.0)
@@ -245,7 +245,7 @@ class Braking:
     at: float
     rise: float
 
-    def decide(self, seen: Seen, step: float) -> Pedals:
+    def decide(self, seen: Observation, step: float) -> Pedals:
         """Return drive and brake in the middle of the time until the next sample."""
         share = _risen(seen.time + 0.5 * step - self.at, self.rise)
         return Pedals((1.0 - share) * self.before, share * self.brake)
@@ -275,7 +275,7 @@ class SpeedHeld:
     reset: float
     _lost: float = field(default=0.0, init=False)
 
-    def decide(self, seen: Seen, step: float) -> Pedals:
+    def decide(self, seen: Observation, step: float) -> Pedals:
         """Return the torque of the drive."""
         missing = self.speed - seen.speed
         self._lost += missing * step

@@ -11,7 +11,7 @@ from ....core.validator import Validator
 from .circle import steady_turns
 from .manoeuvres import AnyManoeuvre, load_manoeuvre
 from .result import HandlingResult
-from .steady import Condition
+from .steady import SteadyCondition
 from .subject import driving_car
 
 if TYPE_CHECKING:
@@ -118,7 +118,11 @@ def circle(
             if not given.failed and ((wanted <= 0.0).any() or (np.diff(wanted) <= 0.0).any()):
                 given.fail("lateral_acceleration: more than 0 m/s^2, rising, is needed.")
     car, sense = driving_car("circle", subject), 1 if turn == "left" else -1
-    first = Condition("speed", speed) if speed else Condition("curvature", sense / (radius or 1.0))
+    first = (
+        SteadyCondition("speed", speed)
+        if speed
+        else SteadyCondition("curvature", sense / (radius or 1.0))
+    )
     return steady_turns(car, first, sense=sense, step=step, wanted=wanted)
 
 

@@ -40,7 +40,7 @@ class NoSteadyMotionError(KintrafoError):
 
 
 @dataclass(frozen=True)
-class Condition:
+class SteadyCondition:
     """What holds in a steady motion: a value of a function of the unknowns.
 
     Attributes
@@ -169,14 +169,16 @@ class SteadyMotion:
         wheel, drive = unknown[-len(_DRIVER) :]
         return self._car.inputs(wheel, 0.0, 0.0, drive, 0.0)
 
-    def solve(self, near: Array, first: Condition, last: Condition) -> tuple[Array, Steady]:
+    def solve(
+        self, near: Array, first: SteadyCondition, last: SteadyCondition
+    ) -> tuple[Array, Steady]:
         """Return the unknowns, and the motion, that fulfil two conditions.
 
         Parameters
         ----------
         near : ndarray
             Unknowns to begin with.
-        first, last : Condition
+        first, last : SteadyCondition
             Tangents are by the value of the last one.
 
         Raises
@@ -216,7 +218,7 @@ class SteadyMotion:
         )
 
     def _shortened(
-        self, unknown: Array, left: Array, step: Array, conditions: Sequence[Condition]
+        self, unknown: Array, left: Array, step: Array, conditions: Sequence[SteadyCondition]
     ) -> tuple[Array, Array, float]:
         """Return where a step leads, halved until it leads nearer; or nowhere."""
         part = 1.0
@@ -235,14 +237,14 @@ class SteadyMotion:
     def _known(self, unknown: Array) -> dict[str, float]:
         return {name: float(unknown[self._places[name]]) for name in (*_BODY, *_DRIVER)}
 
-    def _left(self, unknown: Array, conditions: Sequence[Condition]) -> Array:
+    def _left(self, unknown: Array, conditions: Sequence[SteadyCondition]) -> Array:
         """Return the rates of speeds and deflections, and what conditions are off by."""
         rates = self._car.model.evaluate("rhs", self.state(unknown), self.inputs(unknown))
         known = self._known(unknown)
         first = self._car.model.layout.positions
         return np.concatenate([rates[first:], [each.off(known)[0] for each in conditions]])
 
-    def _slopes(self, unknown: Array, conditions: Sequence[Condition]) -> Array:
+    def _slopes(self, unknown: Array, conditions: Sequence[SteadyCondition]) -> Array:
         model, state, inputs = self._car.model, self.state(unknown), self.inputs(unknown)
         first = model.layout.positions
         moved, entered = self._directions(unknown)

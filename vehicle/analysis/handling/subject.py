@@ -1,6 +1,5 @@
 """The car that a function of this folder is given."""
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -9,10 +8,9 @@ from ....core.validator import Validator
 from ...assembly.car import CarAssembly
 from ...assembly.equilibrium import equilibrium
 from ...assembly.of import assembly_of
-from ...models.axle.axle import Axle
 from ...models.car.car import Car, center_of_gravity, masses
 from ...models.car.equations import CarModel
-from .body_motion import BodyMotion
+from .body_motion import ReferencePoint
 from .car import DrivingCar
 
 
@@ -44,8 +42,8 @@ def driving_car(source: str, subject: Any) -> DrivingCar:
         model=found.model,
         rest=np.asarray(rest),
         base=np.array(rest.inputs),
-        controls=_Controls(found),
-        motion=BodyMotion(names, car.com, center),
+        controls=found.controls,
+        motion=ReferencePoint(names, car.com, center),
         wheels=found.wheels,
         spins=tuple(found.names_of(wheel).spin for wheel in found.wheels),
         radii=tuple(float(heights[f"{wheel}_wheel_center_z"]) for wheel in found.wheels),
@@ -53,40 +51,6 @@ def driving_car(source: str, subject: Any) -> DrivingCar:
         front=float(front - center[0]),
         mass=sum(mass for mass, _ in masses(car)),
     )
-
-
-class _Controls:
-    """The controls of a car, the motion of whose rack is asked for at every sample.
-
-    Parameters
-    ----------
-    assembly : CarAssembly
-    """
-
-    def __init__(self, assembly: CarAssembly) -> None:
-        self._own = assembly.controls
-        self.brakes, self.drive = self._own.brakes, self._own.drive
-        # which side it steers to is found once, with the checks
-        self._zero = self._own.rack(0.0)["rack_position"]
-        self._slope = self._own.rack(0.0, 1.0)["rack_velocity"]
-        front = assembly.car.axles["front"]
-        self._curve = front.steering if isinstance(front, Axle) else None
-
-    def rack(
-        self, angle: float, rate: float = 0.0, acceleration: float = 0.0
-    ) -> Mapping[str, float]:
-        """Return the motion of the rack, by that of the steering wheel."""
-        position, slope, bend = self._zero + self._slope * angle, self._slope, 0.0
-        if self._curve is not None:
-            at = np.asarray(angle)
-            position = float(self._curve.rack(at))
-            slope = float(self._curve.travel_per_turn(at)) / (2.0 * np.pi)
-            bend = float(self._curve.bend(at))
-        return {
-            "rack_position": position,
-            "rack_velocity": slope * rate,
-            "rack_acceleration": slope * acceleration + bend * rate * rate,
-        }
 
 
 _NEEDED = (

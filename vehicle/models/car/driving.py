@@ -71,7 +71,7 @@ class Air(Section):
     )
 
 
-class LinearTyre(Section):
+class LinearTyreSection(Section):
     """A tyre whose forces are linear in slip, up to the friction."""
 
     radius_mm: Positive = Field(description="radius without load")
@@ -144,9 +144,9 @@ def tyre_of(given: Any, end: str, folder: Path) -> Tyre:
         return given
     if isinstance(given, Mapping):
         try:
-            return LinearTyre(**given).tyre()
+            return LinearTyreSection(**given).tyre()
         except ValidationError as error:
-            raise InputError(messages_of(error, LinearTyre, given), end) from None
+            raise InputError(messages_of(error, LinearTyreSection, given), end) from None
     if isinstance(given, str | Path):
         return load(named(given, folder))
     problem = f"{shown(given)}: the name of a tyre's file, or a table of a linear one, is needed."

@@ -11,17 +11,17 @@ from numpy.typing import NDArray
 
 from ....pages.embedded import embedded
 from .picture import GRID, PER_NEWTON
-from .scene import WIDTH, Scene
+from .scene import WIDTH, DrivingScene
 
 Array = NDArray[np.float64]
 
 
-def driving_page(scene: Scene, title: str) -> str:
+def driving_page(scene: DrivingScene, title: str) -> str:
     """Return a page that plays a motion, as text.
 
     Parameters
     ----------
-    scene : Scene
+    scene : DrivingScene
     title : str
     """
     loader = PackageLoader(__package__, ".")
@@ -38,7 +38,7 @@ def driving_page(scene: Scene, title: str) -> str:
     )
 
 
-def _data(scene: Scene) -> dict[str, Any]:
+def _data(scene: DrivingScene) -> dict[str, Any]:
     """Return the payload: places from the reference point of the car [mm]."""
     at = np.concatenate([scene.places, np.zeros((len(scene.times), 1))], axis=1)
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 from ....pictures.animation import save_frames, seen_from
-from .scene import WIDTH, Scene
+from .scene import WIDTH, DrivingScene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,13 +39,13 @@ _SPOKES = 5
 _FAR = 4.0
 
 
-def write_gif(path: Path, scene: Scene, title: str, fps: float) -> None:
+def write_gif(path: Path, scene: DrivingScene, title: str, fps: float) -> None:
     """Write a motion as a GIF.
 
     Parameters
     ----------
     path : pathlib.Path
-    scene : Scene
+    scene : DrivingScene
     title : str
     fps : float
         Frames that are shown per second.
@@ -59,7 +59,7 @@ class Drawer:
 
     Parameters
     ----------
-    scene : Scene
+    scene : DrivingScene
     title : str
 
     Attributes
@@ -67,7 +67,7 @@ class Drawer:
     figure : matplotlib.figure.Figure
     """
 
-    def __init__(self, scene: Scene, title: str) -> None:
+    def __init__(self, scene: DrivingScene, title: str) -> None:
         self._scene, self._title = scene, title
         self._view = seen_from(_TURN, _TILT)
         turned, tilted = np.array([np.cos(_TURN), np.sin(_TURN)]), np.cos(_TILT)

@@ -27,7 +27,7 @@ _OUTLINE = np.array([
 
 
 @dataclass(frozen=True)
-class Scene:
+class DrivingScene:
     """A car in n positions, in the axes of the road [m].
 
     Attributes
@@ -69,7 +69,7 @@ class Scene:
     words: list[str]
 
 
-def scene_of(run: Run, rows: NDArray[np.intp], *, cones: xr.Dataset | None = None) -> Scene:
+def scene_of(run: Run, rows: NDArray[np.intp], *, cones: xr.Dataset | None = None) -> DrivingScene:
     """Return what is drawn of a simulation.
 
     Parameters
@@ -98,7 +98,7 @@ def scene_of(run: Run, rows: NDArray[np.intp], *, cones: xr.Dataset | None = Non
     own = np.stack([travelled["x"], travelled["y"]], axis=-1)
     # a manoeuvre counts from its own place, such as its first cones
     beside = np.zeros((0, 2)) if cones is None else np.stack([cones["x"], cones["y"]], axis=-1)
-    return Scene(
+    return DrivingScene(
         times=motion["time"].values,
         parts={name: at for name, at in places.items() if name not in hidden},
         springs=[np.stack([end(a), end(b)], axis=1) for a, b in pairs],

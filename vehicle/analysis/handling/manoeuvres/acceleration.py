@@ -8,7 +8,7 @@ from pydantic import Field
 from .....core.errors import InputError
 from ....input.section import NonNegative, Positive
 from ..car import DrivingCar
-from ..drivers import Fixed, Seen, Torque
+from ..drivers import Fixed, HeldTorque, Observation
 from ..responses import first_crossing
 from ..result import HandlingResult
 from .manoeuvre import Manoeuvre, Number, Progress, greatest
@@ -42,10 +42,10 @@ class Acceleration(Manoeuvre):
         _, straight = self.straight(car)
         end = self.until_km_per_h / 3.6
 
-        def ended(seen: Seen) -> bool:
+        def ended(seen: Observation) -> bool:
             return seen.speed >= end
 
-        pushes = Torque(straight.unknowns["drive"], self.torque_Nm, 0.0, self.rise_s)
+        pushes = HeldTorque(straight.unknowns["drive"], self.torque_Nm, 0.0, self.rise_s)
         motion = self.simulated(
             car, straight, Fixed(straight.unknowns["steering_wheel"]), pushes, self.duration_s,
             until=ended, progress=progress,

@@ -9,7 +9,7 @@ from ..car import DrivingCar
 from .manoeuvre import Manoeuvre
 
 
-class Brakes(Manoeuvre):
+class BrakingManoeuvre(Manoeuvre):
     """A manoeuvre in which the brake is pushed."""
 
     pedal: Positive | None = Field(

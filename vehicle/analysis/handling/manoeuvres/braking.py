@@ -7,14 +7,14 @@ from pydantic import Field
 
 from ....input.section import NonNegative, Positive
 from ..car import DrivingCar
-from ..drivers import Braking, Fixed, Seen
+from ..drivers import Braking, Fixed, Observation
 from ..responses import first_crossing
 from ..result import HandlingResult
-from .brakes import Brakes
+from .brakes import BrakingManoeuvre
 from .manoeuvre import Number, Progress, greatest
 
 
-class StraightBraking(Brakes):
+class StraightBraking(BrakingManoeuvre):
     """The brake is pushed while the car runs straight ahead, the steering wheel held."""
 
     TITLE: ClassVar[str] = "braking in a straight line"
@@ -38,7 +38,7 @@ class StraightBraking(Brakes):
         _, straight = self.straight(car)
         end = self.until_km_per_h / 3.6
 
-        def ended(seen: Seen) -> bool:
+        def ended(seen: Observation) -> bool:
             return seen.speed <= end
 
         pushes = Braking(straight.unknowns["drive"], self.pedal_of(car), self.start_s, self.rise_s)

@@ -10,17 +10,17 @@ from .....core.errors import InputError
 from ....input.section import NonNegative, Positive
 from ..car import DrivingCar
 from ..circle import Turns
-from ..drivers import Braking, Fixed, Seen
+from ..drivers import Braking, Fixed, Observation
 from ..result import HandlingResult
-from ..steady import Condition, NoSteadyMotionError, Steady
-from .brakes import Brakes
+from ..steady import NoSteadyMotionError, Steady, SteadyCondition
+from .brakes import BrakingManoeuvre
 from .manoeuvre import Number, Progress, TurningManoeuvre, at_time, greatest
 
 # After the brake is pushed: where the motion is compared [s].
 _AFTER = 1.0
 
 
-class BrakingInTurn(Brakes, TurningManoeuvre):
+class BrakingInTurn(BrakingManoeuvre, TurningManoeuvre):
     """The brake is pushed in a steady turn, the steering wheel held."""
 
     TITLE: ClassVar[str] = "braking in a turn"
@@ -35,7 +35,7 @@ class BrakingInTurn(Brakes, TurningManoeuvre):
         turn = self._steady(car)
         end = self.until_km_per_h / 3.6
 
-        def ended(seen: Seen) -> bool:
+        def ended(seen: Observation) -> bool:
             return seen.speed <= end
 
         pushes = Braking(turn.unknowns["drive"], self.pedal_of(car), self.start_s, self.rise_s)
@@ -49,7 +49,7 @@ class BrakingInTurn(Brakes, TurningManoeuvre):
     def _steady(self, car: DrivingCar) -> Steady:
         """Return the turn in which it begins."""
         acceleration = self.speed**2 / self.radius_m
-        turns = Turns(car, Condition("curvature", self.sense / self.radius_m), self.sense)
+        turns = Turns(car, SteadyCondition("curvature", self.sense / self.radius_m), self.sense)
         try:
             turns.begin(min(1.0, acceleration))
             # the radius and the speed are those of the path: so is this acceleration, but for the

@@ -8,7 +8,7 @@ from ....input.section import NonNegative, Positive, Section
 from ..car import DrivingCar
 from ..circle import steady_turns
 from ..result import HandlingResult
-from ..steady import Condition
+from ..steady import SteadyCondition
 from .manoeuvre import Progress
 
 
@@ -43,7 +43,7 @@ class Circle(Section):
         """Return gradients, and curves by lateral acceleration."""
         sense = 1 if self.turn == "left" else -1
         if self.radius_m is not None:
-            first = Condition("curvature", sense / self.radius_m)
+            first = SteadyCondition("curvature", sense / self.radius_m)
         else:
-            first = Condition("speed", (self.speed_km_per_h or 0.0) / 3.6)
+            first = SteadyCondition("speed", (self.speed_km_per_h or 0.0) / 3.6)
         return steady_turns(car, first, sense=sense, step=self.step_m_per_s2, progress=progress)

@@ -8,7 +8,7 @@ from pydantic import Field
 from .....core.errors import InputError
 from ....input.section import Positive
 from ..car import DrivingCar
-from ..drivers import Fixed, Seen, Torque
+from ..drivers import Fixed, HeldTorque, Observation
 from ..responses import first_crossing
 from ..result import HandlingResult
 from .manoeuvre import Manoeuvre, Number, Progress
@@ -38,11 +38,11 @@ class CoastDown(Manoeuvre):
         _, straight = self.straight(car)
         end = self.until_km_per_h / 3.6
 
-        def ended(seen: Seen) -> bool:
+        def ended(seen: Observation) -> bool:
             return seen.speed <= end
 
         motion = self.simulated(
-            car, straight, Fixed(straight.unknowns["steering_wheel"]), Torque(0.0, 0.0),
+            car, straight, Fixed(straight.unknowns["steering_wheel"]), HeldTorque(0.0, 0.0),
             self.duration_s, until=ended, progress=progress,
         )  # fmt: skip
         time, speed, x = (motion[name].values for name in ("time", "speed", "x"))

@@ -13,7 +13,7 @@ from ....input.section import Flag, NonNegative, Number, Positive, Section
 from ....input.units import in_metres
 from ..car import DrivingCar
 from ..circle import Turns, steering_ratio
-from ..drivers import PathFollower, Seen, Torque
+from ..drivers import HeldTorque, Observation, PathFollower
 from ..linear import steering_response
 from ..paths import Lane, Path, through
 from ..result import HandlingResult, quantity
@@ -160,14 +160,14 @@ class DoubleLaneChange(TurningManoeuvre):
         length = in_metres(self.car_length_mm, "mm")
         torque = straight.unknowns["drive"]
 
-        def ended(seen: Seen) -> bool:
+        def ended(seen: Observation) -> bool:
             return seen.x - float(origin[0]) + reach - length >= end
 
         steers = self.driver.along(Path(path.points + origin), turns, straight)
         way = end + self.before_m + length
         motion = self.simulated(
             car, straight, steers,
-            self.holding(car, torque) if self.holds_speed else Torque(torque, 0.0),
+            self.holding(car, torque) if self.holds_speed else HeldTorque(torque, 0.0),
             _PATIENT * way / self.speed, until=ended, progress=progress,
         )  # fmt: skip
         for name, value in zip(("x", "y"), origin.tolist(), strict=True):

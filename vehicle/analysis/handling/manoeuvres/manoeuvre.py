@@ -12,10 +12,10 @@ from .....core.errors import InputError
 from ....input.section import Positive, Section
 from ..car import DrivingCar
 from ..circle import Turns
-from ..driven import Samples, driven
-from ..drivers import Pushes, Seen, SpeedHeld, Steers, Torque
+from ..driven import Sampling, driven
+from ..drivers import HeldTorque, Observation, Pushes, SpeedHeld, Steers
 from ..result import HandlingResult, quantity
-from ..steady import Condition, NoSteadyMotionError, Steady
+from ..steady import NoSteadyMotionError, Steady, SteadyCondition
 
 Progress = Callable[[float], None]
 Number = tuple[float, str, str]
@@ -75,9 +75,9 @@ class Manoeuvre(Section):
         return 1
 
     @property
-    def samples(self) -> Samples:
+    def samples(self) -> Sampling:
         """How the simulation is sampled."""
-        return Samples(self.step_ms / 1e3, round(self.output_step_ms / self.step_ms))
+        return Sampling(self.step_ms / 1e3, round(self.output_step_ms / self.step_ms))
 
     @property
     def title(self) -> str:
@@ -86,7 +86,7 @@ class Manoeuvre(Section):
 
     def straight(self, car: DrivingCar) -> tuple[Turns, Steady]:
         """Return straight running, and the turns that are reached from there."""
-        turns = Turns(car, Condition("speed", self.speed), self.sense)
+        turns = Turns(car, SteadyCondition("speed", self.speed), self.sense)
         try:
             return turns, turns.begin(0.0)
         except NoSteadyMotionError:
@@ -121,7 +121,7 @@ class Manoeuvre(Section):
 
     def pedals(self, car: DrivingCar, torque: float, *, held: bool) -> Pushes:
         """Return a driver that holds the speed, or the torque of the drive."""
-        return self.holding(car, torque) if held else Torque(torque, torque)
+        return self.holding(car, torque) if held else HeldTorque(torque, torque)
 
     def simulated(
         self,
@@ -131,7 +131,7 @@ class Manoeuvre(Section):
         pushes: Pushes,
         duration: float,
         *,
-        until: Callable[[Seen], bool] | None = None,
+        until: Callable[[Observation], bool] | None = None,
         progress: Progress | None = None,
     ) -> xr.Dataset:
         """Return the motion from a steady one, with the title of the manoeuvre."""

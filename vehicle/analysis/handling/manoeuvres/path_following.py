@@ -7,7 +7,7 @@ from pydantic import Field
 
 from ....input.section import Number, Positive
 from ..car import DrivingCar
-from ..drivers import Seen
+from ..drivers import Observation
 from ..paths import Path
 from ..result import HandlingResult
 from .double_lane_change import Driver
@@ -54,7 +54,7 @@ class PathFollowing(Manoeuvre):
         here = Path(path.points + origin)
         steers = self.driver.along(here, turns, straight)
 
-        def ended(seen: Seen) -> bool:
+        def ended(seen: Observation) -> bool:
             del seen
             return steers.along >= here.length
 

@@ -10,7 +10,7 @@ from pydantic import Field
 from .....datasets.columns import AS_COLUMNS
 from ....input.section import Positive
 from ..car import DrivingCar
-from ..drivers import OpenLoop, Torque
+from ..drivers import HeldTorque, OpenLoop
 from ..linear import steering_response
 from ..responses import frequency_response
 from ..result import HandlingResult, quantity
@@ -85,7 +85,7 @@ class SineSweep(TurningManoeuvre):
         )
         torque = straight.unknowns["drive"]
         motion = self.simulated(
-            car, straight, OpenLoop(course, before), Torque(torque, torque),
+            car, straight, OpenLoop(course, before), HeldTorque(torque, torque),
             course.end + self.settle_s, progress=progress,
         )  # fmt: skip
         curves = self._by_frequency(car, straight, motion)

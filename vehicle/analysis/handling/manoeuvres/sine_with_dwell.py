@@ -9,7 +9,7 @@ from pydantic import Field
 
 from ....input.section import Positive
 from ..car import DrivingCar
-from ..drivers import OpenLoop, Torque
+from ..drivers import HeldTorque, OpenLoop
 from ..responses import first_crossing
 from ..result import HandlingResult, quantity
 from ..steady import Steady
@@ -95,7 +95,7 @@ class SineWithDwell(TurningManoeuvre):
     ) -> xr.Dataset:
         return self.simulated(
             car, straight, OpenLoop(course, straight.unknowns["steering_wheel"]),
-            Torque(0.0, 0.0), course.end + _YAW[-1][0] + 0.25, progress=progress,
+            HeldTorque(0.0, 0.0), course.end + _YAW[-1][0] + 0.25, progress=progress,
         )  # fmt: skip
 
     def _judged(

@@ -10,7 +10,7 @@ from pydantic import Field
 from .....core.errors import InputError
 from ....input.section import Positive
 from ..car import DrivingCar
-from ..drivers import OpenLoop, Seen
+from ..drivers import Observation, OpenLoop
 from ..result import HandlingResult
 from ..steering import ramp
 from .manoeuvre import Progress, TurningManoeuvre, greatest
@@ -76,7 +76,7 @@ class SlowlyIncreasingSteer(TurningManoeuvre):
         )
         most = self.until_lateral_acceleration_m_per_s2
 
-        def ended(seen: Seen) -> bool:
+        def ended(seen: Observation) -> bool:
             return self.sense * seen.speed * seen.yaw_rate >= most
 
         return self.simulated(
