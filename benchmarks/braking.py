@@ -151,7 +151,7 @@ def fastest(model: System, speeds: tuple[float, ...]) -> list[float]:
 
 
 def measure(case: str, options: dict[str, Any], truth: Array) -> Point | str:
-    """Return what a method takes, or why it ends."""
+    """Return the steps and time of a method, or the reason why it ends."""
     model = system(case)
 
     def run() -> kintrafo.Simulation:

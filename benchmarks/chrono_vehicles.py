@@ -30,7 +30,7 @@ def vehicles(folder: Path) -> Iterator[Path]:
 
 
 def outcome(file: Path, usual: Path | None) -> tuple[bool, str]:
-    """Return whether a vehicle is read, and what it is or why not."""
+    """Return whether a vehicle is read, with its description or the reason why not."""
     beside = sorted(Folder(file).tires(), key=lambda name: "TMeasy" not in name)
     why = ""
     for tire in (None, *beside, *filter(None, [usual])):

@@ -1,4 +1,4 @@
-"""What a controller takes: ``make benchmark-microcontroller``."""
+"""Instructions, stack and memory on a microcontroller: ``make benchmark-microcontroller``."""
 
 import subprocess
 from pathlib import Path
@@ -20,7 +20,7 @@ _HEADER = (
 
 
 def systems() -> dict[str, kintrafo.System]:
-    """Return what is measured."""
+    """Return the measured figures."""
     return {
         "four_bar": kintrafo.System(four_bar),
         "reference_car": kintrafo.Model("reference_car"),

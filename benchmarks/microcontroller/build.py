@@ -124,7 +124,7 @@ class Program:
         return Measured(bits, counted, stack, self._code(folder / "map"))
 
     def _code(self, table: Path) -> int:
-        """Return the bytes of what is linked of the equations, from the linker's table."""
+        """Return the size of the linked equations in bytes, from the linker's table."""
         linked = table.read_text(encoding="utf-8").partition("Linker script and memory map")[2]
         found = re.findall(
             rf"^ \.(?:text|rodata)\S*\s+0x\w+\s+(0x\w+) {self.name}\w*\.o$", linked, re.MULTILINE

@@ -59,7 +59,7 @@ static int nothing(const double *constants, const double *given, const double *i
     return 0;
 }
 
-/* What tells whether instructions are counted: a thousand of them. */
+/* A loop of a thousand instructions shows whether they are counted. */
 static int thousand(const double *constants, const double *given, const double *inputs, double *result)
 {
     (void)constants, (void)given, (void)inputs, (void)result;

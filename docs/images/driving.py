@@ -11,7 +11,7 @@ import kintrafo
 from kintrafo.vehicle.plots.driving import animate
 from PIL import Image, ImageSequence
 
-SHOWN = slice(34, 124, 2)
+SHOWN = slice(44, 116, 2)
 MILLISECONDS = 80
 WIDE = 480
 

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 _found: WeakKeyDictionary[Function | Stage, tuple[Schedule, dict[str, str]]] = WeakKeyDictionary()
 
 _COMMUTATIVE = ("add", "multiply")
-# Between the name of a step and the number of what is a part of it.
+# Between the name of a step and the number of a part of it.
 _PART = "_part_"
 _LEAVES = ("symbol", "number")
 _SPOKEN = {

@@ -75,7 +75,7 @@ class AnyContactLaw(Owner):
     name: Name
 
     _POSITIVE: ClassVar[tuple[str, ...]] = ("vxlow",)
-    """What is divided by, and what no tyre has otherwise."""
+    """Divisors of the law, which are more than zero for every tyre."""
 
     @cached_property
     def numbers(self) -> tuple[Parameter, ...]:

@@ -23,4 +23,4 @@ class Whole(Protocol):
 
     @property
     def ground(self) -> str:
-        """Name of what all motion is relative to."""
+        """Name of the body that all motion is relative to."""

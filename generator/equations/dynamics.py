@@ -587,7 +587,7 @@ class Dynamics:
 
     @cached_property
     def differentiated(self) -> dict[sp.Symbol, sp.Expr]:
-        """What is differentiated in place of the steps of q'', where that is something else."""
+        """Expressions that are differentiated in place of the steps of q'', if any."""
         again = self.to_differentiate()
         pairs = ((self.accelerations[k], value) for k, value in again.items())
         return {step: value for step, value in pairs if step != value and step.is_Symbol}

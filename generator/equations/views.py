@@ -30,7 +30,7 @@ class InBody:
     Parameters
     ----------
     placed, part
-        Its motion in the world, and what it is solved with.
+        Its motion in the world, and the bodies that it is solved with.
     """
 
     def __init__(self, placed: BodyMotion, part: Kinematics) -> None:

@@ -29,7 +29,7 @@ class Carried:
     base
         What carries it.
     part, relative
-        What it is solved with, and its motion on the base.
+        The bodies that it is solved with, and its motion on the base.
     axes
         Those of the body, in the axes of the base.
     arm

@@ -32,7 +32,7 @@ FREE = ("free",)
 ENDS = ("front", "rear")
 
 Reaction = Literal["body", "carrier"]
-"""What a torque on a wheel reacts on: the body of the car, or the carrier of the wheel."""
+"""The part on which a wheel's torque reacts: the body of the car, or the carrier of the wheel."""
 
 ROAD = d.Ground("road")
 BODY = d.Body("body", 1200.0, (-1.15, 0.0, 0.55), (450.0, 1600.0, 1800.0))
@@ -150,11 +150,11 @@ def driving(
     of_a_car
         From `of_corners` or `of_whole_axle`.
     law
-        Returns what a tyre does, by the name that begins those of its parameters.
+        Returns the contact law of a tyre, by the prefix of its parameters.
     relaxing
         Whether slips follow with the relaxation lengths, which takes two states of each tyre.
     brakes_on, drive_on
-        What has the reaction of the torque; None: nothing drives the axle.
+        The part that reacts the torque; None: nothing drives the axle.
     """
     chassis = of_a_car.mechanism.body(of_a_car.mechanism.ground)
     slow = d.AngularSpeed(

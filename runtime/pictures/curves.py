@@ -384,7 +384,7 @@ def _typeset(text: str) -> str:
 
 @dataclass(frozen=True)
 class _Named:
-    """What a legend has: lines, their names, and what these are."""
+    """The lines of a legend, their names, and its title."""
 
     handles: Sequence[Any] = ()
     labels: Sequence[str] = ()

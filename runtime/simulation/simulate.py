@@ -102,8 +102,8 @@ def simulate(
         'BDF' (Gear's formulas) or 'Adams'; Runge-Kutta 'DormandPrince' (order 5, as in
         `ensemble`), 'Tsitouras' (order 5) or 'Verner' (8 stages, order 6); 'RK4', the classical
         method of order 4 with a `step` of one length, as in real time; 'RODASP', of order 4 with
-        such a step too, for what is stiff; or SciPy's 'Radau', 'LSODA', 'RK45', 'DOP853'. Implicit
-        methods use the exact Jacobian.
+        such a step too, for stiff equations; or SciPy's 'Radau', 'LSODA', 'RK45', 'DOP853'.
+        Implicit methods use the exact Jacobian.
     step : float, optional
         Length of all steps of 'RK4' and 'RODASP' [s], which have no tolerances. One is shorter
         where an input jumps or turns fast, and at the end; near a dead point more are.
@@ -163,7 +163,7 @@ def simulate(
     where one of them times the step may be beyond 2.61, up to which the method is stable wherever
     motions do not grow, it ends with the longest step that is stable.
 
-    'RODASP' is L-stable: what is too fast for a step decays in it. Each step
+    'RODASP' is L-stable: motions too fast for a step decay in it. Each step
     takes six evaluations, one exact Jacobian and one factorisation, and two evaluations more where
     inputs vary, for the derivative by time. Rates that jump to and fro from step to step, as those
     of friction that sticks within less than a step, end it with an error.
@@ -501,7 +501,7 @@ class _Run:
             "than the arithmetic has. Loosen them.",
             "unstable": f"steps of {options.max_step:g} s are not stable: the fastest motion here "
             f"needs steps of {0.99 * piece.longest_step:.3g} s or less. Give such a step, or "
-            "another method: RODASP and BDF are for what is stiff.",
+            "another method: RODASP and BDF are for stiff equations.",
             "jumps": f"rates jump to and fro within steps of {options.max_step:g} s, as those of "
             "friction that sticks, and the result would be wrong. Give a shorter step, or method "
             "'BDF'.",

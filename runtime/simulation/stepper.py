@@ -48,8 +48,8 @@ class Stepper:
         are those of `y0` where it comes from `equilibrium` or `state_at_height`, or else zero.
     method : {'RK4', 'RODASP', 'DormandPrince'}, optional
         The classical Runge-Kutta method, four evaluations a step, as in real time; the linearly
-        implicit one for what is stiff, at a constant cost too; or steps within each step that keep
-        a tolerance.
+        implicit one for stiff equations, at a constant cost too; or steps within each step that
+        keep a tolerance.
     rtol, atol : float, array_like, optional
         Tolerances of 'DormandPrince', by default 1e-6 and 1e-9.
     t0 : float, optional

@@ -1,7 +1,7 @@
 """Equations for other programs: files that need nothing of this package.
 
-`export`           from a system to files, by the name of what they are for
-`emitted`          what is exported: sources, numbers of one parameter set, where results lie
+`export`           from a system to files, by the name of their target
+`emitted`          the exported content: sources, numbers of one parameter set, places of results
 `text`             numbers and words as C has them; templates
 `c_folder`         plain C with the numbers of this parameter set and an example
 `casadi_external`  functions of that folder for ``casadi.external``

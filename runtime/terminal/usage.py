@@ -34,10 +34,10 @@ class Command(TyperCommand):
         for parameter in self.params:
             words = getattr(parameter, "help", None)
             if words:
-                parameter.help = escape(words)  # type: ignore[attr-defined]
+                parameter.help = escape(words)  # type: ignore[attr-defined] # arguments have one, too
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Return what is left of the arguments, which is nothing."""
+        """Return the remaining arguments, of which there are none."""
         ctx.allow_extra_args = True
         try:
             left = super().parse_args(ctx, args)
@@ -86,7 +86,7 @@ class CommandGroup(TyperGroup):
 
 
 def usage_problem(error: Any) -> str:
-    """Return what is wrong with the arguments of a command, and what to write instead.
+    """Return the mistake in the arguments of a command, and the correction.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a driver does, as inputs of the equations of a car: steering wheel, pedals."""
+"""Steering wheel and pedals as inputs of the equations of a car."""
 
 from functools import cached_property
 from typing import Any

@@ -15,7 +15,7 @@ from .wheel_names import WheelNames
 Array = NDArray[np.float64]
 
 _MOST_STEPS, _HALVINGS = 40, 20
-# What is left of accelerations and velocities [m/s^2, rad/s^2, m/s].
+# Remaining accelerations and velocities [m/s^2, rad/s^2, m/s].
 _STEADY = 1e-8
 # Scales by which the drive torque and the rack are small beside an angle [N m, m].
 _TORQUE, _RACK = 1e3, 0.1
@@ -108,7 +108,7 @@ class _Search:
         return State.of(state, inputs, self.model.names_of_states)
 
     def _left(self, state: Array, inputs: Array) -> Array:
-        """Return what has to vanish: velocity but for the speed, accelerations, rates of tyres."""
+        """Return the residuals: velocity except the speed, accelerations, rates of tyres."""
         rates = self.model.evaluate("rhs", state, inputs)
         along = rates[:3] - [self.speed, 0.0, 0.0]
         return np.concatenate((along, rates[self.layout.positions :]))

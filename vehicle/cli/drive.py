@@ -107,7 +107,7 @@ def _refuse_animation(path: Path, outputs: Outputs, chosen: "AnyManoeuvre") -> N
 
 
 def _drawn(chosen: "AnyManoeuvre") -> tuple[str, ...]:
-    """Return what is added to the names of figures: cones are in the figure of the path."""
+    """Return the endings of the names of figures: cones are in the figure of the path."""
     return tuple(suffix for suffix in chosen.CURVES if suffix != "_cones")
 
 

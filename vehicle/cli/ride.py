@@ -62,7 +62,7 @@ def command(
     contact_length: Annotated[
         float | None,
         option(
-            "Length of the contact of a tyre, which then envelopes what is short: by two "
+            "Length of the contact of a tyre, which then envelopes short waves and edges: by two "
             "elliptical cams. A kerb needs it. Default: contact in a point.",
             "MM",
         ),

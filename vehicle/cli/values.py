@@ -1,4 +1,4 @@
-"""Values on the command line: numbers and choices, read with messages that say what is needed."""
+"""Values on the command line: numbers and choices, with messages that say which are allowed."""
 
 import math
 import re

@@ -16,7 +16,7 @@ from ...pictures.curves import draw, named_values, varying
 from ...pictures.figures import BLUE, ORANGE, STYLE, save, written_plainly
 from ..assembly.by_wheel import WHEEL
 
-# What is drawn, by what the curves are over: in this order, as far as it is there and varies.
+# The drawn curves by their axis: in this order, as far as they are there and vary.
 _SHOWN: Mapping[str, tuple[str, ...]] = {
     "time": (
         "steering_wheel_angle", "lateral_acceleration", "yaw_rate", "sideslip_angle", "roll_angle",

@@ -30,7 +30,7 @@ _THICK, _EDGE = 6.0, 1.2
 # A part with more loads than this has a row for each view. Labels are at both sides of a drawing,
 # in room that is this part of its width.
 _MANY, _ASIDE, _ASIDE_NARROW = 4, 0.35, 0.9
-# Least height of a row; what it needs beside its labels, and for each of them in a column [in].
+# Least height of a row; its height beside its labels, and for each of them in a column [in].
 _ROW, _FRAME, _LABEL = 2.7, 0.8, 0.45
 # Forces and couples below these are not drawn [N], [N m].
 _SMALL_FORCE, _SMALL_MOMENT = 0.5, 1.0
@@ -140,7 +140,7 @@ def _draw(axes: Axes, loads: xr.Dataset, view: str) -> list[Annotation]:
         colour = ORANGE if without_side(loads["by"].values[i]) in _FROM_OUTSIDE else BLUE
         strength = float(np.linalg.norm(forces[i]))
         if strength < _ACROSS * sizes[i]:
-            # seen from behind and from the right, what is positive goes away from the viewer
+            # seen from behind and from the right, positive goes away from the viewer
             away = float(loads["force"].values[i, 1 - across]) > 0.0
             _draw_across(axes, places[i], colour, away=away)
             tail = places[i]

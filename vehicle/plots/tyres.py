@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 _POINTS = 241
 _COLOURS = (BLUE, ORANGE, GREEN, "#cc79a7")
-_LENGTHS = "#7b4ea3"  # of what has the axis at the right
+_LENGTHS = "#7b4ea3"  # of curves with the axis at the right
 _LOADS = (0.5, 1.0, 1.5)
 _ANGLES = (0.0, 2.0, 4.0, 8.0)  # of combined slip [deg]
 _CAMBERS = (-4.0, 0.0, 4.0)  # [deg]

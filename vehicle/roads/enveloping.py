@@ -1,4 +1,4 @@
-"""What a tyre makes of a road with short waves and edges: two elliptical cams in tandem.
+"""The effective profile of a road with short waves and edges: two elliptical cams in tandem.
 
 A tyre touches the road along a patch, deforms around short obstacles, and climbs an edge before
 its centre is there. In the model of Schmeitz (A Semi-Empirical Three-Dimensional Model of the

@@ -26,7 +26,7 @@ class Road:
     words : str, optional
         What it is.
     stationary : bool, optional
-        Whether it is rough in the same way all along, so that what a car begins with on it is of no
+        Whether it is rough in the same way all along, so that the start of a car on it is of no
         importance: `kintrafo.ride.over` judges what follows.
 
     Examples

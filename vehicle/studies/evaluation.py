@@ -34,7 +34,7 @@ def check_subject(given: Validator, subject: Any) -> None:
 
 
 def check_held_subject(given: Validator, subject: Any) -> None:
-    """Refuse what has no design variables, and a car, whose body moves."""
+    """Refuse a subject without design variables, and a car, whose body moves."""
     check_subject(given, subject)
     if isinstance(subject, Car):
         given.fail(f"suspension: {NOT_A_CAR}")

@@ -321,7 +321,7 @@ def check_data(
     for goal in goals:
         name = f"{goal.name} over {ways[0] if goal.over in HELD else goal.over}"
         if goal.over not in (*ways, *HELD):
-            given.fail(f"{name}: what is looked at has curves over {', '.join(ways)}.")
+            given.fail(f"{name}: the curves of this subject are over {', '.join(ways)}.")
             continue
         assembly.refuse_of_steering([goal.name])
         if goal.name not in available(assembly, goal.over):

@@ -36,7 +36,7 @@ class Objective:
         'deviation', the root mean square of what a target is missed by, and 'greatest', the
         greatest value at some positions, are to be small; 'least', the least value, is to be great.
     goal : Goal
-        What it is about; of a deviation a `TargetValue`.
+        The goal that it is about; of a deviation a `TargetValue`.
     """
 
     name: str

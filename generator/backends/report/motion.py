@@ -457,7 +457,7 @@ def _absolute(motion: MotionFormulas, number: EquationNumbers) -> list[Block]:
             number(angular, cites.get(f"omega of {body}", "")),
             number(linear),
         ]
-    signs = TextTable(("sign", "what it is"), [*_signs(sections)])
+    signs = TextTable(("sign", "meaning"), [*_signs(sections)])
     sections = [Heading(2, "Absolute kinematics"), *([signs] if signs.rows else []), *sections]
     missing = [b for b in motion.derivation.massive_bodies if b not in motion.bodies]
     if missing:

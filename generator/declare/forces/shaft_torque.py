@@ -29,7 +29,7 @@ class ShaftTorque(Force):
     """A torque on a wheel about its spin axis; its reaction is on the carrier or on the chassis.
 
     Without `standstill` the torque is the input, positive as the wheel rolls forward. With it the
-    input is the torque of a brake: it opposes the spin of the wheel against what has the reaction,
+    input is the torque of a brake: it opposes the spin of the wheel relative to the reacting part,
     as ``torque * w / sqrt(w^2 + standstill^2)`` of the spin w, and so vanishes with the spin.
 
     Parameters
@@ -37,7 +37,7 @@ class ShaftTorque(Force):
     name
         Of its signal: the torque that acts [N m].
     wheel
-        What it turns.
+        The wheel that it turns.
     bearing
         The driven hinge about which the wheel turns on its carrier, along its spin axis.
     reaction

@@ -1,4 +1,4 @@
-r"""What hangs on a base, as the base sees it: the corner of a car on its body.
+r"""The inertia that bodies on a base add to it: the corner of a car on its body.
 
 With r the way of a mass point from the centre of mass O of the base, r' its velocity on the base
 and r'' its acceleration there, all in the axes of the base, a corner is sums over its bodies:

@@ -64,7 +64,7 @@ class Flow:
         return Twist(couple, omega.cross(self.momentum) * 2)
 
     def centrifugal(self, squares: SymmetricTensor) -> sp.Expr:
-        """Return what it takes along its coordinate on a base which turns.
+        """Return the generalised force along its coordinate on a base which turns.
 
         Parameters
         ----------

@@ -109,7 +109,7 @@ class Hinged:
 
     @cached_property
     def _tilts(self) -> tuple[Vector, Vector]:
-        """Of the second moments of the line and what is across it."""
+        """Of the second moments between the line and the directions across it."""
         return self._harmonic("tilt", self._seconds.xy, self._seconds.xz)
 
     @cached_property

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Loaded:
-    """A base with all that hangs on it: mass matrix, and what a motion takes.
+    """A base with its bodies: mass matrix, and the generalised forces of a motion.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class Loaded:
 
     @property
     def coordinates(self) -> list[str]:
-        """Those of the base, and those of what hangs on it."""
+        """Those of the base, and those of the bodies on it."""
         return [*self.base.twists, *dict.fromkeys(k for s in self._sums.values() for k in s.flows)]
 
     def add(self, carried: Carried, inertia: SpatialInertia) -> None:
@@ -112,7 +112,7 @@ class Loaded:
                 self.matrix[other, k] = twists[other].dot(momentum)
 
     def _couple(self, k: str, flow: Flow) -> None:
-        """Add what a coordinate has in common with those of the base."""
+        """Add the elements of the mass matrix between a coordinate and those of the base."""
         self.momenta[k] = flow.momentum
         for own, share in self.base.shares(flow.wrench).items():
             self.matrix[own, k] = share
@@ -149,7 +149,7 @@ class Loaded:
         )
 
     def taken(self, label: str, accelerations: Mapping[str, sp.Expr]) -> dict[str, sp.Expr]:
-        """Return what a motion takes along each coordinate: ``B + M q''``.
+        """Return the generalised force of a motion along each coordinate: ``B + M q''``.
 
         Parameters
         ----------

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def kind_of(carried: Carried) -> type[Shifted | Hinged | MovingBody]:
-    """Return by what a body is best described."""
+    """Return the description of a body with the fewest operations."""
     fitting = (kind for kind in (Hinged, Shifted) if kind.fits(carried))
     return next(fitting, MovingBody)
 

@@ -1,7 +1,7 @@
 /*
- * A linearly implicit method with steps of one length, for what is stiff: each step evaluates the rates six
+ * A linearly implicit method with steps of one length, for stiff equations: each step evaluates the rates six
  * times and the exact Jacobian once, and solves linear equations six times by one factorisation. It is
- * L-stable, so that what is too fast for a step decays, and its last stage is its result (stiffly accurate).
+ * L-stable, so that motions too fast for a step decay, and its last stage is its result (stiffly accurate).
  *
  * How rates change with time, by inputs that move, is a central difference along their polynomials.
  *
@@ -107,7 +107,7 @@ static void close_method(worker *w)
 
 /* -- linear equations ------------------------------------------------------------------------- */
 
-/* Bring the row with the largest entry of a column to its place; tell whether there is one. */
+/* Bring the row with the largest entry of a column to its place; return whether there is one. */
 static int choose_pivot(method *m, int n, int column)
 {
     int best = column;
@@ -128,7 +128,7 @@ static int choose_pivot(method *m, int n, int column)
     return pivot > 0.0 && pivot <= DBL_MAX; /* nor a NaN */
 }
 
-/* Factorise I / (step GAMMA) - J by rows, with partial pivoting; tell whether that can be done. */
+/* Factorise I / (step GAMMA) - J by rows, with partial pivoting; return whether that can be done. */
 static int factorise(method *m, int n, double step)
 {
     double *a = m->matrix;
@@ -230,17 +230,17 @@ static int attempt(worker *w, double end, double step)
     return rates_at(w, end, m->end_state, m->end_rates);
 }
 
-/* Tell whether rates jump between the points of the last two stages, which are at one time. */
+/* Return whether rates jump between the points of the last two stages, which are at one time. */
 static int jumps(method *m, int n)
 {
     const double *between = m->stages + (STAGES - 2) * n;
     double differ = 0.0, size = 0.0, beyond = 0.0;
     for (int i = 0; i < n; ++i) {
-        double told = 0.0;
+        double change = 0.0;
         for (int j = 0; j < n; ++j) {
-            told += m->jacobian[i * n + j] * between[j];
+            change += m->jacobian[i * n + j] * between[j];
         }
-        m->point[i] = m->found[i] - m->before[i] - told;
+        m->point[i] = m->found[i] - m->before[i] - change;
         differ += fabs(between[i]);
         size += fabs(m->state[i]);
     }

@@ -290,7 +290,7 @@ def test_no_order_is_lost_on_what_is_stiff(following: Any) -> None:
 def test_a_stiff_strut_is_integrated_where_runge_kutta_is_not() -> None:
     """A damper of 200 times the rate: 1 ms is three times too long, and the motion that of BDF."""
     model, start = System(MODEL.equations, MODEL.parameters | {"damper_rate": 3e5}), np.array(START)
-    with pytest.raises(SimulationError, match="RODASP and BDF are for what is stiff"):
+    with pytest.raises(SimulationError, match="RODASP and BDF are for stiff equations"):
         simulate(model, SPAN, start, method="RK4", step=1e-3)
     truth = simulate(model, SPAN, start, method="BDF", rtol=1e-11, atol=1e-13, t_eval=TIMES).y
     errors = [

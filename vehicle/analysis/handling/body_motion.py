@@ -27,7 +27,7 @@ QUANTITIES = {
     "longitudinal_acceleration": ("longitudinal acceleration, positive forward", "m/s^2"),
     "lateral_acceleration": ("lateral acceleration, positive to the left", "m/s^2"),
 }
-"""What is known of the motion: meaning and SI unit, by name."""
+"""Quantities of the motion: meaning and SI unit, by name."""
 
 
 @dataclass(frozen=True)

@@ -126,7 +126,7 @@ class Run(NamedTuple):
     ----------
     car : DrivingCar
     motion : xarray.Dataset
-        What is known of it over time.
+        Its motion over time.
     states, inputs : ndarray, shape (n, states) and (n, inputs)
         Of its equations, at the same times.
     """

@@ -71,7 +71,7 @@ _UNITS = {"fx": "N", "fy": "N", "fz": "N", "slip": "1"}
 
 
 def columns_of_turns(wheels: Sequence[str]) -> dict[str, Quantity]:
-    """Return what is known of steady turns, by the names of the columns of a flat table."""
+    """Return the quantities of steady turns, by the names of the columns of a flat table."""
     every = {**_OF_DRIVER, **{name: QUANTITIES[name] for name in _OF_BODY}}
     every |= {name: (words, _PER) for name, words in _GRADIENTS.items()}
     found = {name: _column(name, *described) for name, described in every.items()}

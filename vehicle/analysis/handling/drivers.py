@@ -21,7 +21,7 @@ _SLOWEST = 0.1
 
 
 class Observation(NamedTuple):
-    """What a driver sees of the car.
+    """The motion of the car that a driver sees.
 
     Attributes
     ----------
@@ -135,7 +135,7 @@ class PathFollower:
     of the path that is the preview time ahead, and asks for the circle that leads there, along the
     direction of the car. With the point at x_p ahead and y_p to the left, its curvature is
     ``2 y_p / (x_p^2 + y_p^2)``. The angle that a car needs for a curvature in steady state is known
-    to the driver. The arms follow what is asked for as a filter of second order, critically damped,
+    to the driver. The arms follow the wanted angle as a filter of second order, critically damped,
     whose acceleration is constant between samples: the rack's position and rate are continuous.
 
     Parameters

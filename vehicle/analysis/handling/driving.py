@@ -25,7 +25,7 @@ def drive(
     *,
     progress: Callable[[float], None] | None = None,
 ) -> HandlingResult:
-    """Return what a car does in a manoeuvre.
+    """Return the motion of a car in a manoeuvre, and its metrics.
 
     Parameters
     ----------

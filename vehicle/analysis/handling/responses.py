@@ -51,7 +51,7 @@ def peak(time: Array, values: Array) -> tuple[float, float]:
 
 
 class StepResponse(NamedTuple):
-    """What a response to a step is judged by (ISO 7401).
+    """Metrics of a response to a step (ISO 7401).
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class StepResponse(NamedTuple):
 
 
 def step_response(time: Array, values: Array, begun: float, settled: float) -> StepResponse:
-    """Return what a response to a step is judged by.
+    """Return the metrics of a response to a step.
 
     Parameters
     ----------

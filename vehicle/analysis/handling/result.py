@@ -1,4 +1,4 @@
-"""What a manoeuvre is judged by, and what the car does in it."""
+"""Metrics of a manoeuvre, and curves of the car's motion in it."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -16,9 +16,9 @@ class HandlingResult(NamedTuple):
     Attributes
     ----------
     metrics : xarray.Dataset
-        What it is judged by, each with its unit and meaning.
+        Its metrics, each with unit and meaning.
     curves : dict of str to xarray.Dataset
-        Curves over time, lateral acceleration or frequency; by what is added to the name of a file.
+        Curves over time, lateral acceleration or frequency; by the ending of a file's name.
     runs : sequence of Run
         The simulations, with the states of the equations; none of steady turns.
     """

@@ -120,7 +120,7 @@ def cases_of(
                 name: _of_wheel(given, name, table, wheel, racks=assembly.steered)
                 for name, table in described.items()
             }
-        # what all have is said once
+        # common to all
         if not given.failed:
             of = wheel if several else ""
             found.append(_cases_of_wheel(given, own, static_load, of))

@@ -25,7 +25,7 @@ _MOST_OUTPUTS = 2_000_000
 # Between outputs accelerations are taken to be straight lines: at this step, weighted ones of a
 # wheel hop at 12 Hz are some 3 % too small, at longer ones more [s].
 _LONGEST_STEP = 0.01
-# What a car begins with on a rough road has decayed after this time [s].
+# The start from rest on a rough road has decayed after this time [s].
 _SETTLED = 2.0
 # A tyre that carries less than this is off the road [N].
 _OFF = 1e-6
@@ -53,7 +53,7 @@ def over(
     duration : float, optional
         [s]; by default as long as the road is under the rear wheels.
     settle : float, optional
-        What is judged begins after this time [s]; by default 2 s on a road that is rough all
+        Metrics begin after this time [s]; by default 2 s on a road that is rough all
         along, and 0 on others, whose bump may come at once.
     output_step : float, optional
         0.01 s at most, so that accelerations can be weighted [s].

@@ -156,7 +156,7 @@ def raised_moments(moments: Any) -> list[float]:
     Parameters
     ----------
     moments : object
-        As a file has them. What is no list of three positive numbers is left to other checks.
+        As a file has them. Anything but a list of three positive numbers is left to other checks.
     """
     if not (isinstance(moments, list) and len(moments) == len("xyz")):
         return []

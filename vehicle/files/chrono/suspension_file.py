@@ -161,7 +161,7 @@ class SuspensionFile(PointsFile):
         }
 
     def assumed_alone(self, tire: Tire) -> list[str]:
-        """Return what is assumed of a suspension whose vehicle is not known, a sentence each."""
+        """Return the assumptions for a suspension whose vehicle is not known, a sentence each."""
         given = "" if tire.rate is not None else f"{TYRE_RATE / 1e3:g} N/mm, "
         lines = [f"tyre: {given}just touching at design"]
         if tire.is_usual:
@@ -223,7 +223,7 @@ class KnuckleFile(SuspensionFile, SteeredPoints):
         return found | {"rack": {"axis": [0.0, 1.0, 0.0]}, "bodies": bodies}
 
     def assumed_alone(self, tire: Tire) -> list[str]:
-        """Return what is assumed of a suspension whose vehicle is not known, a sentence each."""
+        """Return the assumptions for a suspension whose vehicle is not known, a sentence each."""
         return [RACK, *super().assumed_alone(tire)]
 
 

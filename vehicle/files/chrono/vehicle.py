@@ -91,7 +91,7 @@ def read_vehicle(path: str | Path, *, tire: str | Path | None = None) -> Importe
     Returns
     -------
     ImportedCar
-        What had to be assumed and what was not read, besides.
+        The car with its assumptions, and the keys that were not read.
 
     Raises
     ------
@@ -384,7 +384,7 @@ class _Reader:
         return {"front_brake_share": round(torques[0] / total, 9)}
 
     def _driving(self) -> dict[str, Any]:
-        """Return what a car that drives has besides: tyres, if their files can be read, and brakes.
+        """Return the sections of a car that drives: tyres, if their files can be read, and brakes.
 
         The car itself does not drive before its file says so.
         """
@@ -397,7 +397,7 @@ class _Reader:
         return {"tyres": {**self.rolling, "relaxation": False}} | brakes
 
     def _rolling(self, file: Path) -> str | None:
-        """Return the file of a tyre that rolls, or None with a reason among what is assumed."""
+        """Return the file of a tyre that rolls, or None with a reason among the assumptions."""
         given = content(file).get(_TIR)
         try:
             tyre = file if not isinstance(given, str) else self.folder.find(given, _TIR)

@@ -177,7 +177,7 @@ class RackPinion(_File):
     pinion: _Pinion = Field(alias="Pinion")
 
     def rack(self, turned: Array) -> tuple[dict[str, Any], str]:
-        """Return the section of a rack in a frame that is turned, and what is taken to be."""
+        """Return the section of a rack in a frame that is turned, and its assumptions."""
         most = np.deg2rad(self.pinion.greatest) * self.pinion.radius
         section = {
             "axis": direction(turned @ [0.0, 1.0, 0.0]),

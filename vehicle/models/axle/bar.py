@@ -59,7 +59,7 @@ _Stiffness = Annotated[
     Number,
     Field(gt=0.0, le=1e7),
     AllowedRange(
-        "more than 0 {unit}, at most 10,000,000 {unit}", "Leave the key out for what is rigid."
+        "more than 0 {unit}, at most 10,000,000 {unit}", "Leave the key out for a rigid part."
     ),
 ]
 _Twist = Annotated[

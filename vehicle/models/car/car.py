@@ -367,7 +367,7 @@ def _parts_of(described: CarFile, folder: Path, source: str) -> dict[str, Any]:
 
 
 def _with_tyres(described: CarFile, folder: Path, source: str) -> tuple[CarFile, dict[str, Tyre]]:
-    """Return what a file says with tyres that any folder finds, and the tyres by end."""
+    """Return the data of a file with absolute paths of tyres, and the tyres by end."""
     if described.tyres is None:
         return described, {}
     given = {end: _copied(named(getattr(described.tyres, end), folder)) for end in ENDS}

@@ -180,7 +180,7 @@ class _End:
 
     @classmethod
     def of(cls, car: Car, end: str) -> "_End":
-        """Return what they depend on at an axle of a car."""
+        """Return the structure of an axle on which they depend."""
         axle = car.axles[end]
         rolling: dict[str, Any] = {}
         if car.drives:

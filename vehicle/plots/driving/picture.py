@@ -85,7 +85,7 @@ class Drawer:
         self._half = np.array([1.3, 0.83]) * size
 
     def draw(self, index: int) -> None:
-        """Draw one frame in the place of what was drawn before."""
+        """Draw one frame in the place of the one before."""
         self._follow(index)
         self._from_above(index)
 

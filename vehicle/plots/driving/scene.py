@@ -70,7 +70,7 @@ class DrivingScene:
 
 
 def scene_of(run: Run, rows: NDArray[np.intp], *, cones: xr.Dataset | None = None) -> DrivingScene:
-    """Return what is drawn of a simulation.
+    """Return the scene of a simulation.
 
     Parameters
     ----------

@@ -51,7 +51,7 @@ static int move(unit *u, double lapse, double *state, double *inputs)
     return word;
 }
 
-/* Evaluate the margins of a point and of the two points that follow; tell whether there are any. */
+/* Evaluate the margins of a point and of the two points that follow; return whether there are any. */
 static int look(unit *u, double lapse, const double *state, const double *inputs, double *margins)
 {
     const km_model *m = &km_this;

@@ -145,7 +145,7 @@ int ku_derivative(unit *u, const unsigned *unknowns, size_t rows, const unsigned
 /* Report which events have happened; `over` tells whether the model ends here. */
 int ku_update(unit *u, int *over);
 
-/* A step of the importer has come to its end; `over` tells whether it has passed a dead point. */
+/* A step of the importer has come to its end; `over` says whether it has passed a dead point. */
 int ku_completed(unit *u, int *over);
 void ku_mark(unit *u);
 

@@ -39,7 +39,7 @@ class LaneSection(Section):
     start_m: NonNegative = Field(description="where it begins, from the first cones")
     length_m: Positive = Field(description="how long it is")
     width_of_car: Positive = Field(description="its width, in widths of the car")
-    width_more_m: NonNegative = Field(description="what is added to that")
+    width_more_m: NonNegative = Field(description="a length that is added to that")
     least_width_m: NonNegative = Field(default=0.0, description="width that it has at least")
     beside_m: Number | None = Field(
         default=None,
@@ -234,7 +234,7 @@ class DoubleLaneChange(TurningManoeuvre):
 
 
 def _knowing(turns: Turns, straight: Steady) -> Callable[[float], float]:
-    """Return what a driver knows of the car: steering wheel angle by curvature, over speed.
+    """Return the steering characteristic of a driver: wheel angle by curvature, over speed.
 
     It is that of a gentle turn at the speed of the manoeuvre, in which the part that grows with the
     square of the speed is that of the understeer gradient.

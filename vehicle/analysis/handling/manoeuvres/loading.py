@@ -86,7 +86,7 @@ def load_manoeuvre(
         what = f'{_KEY} = "{short(kind)}" is none' if _KEY in data else f"{_KEY} is missing"
         known = ", ".join(f'"{one}"' for one in MANOEUVRES)
         hint = suggestion(kind, MANOEUVRES) if kind else f'Add a line `{_KEY} = "step_steer"`.'
-        problem = f"{what}: it names what is driven, one of {known}. {hint}"
+        problem = f"{what}: it names the manoeuvre, one of {known}. {hint}"
         raise InputError([problem], source)
     model = MANOEUVRES[kind]
     try:

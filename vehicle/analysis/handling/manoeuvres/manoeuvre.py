@@ -1,4 +1,4 @@
-"""What all manoeuvres have in common: the keys of their files, and how they begin."""
+"""The base of all manoeuvres: the common keys of their files, and their beginning."""
 
 from abc import abstractmethod
 from collections.abc import Callable
@@ -30,9 +30,9 @@ class Manoeuvre(Section):
     """A manoeuvre, as its file says it."""
 
     TITLE: ClassVar[str]
-    """What it is, in a few words."""
+    """The manoeuvre in a few words."""
     CURVES: ClassVar[tuple[str, ...]] = ("",)
-    """What is added to the name of a file for each of its datasets with curves."""
+    """The ending of a file's name for each of its datasets with curves."""
     TRAVELS: ClassVar[bool] = True
     """Whether the car drives along a path that can be drawn."""
 
@@ -53,7 +53,7 @@ class Manoeuvre(Section):
 
     @abstractmethod
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
-        """Return what a car does in it.
+        """Return the motion of a car in it, and its metrics.
 
         Parameters
         ----------
@@ -81,7 +81,7 @@ class Manoeuvre(Section):
 
     @property
     def title(self) -> str:
-        """What it is, with its speed."""
+        """The manoeuvre in a few words, with its speed."""
         return f"{self.TITLE}, {self.speed_km_per_h:g} km/h"
 
     def straight(self, car: DrivingCar) -> tuple[Turns, Steady]:
@@ -143,7 +143,7 @@ class Manoeuvre(Section):
         return found
 
     def judged(self, numbers: dict[str, Number]) -> xr.Dataset:
-        """Return what it is judged by, with the title of the manoeuvre."""
+        """Return its metrics, with the title of the manoeuvre."""
         found = {
             name: quantity((), np.float64(value), meaning, unit)
             for name, (value, meaning, unit) in numbers.items()

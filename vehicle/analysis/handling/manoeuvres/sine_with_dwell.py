@@ -164,7 +164,7 @@ def amplitudes_of(reference: float) -> list[float]:
 
 
 def judge(motion: xr.Dataset, course: SteeringCourse, sense: int) -> dict[str, float]:
-    """Return what one run is judged by.
+    """Return the metrics of one run.
 
     Parameters
     ----------

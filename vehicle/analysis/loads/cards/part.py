@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 # Points that are nearer to each other than this are one [m]; rounding of coordinates is 1e-15.
 _SAME = 1e-9
-# What is smaller than this part of the greatest is a rounding error.
+# A smaller value than this part of the greatest is a rounding error.
 _ROUNDING = 1e-12
 _FIELDS = ("force", "moment", "at")
 

@@ -15,7 +15,7 @@ from .part import LoadedPart
 Array = NDArray[np.float64]
 
 LENGTHS = {"mm": 1e3, "m": 1.0}
-"""Units of length, by what a metre is in them."""
+"""Units of length: how many of them a metre has."""
 
 # Higher than those of usual meshes, and below the most that Nastran has.
 FIRST_NODE = 99_000_001
@@ -44,7 +44,7 @@ class Node(NamedTuple):
 
 @dataclass(frozen=True)
 class CardSheet:
-    """What is written of a part.
+    """The cards of a part.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class CardSheet:
     length : str
         Unit of length: mm or m.
     source : str
-        What was loaded.
+        Name of the suspension or axle.
     """
 
     loaded: LoadedPart

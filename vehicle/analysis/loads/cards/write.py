@@ -60,7 +60,7 @@ def write_cards(
     length : {"mm", "m"}, optional
         Unit of length. Forces are in N, moments in N mm or N m.
     source : str, optional
-        What was loaded, for the first line.
+        Name of the suspension or axle, for the first line.
     force : bool, optional
         Whether files that kintrafo did not write are replaced.
     inputs : iterable of str or pathlib.Path, optional
