@@ -1,16 +1,23 @@
-/* Steps of one length: when each one ends. Lengths have no sign. */
+/* Methods with steps of one length: when each step ends, and all that they have in common. Lengths have no sign. */
 #ifndef KINTRAFO_FIXED_STEP_H
 #define KINTRAFO_FIXED_STEP_H
 
 #include "worker.h"
 
-#include <math.h>
-
-/* Part of a step that is not taken for one: rounding of times. */
-#define KT_SLIVER 1.0e-9
-
 /* A code that is never returned: there are no tolerances. */
 #define KT_NO_TOLERANCES 1
+
+/* Terms of the polynomial within a step. */
+#define KT_TERMS 4
+
+/* The steps of one method; codes are those of a solver, zero where nothing is wrong. */
+typedef struct {
+    int (*prepare)(worker *w, double step);             /* what is needed before the stages, or refuse the step */
+    int (*attempt)(worker *w, double end, double step); /* find the end; positive where the model refuses a stage */
+    int (*jumped)(worker *w, double step);              /* whether rates jump to and fro in the step */
+    int (*refuse_jumps)(worker *w, double step);        /* the code of steps that do so again and again */
+    void (*fit)(worker *w);                             /* find the polynomial within the last step */
+} kt_fixed_method;
 
 typedef struct {
     double sign;          /* of the time's direction */
@@ -19,45 +26,32 @@ typedef struct {
     long since;           /* steps since then */
     double next;          /* how long the next one is at most: shorter where the model refused a state */
     double stop;          /* no step passes over this time */
-} kt_fixed_steps;
+} kt_fixed_times;
 
-static inline double kt_longest_fixed(const worker *w)
-{
-    return w->options->max_step > 0.0 ? w->options->max_step : fabs(w->end - w->start);
-}
+/* The first member of what belongs to a method. */
+typedef struct {
+    const kt_fixed_method *method;
+    kt_fixed_times times;
+    double *state, *end_state; /* of the last step */
+    double *rates, *end_rates; /* at the begin; at the end, which are those of the next begin */
+    double *terms;             /* KT_TERMS x states: the polynomial within the last step */
+    int jumps, calm;           /* steps in which rates have jumped, and those in a row in which not */
+    int fresh, fitted;         /* the rates at `time` are not known; the terms are those of the last step */
+    kt_statistics counted;
+} kt_fixed;
 
-static inline void kt_begin_steps(kt_fixed_steps *s, double time, double length)
-{
-    s->time = s->reached = s->origin = time;
-    s->since = 0;
-    s->next = fabs(length);
-}
+/* Begin at a time; the arrays are there. */
+void kt_fixed_open(worker *w, const kt_fixed_method *method, double start);
 
-static inline int kt_is_whole(const kt_fixed_steps *s, double most) { return s->next >= most; }
+/* Evaluate the rates, and count that. */
+int kt_fixed_rates(worker *w, double time, const double *state, double *out);
 
-static inline int kt_lands(const kt_fixed_steps *s, double most)
-{
-    return s->sign * (s->stop - s->time) <= fmin(s->next, most) * (1.0 + KT_SLIVER);
-}
-
-/* Return the time at which the next step ends. */
-static inline double kt_end_of_step(const kt_fixed_steps *s, double most)
-{
-    if (kt_lands(s, most)) {
-        return s->stop;
-    }
-    return kt_is_whole(s, most) ? s->origin + s->sign * (double)(s->since + 1) * most
-                                : s->time + s->sign * s->next;
-}
-
-/* Note that the step to this time is taken. */
-static inline void kt_reach_end(kt_fixed_steps *s, double end, double most)
-{
-    int anew = kt_lands(s, most) || !kt_is_whole(s, most);
-    s->reached = end;
-    s->next = fmin(2.0 * s->next, most);
-    s->since = anew ? 0 : s->since + 1;
-    s->origin = anew ? end : s->origin;
-}
+/* What a `kt_solver` of these methods has. */
+int kt_fixed_begin(worker *w, double time, double length);
+int kt_fixed_step(worker *w, double goal, double *time);
+int kt_fixed_set_stop(worker *w, double time);
+int kt_fixed_interpolate(worker *w, double time, int derivative, double *out);
+double kt_fixed_next(worker *w);
+void kt_fixed_count(worker *w, kt_statistics *total);
 
 #endif

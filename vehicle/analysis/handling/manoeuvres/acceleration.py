@@ -8,16 +8,18 @@ from pydantic import Field
 from .....core.errors import InputError
 from ....input.section import NonNegative, Positive
 from ..car import DrivingCar
-from ..drivers import Fixed, HeldTorque, Observation
+from ..drivers import Fixed, HeldTorque
 from ..responses import first_crossing
 from ..result import HandlingResult
-from .manoeuvre import Manoeuvre, Number, Progress, greatest
+from .manoeuvre import Number, Progress, greatest
+from .until_speed import UntilSpeed
 
 
-class Acceleration(Manoeuvre):
+class Acceleration(UntilSpeed):
     """The drive gives a torque, and the car runs straight ahead up to a speed."""
 
     TITLE: ClassVar[str] = "acceleration"
+    SLOWS: ClassVar[bool] = False
 
     manoeuvre: Literal["acceleration"] = Field(description="which manoeuvre this is")
     torque_Nm: Positive = Field(  # noqa: N815 (N m is the unit)
@@ -27,28 +29,14 @@ class Acceleration(Manoeuvre):
     rise_s: NonNegative = Field(default=0.2, description="time in which the torque rises")
     duration_s: Positive = Field(default=60.0, description="longest duration of the simulation")
 
-    def problems(self) -> list[str]:
-        """Say what cannot be."""
-        found = super().problems()
-        if self.until_km_per_h <= self.speed_km_per_h:
-            found.append(
-                f"until_km_per_h = {self.until_km_per_h:g} km/h: more than speed_km_per_h = "
-                f"{self.speed_km_per_h:g} km/h is needed."
-            )
-        return found
-
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
         """Return times, the way and the greatest acceleration, and the motion."""
         _, straight = self.straight(car)
-        end = self.until_km_per_h / 3.6
-
-        def ended(seen: Observation) -> bool:
-            return seen.speed >= end
-
+        end = self.end_speed
         pushes = HeldTorque(straight.unknowns["drive"], self.torque_Nm, 0.0, self.rise_s)
         motion = self.simulated(
             car, straight, Fixed(straight.unknowns["steering_wheel"]), pushes, self.duration_s,
-            until=ended, progress=progress,
+            until=self.ended, progress=progress,
         )  # fmt: skip
         time, speed, x = (motion[name].values for name in ("time", "speed", "x"))
         if speed[-1] < end:

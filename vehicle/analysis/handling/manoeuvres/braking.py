@@ -7,14 +7,15 @@ from pydantic import Field
 
 from ....input.section import NonNegative, Positive
 from ..car import DrivingCar
-from ..drivers import Braking, Fixed, Observation
+from ..drivers import Braking, Fixed
 from ..responses import first_crossing
 from ..result import HandlingResult
 from .brakes import BrakingManoeuvre
 from .manoeuvre import Number, Progress, greatest
+from .until_speed import UntilSpeed
 
 
-class StraightBraking(BrakingManoeuvre):
+class StraightBraking(UntilSpeed, BrakingManoeuvre):
     """The brake is pushed while the car runs straight ahead, the steering wheel held."""
 
     TITLE: ClassVar[str] = "braking in a straight line"
@@ -23,28 +24,14 @@ class StraightBraking(BrakingManoeuvre):
     until_km_per_h: Positive = Field(default=5.0, description="speed at which it ends")
     start_s: NonNegative = Field(default=0.5, description="when the brake is pushed")
 
-    def problems(self) -> list[str]:
-        """Say what cannot be."""
-        found = super().problems()
-        if self.until_km_per_h >= self.speed_km_per_h:
-            found.append(
-                f"until_km_per_h = {self.until_km_per_h:g} km/h: less than speed_km_per_h = "
-                f"{self.speed_km_per_h:g} km/h is needed."
-            )
-        return found
-
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
         """Return the braking distance and decelerations, and the motion."""
         _, straight = self.straight(car)
-        end = self.until_km_per_h / 3.6
-
-        def ended(seen: Observation) -> bool:
-            return seen.speed <= end
-
+        end = self.end_speed
         pushes = Braking(straight.unknowns["drive"], self.pedal_of(car), self.start_s, self.rise_s)
         motion = self.simulated(
             car, straight, Fixed(straight.unknowns["steering_wheel"]), pushes, self.duration_s,
-            until=ended, progress=progress,
+            until=self.ended, progress=progress,
         )  # fmt: skip
         self.see_that_it_ends(motion, "until_km_per_h", end)
         time, speed, x = (motion[name].values for name in ("time", "speed", "x"))

@@ -8,13 +8,14 @@ from pydantic import Field
 from .....core.errors import InputError
 from ....input.section import Positive
 from ..car import DrivingCar
-from ..drivers import Fixed, HeldTorque, Observation
+from ..drivers import Fixed, HeldTorque
 from ..responses import first_crossing
 from ..result import HandlingResult
-from .manoeuvre import Manoeuvre, Number, Progress
+from .manoeuvre import Number, Progress
+from .until_speed import UntilSpeed
 
 
-class CoastDown(Manoeuvre):
+class CoastDown(UntilSpeed):
     """The car runs straight ahead without drive, down to a speed."""
 
     TITLE: ClassVar[str] = "coast down"
@@ -23,27 +24,13 @@ class CoastDown(Manoeuvre):
     until_km_per_h: Positive = Field(default=60.0, description="speed at which it ends")
     duration_s: Positive = Field(default=300.0, description="longest duration of the simulation")
 
-    def problems(self) -> list[str]:
-        """Say what cannot be."""
-        found = super().problems()
-        if self.until_km_per_h >= self.speed_km_per_h:
-            found.append(
-                f"until_km_per_h = {self.until_km_per_h:g} km/h: less than speed_km_per_h = "
-                f"{self.speed_km_per_h:g} km/h is needed."
-            )
-        return found
-
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
         """Return time, way and driving resistance, and the motion."""
         _, straight = self.straight(car)
-        end = self.until_km_per_h / 3.6
-
-        def ended(seen: Observation) -> bool:
-            return seen.speed <= end
-
+        end = self.end_speed
         motion = self.simulated(
             car, straight, Fixed(straight.unknowns["steering_wheel"]), HeldTorque(0.0, 0.0),
-            self.duration_s, until=ended, progress=progress,
+            self.duration_s, until=self.ended, progress=progress,
         )  # fmt: skip
         time, speed, x = (motion[name].values for name in ("time", "speed", "x"))
         if speed[-1] > end:

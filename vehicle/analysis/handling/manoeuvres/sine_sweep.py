@@ -16,26 +16,21 @@ from ..responses import frequency_response
 from ..result import HandlingResult, quantity
 from ..steady import Steady
 from ..steering import sine_sweep
-from .manoeuvre import Number, Progress, TurningManoeuvre, greatest
+from .manoeuvre import Number, Progress, greatest
+from .steered import SteeredManoeuvre
 
 Array = NDArray[np.float64]
 
 _SOURCES = ("simulated", "linear")
 
 
-class SineSweep(TurningManoeuvre):
+class SineSweep(SteeredManoeuvre):
     """The steering wheel swings, faster and faster."""
 
     TITLE: ClassVar[str] = "sine sweep"
     CURVES: ClassVar[tuple[str, ...]] = ("", "_response")
 
     manoeuvre: Literal["sine_sweep"] = Field(description="which manoeuvre this is")
-    lateral_acceleration_m_per_s2: Positive | None = Field(
-        default=None, description="lateral acceleration of a steady turn with the amplitude"
-    )
-    steering_wheel_deg: Positive | None = Field(
-        default=None, description="amplitude, in place of a lateral acceleration"
-    )
     lowest_Hz: Positive = Field(  # noqa: N815 (Hz is the hertz)
         default=0.2, description="first frequency"
     )
@@ -56,8 +51,6 @@ class SineSweep(TurningManoeuvre):
     def problems(self) -> list[str]:
         """Say what cannot be."""
         found = super().problems()
-        if (self.lateral_acceleration_m_per_s2 is None) == (self.steering_wheel_deg is None):
-            found.append("lateral_acceleration_m_per_s2, steering_wheel_deg: give one of the two.")
         if self.highest_Hz <= self.lowest_Hz:
             found.append(
                 f"highest_Hz = {self.highest_Hz:g} Hz: more than lowest_Hz = {self.lowest_Hz:g} Hz "
@@ -74,12 +67,7 @@ class SineSweep(TurningManoeuvre):
         """Return gains and phases by frequency, simulated and linear, and the motion."""
         turns, straight = self.straight(car)
         before = straight.unknowns["steering_wheel"]
-        if self.lateral_acceleration_m_per_s2 is not None:
-            wanted = self.lateral_acceleration_m_per_s2
-            turn = self.turned(turns, "lateral_acceleration_m_per_s2", wanted)
-            amplitude = turn.unknowns["steering_wheel"] - before
-        else:
-            amplitude = self.sense * np.deg2rad(self.steering_wheel_deg or 0.0)
+        amplitude = self.amplitude(turns, straight)
         course = sine_sweep(
             amplitude, (self.lowest_Hz, self.highest_Hz), self.duration_s, ease=self.ease_ms / 1e3
         )

@@ -12,21 +12,16 @@ from ..drivers import OpenLoop
 from ..responses import step_response
 from ..result import HandlingResult
 from ..steering import SteeringCourse, ramp
-from .manoeuvre import Number, Progress, TurningManoeuvre, greatest
+from .manoeuvre import Number, Progress, greatest
+from .steered import SteeredManoeuvre
 
 
-class StepSteer(TurningManoeuvre):
+class StepSteer(SteeredManoeuvre):
     """The steering wheel is turned quickly, and held."""
 
     TITLE: ClassVar[str] = "step steer"
 
     manoeuvre: Literal["step_steer"] = Field(description="which manoeuvre this is")
-    lateral_acceleration_m_per_s2: Positive | None = Field(
-        default=None, description="lateral acceleration of the steady turn that follows"
-    )
-    steering_wheel_deg: Positive | None = Field(
-        default=None, description="steering wheel angle, in place of a lateral acceleration"
-    )
     rate_deg_per_s: Positive = Field(
         default=400.0, description="rate of the steering wheel; the standard asks for 200 to 500"
     )
@@ -45,8 +40,6 @@ class StepSteer(TurningManoeuvre):
     def problems(self) -> list[str]:
         """Say what cannot be."""
         found = super().problems()
-        if (self.lateral_acceleration_m_per_s2 is None) == (self.steering_wheel_deg is None):
-            found.append("lateral_acceleration_m_per_s2, steering_wheel_deg: give one of the two.")
         if self.start_s + self.settled_s >= self.duration_s:
             found.append(
                 f"duration_s = {self.duration_s:g} s: more than start_s + settled_s = "
@@ -58,12 +51,7 @@ class StepSteer(TurningManoeuvre):
         """Return response times, gains and overshoots, and the motion."""
         turns, straight = self.straight(car)
         before = straight.unknowns["steering_wheel"]
-        if self.lateral_acceleration_m_per_s2 is not None:
-            wanted = self.lateral_acceleration_m_per_s2
-            turn = self.turned(turns, "lateral_acceleration_m_per_s2", wanted)
-            amplitude = turn.unknowns["steering_wheel"] - before
-        else:
-            amplitude = self.sense * np.deg2rad(self.steering_wheel_deg or 0.0)
+        amplitude = self.amplitude(turns, straight)
         course = ramp(
             amplitude, np.deg2rad(self.rate_deg_per_s), start=self.start_s, ease=self.ease_ms / 1e3
         )

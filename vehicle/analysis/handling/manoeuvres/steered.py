@@ -1,0 +1,43 @@
+"""The base of manoeuvres with an amplitude of the steering wheel."""
+
+import numpy as np
+from pydantic import Field
+
+from ....input.section import Positive
+from ..circle import Turns
+from ..steady import Steady
+from .manoeuvre import TurningManoeuvre
+
+
+class SteeredManoeuvre(TurningManoeuvre):
+    """A manoeuvre whose steering wheel angle is given, or follows from a lateral acceleration."""
+
+    lateral_acceleration_m_per_s2: Positive | None = Field(
+        default=None,
+        description="lateral acceleration of the steady turn with the steering wheel angle",
+    )
+    steering_wheel_deg: Positive | None = Field(
+        default=None, description="steering wheel angle, in place of a lateral acceleration"
+    )
+
+    def problems(self) -> list[str]:
+        """Say what cannot be."""
+        found = super().problems()
+        if (self.lateral_acceleration_m_per_s2 is None) == (self.steering_wheel_deg is None):
+            found.append("lateral_acceleration_m_per_s2, steering_wheel_deg: give one of the two.")
+        return found
+
+    def amplitude(self, turns: Turns, straight: Steady) -> float:
+        """Return the steering wheel angle from straight running, positive to the left [rad].
+
+        Parameters
+        ----------
+        turns : Turns
+            Those that are reached from straight running.
+        straight : Steady
+        """
+        wanted = self.lateral_acceleration_m_per_s2
+        if wanted is None:
+            return float(self.sense * np.deg2rad(self.steering_wheel_deg or 0.0))
+        turn = self.turned(turns, "lateral_acceleration_m_per_s2", wanted)
+        return float(turn.unknowns["steering_wheel"] - straight.unknowns["steering_wheel"])

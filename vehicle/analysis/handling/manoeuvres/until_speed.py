@@ -1,0 +1,39 @@
+"""The base of manoeuvres straight ahead that end at a speed."""
+
+from typing import ClassVar
+
+from pydantic import Field
+
+from ....input.section import Positive
+from ..drivers import Observation
+from .manoeuvre import Manoeuvre
+
+
+class UntilSpeed(Manoeuvre):
+    """A manoeuvre that ends at a speed."""
+
+    SLOWS: ClassVar[bool] = True
+    """Whether that is less than the speed at the beginning."""
+
+    until_km_per_h: Positive = Field(description="speed at which it ends")
+
+    def problems(self) -> list[str]:
+        """Say what cannot be."""
+        found = super().problems()
+        first, last = self.speed_km_per_h, self.until_km_per_h
+        if first <= last if self.SLOWS else first >= last:
+            found.append(
+                f"until_km_per_h = {last:g} km/h: "
+                f"{'less' if self.SLOWS else 'more'} than speed_km_per_h = "
+                f"{first:g} km/h is needed."
+            )
+        return found
+
+    @property
+    def end_speed(self) -> float:
+        """Speed at which it ends [m/s]."""
+        return self.until_km_per_h / 3.6
+
+    def ended(self, seen: Observation) -> bool:
+        """Return whether the car has that speed."""
+        return seen.speed <= self.end_speed if self.SLOWS else seen.speed >= self.end_speed
