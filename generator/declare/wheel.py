@@ -18,6 +18,7 @@ from .shown import Shown
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from .joints import Revolute
     from .surroundings import Surroundings
 
 
@@ -70,6 +71,21 @@ class Wheel:
     @property
     def _body(self) -> str:
         return self.carrier.name
+
+    def bearing_problems(self, hinge: Revolute) -> list[str]:
+        """Return the reasons why a hinge is not the wheel's bearing on its carrier."""
+        problems = []
+        if hinge.first.name != self._body:
+            problems.append(
+                f"hinge {hinge.name!r} leads from {hinge.first.name!r}, and the wheel is carried "
+                f"by {self._body!r}; give the wheel's bearing"
+            )
+        if hinge.axis.towards != self.spin or hinge.angle_to is not None:
+            problems.append(
+                f"hinge {hinge.name!r} does not turn about the wheel's spin axis "
+                f"{self.spin.name!r}; give its bearing the same Direction, and no angle_to"
+            )
+        return problems
 
     def velocity(self, at: Surroundings, coordinate: str) -> Vector:
         """Return the velocity of the centre per unit rate, in the carrier's axes.

@@ -98,17 +98,7 @@ class RollingTyre(Force):
             for state in self.deflections or ()
             if state.unit != "m"
         ]
-        carrier, spin, hinge = self.wheel.carrier.name, self.wheel.spin, self.bearing
-        if hinge.first.name != carrier:
-            problems.append(
-                f"hinge {hinge.name!r} leads from {hinge.first.name!r}, and the wheel is carried "
-                f"by {carrier!r}; give the wheel's bearing"
-            )
-        if hinge.axis.towards != spin or hinge.angle_to is not None:
-            problems.append(
-                f"hinge {hinge.name!r} does not turn about the wheel's spin axis {spin.name!r}; "
-                "give its bearing the same Direction, and no angle_to"
-            )
+        problems += self.wheel.bearing_problems(self.bearing)
         if problems:
             raise DeclarationError(f"RollingTyre {self.name!r}", problems)
 

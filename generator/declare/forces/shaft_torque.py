@@ -57,19 +57,9 @@ class ShaftTorque(Force):
     standstill: AngularSpeed | None = None
 
     def __post_init__(self) -> None:
-        problems, hinge = [], self.bearing
+        problems = self.wheel.bearing_problems(self.bearing)
         if self.torque.unit != "N m":
             problems.append(f"input {self.torque.name!r} is in {self.torque.unit}; N m is needed")
-        if hinge.first.name != self.wheel.carrier.name:
-            problems.append(
-                f"hinge {hinge.name!r} leads from {hinge.first.name!r}, and the wheel is carried "
-                f"by {self.wheel.carrier.name!r}; give the wheel's bearing"
-            )
-        if hinge.axis.towards != self.wheel.spin or hinge.angle_to is not None:
-            problems.append(
-                f"hinge {hinge.name!r} does not turn about the wheel's spin axis "
-                f"{self.wheel.spin.name!r}; give its bearing the same Direction, and no angle_to"
-            )
         if problems:
             raise DeclarationError(f"ShaftTorque {self.name!r}", problems)
 
