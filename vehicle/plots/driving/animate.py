@@ -25,11 +25,11 @@ def animate(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write the motion of a car in a manoeuvre as something to look at, in real time.
+    """Write an animation of a car in a manoeuvre, in real time, and return its path.
 
-    Body, links, springs and wheels are drawn from the solved positions, with the forces of the road
-    on the tyres, the path of the reference point and cones. The outline of the body is not that of
-    the car: it has the car's wheelbase and track. Of several simulations the last one is shown.
+    Links, springs and wheels are drawn at their solved positions, with the forces of the road on the
+    tyres, the path of the reference point and cones. The outline of the body is schematic: it has
+    the wheelbase and track of the car. Of several simulations the last one is shown.
 
     Parameters
     ----------
