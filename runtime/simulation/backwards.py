@@ -49,9 +49,9 @@ class MotionGradient:
     value : float
         The sum that was asked for.
     by : dict of str to float
-        Its derivatives by parameters, by elements of the state at the start, and by inputs that
-        do not vary, by name, SI units. Parameters move by themselves: the start stays. NaN by a
-        parameter that cannot move alone, see `kintrafo.gradient`.
+        Its derivatives with respect to parameters, elements of the state at the start, and inputs
+        that do not vary, by name, SI units. Parameters move by themselves: the start stays. NaN by
+        a parameter that cannot move alone, see `kintrafo.gradient`.
     motion : Simulation
         With every step.
     """

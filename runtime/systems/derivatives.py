@@ -1,4 +1,4 @@
-"""Exact derivatives by parameters, states and inputs: along a direction, and of weighted sums."""
+"""Exact derivatives with respect to parameters, states and inputs: directions and gradients."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -92,7 +92,7 @@ def gradient(
     state: ArrayLike,
     inputs: ArrayLike | None = None,
 ) -> dict[str, Array]:
-    """Return the exact derivatives of a weighted sum by all parameters, states and inputs.
+    """Return the exact gradient of a weighted sum of results: by parameters, states and inputs.
 
     Parameters
     ----------
@@ -158,7 +158,7 @@ def gradient(
 
 
 def design_derivative(system: System, along: Mapping[str, ArrayLike]) -> dict[str, Array]:
-    """Return derivatives of the state at the design position by parameters.
+    """Return derivatives of the state at the design position with respect to parameters.
 
     Parameters
     ----------
@@ -200,8 +200,8 @@ def checked_directions(given: Validator, system: Any) -> Any:
     given.instance("system", system, System, System.NEEDED)
     if not given.failed and not system.equations.DIRECTIONS.of:
         given.fail(
-            f"{system.equations.NAME} has no derivatives by parameters. Compile the mechanism with "
-            "kintrafo.compile(..., parameter_derivatives=True)."
+            f"{system.equations.NAME} has no derivatives with respect to parameters. Compile the "
+            "mechanism with kintrafo.compile(..., parameter_derivatives=True)."
         )
     return None if given.failed else system.equations.DIRECTIONS
 

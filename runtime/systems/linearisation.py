@@ -57,7 +57,7 @@ class Linearisation:
     B : ndarray, shape (states, inputs)
     C : ndarray, shape (outputs, states)
     D : ndarray, shape (outputs, inputs)
-        Derivatives of rate and outputs by state and inputs, exact; SI units.
+        Derivatives of rate and outputs with respect to state and inputs, exact; SI units.
     layout : StateLayout
         Which elements of the state are positions, and which are speeds.
     constant : bool

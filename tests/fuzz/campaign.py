@@ -121,4 +121,4 @@ def table(campaigns: list[Campaign]) -> str:
         ]
         for c in campaigns
     ]
-    return markdown_table(["door, and what is tried", "attempts", *OUTCOMES], rows)
+    return markdown_table(["door and random input", "attempts", *OUTCOMES], rows)

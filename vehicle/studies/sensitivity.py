@@ -86,11 +86,11 @@ def sensitivity(
     Returns
     -------
     xarray.Dataset
-        Each characteristic over ``place`` and the positions: its derivative by the value, SI units,
-        each car's own position above its own design position. NaN where a curve has a kink, as
-        where a stop begins to act. Values of a section or ``*`` that cannot move, as an
-        inertia of a part without mass, is left out: ``left_out`` among the attributes names it, and
-        ``message`` says why.
+        Each characteristic over ``place`` and the positions: its derivative with respect to the
+        value, in SI units. The position of each car is measured from its own design position. NaN
+        at a kink of a curve, such as the contact of a stop. Values of a section or ``*`` that
+        cannot change, such as an inertia of a part without mass, are left out; the attribute
+        ``left_out`` names them, and ``message`` has the reason.
 
     Raises
     ------

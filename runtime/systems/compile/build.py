@@ -62,8 +62,8 @@ def compile_mechanism(
         'c': compiled by the C compiler of this machine, which ``CC`` and ``CFLAGS`` may name.
         'numpy': the same program over NumPy arrays, slower. 'auto': C where there is a compiler.
     parameter_derivatives : bool, optional
-        Also exact derivatives by parameters, states and inputs, for `System.derivative` and
-        `System.gradient`: some six times as much code.
+        Also exact derivatives with respect to parameters, states and inputs, for
+        `System.derivative` and `System.gradient`: some six times as much code.
     folder : str or Path, optional
         Where compiled mechanisms are kept; by default what the environment variable
         ``KINTRAFO_CACHE`` names, or else the user's cache folder. What is in it is run, so that

@@ -1,4 +1,4 @@
-"""Subsystems of Adams/Car: slips of the hand, keys that are more, broken bytes, other units."""
+"""Subsystems of Adams/Car: typing errors, unknown keys, corrupt bytes, other units."""
 
 from __future__ import annotations
 

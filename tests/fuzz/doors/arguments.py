@@ -1,4 +1,4 @@
-"""Arguments of every public function: wrong types, shapes, NaN, infinity, names that are none.
+"""Arguments of every public function: wrong types, shapes, NaN, infinity, unknown names.
 
 One or two arguments of a call that is right are replaced. What comes back must be finite, or a
 refusal that names an argument, a value or what is out of reach.

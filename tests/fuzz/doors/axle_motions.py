@@ -1,4 +1,4 @@
-"""Motions of axles whose sides differ, beside SciPy's DOP853, energies and each side alone.
+"""Motions of axles with different sides, compared with DOP853, energies and single sides.
 
 The packaged axle, two suspensions that are no mirror images of each other on one rack and with a
 bar, or a beam on rods are kicked over roads of their own. The reference is DOP853 at 1e-11 around

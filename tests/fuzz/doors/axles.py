@@ -1,4 +1,4 @@
-"""Axles whose sides differ, with and without a bar: curves and loads, against each side alone.
+"""Axles with different sides, with and without a bar: curves and loads against single sides.
 
 The sides are of one kind, mirror images or not, each with hardpoints of its own. A wheel in roll or
 in bump is where a root finder puts a wheel carrier on rods of fixed lengths, which shares nothing

@@ -1,4 +1,4 @@
-"""The cache of compiled mechanisms, damaged: it heals or refuses, and computes the same."""
+"""The cache of compiled mechanisms, damaged: an error, or the same results."""
 
 from __future__ import annotations
 

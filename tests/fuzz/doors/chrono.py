@@ -1,4 +1,4 @@
-"""Files of Project Chrono: JSON with comments, broken, deep, keys that are more, or misspelt."""
+"""Files of Project Chrono: JSON with comments, corrupt, deeply nested, with wrong keys."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Commands with random arguments and names of files that are hard to handle."""
+"""Commands with random arguments and unusual file names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Multi-link continuation: random hardpoints and racks, and rods of rigid axles, branch by branch.
+"""Multi-link continuation: random hardpoints, racks, rods of rigid axles, branch by branch.
 
 What is answered over the range of each is compared with paths that are followed from the design
 position in maximal coordinates (`swinging`, `rigid_ways`), one by one and in batches.

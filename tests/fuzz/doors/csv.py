@@ -1,4 +1,4 @@
-"""Measured roads and rack motions: tables in every dialect, and broken ones."""
+"""Measured roads and rack motions: tables in all dialects, and corrupt tables."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Declarations of mechanisms, with the mistakes that people make: names, types, bodies, numbers.
+"""Declarations of mechanisms with common mistakes: names, types, bodies, numbers.
 
 One or two places of a good declaration are changed. What is accepted and small is derived, and held
 against the same mechanism in maximal coordinates: loops that close, and accelerations. Now and then

@@ -1,4 +1,4 @@
-"""Ensembles: cars with values, starts and roads of their own, each beside SciPy's DOP853.
+"""Ensembles with values, starts and roads of each car, compared with SciPy's DOP853.
 
 The reference integrates the bare right-hand side of each car alone, at tight tolerances and with
 steps short enough for its road, whose height and slope are evaluated apart from kintrafo; it shares

@@ -1,4 +1,4 @@
-"""What is in the CSV, Excel and Parquet files that are written: numbers, texts, units."""
+"""Contents of written CSV, Excel and Parquet files: numbers, texts, units."""
 
 from __future__ import annotations
 

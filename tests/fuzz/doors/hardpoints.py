@@ -1,4 +1,4 @@
-"""Hardpoints of all kinds: near singular sets, signs, units, swapped; positions are asked for.
+"""Hardpoints of all kinds: nearly singular, signs, units, swapped; computed positions.
 
 Every position that comes back is measured: the distances of hardpoints that belong to one body,
 axes that are orthonormal, the height that was asked for, and lengths that the file allows.

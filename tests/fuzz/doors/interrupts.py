@@ -1,4 +1,4 @@
-"""Ctrl-C at any time of a long command: it ends soon, quietly, with 130, and its outputs are whole.
+"""Ctrl-C at any time of a long command: a quick end, exit code 130, complete outputs.
 
 A command runs as a process of its own, from when it has begun to import kintrafo. A file of its
 outputs is either what was there before, or what the command writes when nobody interrupts it;

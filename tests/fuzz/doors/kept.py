@@ -1,4 +1,4 @@
-"""What was kept of an ensemble, damaged: done again or refused, and the numbers are the same."""
+"""Checkpoints of an ensemble, damaged: computed again or an error, with the same numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Many calls of one function: memory that is not given back, here, in a fork and in a spawned one.
+"""Many calls of one function: growth of memory, here, in a fork and in a spawned process.
 
 A compiled function, a simulation, a stepper, an ensemble or a linearisation is called hundreds or
 10,000 times with the same arguments, good ones or such as are refused. Behind a warm-up, what is

@@ -1,4 +1,4 @@
-"""Loads along motions of all kinds and of rigid axles: every part is in equilibrium, with inertia.
+"""Loads along motions of all kinds and of rigid axles: equilibrium of parts with inertia.
 
 A suspension with hardpoints, masses and rates beside those of the file is dropped or kicked over a
 road, its rack moving. The loads that are listed on a part, its inertia among them, are summed

@@ -1,4 +1,4 @@
-"""Drops and kicks around dead points, and springs without length, against a tight reference.
+"""Drops and impulses near dead points, springs of zero length, against a tight reference.
 
 A motion is drawn whose start lies somewhere between the design position and a dead point, with
 rates that may carry it there. The reference is SciPy's DOP853 at 1e-11 with short steps around

@@ -1,4 +1,4 @@
-"""Planar linkages drawn at random: loops that close and accelerations, in maximal coordinates.
+"""Random planar linkages: closed loops and accelerations, in maximal coordinates.
 
 A linkage grows from the ground: by a body on a hinge or a guide, which moves by itself, or by two
 bodies between two others, with hinges and one guide at most. The independent coordinates are those

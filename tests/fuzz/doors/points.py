@@ -1,4 +1,4 @@
-"""Tables of hardpoints: every spelling, unit and axes, and slips of the hand in them."""
+"""Tables of hardpoints in all spellings, units and axes, and with typing errors."""
 
 from __future__ import annotations
 

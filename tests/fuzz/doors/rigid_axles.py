@@ -1,4 +1,4 @@
-"""Rigid axles: rods and points moved, mirrored, swapped, in metres; positions are asked for.
+"""Rigid axles: rods and points moved, mirrored, swapped, in metres; computed positions.
 
 Every position that comes back is measured: the lengths of the rods between the chassis and the
 beam where the equations put it, axes that are orthonormal, and the heights that were asked for.

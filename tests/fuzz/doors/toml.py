@@ -1,4 +1,4 @@
-"""Input files with slips of the hand, broken bytes and values that no car has."""
+"""Input files with typing errors, corrupt bytes and impossible values."""
 
 from __future__ import annotations
 

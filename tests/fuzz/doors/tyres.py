@@ -1,4 +1,4 @@
-"""Property files of tyres: broken, keys lost, misspelt, twice; forces by the printed equations."""
+"""Property files of tyres: corrupt, with lost, misspelt or repeated keys; forces by formulas."""
 
 from __future__ import annotations
 

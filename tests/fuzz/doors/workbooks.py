@@ -1,4 +1,4 @@
-"""What is in the cells of Excel workbooks with hardpoints: types, formulas, strays, sheets."""
+"""Cells of Excel workbooks with hardpoints: types, formulas, stray cells, sheets."""
 
 from __future__ import annotations
 

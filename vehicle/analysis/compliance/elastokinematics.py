@@ -38,7 +38,8 @@ CONTACT_RATE = Quantity(
     "contact_rate",
     "N/m",
     "rate at the contact",
-    "derivative of the vertical force of the road by the height of the contact, other wheels held: "
+    "derivative of the vertical force of the road with respect to the height of the contact, "
+    "other wheels held: "
     "of springs, stops, bar and bushes, weights included; the wheel rate of the characteristics is "
     "that of spring and stops by the height of the wheel centre",
     "positive when the force grows with the height",
@@ -109,9 +110,9 @@ def elastokinematics(
         Over ``wheel``, ``data_set`` ('kinematic', 'elastokinematic') and ``wheel_travel``,
         ``roll_angle``, ``steering_wheel_angle`` or ``rack_position``: toe and camber [rad],
         half-track and wheelbase change [m], ``steer`` where the rack moves [rad]; ``wheel_load``,
-        the vertical force of the road [N], and ``contact_rate``, its derivative by the height of
-        the contact with the other wheel held [N/m]. That is not the ``wheel_rate`` of the
-        characteristics, of spring and stops by the wheel centre. Of two wheels
+        the vertical force of the road [N], and ``contact_rate``, its derivative with respect to the
+        height of the contact with the other wheel held [N/m]. The ``wheel_rate`` of the
+        characteristics is another one: of spring and stops, by the wheel centre. Of two wheels
         ``roll_stiffness_at_contacts`` [N m/rad], y' K y with the levers y of the contacts and the
         rates K at them, and ``bar_torque`` [N m]. Of a rigid axle ``axle_steer`` [rad],
         ``axle_lateral`` and ``axle_longitudinal`` [m] of the line through the wheel centres; on

@@ -122,7 +122,7 @@ def turning_circle(left: Array, right: Array, wheelbase: float) -> Array:
 def steering_ratio(
     left_gradient: Array, right_gradient: Array, travel_per_turn: float | Array
 ) -> Array:
-    """Return the derivative of the steering wheel's angle by the mean steer angle [1].
+    """Return the derivative of the steering wheel's angle with respect to the mean steer angle [1].
 
     Parameters
     ----------

@@ -42,14 +42,14 @@ _ALL = (
         "camber_gradient",
         "rad/m",
         "camber gradient",
-        "derivative of camber by wheel travel",
+        "derivative of camber with respect to wheel travel",
         "positive when camber grows in bump",
     ),
     Quantity(
         "bump_steer",
         "rad/m",
         "bump steer",
-        "derivative of toe by wheel travel",
+        "derivative of toe with respect to wheel travel",
         "positive toe-in in bump",
     ),
     Quantity(
@@ -63,7 +63,7 @@ _ALL = (
         "caster_gradient",
         "rad/m",
         "caster gradient",
-        "derivative of caster by wheel travel",
+        "derivative of caster with respect to wheel travel",
         "positive when caster grows in bump",
     ),
     Quantity(
@@ -161,7 +161,8 @@ _ALL = (
         "wheel_rate",
         "N/m",
         "wheel rate",
-        "derivative of the force of spring and stops at the wheel by wheel travel, without tyre",
+        "derivative of the force of spring and stops at the wheel with respect to wheel travel, "
+        "without tyre",
         "positive when the force grows in bump",
     ),
     Quantity(
@@ -281,7 +282,8 @@ _ALL = (
         "steering_ratio",
         "1",
         "steering ratio",
-        "derivative of the steering wheel's angle by the mean steer angle of both wheels",
+        "derivative of the steering wheel's angle with respect to the mean steer angle of both "
+        "wheels",
         "without sign",
     ),
     Quantity(
@@ -330,7 +332,8 @@ _ALL = (
         "roll_steer",
         "1",
         "roll steer",
-        "derivative of the steer angle by the roll angle, the wheels moving by -y each",
+        "derivative of the steer angle with respect to the roll angle, in which each wheel travels "
+        "by -y per radian",
         "positive when a roll with the right side down steers to the left",
         display=_ANGLES,
     ),
@@ -338,7 +341,8 @@ _ALL = (
         "roll_camber",
         "1",
         "roll camber",
-        "derivative of camber, to the body, by the roll angle, the wheels moving by -y each",
+        "derivative of camber, to the body, with respect to the roll angle, in which each wheel "
+        "travels by -y per radian",
         "positive when a roll with the right side down adds camber",
         display=_ANGLES,
     ),
@@ -361,7 +365,8 @@ _ALL = (
         "roll_moment_gradient",
         "N m/rad",
         "roll-moment gradient",
-        "derivative of the roll moment by the roll angle, the wheel centres moving oppositely; "
+        "derivative of the roll moment with respect to the roll angle, the wheel centres moving "
+        "oppositely; "
         "forces and levers change",
         "positive when it resists roll; with the change of levers",
         display=_PER_DEGREE,
@@ -458,7 +463,7 @@ _ALL = (
         "heave_steer",
         "rad/m",
         "heave steer",
-        "derivative of the axle's steer angle by the travel of both wheels",
+        "derivative of the axle's steer angle with respect to the travel of both wheels",
         "positive when the axle steers to the left in bump",
     ),
     Quantity(
@@ -500,7 +505,8 @@ _ALL = (
         "wheel_rate_alone",
         "N/m",
         "wheel rate, one wheel",
-        "derivative of the wheel force by the travel of this wheel, the other one at rest",
+        "derivative of the wheel force with respect to the travel of this wheel, the other one at "
+        "rest",
         "positive when the force grows in bump",
     ),
 )

@@ -35,7 +35,8 @@ GUIDANCE = (
     of_axle("axle_steer", lambda beam: beam.coordinate("yaw")),
     of_axle(
         "roll_steer", lambda beam: -beam.slope("yaw", ROLL),
-        definition="derivative of the axle's steer angle by the roll angle, the wheels moving "
+        definition="derivative of the axle's steer angle with respect to the roll angle, the "
+        "wheels moving "
         "oppositely",
     ),
     of_axle("heave_steer", lambda beam: beam.slope("yaw", HEAVE)),
@@ -109,7 +110,8 @@ SPRINGS = (
     ),
     of_wheel(
         "wheel_rate", rolls.wheel_rate,
-        definition="derivative of the wheel force by the travel of both wheels, without tyres",
+        definition="derivative of the wheel force with respect to the travel of both wheels, "
+        "without tyres",
     ),
     of_wheel("wheel_rate_alone", rolls.wheel_rate_alone),
     of_axle("roll_moment", rolling.moment, GROUND),

@@ -97,12 +97,14 @@ MEASURES = (
     Measure(_JACKING, jacking, "wheel", GROUND),
     of_wheel(
         "roll_steer", lambda of, side: in_roll(of, side, _steer_rate),
-        definition="derivative of the steer angle by the roll angle, the wheel centres moving "
+        definition="derivative of the steer angle with respect to the roll angle, the wheel "
+        "centres moving "
         "oppositely",
     ),
     of_wheel(
         "roll_camber", lambda of, side: in_roll(of, side, wheel.camber_rate),
-        definition="derivative of camber, to the body, by the roll angle, the wheel centres moving "
+        definition="derivative of camber, to the body, with respect to the roll angle, the wheel "
+        "centres moving "
         "oppositely",
     ),
     of_wheel("anti_dive", pitching.braking, (*PITCH, "front_brake_share"), _is("front")),
@@ -130,7 +132,8 @@ MEASURES = (
     of_wheel("wheel_force", lambda of, side: of.wheel_force(side)),
     of_wheel(
         "wheel_rate", lambda of, side: (of.springs + of.bar)[:, SIDES.index(side), :].sum(-1),
-        definition="derivative of the wheel force by the travel of both wheels, without tyres",
+        definition="derivative of the wheel force with respect to the travel of both wheels, "
+        "without tyres",
     ),
     of_wheel(
         "wheel_rate_alone",

@@ -26,7 +26,8 @@ def command(
         bool, option("Functions over NumPy arrays instead of compiled C.", None, "--numpy")
     ] = False,
     parameter_derivatives: Annotated[
-        bool, option("Also exact derivatives by parameters.", None, "--parameter-derivatives")
+        bool,
+        option("Also derivatives with respect to parameters.", None, "--parameter-derivatives"),
     ] = False,
     force: Force = False,
     json: Json = False,

@@ -27,9 +27,9 @@ def animate(
 ) -> Path:
     """Write an animation of a car in a manoeuvre, in real time, and return its path.
 
-    Links, springs and wheels are drawn at their solved positions, with the forces of the road on the
-    tyres, the path of the reference point and cones. The outline of the body is schematic: it has
-    the wheelbase and track of the car. Of several simulations the last one is shown.
+    Links, springs and wheels are drawn at their solved positions, with the forces of the road on
+    the tyres, the path of the reference point and cones. The outline of the body is schematic: it
+    has the wheelbase and track of the car. Of several simulations the last one is shown.
 
     Parameters
     ----------
