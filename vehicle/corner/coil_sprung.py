@@ -37,17 +37,17 @@ class CoilDamper(Section):
 
     rate_N_s_per_m: NonNegative | None = Field(  # noqa: N815 (N is the newton)
         default=None,
-        description="rate of a linear damper, the same in bump and rebound; or else a curve",
+        description="rate of a linear damper in bump and rebound, unless it has a curve",
     )
     velocity_m_per_s: Numbers | None = Field(
-        default=None, description="of a curve instead: velocities, rising; positive in bump"
+        default=None, description="curve instead of a rate: velocities, rising; positive in bump"
     )
     force_N: Numbers | None = Field(  # noqa: N815
         default=None,
         description="forces at these velocities; positive where they resist bump",
     )
     interpolation: Interpolation | None = Field(
-        default=None, description=f"{WAYS}; left out: cubic"
+        default=None, description=f"{WAYS}; by default cubic"
     )
     friction_N: NonNegative = Field(  # noqa: N815
         default=0.0, description="friction of the damper in full sliding"
@@ -57,11 +57,11 @@ class CoilDamper(Section):
     )
     length_min_mm: Positive | None = Field(
         default=None,
-        description="distance of spring_seat and spring_top with the damper pressed in as far as "
-        "it goes; no position beyond it is returned",
+        description="distance of spring_seat and spring_top with the damper fully compressed; no "
+        "position beyond it is returned",
     )
     length_max_mm: Positive | None = Field(
-        default=None, description="the same with the damper drawn out as far as it goes"
+        default=None, description="the same distance with the damper fully extended"
     )
 
     @property

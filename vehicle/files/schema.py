@@ -34,7 +34,7 @@ _LIMITS = {
 _HEAD = """\
 # Input file
 
-A suspension is a TOML file. `kintrafo new FILE` writes an annotated one to begin with. The name of
+A suspension is a TOML file. `kintrafo new FILE` writes an annotated starter file. The name of
 a key ends in its unit; `[hardpoints]` has one `unit` for all of its points. Points are `[x, y, z]`
 in chassis axes of ISO 8855 (x forward, y left, z up), at the design position. The line
 `suspension = "..."` above the first section names the type of the suspension; the keys of one type
@@ -67,8 +67,8 @@ _BUSHINGS = """\
 
 The compliance of the joint at a hardpoint, for [compliance](../suspension/compliance.md). A
 direction without an entry is rigid. One stiffness or curve is needed. `[bushings.rack]` has
-`axial_N_per_mm` alone, the stiffness of the steering at the rack. Analyses other than compliance
-take joints as rigid.
+`axial_N_per_mm` alone, the stiffness of the steering at the rack. All other analyses have
+rigid joints.
 """
 
 _CURVES = """\
@@ -76,8 +76,8 @@ _CURVES = """\
 
 Springs, dampers and bushes have a rate, or a curve by its points. Between its points a curve is a
 monotone cubic (Fritsch and Carlson): smooth, and within the forces of both neighbours. With
-`interpolation = "linear"` it is straight lines, as in some other programs. Both pass through the
-points and differ between them: the damper curve that the first of the annotated files proposes
+`interpolation = "linear"` it consists of straight lines, as in some other programs. Both pass
+through the points and differ between them: the damper curve in the comments of the starter file
 has -2177 N at -0.7 m/s, straight lines have -1986 N there.
 
 Beyond its points a curve is extrapolated linearly: that of a damper with its slope at the end,
@@ -86,9 +86,9 @@ force. A simulation reports when it goes beyond the points, and `kintrafo check`
 beyond them at design. At a corner between two straight lines the rate is that of the less
 compressed side; a motion over such a corner is as accurate as its tolerances, with more steps.
 
-The force of a spring must not fall as it is compressed. Over `length_mm` a curve says what the
-force is at every distance of the seats, and neither `free_length_mm` nor `force_at_design_N` is
-needed. Over `compression_mm` one of them is needed: `free_length_mm` is the distance of the seats
+The force of a spring must not fall as it is compressed. A curve over `length_mm` gives the
+force at every distance of the seats, and needs neither `free_length_mm` nor `force_at_design_N`.
+A curve over `compression_mm` needs one of them: `free_length_mm` is the distance of the seats
 at which the compression is 0; `force_at_design_N` is the force at the design position, from which
 the compression there follows.
 
@@ -106,8 +106,9 @@ rate, ride frequency, compliance, linearised motion. Where a curve is flat, this
 _EVERY_BODY = """\
 ### Every body
 
-Except for the wheel, which is round and has keys of its own. The inertia is the tensor about the
-centre of mass, in chassis axes; `xy` is the element of the matrix, minus the product of inertia.
+All bodies except the wheel have these keys; the wheel is a body of revolution with its own keys.
+The inertia is the tensor about the centre of mass, in chassis axes; `xy` is the element of the
+matrix, minus the product of inertia.
 """
 
 _AN_AXLE = """\
@@ -129,11 +130,11 @@ A file of its own, which names the files of its axles, or of the corner of a qua
 _A_LINEAR_TYRE = """\
 ### A linear tyre
 
-`[tyres.front]` and `[tyres.rear]`, in the place of a file of a tyre: a tyre whose forces are linear
-in slip, up to the friction, which they approach.
+`[tyres.front]` and `[tyres.rear]`, instead of the file of a tyre. The forces are linear in slip and
+approach the friction limit.
 """
 
-_TABLE_HEAD = "| key | unit | allowed | left out | meaning |\n|---|---|---|---|---|"
+_TABLE_HEAD = "| key | unit | allowed | default | meaning |\n|---|---|---|---|---|"
 
 
 def schema() -> dict[str, Any]:
@@ -308,8 +309,8 @@ def _rows(section: dict[str, Any], known: Container[str]) -> Iterator[str]:
         if _is_section(entry) or key in known:
             continue
         unit = entry.get("x-unit", "")
-        left_out = "refused" if key in required else _default(entry)
-        yield f"| `{key}` | {unit} | {_allowed(entry)} | {left_out} | {entry['description']} |"
+        default = "required" if key in required else _default(entry)
+        yield f"| `{key}` | {unit} | {_allowed(entry)} | {default} | {entry['description']} |"
 
 
 def _is_section(entry: dict[str, Any]) -> bool:

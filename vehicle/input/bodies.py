@@ -34,7 +34,8 @@ class RigidBody(Section):
 
     mass_kg: NonNegative = Field(description="mass of the body")
     com_mm: Triple | None = Field(
-        default=None, description="centre of mass at design; left out: the body's own rule"
+        default=None,
+        description="centre of mass at design; by default from the hardpoints of the body",
     )
     inertia_xx_kg_m2: Number = Field(default=0.0, description="element xx of the inertia tensor")
     inertia_yy_kg_m2: Number = Field(default=0.0, description="element yy of the inertia tensor")

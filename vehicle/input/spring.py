@@ -24,29 +24,30 @@ _BY_CURVE = ("length_mm", "compression_mm", "force_N", "interpolation")
 class SpringSection(Section):
     """The spring.
 
-    Its force, positive when it pushes its ends apart, is ``rate (free_length - length)``, and where
-    it is free of force is said in one of two ways. Or it has a curve through measured points: over
-    the distance of its ends, ``length_mm``, or over ``compression_mm``. The latter counts from
-    ``free_length_mm``, or so that ``force_at_design_N`` is its force at the design position.
+    Its force, positive when it pushes its ends apart, is ``rate (free_length - length)``; the free
+    length is given directly or by the force at the design position. Alternatively the spring has a
+    curve through measured points: over the distance of its ends, ``length_mm``, or over
+    ``compression_mm``, measured from ``free_length_mm`` or such that ``force_at_design_N`` is the
+    force at the design position.
     """
 
     rate_N_per_m: NonNegative | None = Field(  # noqa: N815 (N is the newton)
-        default=None, description="rate of the spring; or else a curve"
+        default=None, description="rate of the spring, unless it has a curve"
     )
     free_length_mm: Positive | None = Field(
         default=None,
-        description="distance of spring_seat and spring_top with the spring force-free; of a curve "
-        "over compression_mm, where that is 0",
+        description="distance of spring_seat and spring_top at which the force is zero; for a "
+        "curve over compression_mm, at which the compression is zero",
     )
     force_at_design_N: Number | None = Field(  # noqa: N815
         default=None, description="force of the spring at the design position"
     )
     length_mm: Numbers | None = Field(
         default=None,
-        description="of a curve instead of a rate: distances of spring_seat and spring_top, rising",
+        description="curve instead of a rate: distances of spring_seat and spring_top, rising",
     )
     compression_mm: Numbers | None = Field(
-        default=None, description="of a curve, instead of length_mm: compressions, rising"
+        default=None, description="curve, instead of length_mm: compressions, rising"
     )
     force_N: Numbers | None = Field(  # noqa: N815
         default=None,
@@ -54,7 +55,7 @@ class SpringSection(Section):
         "they rise with the compression",
     )
     interpolation: Interpolation | None = Field(
-        default=None, description=f"{WAYS}; left out: cubic"
+        default=None, description=f"{WAYS}; by default cubic"
     )
 
     @property

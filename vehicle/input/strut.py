@@ -20,8 +20,8 @@ class StrutSection(Section):
 
     The slide of the strut is ``length_max - length``: it grows when the wheel rises. The force that
     pushes knuckle and chassis apart is ``spring_rate (slide - spring_free_slide) + damper_rate *
-    slide velocity``, less the friction. Where the spring is free of force is said in one of four
-    ways; slide and preload are for a spring that is concentric with the strut.
+    slide velocity``, less the friction. The free length of the spring is given in one of four ways;
+    slide and preload are for a spring that is concentric with the strut.
     """
 
     length_max_mm: Number = Field(
@@ -29,17 +29,17 @@ class StrutSection(Section):
     )
     length_min_mm: Positive | None = Field(
         default=None,
-        description="the same distance with the strut pressed in as far as it goes; no position "
-        "beyond it is returned",
+        description="the same distance with the strut fully compressed; no position beyond it is "
+        "returned",
     )
     spring_rate_N_per_m: NonNegative | None = Field(  # noqa: N815 (N is the newton)
-        default=None, description="rate of the spring; for a curve there is [spring]"
+        default=None, description="rate of the spring; a curve is in [spring]"
     )
     spring_free_slide_mm: Number | None = Field(
-        default=None, description="slide of the strut with the spring force-free"
+        default=None, description="slide of the strut at which the force of the spring is zero"
     )
     spring_free_length_mm: Positive | None = Field(
-        default=None, description="distance of the spring's seats with the spring force-free"
+        default=None, description="distance of the seats at which the force of the spring is zero"
     )
     spring_preload_N: NonNegative | None = Field(  # noqa: N815
         default=None, description="force of the spring with the strut fully extended"
@@ -48,7 +48,7 @@ class StrutSection(Section):
         default=None, description="force of the spring at the design position"
     )
     damper_rate_N_s_per_m: NonNegative | None = Field(  # noqa: N815
-        default=None, description="rate of a linear damper; for a curve there is [damper]"
+        default=None, description="rate of a linear damper; a curve is in [damper]"
     )
     friction_N: NonNegative = Field(  # noqa: N815
         default=0.0, description="friction of the strut in full sliding"

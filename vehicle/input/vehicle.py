@@ -35,7 +35,7 @@ class VehicleSection(Section):
 
     side: Literal["left", "right"] = Field(description="the vehicle's side, left or right")
     end: Literal["front", "rear"] | None = Field(
-        default=None, description="the vehicle's end, front or rear; front where it is not said"
+        default=None, description="the vehicle's end, front or rear; front by default"
     )
     wheelbase_mm: Positive | None = Field(
         default=None, description="distance of front and rear wheel centres along x"
@@ -44,7 +44,7 @@ class VehicleSection(Section):
         default=None, description="height of the whole vehicle's centre of gravity above the ground"
     )
     front_brake_share: Share | None = Field(
-        default=None, description="part of the braking force that acts at the front wheels"
+        default=None, description="fraction of the braking force at the front wheels"
     )
 
     @property
@@ -87,11 +87,11 @@ class TyreSection(Section):
     rate_N_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
         description="rate of the tyre"
     )
-    free_height_mm: Number = Field(description="z of wheel_center with the tyre force-free")
+    free_height_mm: Number = Field(description="z of wheel_center at which the tyre force is zero")
     radius_mm: Positive | None = Field(
         default=None,
         description="radius of the wheel as a thin disc that touches the ground; only for "
-        "characteristics, left out: the height of wheel_center above z = 0",
+        "characteristics; by default the height of wheel_center above z = 0",
     )
     lateral_rate_N_per_m: Positive | None = Field(  # noqa: N815 (N is the newton)
         default=None, description="lateral rate of the stationary tyre; only for compliance"
@@ -104,7 +104,8 @@ class TyreSection(Section):
     )
     lifts_off: Flag = Field(
         default=False,
-        description="true: the tyre can leave the road; false, as in the paper: it holds on to it",
+        description="true: the tyre can leave the road; false, as in the paper: it can pull at the "
+        "road",
     )
 
     def parameters(self) -> dict[str, float]:

@@ -197,9 +197,9 @@ class DoubleWishbone(CoilSprung):
     STOPPED: ClassVar[str] = "spring"
     PAGE: ClassVar[str] = """.
 
-Where the spring is free of force is said by the distance of its ends (`free_length_mm`) or by its
-force at the design position (`force_at_design_N`). Spring and damper are on the lower arm. The
-damper has a rate or a curve; the stops are touched by its length."""
+The free length of the spring is given directly (`free_length_mm`) or by the force at the design
+position (`force_at_design_N`). Spring and damper are on the lower arm. The damper has a rate or a
+curve; the stops depend on its length."""
 
     suspension: Literal["double_wishbone"] = Field(description="the kind of suspension")
     hardpoints: DoubleWishboneHardpoints = Field(description="the points that define the geometry")

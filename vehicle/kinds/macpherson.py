@@ -230,11 +230,11 @@ class MacPherson(Suspension):
     STOPPED: ClassVar[str] = "strut"
     PAGE: ClassVar[str] = """, which may be left out.
 
-Where the spring is free of force is said in one of four ways: by the slide of the strut
-(`spring_free_slide_mm`), by the distance of its seats (`spring_free_length_mm`), by its force with
-the strut extended (`spring_preload_N`), or by its force at the design position
-(`spring_force_at_design_N`). The damper has a rate in `[strut]`, or a curve in `[damper]`; so has
-the spring, with a curve in `[spring]`."""
+The free length of the spring is given in one of four ways: by the slide of the strut
+(`spring_free_slide_mm`), by the distance of the seats (`spring_free_length_mm`), by the force with
+the strut extended (`spring_preload_N`), or by the force at the design position
+(`spring_force_at_design_N`). The damper has a rate in `[strut]` or a curve in `[damper]`, the
+spring a rate in `[strut]` or a curve in `[spring]`."""
 
     suspension: Literal["macpherson"] = Field(
         default="macpherson", description="the kind of suspension"
@@ -244,8 +244,7 @@ the spring, with a curve in `[spring]`."""
     bodies: MacPhersonBodies = Field(description="masses and inertia")
     spring: SpringSection | None = Field(
         default=None,
-        description="the spring; in a MacPherson suspension it may be left out, as [strut] can say "
-        "all of it",
+        description="the spring; a MacPherson suspension can describe it in [strut] instead",
     )
     damper: Damper | None = Field(default=None, description="a damper curve instead of a rate")
 

@@ -228,10 +228,10 @@ class MultiLink(CoilSprung):
     STOPPED: ClassVar[str] = "damper"
     PAGE: ClassVar[str] = """: five links between chassis and knuckle.
 
-Two upper and two lower links and a toe link (`tie_rod`) hold the knuckle; two links that meet in
-one point of it are an arm. The spring acts on the rear lower link, the damper on the knuckle.
-Where the spring is free of force is said by the distance of its ends (`free_length_mm`) or by its
-force at the design position (`force_at_design_N`). The stops are touched by the damper's length."""
+Two upper and two lower links and a toe link (`tie_rod`) hold the knuckle; two links that meet at a
+point of the knuckle are an arm. The spring acts on the rear lower link, the damper on the knuckle.
+The free length of the spring is given directly (`free_length_mm`) or by the force at the design
+position (`force_at_design_N`). The stops depend on the length of the damper."""
 
     suspension: Literal["multi_link"] = Field(description="the kind of suspension")
     hardpoints: MultiLinkHardpoints = Field(description="the points that define the geometry")

@@ -166,9 +166,9 @@ class PushRod(DoubleWishbone):
     PAGE: ClassVar[str] = """: a double wishbone whose spring lies on the chassis.
 
 The push rod leads from the lower arm to the rocker, which turns about the line through its two
-bearings and presses spring and damper. Where the spring is free of force is said by the distance of
-its ends (`free_length_mm`) or by its force at the design position (`force_at_design_N`). The damper
-has a rate or a curve; the stops are touched by its length."""
+bearings and compresses spring and damper. The free length of the spring is given directly
+(`free_length_mm`) or by the force at the design position (`force_at_design_N`). The damper has a
+rate or a curve; the stops depend on its length."""
 
     # another kind than that which it has nearly everything of
     suspension: Literal["push_rod"] = Field(  # type: ignore[assignment]

@@ -139,12 +139,11 @@ class TrailingArm(CoilSprung):
     STOPPED: ClassVar[str] = "damper"
     PAGE: ClassVar[str] = """: an arm on one hinge, which carries the wheel.
 
-The wheel swings about the line through `arm_inner` and `arm_outer`: across the car it is a trailing
-arm, askew a semi-trailing one. Nothing steers the wheel: there is no tie rod and no `[rack]`, and
-what needs them is left out or refused. Spring and damper act on the arm, each with ends of its
-own. Where the spring is free of force is said by the distance of its ends (`free_length_mm`) or by
-its force at the design position (`force_at_design_N`). The stops are touched by the damper's
-length."""
+The wheel swings about the line through `arm_inner` and `arm_outer`. A line across the car makes a
+trailing arm, an oblique line a semi-trailing arm. The file has no tie rod and no `[rack]`;
+characteristics of steered wheels are left out or an error. Spring and damper act on the arm, each
+with its own ends. The free length of the spring is given directly (`free_length_mm`) or by the
+force at the design position (`force_at_design_N`). The stops depend on the length of the damper."""
 
     suspension: Literal["trailing_arm"] = Field(description="the kind of suspension")
     hardpoints: TrailingArmHardpoints = Field(description="the points that define the geometry")

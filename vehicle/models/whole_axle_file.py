@@ -21,7 +21,7 @@ class WholeAxleVehicle(Section):
         default=None, description="height of the whole vehicle's centre of gravity above the ground"
     )
     front_brake_share: Share | None = Field(
-        default=None, description="part of the braking force that acts at the front wheels"
+        default=None, description="fraction of the braking force at the front wheels"
     )
 
 

@@ -84,7 +84,7 @@ class TestReferenceCar:
     def test_file_says_whose_numbers_these_are(self):
         header = CAR_TEXT.split("[vehicle]")[0]
         assert "gives\n# neither hardpoints nor masses" in header
-        assert "THIS PROJECT'S OWN" in header
+        assert "THESE DATA ARE MADE UP" in header
 
 
 class TestCentresOfMass:

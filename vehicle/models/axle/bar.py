@@ -87,7 +87,8 @@ class AntiRollBar(Section):
         default=(0.0, 1.0, 0.0), description="axis of the bar in its bearing, pointing left"
     )
     rate_Nm_per_deg: _Rate | None = Field(  # noqa: N815 (N is the newton)
-        default=None, description="torque for a twist between the bar's arms; or its dimensions"
+        default=None,
+        description="torque per twist between the bar's arms, unless the dimensions are given",
     )
     diameter_mm: _Diameter | None = Field(
         default=None, description="diameter of the bar, instead of its rate"
@@ -97,15 +98,15 @@ class AntiRollBar(Section):
         default=None, description="length of the bar between its arms, which is twisted"
     )
     shear_modulus_GPa: _Modulus = Field(  # noqa: N815 (Pa is the pascal)
-        default=_STEEL, description="shear modulus; Young's modulus is taken to be 2.6 times that"
+        default=_STEEL, description="shear modulus; Young's modulus is 2.6 times this value"
     )
     bush_radial_N_per_mm: _Stiffness | None = Field(  # noqa: N815 (N is the newton)
         default=None,
-        description="stiffness of each bearing across the bar; rigid if left out",
+        description="stiffness of each bearing across the bar; rigid by default",
     )
     link_axial_N_per_mm: _Stiffness | None = Field(  # noqa: N815
         default=None,
-        description="stiffness of each drop link along it, its joints included; rigid if left out",
+        description="stiffness of each drop link along it, its joints included; rigid by default",
     )
     free_twist_deg: _Twist = Field(
         default=0.0, description="twist at which the bar is free, left half less right half"

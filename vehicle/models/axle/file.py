@@ -45,7 +45,7 @@ class Drive(Torque):
         description='"body": the final drive is on the chassis, a shaft leads to the wheel; '
         '"carrier": a motor at the wheel',
     )
-    share: Share = Field(description="part of the driving force that acts at this axle's wheels")
+    share: Share = Field(description="fraction of the driving force at the wheels of this axle")
 
 
 class AxleFile(Section):

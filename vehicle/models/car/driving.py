@@ -32,8 +32,8 @@ class CarTyres(Section):
     rear: _TYRE
     relaxation: Flag = Field(
         default=True,
-        description="true: slips follow along the relaxation lengths of the tyres, which takes two "
-        "states of each; false: forces are those of the slips at the time",
+        description="true: slips lag by the relaxation lengths of the tyres, with two states of "
+        "each tyre; false: forces follow the slips without lag",
     )
 
 
@@ -45,12 +45,12 @@ class CarBrakes(Section):
     )
     front_share: Share | None = Field(
         default=None,
-        description="part of that torque at the front wheels; left out: front_brake_share of the "
-        "axles' files",
+        description="fraction of that torque at the front wheels; by default front_brake_share of "
+        "the axles' files",
     )
     standstill_rad_per_s: Positive = Field(
         default=0.5,
-        description="spin at which 71 % of the torque acts; it vanishes with the spin",
+        description="spin at which 71 % of the torque acts; the torque vanishes with the spin",
     )
 
 
@@ -67,7 +67,7 @@ class Air(Section):
     density_kg_per_m3: Positive = Field(default=1.2, description="density of the air")
     center_mm: Triple | None = Field(
         default=None,
-        description="point of the body at which the drag acts; left out: its centre of mass",
+        description="point of the body at which the drag acts; by default its centre of mass",
     )
 
 
@@ -95,10 +95,10 @@ class LinearTyreSection(Section):
     )
     friction: Positive = Field(default=1.0, description="greatest horizontal force over the load")
     trail_mm: Number = Field(
-        default=0.0, description="how far behind the contact the lateral force is without sliding"
+        default=0.0, description="distance of the lateral force behind the contact, without sliding"
     )
     rolling_resistance: NonNegative = Field(
-        default=0.0, description="longitudinal force that rolling takes, over the load"
+        default=0.0, description="longitudinal force of rolling resistance over the load"
     )
     relaxation_x_mm: Positive = Field(default=300.0, description="longitudinal relaxation length")
     relaxation_y_mm: Positive = Field(default=500.0, description="lateral relaxation length")

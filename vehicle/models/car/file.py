@@ -68,9 +68,9 @@ class CarBody(RigidBody):
 
 
 class Seat(Section):
-    """A place on the body where its acceleration is felt."""
+    """A point of the body at which the ride acceleration is evaluated."""
 
-    place_mm: Triple = Field(description="where it is at design, axes of the car")
+    place_mm: Triple = Field(description="position at design, axes of the car")
 
 
 class CarFile(Section):
@@ -98,7 +98,8 @@ class CarFile(Section):
     brakes: CarBrakes | None = Field(default=None, description="the brakes of a car that drives")
     air: Air | None = Field(default=None, description="drag and lift of a car that drives")
     seats: dict[str, Seat] = Field(
-        default_factory=dict, description="where the acceleration of the body is felt, by name"
+        default_factory=dict,
+        description="points of the body at which the ride acceleration is evaluated, by name",
     )
 
     @property

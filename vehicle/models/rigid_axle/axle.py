@@ -80,9 +80,9 @@ class RigidAxle(WholeAxle):
     PAGE: ClassVar[str] = """\
 A file of its own, of a beam on four rods; `kintrafo new FILE --rigid-axle` writes one. See
 [Rigid axles](../suspension/types.md#rigid-axle). The other sections are those of every suspension:
-`[tyre]`,
-`[gravity]`, the stops, and `[wheel]`, which may be left out; and `[bushings.POINT]`, whose points
-are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center` of both wheels.
+`[tyre]`, `[gravity]`, the stops, and `[wheel]`, which may be left out; and `[bushings.POINT]`.
+Points of bushings are the names of the rods with the ending `_chassis` or `_axle`, and
+`wheel_center` of both wheels.
 """
 
     rigid_axle: End = Field(description='where the axle is: "front" or "rear"')
@@ -94,7 +94,7 @@ are the rods by their names with `_chassis` or `_axle` behind, and `wheel_center
         default=LeftHardpoints(), description="points of the left side that are not mirror images"
     )
     rods: dict[str, RodSection] = Field(
-        description="four rods between chassis and axle, by names of any choice; or five, with "
+        description="four rods between chassis and axle, with names of your choice; or five, with "
         "bushings"
     )
     wheel: WheelSection = Field(

@@ -22,10 +22,18 @@ class LeftHardpoints(Section):
     In the unit of ``[hardpoints]``, with the y of the left side.
     """
 
-    spring_top: Triple | None = Field(default=None, description="as of the right side")
-    spring_seat: Triple | None = Field(default=None, description="as of the right side")
-    damper_top: Triple | None = Field(default=None, description="as of the right side")
-    damper_seat: Triple | None = Field(default=None, description="as of the right side")
+    spring_top: Triple | None = Field(
+        default=None, description="as for the right side, by default its mirror image"
+    )
+    spring_seat: Triple | None = Field(
+        default=None, description="as for the right side, by default its mirror image"
+    )
+    damper_top: Triple | None = Field(
+        default=None, description="as for the right side, by default its mirror image"
+    )
+    damper_seat: Triple | None = Field(
+        default=None, description="as for the right side, by default its mirror image"
+    )
 
 
 class RodSection(Section):
