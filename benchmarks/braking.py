@@ -47,7 +47,7 @@ METHODS: dict[str, dict[str, Any]] = {
 
 @dataclass(frozen=True)
 class Point:
-    """One method on one case: evaluations, Jacobians, seconds, and the error of the way [m]."""
+    """One method on one case: evaluations, Jacobians, seconds, error of the distance [m]."""
 
     steps: int
     evaluations: int
@@ -196,7 +196,8 @@ def run(
     header = ("case", *(f"at {speed:g} m/s [1/s]" for speed in speeds))
     rates = [(case, *(f"{r:,.0f}" for r in fastest(system(case), speeds))) for case in cases]
     columns = (
-        "case", "method", "steps", "evaluations", "Jacobians", "time [ms]", "error of the way [mm]",
+        "case", "method", "steps", "evaluations", "Jacobians", "time [ms]",
+        "error of the distance [mm]",
     )  # fmt: skip
     blocks = {
         "braking_rates": markdown_table(header, rates),

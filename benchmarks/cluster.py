@@ -117,9 +117,9 @@ def sentence(found: list[Pair], cars: int, started: float) -> str:
     return (
         f"For {count(cars)} cars, {WORKERS} local workers take {statistics.median(by_clock):.2f} "
         f"times as long as {WORKERS} threads, and {statistics.median(of_cores):.2f} times the "
-        f"processor time: the middle of {len(found)} pairs of runs, by the clock "
-        f"{min(by_clock):.2f} to {max(by_clock):.2f}. Where `cluster={WORKERS}` starts them for "
-        f"one call and ends them, that takes {started:.1f} s besides."
+        f"processor time (median of {len(found)} pairs of runs; ratios of wall-clock times of "
+        f"{min(by_clock):.2f} to {max(by_clock):.2f}). With `cluster={WORKERS}`, starting and "
+        f"ending the workers takes {started:.1f} s more."
     )
 
 

@@ -246,8 +246,8 @@ def toe() -> list[str]:
         cells = f"{milliseconds(quickest(one))} ({much}) | {milliseconds(quickest(two))} ({more})"
         table.append(f"| {title} | {cells} |")
     agreed = (
-        f"The derivatives agree to {off / greatest:.0e} of the greatest one, what was found to "
-        f"{apart:.0e} mm."
+        f"The derivatives agree to {off / greatest:.0e} of the greatest one, the optimised "
+        f"coordinates to {apart:.0e} mm."
     )
     return [*table, "", agreed]
 

@@ -65,7 +65,7 @@ def _made() -> list[str]:
     ]
     took = ("deriving", deriving), ("writing", writing), ("compiling", compiling)
     words = ", ".join(f"{what} {seconds:.0f} s" for what, seconds in took)
-    return [*rows, "", f"The equations are made once: {words} of processor time."]
+    return [*rows, "", f"Processor time of the derivation, once: {words}."]
 
 
 def _of_children() -> float:
@@ -128,7 +128,7 @@ def _where() -> str:
         f"Processor time on one core of {machine}: {DURATION:g} s from {3.6 * SPEED:g} km/h, in "
         f"which the steering wheel swings by {np.rad2deg(ANGLE):.0f} deg, tyres of the Magic "
         f"Formula with relaxation, a state every 5 ms; the quickest of {REPEATED}. The error is "
-        "that of the acceleration across beside Verner's method at 1e-11."
+        "that of the lateral acceleration, against Verner's method at 1e-11."
     )
 
 

@@ -178,12 +178,12 @@ def bound(found: Sequence[Call], times: int) -> str:
         return "Nothing here shows what the compiler made: objdump would."
     least = least_seconds(counted, widest.lanes, times) / widest.lanes * 1e9
     return (
-        f"In {widest.lanes} lanes it is {counted.products} products of vectors, {counted.sums} "
-        f"sums and differences, {counted.quotients} quotients and {counted.roots} roots. As many "
-        f"of each, side by side and without waiting for one another, take {least:.1f} ns a car on "
-        f"this processor: so the arithmetic alone allows {found[0].nanoseconds / least:.1f} times "
-        f"the rate of one by one, and {100.0 * least / widest.nanoseconds:.0f} % of that is "
-        "reached."
+        f"In {widest.lanes} lanes a right-hand side consists of {counted.products} products of "
+        f"vectors, {counted.sums} sums and differences, {counted.quotients} quotients and "
+        f"{counted.roots} roots. The same number of independent operations takes {least:.1f} ns a "
+        "car on this processor: the arithmetic alone would allow "
+        f"{found[0].nanoseconds / least:.1f} times the rate of one by one, of which "
+        f"{100.0 * least / widest.nanoseconds:.0f} % is reached."
     )
 
 
@@ -322,10 +322,10 @@ def iterating(most: int) -> str:
 
     alone, in_lanes = _processor_times(in_a_loop) / few, _processor_times(together) / many
     return (
-        f"A second of one of {count(many)} cars on five links, whose loops iterate, takes "
-        f"{_told(1e6 * in_lanes)} µs of a core in {library.widths()[-1]} lanes, and "
-        f"{_told(1e6 * alone)} µs in a loop over `simulate` by the same method and tolerances: "
-        f"{_told(alone / in_lanes, digits=2)} times as much."
+        f"For a second of motion, one of {count(many)} cars on five links, whose loops iterate, "
+        f"takes {_told(1e6 * in_lanes)} µs of a core in {library.widths()[-1]} lanes, and "
+        f"{_told(1e6 * alone)} µs in a loop over `simulate` by the same method and tolerances, "
+        f"{_told(alone / in_lanes, digits=2)} times as long."
     )
 
 
@@ -416,9 +416,9 @@ def sentence(found: list[Rate]) -> str:
     best, loop = min(found, key=_of_a_core), found[0]
     cost, before = _of_a_core(best), _of_a_core(loop)
     return (
-        f"One of {count(best.cars)} cars takes {cost:.2g} µs of a core for a second of motion by "
-        f"{best.what}; by a loop over `simulate` it is {float(f'{before:.2g}'):.0f} µs, "
-        f"{float(f'{before / cost:.2g}'):.0f} times as much."
+        f"For a second of motion, one of {count(best.cars)} cars takes {cost:.2g} µs of a core by "
+        f"{best.what}, and {float(f'{before:.2g}'):.0f} µs by a loop over `simulate`, "
+        f"{float(f'{before / cost:.2g}'):.0f} times as long."
     )
 
 
@@ -430,9 +430,9 @@ def share(costs: Sequence[Call], found: list[Rate]) -> str:
     alone = simulate(car(), SPAN, start(), method="DormandPrince", **options)
     spent = alone.nfev * costs[-1].nanoseconds / 1e3
     return (
-        f"The car as it is goes through the second in {alone.steps} steps with {alone.nfev} "
-        f"right-hand sides. In {costs[-1].lanes} lanes these take {spent:.1f} µs, "
-        f"{100.0 * spent / _of_a_core(best):.0f} % of what one car does."
+        f"The nominal car takes {alone.steps} steps with {alone.nfev} right-hand sides for the "
+        f"second. In {costs[-1].lanes} lanes these take {spent:.1f} µs, "
+        f"{100.0 * spent / _of_a_core(best):.0f} % of the time of one car."
     )
 
 

@@ -21,7 +21,7 @@ from .report import fill_page, markdown_table
 
 def table(found: dict[str, Judged]) -> str:
     """Return the results as Markdown."""
-    header = ("mechanism", "that move", "positions", "on regular paths", "answered", "wrong")
+    header = ("mechanism", "that move", "positions", "on regular paths", "accepted", "wrong")
     total = sum(found.values(), Judged())
     rows = [
         (

@@ -140,7 +140,7 @@ def count(number: float) -> str:
 
 def load() -> str:
     """Say how much the machine has to do."""
-    return f"Programs that wanted the {usual_threads()} cores at a time: {os.getloadavg()[0]:.0f}."
+    return f"Load average of the {usual_threads()} cores: {os.getloadavg()[0]:.0f}."
 
 
 # -- writing ------------------------------------------------------------------------------------

@@ -64,7 +64,8 @@ def main() -> None:
     where = (
         f"Processor time on one core of {machine}: {DURATION:g} s of a road of class B at "
         f"{SPEED:g} m/s, seed {SEED}, the rack held, a state every 5 ms; the quickest of "
-        f"{REPEATED}. The error is that of the body's acceleration beside Verner's method at 1e-11."
+        f"{REPEATED}. The error is that of the body's acceleration, against Verner's method at "
+        "1e-11."
     )
     text = "\n".join([*counts, "", *speeds, "", where])
     print(text)

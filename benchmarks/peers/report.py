@@ -133,9 +133,9 @@ def _times_as_fast(seconds: list[Second]) -> str:
         for s in (fastest["kintrafo.simulate"], solver)
     )
     return (
-        "CasADi's CVODES, tuned and compiled, a compiled function called from Python, takes "
-        f"{alone:.1f} times as long as the solver of `simulate`, which is one, too, and "
-        f"{whole:.1f} times as long as `simulate`, which checks and labels."
+        f"CasADi's CVODES, tuned, compiled and called from Python, takes {alone:.1f} times as long "
+        f"as the compiled solver of `simulate` alone, and {whole:.1f} times as long as `simulate`, "
+        "which also checks arguments and labels results."
     )
 
 
