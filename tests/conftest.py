@@ -13,6 +13,7 @@ import signal
 import sys
 from dataclasses import replace
 from functools import cache
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import kept
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
 
     import xarray as xr
     from kintrafo.generator.equations.outputs import Derivation
-    from kintrafo.pictures.animation import Array, Skeleton
 
     Pages = dict[str, tuple[Hashable, ...]]
     """Groups of curves by name, with their variables."""
@@ -234,15 +234,14 @@ def few_frames(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let GIFs show every tenth frame, where it does not matter how smoothly they move."""
     from kintrafo.pages import animation
 
-    whole = animation.write_gif
+    whole = animation.frames
 
-    def short(
-        path: Path, skeleton: Skeleton, times: Array, places: dict[str, Array], fps: float
-    ) -> None:
-        some = {body: at[::10] for body, at in places.items()}
-        whole(path, skeleton, times[::10], some, fps / 10.0)
+    def fewer(*arguments: Any) -> tuple[Any, Any]:
+        wanted, rows = whole(*arguments)
+        return wanted[::10], rows[::10]
 
-    monkeypatch.setattr(animation, "write_gif", short)
+    for name in ("kintrafo.pages.animation", "kintrafo.vehicle.plots.driving.animate"):
+        monkeypatch.setattr(import_module(name), "frames", fewer)
 
 
 @pytest.fixture

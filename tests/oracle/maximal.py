@@ -275,7 +275,7 @@ class Oracle:
     def _carried(self, motion: Motion, body: str, arm: Array, *, free: bool) -> Jet:
         """Return a vector fixed in a body, from its centre of mass if it is not free."""
         i = self.index[body]
-        omega, turned = motion.twist[i, 3:], motion.rotation[i] @ arm
+        spin, turned = skew(motion.twist[i, 3:]), motion.rotation[i] @ arm
         rows = np.zeros((3, self.size + 1, 6))
         rows[:, i, 3:] = -skew(turned)
         if not free:
@@ -284,7 +284,7 @@ class Oracle:
             turned if free else motion.position[i] + turned,
             rows[:, 1:].reshape(3, -1),
             rows.reshape(3, -1) @ motion.twist.ravel(),
-            np.cross(omega, np.cross(omega, turned)),
+            spin @ (spin @ turned),  # a tenth of the time of numpy.cross
         )
 
     def point(self, motion: Motion, body: str, place: Array) -> Jet:
@@ -642,7 +642,7 @@ class Oracle:
             tensor = rotation @ self.inertia[i + 1] @ rotation.T
             mass[i, :3, i, :3] = self.mass[i + 1] * np.eye(3)
             mass[i, 3:, i, 3:] = tensor
-            gyroscopic[i, 3:] = np.cross(omega, tensor @ omega)
+            gyroscopic[i, 3:] = skew(omega) @ tensor @ omega
         return mass.reshape(6 * self.size, -1), gyroscopic.ravel()
 
     # -- energy -----------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,8 @@ from folders import ROOT
 from kintrafo import Model, state_at_height
 from kintrafo.simulation.dead_points import meanings
 from kintrafo.simulation.solvers import native_available, native_version
+from own_loops import FIVE_BAR
+from own_models import own
 
 # without optimisation, which takes most of the time and hides what it removes; of what a debugger
 # is told, lines are enough
@@ -197,7 +200,7 @@ int main(void)
 
 ITERATION = """
 #define KINTRAFO_LANES /* its functions are declared below, as of vectors */
-#include "multi_link.h"
+#include "five_bar.h"
 #include <stdlib.h>
 
 typedef double pair __attribute__((vector_size(16)));
@@ -212,12 +215,12 @@ static pair *exactly(size_t count)
 
 int main(void)
 {{
-    pair *parameters = exactly(MULTI_LINK_PARAMETER_COUNT), *out = exactly(MULTI_LINK_STATE_COUNT);
-    pair *constants = exactly(MULTI_LINK_CONSTANT_COUNT), *state = exactly(MULTI_LINK_STATE_COUNT);
-    pair *inputs = exactly(MULTI_LINK_INPUT_COUNT);
-    for (int i = 0; i < MULTI_LINK_INPUT_COUNT; ++i) inputs[i] = (pair){{0.0}};
+    pair *parameters = exactly(FIVE_BAR_PARAMETER_COUNT), *out = exactly(FIVE_BAR_STATE_COUNT);
+    pair *constants = exactly(FIVE_BAR_CONSTANT_COUNT), *state = exactly(FIVE_BAR_STATE_COUNT);
+    pair *inputs = exactly(FIVE_BAR_INPUT_COUNT);
+    for (int i = 0; i < FIVE_BAR_INPUT_COUNT; ++i) inputs[i] = (pair){{0.0}};
     const double values[] = {{{parameters}}};
-    for (int i = 0; i < MULTI_LINK_PARAMETER_COUNT; ++i) parameters[i] = values[i] + (pair){{0.0}};
+    for (int i = 0; i < FIVE_BAR_PARAMETER_COUNT; ++i) parameters[i] = values[i] + (pair){{0.0}};
     words failed = in_lanes_prepare(parameters, constants);
     in_lanes_design_state(parameters, state);
     state[0] += (pair){{0.05, 7.0}}; /* near, and beyond what there is, round once */
@@ -401,11 +404,13 @@ def test_solver_in_lanes(tmp_path):
 @needs_gcc
 @pytest.mark.slow
 def test_iteration_in_lanes(tmp_path):
-    values = np.array([*Model("multi_link_car").parameters.values()])
+    """In a small loop: longer ones call the same solver of a block."""
+    module = own(FIVE_BAR, derivatives=False)
+    values = np.array([p.default for p in FIVE_BAR.mechanism.parameters])
     text = ITERATION.format(parameters=listed(values))
     names = ("prepare", "design_state", "rhs")
-    flags = ["-std=gnu11", "-DWIDTH=2", '-DMODEL="multi_link.c"']
-    renamed = [f"-Dmulti_link_{name}=in_lanes_{name}" for name in names]
+    flags = ["-std=gnu11", "-DWIDTH=2", '-DMODEL="five_bar.c"', f"-I{Path(module.__file__).parent}"]
+    renamed = [f"-Dfive_bar_{name}=in_lanes_{name}" for name in names]
     source = ROOT / "runtime/simulation/lanes/model.c"
     run_clean(tmp_path, text, [source], [*flags, *renamed])
 
