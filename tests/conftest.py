@@ -6,6 +6,7 @@ reads this file as well, and they wait for it.
 
 from __future__ import annotations
 
+import atexit
 import gc
 import os
 import resource
@@ -78,8 +79,10 @@ _LONGEST = (
 )
 
 
-MUCH = 2**20 * (1 if sys.platform == "linux" else 1024)
-"""A gibibyte, in what the system counts in: to free so much takes up to ten seconds."""
+_MEMORY = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+MUCH = min(2**31, _MEMORY // 8) // (1024 if sys.platform == "linux" else 1)
+"""An eighth of the memory or two gibibytes, in what the system counts in: to look through so much
+takes up to ten seconds, and to wait with it takes memory only."""
 _most = 0
 
 
@@ -122,6 +125,18 @@ def pytest_configure() -> None:
 def pytest_collection_finish() -> None:
     """Let that search pass over what was imported: it stays."""
     gc.freeze()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_unconfigure(config: pytest.Config) -> None:
+    """Let processes that ran tests for another one end at once: what they found is sent.
+
+    Python would look through all that was derived, and free it piece by piece. That takes longer
+    than the ten seconds after which they are killed.
+    """
+    if hasattr(config, "workerinput"):
+        atexit._run_exitfuncs()
+        os._exit(0)
 
 
 @pytest.fixture(scope="module", autouse=True)
