@@ -8,7 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import kintrafo
-from kintrafo.vehicle.plots.driving import animate
+from kintrafo.vehicle.plots.motion import animate
 from PIL import Image, ImageSequence
 
 SHOWN = slice(44, 116, 2)

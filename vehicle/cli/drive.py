@@ -76,7 +76,7 @@ def command(
     title = f"{title_of(file)}: {found.metrics.attrs['title']}"
     written = _write(outputs, found, chosen, title)
     if animate is not None:
-        from ..plots.driving import animate as written_motion
+        from ..plots.motion import animate as written_motion
 
         with problems.status("animation"):
             written.append(written_motion(found, animate, title=title, **outputs.rule))
@@ -98,7 +98,7 @@ def _refuse_animation(path: Path, outputs: Outputs, chosen: "AnyManoeuvre") -> N
     """Refuse what cannot be written, before computing."""
     from ...core.errors import InputError
     from ...core.files import refuse
-    from ..plots.driving import ENDINGS
+    from ..plots.motion import ENDINGS
 
     refuse([path], endings=ENDINGS, **outputs.rule)
     if not chosen.TRAVELS:

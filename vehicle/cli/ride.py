@@ -10,7 +10,7 @@ from ...core.tabulated import significant
 from ...terminal.console import console, print_json, problems, table
 from ...terminal.exits import Exit
 from .loading import car_of, note_unused
-from .options import argument, option
+from .options import OUTPUT, argument, option
 from .outputs import PlotOptions, name_files, title_of
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ EXAMPLES = (
     "kintrafo ride quarter_car --road C --speed 60 --seed 7 -o ride.csv",
     "kintrafo ride quarter_car --bump 20 --bump-length 1 --speed 30 -o bump.csv",
     "kintrafo ride quarter_car --road tracks.csv --contact-length 120",
+    "kintrafo ride quarter_car --bump 30 --bump-length 2 --duration 3 --animate bump.gif",
     "kintrafo ride quarter_car --kerb 60 --contact-length 120 --speed 15",
 )
 
@@ -73,6 +74,10 @@ def command(
         option("Duration of the simulation. Default: 30 s; to the end of a measured road.", "S"),
     ] = None,
     output_step: Annotated[float, option("Time between outputs.", "MS")] = 5.0,
+    animate: Annotated[
+        Path | None,
+        option("Write the motion, in real time: .gif, or .html to play.", "PATH", panel=OUTPUT),
+    ] = None,
     output: PlotOptions,
 ) -> None:
     """Simulate a car over a road: rest, modes, accelerations, wheel loads, wheel travel.
@@ -81,12 +86,15 @@ def command(
     On a rough road the tables also have the prediction by the exact linearisation at rest. Rear
     wheels meet the road later, by the wheelbase over the speed. Data files have the motion; on a
     rough road further files, whose names end in _response, have the spectra and the responses to
-    the road under each wheel.
+    the road under each wheel. --animate shows the car on the road in motion.
     """
+    from ...core.files import refuse
     from ...core.validator import Validator
     from ...datasets import export
     from ..analysis import ride
     from ..plots.by_axle import by_axle
+    from ..plots.motion import ENDINGS
+    from ..plots.motion import animate as write_motion
 
     with Validator("kintrafo ride") as given:
         given.number("--speed", speed, "km/h", above=0.0)
@@ -97,6 +105,8 @@ def command(
     outputs = output.files(
         file, *([road] if chosen.is_measured else []), suffixes=suffixes, drawn=[""]
     )
+    if animate is not None:
+        refuse([animate], endings=ENDINGS, **outputs.rule)
     assembly = car_of(file)
     v = speed / 3.6
     profile, duration = chosen.for_time(assembly, v, duration)
@@ -104,12 +114,18 @@ def command(
     if chosen.is_rough and contact_length is None:
         found["linear"] = ride.response(assembly, v, road)
     settle = min(5.0, 0.2 * duration) if chosen.is_rough else 0.0
-    motion = ride.over(
-        assembly, profile, v, duration=duration, settle=settle, output_step=output_step / 1e3
-    )
+    with problems.status("the motion over the road"):
+        run = ride.run(
+            assembly, profile, v, duration=duration, settle=settle, output_step=output_step / 1e3
+        )
+    motion = run.motion
     written = outputs.write(motion, title=title_of(file), drawn=by_axle(motion))
     if "linear" in found:
         written += outputs.write_data(found["linear"], "_response")
+    title = f"{title_of(file)}: {profile.words}, {speed:g} km/h"
+    if animate is not None:
+        with problems.status("animation"):
+            written.append(write_motion(run, animate, title=title, **outputs.rule))
     if output.json:
         judged = {str(n): _judged(d) for n, d in motion.items()}
         print_json({n: export.as_dict(d) for n, d in found.items() if n != "linear"} | judged)

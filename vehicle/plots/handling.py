@@ -69,13 +69,13 @@ def write_curves(
     dataset = dataset.transpose(along, ...)
     moving = {str(name) for name in varying(dataset)}
     names = [name for name in _SHOWN[along] if name in moving]
-    dataset = _for_print(dataset, along)
+    dataset = for_print(dataset, along)
     with rc_context(STYLE):
         drawn = draw(dataset, names, title=title, alone=False, columns=_COLUMNS)
         return save(drawn, path, force=force, inputs=inputs)
 
 
-def _for_print(dataset: xr.Dataset, along: str) -> xr.Dataset:
+def for_print(dataset: xr.Dataset, along: str) -> xr.Dataset:
     """Return curves with the names of wheels in words, and a sideslip angle that does not leap.
 
     That of a car that turns round passes 180 degrees.

@@ -119,7 +119,7 @@ def test_the_sideslip_angle_of_a_car_that_turns_round_does_not_leap():
     car = motion().assign(
         sideslip_angle=quantity("time", np.angle(np.exp(1j * turning)), "sideslip angle", "rad")
     )
-    drawn = handling._for_print(car, "time")
+    drawn = handling.for_print(car, "time")
     np.testing.assert_allclose(drawn["sideslip_angle"], turning, atol=1e-12)
 
 

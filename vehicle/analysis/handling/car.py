@@ -3,14 +3,13 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from ....systems.system import System
 from ...assembly.controls import Controls
+from ..run import Run
 from .body_motion import ReferencePoint
 
 Array = NDArray[np.float64]
@@ -61,7 +60,12 @@ class DrivingCar:
     front: float
     mass: float
     steering_input: str = "rack_position"
-    watched: "Callable[[Run], None] | None" = None
+    watched: Callable[[Run], None] | None = None
+
+    @property
+    def body(self) -> str:
+        """The name of its body."""
+        return self.motion.body
 
     @property
     def steered(self) -> tuple[str, ...]:
@@ -117,21 +121,3 @@ class DrivingCar:
         for name, value in values.items():
             found[self._places[name]] = value
         return found
-
-
-class Run(NamedTuple):
-    """A simulation of a car that is driven.
-
-    Attributes
-    ----------
-    car : DrivingCar
-    motion : xarray.Dataset
-        Its motion over time.
-    states, inputs : ndarray, shape (n, states) and (n, inputs)
-        Of its equations, at the same times.
-    """
-
-    car: DrivingCar
-    motion: xr.Dataset
-    states: Array
-    inputs: Array

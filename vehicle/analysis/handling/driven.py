@@ -12,8 +12,9 @@ from ....core.validator import Validator
 from ....simulation.stepper import Stepper
 from ....simulation.validity import bounds_of, excursions
 from ...assembly.by_wheel import WHEEL, wheel_coordinate
+from ..run import Run
 from .body_motion import QUANTITIES
-from .car import DrivingCar, Run
+from .car import DrivingCar
 from .drivers import Observation, Pedals, Pushes, Steers
 from .result import quantity
 
@@ -129,7 +130,8 @@ def driven(
         found.attrs["not_valid"].insert(0, f"the car overturns at {seen.time:.2f} s")
     if car.watched is not None:
         states, inputs = (np.array(each) for each in zip(*(row[1:3] for row in rows), strict=True))
-        car.watched(Run(car, found, states, inputs))
+        places = np.stack([found["x"].values, found["y"].values], axis=-1)
+        car.watched(Run(car, found, states, inputs, places))
     return found
 
 

@@ -15,7 +15,7 @@ from .steady import SteadyCondition
 from .subject import driving_car
 
 if TYPE_CHECKING:
-    from .car import Run
+    from ..run import Run
 
 
 def drive(

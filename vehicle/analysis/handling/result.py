@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import xarray as xr
 
 from ....core.quantities import variable
-from .car import Run
+from ..run import Run
 
 
 class HandlingResult(NamedTuple):

@@ -4,11 +4,12 @@
 `modes`      heave, pitch, roll, and hop and tramp of its axles, by the exact linearisation
 `response`   frequency responses to the road under each wheel, and spectra on a rough road
 `over`       a simulation over a road, and what it is judged by
+`run`        the same with the states of the equations, for pictures of the motion
 """
 
 from .linear import modes, response
 from .rest import at_rest
-from .simulated import over
+from .simulated import over, run
 from .weighting import weighted, weighting
 
-__all__ = ["at_rest", "modes", "over", "response", "weighted", "weighting"]
+__all__ = ["at_rest", "modes", "over", "response", "run", "weighted", "weighting"]

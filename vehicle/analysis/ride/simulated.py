@@ -14,8 +14,9 @@ from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from ...assembly.car import CarAssembly
 from ...assembly.equilibrium import equilibrium
 from ...roads import Road
+from ..run import Run
 from .outputs import OUTPUTS_OF_WHEELS, body_outputs, upward
-from .subject import car_assembly
+from .subject import car_assembly, riding_car
 from .weighting import weighted
 
 Array = NDArray[np.float64]
@@ -79,6 +80,33 @@ def over(
     SimulationError
         If the motion cannot be finished.
     """
+    how = {"duration": duration, "settle": settle, "output_step": output_step, **options}
+    return run(subject, road, speed, **how).motion
+
+
+def run(
+    subject: Any,
+    road: Road,
+    speed: float,
+    *,
+    duration: float | None = None,
+    settle: float | None = None,
+    output_step: float = 0.005,
+    **options: Any,
+) -> Run:
+    """Return the simulation of a car over a road, with the states of its equations.
+
+    Parameters, errors and the motion are those of `over`; pictures need the states, too.
+
+    Parameters
+    ----------
+    subject, road, speed, duration, settle, output_step, **options
+        As of `over`.
+
+    Returns
+    -------
+    Run
+    """
     assembly = car_assembly("ride", subject)
     with Validator("ride") as given:
         given.instance("road", road, Road, "a kintrafo.road_profiles.Road is needed")
@@ -102,7 +130,12 @@ def over(
                     f"output_step = {step:g} s: {end / _MOST_OUTPUTS:.3g} s or more is needed."
                 )
     result = _simulated(assembly, road, speed, end, step, options)
-    return _judged(_dataset(assembly, result), begin)
+    motion = _judged(_dataset(assembly, result), begin)
+    states, inputs = result.y.T, result.inputs
+    car = riding_car(assembly, states[0], inputs[0])
+    way = speed * result.t
+    places = np.stack([way, 0.0 * way], axis=-1)
+    return Run(car, motion, states, inputs, places, way, road)
 
 
 def _simulated(

@@ -1,15 +1,12 @@
 """A chapter of a report: words, tables and pictures that do not move."""
 
-from base64 import b64encode
 from dataclasses import dataclass
-from io import BytesIO
 from typing import Literal
 
-from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from ....core.tabulated import Tabulated
-from ....pictures.figures import METADATA, lay_out
+from ....pictures.figures import image_address
 
 
 @dataclass(frozen=True)
@@ -32,12 +29,7 @@ class ChapterPicture:
         cls, figure: Figure, words: str, ending: Literal["svg", "png"] = "svg"
     ) -> "ChapterPicture":
         """Return a figure as a picture: of sharp lines, or of points where it has many letters."""
-        drawn = BytesIO()
-        # letters stay letters: they can be searched for, and take a tenth of the room
-        with rc_context({"svg.fonttype": "none"}):
-            lay_out(figure).savefig(drawn, dpi=110, format=ending, metadata=METADATA[ending])
-        kind = {"svg": "svg+xml", "png": "png"}[ending]
-        return cls(f"data:image/{kind};base64,{b64encode(drawn.getvalue()).decode()}", words)
+        return cls(image_address(figure, ending), words)
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Frames of a car that drives: from the front and above, and its whole path from above."""
+"""Frames of a car in motion: from the front and above, and its whole path from above."""
 
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 from ....pictures.animation import save_frames, seen_from
-from .scene import WIDTH, DrivingScene
+from .scene import LOOKED_AT, WIDTH, CarScene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,13 +39,13 @@ _SPOKES = 5
 _FAR = 4.0
 
 
-def write_gif(path: Path, scene: DrivingScene, title: str, fps: float) -> None:
+def write_gif(path: Path, scene: CarScene, title: str, fps: float) -> None:
     """Write a motion as a GIF.
 
     Parameters
     ----------
     path : pathlib.Path
-    scene : DrivingScene
+    scene : CarScene
     title : str
     fps : float
         Frames that are shown per second.
@@ -59,7 +59,7 @@ class Drawer:
 
     Parameters
     ----------
-    scene : DrivingScene
+    scene : CarScene
     title : str
 
     Attributes
@@ -67,7 +67,7 @@ class Drawer:
     figure : matplotlib.figure.Figure
     """
 
-    def __init__(self, scene: DrivingScene, title: str) -> None:
+    def __init__(self, scene: CarScene, title: str) -> None:
         self._scene, self._title = scene, title
         self._view = seen_from(_TURN, _TILT)
         turned, tilted = np.array([np.cos(_TURN), np.sin(_TURN)]), np.cos(_TILT)
@@ -77,17 +77,18 @@ class Drawer:
         self._limits = (low, high)
         wide = 7.2
         strip = float(np.clip(wide * (high - low)[1] / (high - low)[0], 0.5, 2.6))
-        self.figure = Figure(figsize=(wide, 4.6 + strip))
-        whole = 4.6 + strip
+        whole = 4.6 + (strip := strip * scene.turns)
+        self.figure = Figure(figsize=(wide, whole))
         self._axes: Axes = self.figure.add_axes((0.0, strip / whole, 1.0, 4.6 / whole))
-        self._above: Axes = self.figure.add_axes((0.0, 0.0, 1.0, strip / whole))
-        size = np.abs(scene.outline[0] - scene.outline[0].mean(axis=(0, 1))).max()
-        self._half = np.array([1.3, 0.83]) * size
+        if scene.turns:
+            self._above: Axes = self.figure.add_axes((0.0, 0.0, 1.0, strip / whole))
+        self._half = np.array([1.3, 0.83]) * scene.size
 
     def draw(self, index: int) -> None:
         """Draw one frame in the place of the one before."""
         self._follow(index)
-        self._from_above(index)
+        if self._scene.turns:
+            self._from_above(index)
 
     # -- the view that follows --------------------------------------------------------------------
 
@@ -96,7 +97,7 @@ class Drawer:
         axes.clear()
         axes.set_axis_off()
         axes.set_aspect("equal")
-        middle = np.array([*scene.outline[index].mean(axis=(0, 1))[:2], 0.45])
+        middle = np.array([*scene.outline[index].mean(axis=(0, 1))[:2], LOOKED_AT])
         self._from = middle
         (right, up) = self._half
         axes.set_xlim(-right, right)
@@ -133,8 +134,12 @@ class Drawer:
         on = [self._flat(np.array(line)) for line in lines]
         axes, scene = self._axes, self._scene
         axes.add_collection(LineCollection(on, colors="#e4e4e4", linewidths=0.8, zorder=1))
-        axes.plot(*self._flat(scene.places).T, color=PATH, lw=0.8, zorder=1.5)
-        axes.plot(*self._flat(scene.places[: index + 1]).T, color=PATH, lw=2.4, zorder=1.6)
+        for track in scene.tracks:
+            near = track[np.abs(track[:, 0] - x) < far]
+            axes.plot(*self._on(near).T, color=INK, lw=1.2, zorder=1.5)
+        if scene.turns:
+            axes.plot(*self._flat(scene.places).T, color=PATH, lw=0.8, zorder=1.5)
+            axes.plot(*self._flat(scene.places[: index + 1]).T, color=PATH, lw=2.4, zorder=1.6)
 
     def _cones(self) -> Iterator[Item]:
         foot = 0.15 * np.array([np.cos(_AROUND[::4]), np.sin(_AROUND[::4]), 0.0 * _AROUND[::4]]).T

@@ -1,15 +1,16 @@
-"""Pictures of a car that drives: wheels, forces and path against the simulation they are from."""
+"""Pictures of a car in motion: wheels, forces and path against the simulation they are from."""
 
 import json
 import re
 
+import kintrafo
 import numpy as np
 import pytest
 import rail_car
 from kintrafo import InputError
 from kintrafo.vehicle.analysis.handling import HandlingResult, load_manoeuvre
-from kintrafo.vehicle.plots.driving import animate
-from kintrafo.vehicle.plots.driving.scene import scene_of
+from kintrafo.vehicle.plots.motion import animate
+from kintrafo.vehicle.plots.motion.scene import scene_of
 from PIL import Image
 from xarray import Dataset
 
@@ -77,7 +78,7 @@ def test_a_car_is_seen_in_real_time(result, tmp_path) -> None:
 def test_a_page_has_the_places_of_the_scene(result, scene, tmp_path) -> None:
     text = animate(result, tmp_path / "a.html", title="a </script> car").read_text(encoding="utf-8")
     assert "a </script> car" not in text
-    data = json.loads(re.search(r'id="payload">(.*?)</script>', text).group(1))
+    data = json.loads(re.search(r'type="application/json">(.*?)</script>', text).group(1))
     rows = [int(np.argmin(np.abs(scene.times - time))) for time in data["times"]]
     assert len(rows) == round(25 * (scene.times[-1] - scene.times[0])) + 1
     contacts = np.array(data["contacts"]).reshape(-1, 4, 3)
@@ -86,6 +87,46 @@ def test_a_page_has_the_places_of_the_scene(result, scene, tmp_path) -> None:
     np.testing.assert_allclose(
         np.array(data["forces"]).reshape(-1, 4, 3), scene.forces[rows], atol=0.5
     )
+    charts = data["charts"]
+    assert text.count("data:image/svg+xml") == len(charts) > 5
+    steered = result.runs[-1].motion["steering_wheel_angle"].values[rows]
+    (name, values), *_ = charts[0]["lines"]
+    assert name == ""
+    digit = 10.0 ** -charts[0]["decimals"]
+    np.testing.assert_allclose(values, np.degrees(steered), atol=0.6 * digit)
+
+
+@pytest.fixture(scope="module")
+def ridden():
+    bump = kintrafo.road_profiles.bump(0.03, 2.0, at=1.0, end=10.0)
+    return kintrafo.ride.run(kintrafo.load("quarter_car"), bump, 10.0, duration=0.5)
+
+
+def test_a_car_that_rides_is_carried_along_its_road(ridden) -> None:
+    scene = scene_of(ridden, np.arange(len(ridden.states)))
+    np.testing.assert_allclose(np.diff(scene.centers[:, 0, 0]), 10.0 * 0.005, atol=1e-3)
+    (track,) = scene.tracks
+    under = np.interp(scene.contacts[:, 0, 0], track[:, 0], track[:, 2])
+    # points of the drawn road are 5 cm apart, and the wheel centre moves forward as it rises
+    np.testing.assert_allclose(scene.contacts[:, 0, 2], under, atol=1.5e-3)
+    assert under.max() == pytest.approx(0.03, abs=1e-3)
+    assert not scene.turns
+
+
+def test_a_wheel_that_rides_rolls_and_carries_the_load(ridden) -> None:
+    scene = scene_of(ridden, np.arange(len(ridden.states)))
+    np.testing.assert_allclose(scene.forces[:, 0, 2], ridden.motion["load"], rtol=2e-3)
+    assert scene.forces[0, 0, 2] > 0.0
+    turned = np.unwrap(np.arctan2(-scene.spokes[:, 0, 2], scene.spokes[:, 0, 0]))
+    assert turned[-1] - turned[0] == pytest.approx(5.0 / scene.radii[0], rel=0.01)
+
+
+def test_a_ride_is_written_in_both_ways(ridden, tmp_path) -> None:
+    page = animate(ridden, tmp_path / "a.html", title="a quarter car")
+    data = json.loads(re.search(r'json">(.*?)</script>', page.read_text(encoding="utf-8")).group(1))
+    assert max(data["tracks"][0]["z"]) == 30
+    with Image.open(animate(ridden, tmp_path / "a.gif")) as picture:
+        assert picture.n_frames == 13
 
 
 def test_what_does_not_move_is_not_shown(tmp_path) -> None:

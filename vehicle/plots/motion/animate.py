@@ -1,0 +1,111 @@
+"""Writing the motion of a car as a GIF, or as a page that plays it."""
+
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from markupsafe import Markup
+from numpy.typing import NDArray
+
+from ....core.errors import InputError
+from ....core.files import Paths, refuse, replacing
+from ....core.validator import Validator
+from ....pages.animation import frames
+from ...analysis.handling.result import HandlingResult
+from ...analysis.run import Run
+from .charts import charts_of
+from .page import motion_page, player
+from .picture import write_gif
+from .scene import scene_of
+
+ENDINGS = (".gif", ".html", ".htm")
+_FPS = 25.0
+# Positions of a page at most: one for a tenth of a second of a manoeuvre of 100 s.
+_MOST_POSITIONS = 1000
+
+
+def animate(
+    result: HandlingResult | Run,
+    path: str | Path,
+    *,
+    title: str = "",
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write the motion of a car as something to look at, in real time.
+
+    Body, links, springs and wheels are drawn from the solved positions, with the forces of the road
+    on the tyres, the road where it is not level, and the path of the reference point where the car
+    drives. The outline of the body is not that of the car: it has the car's wheelbase and track.
+
+    Parameters
+    ----------
+    result : HandlingResult or Run
+        What `kintrafo.handling.drive` or `kintrafo.ride.run` returned. Of several simulations of a
+        manoeuvre the last one is shown.
+    path : str or pathlib.Path
+        Ends in ``.gif``, for an animated picture with 25 frames per second, or ``.html``, for a
+        page to play, stop and turn, with curves that follow.
+    title : str, optional
+    force : bool, optional
+        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InputError
+        If nothing was simulated, as in steady turns; if a GIF would have too many frames; or if the
+        file must not be written.
+    """
+    with Validator("animate") as given:
+        given.instance("result", result, (HandlingResult, Run), _NEEDED)
+        given.text("title", title)
+    refuse([path], force=force, inputs=inputs, endings=ENDINGS)
+    run, cones = _shown(result)
+    picture = Path(path).suffix.lower() == ".gif"
+    rows = _frames(run) if not picture else frames(run.motion["time"].values, _FPS)[1]
+    scene = scene_of(run, rows, cones=cones)
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        if picture:
+            write_gif(temporary, scene, title, _FPS)
+        else:
+            page = motion_page(scene, charts_of(run.motion, rows), title)
+            temporary.write_text(page, encoding="utf-8", newline="\n")
+    return Path(path)
+
+
+def played(result: HandlingResult | Run) -> Markup:
+    """Return the part of a page that plays a motion; see `page.player`.
+
+    Parameters
+    ----------
+    result : HandlingResult or Run
+        As of `animate`.
+    """
+    run, cones = _shown(result)
+    rows = _frames(run)
+    return player(scene_of(run, rows, cones=cones), charts_of(run.motion, rows))
+
+
+def _shown(result: HandlingResult | Run) -> tuple[Run, xr.Dataset | None]:
+    """Return the simulation that is shown, and its cones."""
+    if isinstance(result, Run):
+        return result, None
+    if not result.runs:
+        raise InputError(["steady turns are not simulated: there is no motion to show"], "animate")
+    return result.runs[-1], result.curves.get("_cones")
+
+
+def _frames(run: Run) -> NDArray[np.intp]:
+    """Return the outputs that a page shows."""
+    times = run.motion["time"].values
+    seconds = float(times[-1] - times[0])
+    return frames(times, min(_FPS, (_MOST_POSITIONS - 1) / max(seconds, 1.0)))[1]
+
+
+_NEEDED = "what kintrafo.handling.drive or kintrafo.ride.run returns is needed"

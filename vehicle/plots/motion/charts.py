@@ -1,0 +1,118 @@
+"""Curves of a motion with a line at the time that is shown: a picture each."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib import rc_context
+from numpy.typing import NDArray
+
+from ....core.quantities import display_of, displayed, heading_of
+from ....pictures.curves import draw, named_values, varying
+from ....pictures.figures import STYLE, image_address, lay_out
+from ..by_axle import by_axle
+from ..handling import for_print
+
+_SEATS = "seats"
+# In this order, as far as they are there and vary.
+_SHOWN = (
+    "steering_wheel_angle", "lateral_acceleration", "yaw_rate", "sideslip_angle", "roll_angle",
+    "speed", "longitudinal_acceleration", "pitch_angle", "body_acceleration", _SEATS, "heave",
+    "pitch", "roll", "fz_front", "fz_rear", "fy_front", "fy_rear", "load", "load_front",
+    "load_rear", "travel", "travel_front", "travel_rear", "road", "road_front", "road_rear",
+)  # fmt: skip
+# Width and height [in], and digits of the greatest value.
+_SIZE = (4.1, 2.7)
+_DIGITS = 4
+
+
+@dataclass(frozen=True)
+class Chart:
+    """A curve over time as a picture, and where its values are there.
+
+    Attributes
+    ----------
+    source : str
+        The picture, as the address of an image.
+    words : str
+        What it shows.
+    box : list of float
+        Left, right, top and bottom end of its axes, as parts of its width and height.
+    times : list of float
+        Of the left and the right end [s].
+    lines : list of tuple
+        Name, empty for one line alone, and the values at the times of the scene.
+    decimals : int
+        With which they are written.
+    unit : str
+        Of the values.
+    """
+
+    source: str
+    words: str
+    box: list[float]
+    times: list[float]
+    lines: list[tuple[str, list[float | None]]]
+    decimals: int
+    unit: str
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """What a page moves it by."""
+        names = ("box", "times", "lines", "decimals", "unit")
+        return {name: getattr(self, name) for name in names}
+
+
+def charts_of(motion: xr.Dataset, rows: NDArray[np.intp]) -> list[Chart]:
+    """Return the curves of a motion that are looked at first.
+
+    Parameters
+    ----------
+    motion : xarray.Dataset
+        Over time.
+    rows : ndarray of int
+        The outputs that a scene shows.
+    """
+    dataset = for_print(by_axle(motion.transpose("time", ...)), "time")
+    moving = {str(name) for name in varying(dataset)}
+    seats = sorted(n for n in moving if n.endswith("_acceleration") and n not in _SHOWN)
+    order = [own for name in _SHOWN for own in (seats if name == _SEATS else [name])]
+    names = [name for name in order if name in moving]
+    with rc_context(STYLE):
+        return [_chart(dataset, name, rows) for name in names]
+
+
+def _chart(dataset: xr.Dataset, name: str, rows: NDArray[np.intp]) -> Chart:
+    drawn = draw(dataset, [name], alone=False)
+    drawn.set_size_inches(*_SIZE)
+    lay_out(drawn)
+    (axes,) = drawn.axes[:1]
+    place = axes.get_position()
+    data = dataset[name]
+    lines = _lines(data)
+    greatest = max(float(np.nanmax(np.abs(values))) for _, values in lines)
+    decimals = int(np.clip(_DIGITS - 1 - np.floor(np.log10(greatest)), 0, 6))
+    return Chart(
+        source=image_address(drawn),
+        words=heading_of(data),
+        box=[place.x0, place.x1, 1.0 - place.y1, 1.0 - place.y0],
+        times=list(axes.get_xlim()),
+        lines=[(words, _written(values[rows], decimals)) for words, values in lines],
+        decimals=decimals,
+        unit=display_of(data.attrs).units.replace("^2", "²"),
+    )
+
+
+def _lines(data: xr.DataArray) -> list[tuple[str, NDArray[np.float64]]]:
+    """Return the name and the values of each line."""
+    values = displayed(data)
+    if data.ndim == 1:
+        return [("", values)]
+    across = next(str(d) for d in data.dims if d != "time")
+    values = values if data.dims[0] != "time" else values.T
+    return [(name, values[i]) for i, name in named_values(data[across]).items()]
+
+
+def _written(values: NDArray[np.float64], decimals: int) -> list[float | None]:
+    return [round(float(v), decimals) + 0.0 if np.isfinite(v) else None for v in values]

@@ -1,0 +1,123 @@
+"""Pages that play the motion of a car: self-contained HTML, or a part of one."""
+
+from collections.abc import Sequence
+from importlib import resources
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+from numpy.typing import NDArray
+
+from ....pages.embedded import embedded
+from .charts import Chart
+from .picture import GRID, PER_NEWTON
+from .scene import LOOKED_AT, WIDTH, CarScene
+
+Array = NDArray[np.float64]
+
+
+def motion_page(scene: CarScene, charts: Sequence[Chart], title: str) -> str:
+    """Return a page that plays a motion, as text.
+
+    Parameters
+    ----------
+    scene : CarScene
+    charts : sequence of Chart
+    title : str
+    """
+    return _environment().get_template("page.html.jinja").render(
+        title=title,
+        version=version("kintrafo"),
+        player=player(scene, charts),
+        script=player_script(),
+        style=Markup(_asset("kintrafo.pages.mechanism", "page.css")),  # noqa: S704 (our own)
+        own_style=player_style(),
+    )  # fmt: skip
+
+
+def player(scene: CarScene, charts: Sequence[Chart] = ()) -> Markup:
+    """Return the part of a page that shows a scene; the page has `player_script` once.
+
+    Parameters
+    ----------
+    scene : CarScene
+        Of one position: it is shown to be turned.
+    charts : sequence of Chart, optional
+        Curves that follow.
+    """
+    data = _data(scene) | {"charts": [chart.data for chart in charts]}
+    text = _environment().get_template("player.html.jinja").render(
+        moves=len(scene.times) > 1,
+        turns=scene.turns and len(scene.times) > 1,
+        last=len(scene.times) - 1,
+        whole=scene.centers.shape[1] > 1,
+        charts=charts,
+        data=Markup(embedded(data)),  # noqa: S704 (no end tag is left in it)
+    )  # fmt: skip
+    return Markup(text)  # noqa: S704 (the template escapes)
+
+
+def player_script() -> Markup:
+    """Return the script that moves every player of a page."""
+    return Markup(_asset(__package__, "player.js"))  # noqa: S704 (our own)
+
+
+def player_style() -> Markup:
+    """Return how players look."""
+    return Markup(_asset(__package__, "player.css"))  # noqa: S704 (our own)
+
+
+def _data(scene: CarScene) -> dict[str, Any]:
+    """Return the payload: places from the reference point of the car [mm]."""
+    at = np.concatenate([scene.places, np.zeros((len(scene.times), 1))], axis=1)
+
+    def beside(points: Array) -> list[Any]:
+        """Return points as rows, one for each position."""
+        from_car = points - at.reshape(-1, *([1] * (points.ndim - 2)), 3)
+        return _whole(1e3 * from_car.reshape(len(at), -1))
+
+    return {
+        "times": np.round(scene.times, 4).tolist(),
+        "words": scene.words,
+        "places": _whole(1e3 * scene.places),
+        "cones": _whole(1e3 * scene.cones),
+        "tracks": [_track(track) for track in scene.tracks],
+        "parts": [beside(points) for points in scene.parts.values()],
+        "springs": [beside(ends) for ends in scene.springs],
+        "sides": [beside(scene.outline[:, side]) for side in (0, 1)],
+        "centers": beside(scene.centers),
+        "axes": np.round(scene.axes.reshape(len(at), -1), 4).tolist(),
+        "spokes": np.round(scene.spokes.reshape(len(at), -1), 4).tolist(),
+        "radii": _whole(1e3 * scene.radii),
+        "width": WIDTH,
+        "size": round(1e3 * scene.size),
+        "height": 1e3 * LOOKED_AT,
+        "contacts": beside(scene.contacts),
+        "forces": _whole(scene.forces.reshape(len(at), -1)),
+        "mmPerNewton": 1e3 * PER_NEWTON,
+        "grid": 1e3 * GRID,
+    }
+
+
+def _track(points: Array) -> dict[str, Any]:
+    """Return a road under wheels: where it begins, its steps, and its heights [mm]."""
+    x, y, z = 1e3 * points.T
+    first, step = float(x[0]), float(x[1] - x[0])
+    return {"first": round(first, 1), "step": round(step, 6), "y": round(y[0]), "z": _whole(z)}
+
+
+def _whole(values: Array) -> list[Any]:
+    """Return values as whole numbers."""
+    found: list[Any] = np.round(values).astype(int).tolist()
+    return found
+
+
+def _environment() -> Environment:
+    loader = PackageLoader(__package__, ".")
+    return Environment(loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True)
+
+
+def _asset(package: str, name: str) -> str:
+    return resources.files(package).joinpath(name).read_text(encoding="utf-8")

@@ -1,0 +1,293 @@
+"""Where everything is that is drawn of a car in motion."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ....core.quantities import display_of, displayed
+from ....core.vectors import cross, unit_vector
+from ....systems.skeleton import Skeleton
+from ...analysis.run import MovingCar, Run
+from ...corner.corner import UP
+from ...roads.road import Road
+
+Array = NDArray[np.float64]
+
+WIDTH = 0.62
+"""Width of a wheel, by its radius."""
+
+LOOKED_AT = 0.45
+"""Height of the middle of a view [m]."""
+
+# The outline of a body: forward of the front axle and above the road, by the wheelbase, and its
+# width by the track.
+_OUTLINE = np.array([
+    (0.30, 0.09, 0.76), (0.32, 0.22, 0.76), (0.22, 0.28, 0.80), (-0.10, 0.34, 0.82),
+    (-0.34, 0.53, 0.62), (-0.82, 0.53, 0.62), (-1.12, 0.36, 0.80), (-1.30, 0.33, 0.76),
+    (-1.32, 0.12, 0.76),
+])  # fmt: skip
+# The part of a body above a single wheel: forward of it and above the road, by its radius; and its
+# sides, by the distance of the wheel from the middle.
+_BLOCK = np.array([(1.5, 2.5), (1.5, 3.1), (-1.5, 3.1), (-1.5, 2.5)])
+_BLOCK_SIDES = (1.0, 0.2)
+# Between the points of a road that are drawn, and how far it is drawn before and behind [m].
+_ALONG, _BEYOND = 0.05, 12.0
+
+
+@dataclass(frozen=True)
+class CarScene:
+    """A car of w wheels in n positions, in the axes of the road [m].
+
+    Attributes
+    ----------
+    times : ndarray, shape (n,)
+        [s]
+    parts : dict of str to ndarray, shape (n, points, 3)
+        Points of links, arms and other parts between body and wheels.
+    springs : list of ndarray, shape (n, 2, 3)
+        Ends of springs and struts.
+    outline : ndarray, shape (n, 2, points, 3)
+        Of the body, on the left and on the right.
+    centers, axes, spokes : ndarray, shape (n, w, 3)
+        Centres of wheels; unit vectors along their axes, to the left, and across them, which turn
+        with them.
+    radii : ndarray, shape (w,)
+        Heights of the centres above the road at rest.
+    contacts, forces : ndarray, shape (n, w, 3)
+        Lowest points of wheels, and the forces of the road on them [N].
+    places : ndarray, shape (n, 2)
+        Of the reference point on the road.
+    cones : ndarray, shape (cones, 2)
+    tracks : list of ndarray, shape (m, 3)
+        The road under the left and the right wheels, where it is not level.
+    words : list of str
+        What is to be read of each position.
+    """
+
+    times: Array
+    parts: dict[str, Array]
+    springs: list[Array]
+    outline: Array
+    centers: Array
+    axes: Array
+    spokes: Array
+    radii: Array
+    contacts: Array
+    forces: Array
+    places: Array
+    cones: Array
+    tracks: list[Array]
+    words: list[str]
+
+    @property
+    def turns(self) -> bool:
+        """Whether its path is worth seeing from above: one along a road under it is straight."""
+        return not self.tracks
+
+    @property
+    def size(self) -> float:
+        """Half of the length that a view shows [m]."""
+        around = self.outline[0].reshape(-1, 3)
+        return float(max(0.5 * np.ptp(around[:, 0]), 0.9 * around[:, 2].max()))
+
+
+def scene_of(run: Run, rows: NDArray[np.intp], *, cones: xr.Dataset | None = None) -> CarScene:
+    """Return the scene of a simulation.
+
+    Parameters
+    ----------
+    run : Run
+    rows : ndarray of int
+        Which of its outputs.
+    cones : xarray.Dataset, optional
+    """
+    car, motion = run.car, run.motion.isel(time=rows)
+    states, inputs = run.states[rows], run.inputs[rows]
+    skeleton = Skeleton(car.model)
+    spinning = _spinning(car)
+    hidden = {skeleton.ground, car.body, *(car.model.equations.BODIES[i] for i in spinning)}
+    way = np.zeros(len(rows)) if run.way is None else run.way[rows]
+    onward = way[:, None, None] * np.array([1.0, 0.0, 0.0])
+    places = {name: at + onward for name, at in skeleton.places(states, inputs).items()}
+    centers, axes, spokes = _wheels(car, spinning, states, inputs)
+    if run.way is not None:
+        spokes = _rolled(axes, spokes, way[:, None] / np.array(car.radii))
+    centers = centers + onward
+    contacts, forces = _forces(car, motion, centers, axes)
+
+    def end(which: tuple[str, str]) -> Array:
+        owner, point = which
+        found: Array = places[owner][:, skeleton.bodies[owner].index(point)]
+        return found
+
+    pairs = [*skeleton.springs, *skeleton.guides]
+    outline = _outline(car, spinning, states, inputs) + onward[:, None]
+    return CarScene(
+        times=motion["time"].values,
+        parts={name: at for name, at in places.items() if name not in hidden},
+        springs=[np.stack([end(a), end(b)], axis=1) for a, b in pairs],
+        outline=outline,
+        centers=centers,
+        axes=axes,
+        spokes=spokes,
+        radii=np.array(car.radii),
+        contacts=contacts,
+        forces=forces,
+        places=run.places[rows],
+        cones=_beside(run, cones),
+        tracks=[] if run.road is None else _tracks(run.road, car, centers, way),
+        words=_words(motion),
+    )
+
+
+def _beside(run: Run, cones: xr.Dataset | None) -> Array:
+    """Return the places of cones: a manoeuvre counts from its own place, such as its first ones."""
+    if cones is None:
+        return np.zeros((0, 2))
+    named = np.array([run.motion[name].values[0] for name in ("x", "y")])
+    found: Array = np.stack([cones["x"], cones["y"]], axis=-1) - (named - run.places[0])
+    return found
+
+
+def _tracks(road: Road, car: MovingCar, centers: Array, way: Array) -> list[Array]:
+    """Return the road along the way of the wheels of each side."""
+    at = centers[0] - way[0] * np.array([1.0, 0.0, 0.0])
+    first, last = at[:, 0].min() - _BEYOND, at[:, 0].max() + way[-1] + _BEYOND
+    along = np.arange(first, last, _ALONG)
+    stations = road.spacing * np.arange(road.left.size)
+    found = []
+    for side, heights in (("left", road.left), ("right", road.right)):
+        across = [y for wheel, y in zip(car.wheels, at[:, 1], strict=True) if wheel.endswith(side)]
+        if across:
+            z = np.interp(along - at[:, 0].max(), stations, heights)
+            y = np.full(along.size, float(np.mean(across)))
+            found.append(np.stack([along, y, z], axis=-1))
+    return found
+
+
+def _spinning(car: MovingCar) -> list[int]:
+    """Return the bodies that the spins turn, and nothing else does."""
+    model = car.model
+    before = model.evaluate("orientations", model.design_state)
+    found = []
+    for spin in car.spins:
+        state = model.design_state.copy()
+        state[model.state_names.index(spin)] += 0.5 * np.pi
+        changed = np.abs(model.evaluate("orientations", state) - before).max(axis=(1, 2))
+        found.append(int(changed.argmax()))
+    return found
+
+
+def _wheels(
+    car: MovingCar, bodies: list[int], states: Array, inputs: Array
+) -> tuple[Array, Array, Array]:
+    """Return centres, axes and spokes of the wheels.
+
+    The axis is that about which a quarter of a turn moves the wheel at design.
+    """
+    model = car.model
+    design = model.evaluate("orientations", model.design_state)[bodies]
+    axes = []
+    for spin, body, start in zip(car.spins, bodies, design, strict=True):
+        state = model.design_state.copy()
+        state[model.state_names.index(spin)] += 0.5 * np.pi
+        turn = model.evaluate("orientations", state)[body] @ start.T
+        # of a quarter of a turn the antisymmetric part is the axis itself
+        skew = 0.5 * (turn - turn.T)
+        axis = start.T @ unit_vector(np.array([skew[2, 1], skew[0, 2], skew[1, 0]]))
+        axes.append(np.sign(axis[1]) * axis)
+    along = np.array(axes)
+    across = cross(along, UP)
+    across /= np.linalg.norm(across, axis=-1, keepdims=True)
+    turned = model.evaluate("orientations", states, inputs)[:, bodies]
+    centers = model.evaluate("positions", states, inputs)[:, bodies]
+    return (
+        centers,
+        np.einsum("nwij,wj->nwi", turned, along),
+        np.einsum("nwij,wj->nwi", turned, across),
+    )
+
+
+def _rolled(axes: Array, spokes: Array, angles: Array) -> Array:
+    """Return spokes turned forward about the axes of their wheels, by (n, w) angles [rad]."""
+    angles = angles[..., None]
+    found: Array = np.cos(angles) * spokes + np.sin(angles) * cross(axes, spokes)
+    return found
+
+
+def _forces(car: MovingCar, motion: xr.Dataset, centers: Array, axes: Array) -> tuple[Array, Array]:
+    """Return the lowest points of the wheels, and the forces of the road there."""
+    forward = cross(axes, UP)
+    forward = forward / np.linalg.norm(forward, axis=-1, keepdims=True)
+    upward = cross(forward, axes)
+    contacts = centers - np.array(car.radii)[:, None] * upward
+    if "fz" not in motion:
+        # the force of a tyre is in the plane of the wheel, and acts where the road is
+        contacts[..., 2] = _of_wheels(motion, "road")
+        return contacts, _of_wheels(motion, "load")[..., None] * upward
+    parts = [_of_wheels(motion, name)[..., None] for name in ("fx", "fy", "fz")]
+    return contacts, parts[0] * forward + parts[1] * cross(UP, forward) + parts[2] * UP
+
+
+def _of_wheels(motion: xr.Dataset, name: str) -> Array:
+    """Return a variable as (n, w), of one wheel too."""
+    values = motion[name].transpose("time", ...).values
+    return np.asarray(values, dtype=float).reshape(len(values), -1)
+
+
+def _outline(car: MovingCar, spinning: list[int], states: Array, inputs: Array) -> Array:
+    """Return the outline of the body on both sides."""
+    model = car.model
+    row = model.equations.BODIES.index(car.body)
+    design = model.evaluate("positions", model.design_state)
+    wheels = design[spinning]
+    ground = float((wheels[:, 2] - car.radii).mean())
+    if len(wheels) == 1:
+        center, radius = wheels[0], car.radii[0]
+        x, z = center[0] + radius * _BLOCK[:, 0], ground + radius * _BLOCK[:, 1]
+        widths = [np.full(len(x), share * center[1]) for share in _BLOCK_SIDES]
+        widths.sort(key=lambda y: -y[0])
+    else:
+        ends = [wheels[[name.startswith(end) for name in car.wheels], 0] for end in _ENDS]
+        front, rear = (float(end.mean()) for end in ends)
+        half = 0.5 * np.ptp(wheels[:, 1]) * _OUTLINE[:, 2]
+        x = front + (front - rear) * _OUTLINE[:, 0]
+        z = ground + (front - rear) * _OUTLINE[:, 1]
+        widths = [half, -half]
+    sides = [np.stack([x, y, z], axis=-1) for y in widths]
+    arms = np.array(sides) - design[row]
+    turned = model.evaluate("orientations", states, inputs)[:, row]
+    centers = model.evaluate("positions", states, inputs)[:, row]
+    found: Array = centers[:, None, None] + np.einsum("nij,skj->nski", turned, arms)
+    return found
+
+
+_ENDS = ("front", "rear")
+
+
+_UNITS = {"deg": "°", "m/s^2": " m/s²"}
+# What is read of a motion, as far as it has it: words, and decimals.
+_READ = {
+    "speed": ("", 1),
+    "lateral_acceleration": ("lateral ", 1),
+    "steering_wheel_angle": ("steering wheel ", 0),
+    "roll_angle": ("roll ", 1),
+    "body_acceleration": ("body ", 1),
+}
+
+
+def _words(motion: xr.Dataset) -> list[str]:
+    columns = []
+    for name, (words, digits) in _READ.items():
+        if name in motion:
+            unit = _UNITS.get(unit := display_of(motion[name].attrs).units, f" {unit}")
+            values = displayed(motion[name])
+            columns.append([f"{words}{_plain(value, digits)}{unit}" for value in values])
+    return ["    ".join(row) for row in zip(*columns, strict=True)]
+
+
+def _plain(value: float, digits: int) -> str:
+    """Return a number without a negative zero, with the minus sign of typesetting."""
+    return f"{round(float(value), digits) + 0.0:.{digits}f}".replace("-", "−")
