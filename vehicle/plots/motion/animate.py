@@ -32,11 +32,12 @@ def animate(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write the motion of a car as something to look at, in real time.
+    """Write an animation of a car, in real time, and return its path.
 
-    Body, links, springs and wheels are drawn from the solved positions, with the forces of the road
-    on the tyres, the road where it is not level, and the path of the reference point where the car
-    drives. The outline of the body is not that of the car: it has the car's wheelbase and track.
+    Links, springs and wheels are drawn at their solved positions, with the forces of the road on
+    the tyres; of a car that drives with the path of the reference point and cones, of others with
+    the road under the wheels. The outline of the body is schematic: it has the wheelbase and track
+    of the car.
 
     Parameters
     ----------
