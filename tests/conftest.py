@@ -255,7 +255,7 @@ def few_frames(monkeypatch: pytest.MonkeyPatch) -> None:
         wanted, rows = whole(*arguments)
         return wanted[::10], rows[::10]
 
-    for name in ("kintrafo.pages.animation", "kintrafo.vehicle.plots.driving.animate"):
+    for name in ("kintrafo.pages.animation", "kintrafo.vehicle.plots.motion.animate"):
         monkeypatch.setattr(import_module(name), "frames", fewer)
 
 
