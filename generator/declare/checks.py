@@ -127,7 +127,7 @@ def _stranger_problems(mechanism: Parts) -> list[str]:
         if joint not in mechanism.joints
     ]
     problems += [
-        f"body {body.name!r} is held by no joint; join it to another body"
+        f"body {body.name!r} has no joint; join it to another body"
         for body in mechanism.every(Body)
         if body not in joined
     ]
@@ -155,8 +155,8 @@ def _weld_problems(mechanism: Parts) -> list[str]:
 def _weight_problems(mechanism: Parts) -> list[str]:
     """See that gravity is not along the normal of a plane in which all that is joined moves."""
     return [
-        f"Weight pulls against {force.upward.name!r}, along the normal of the plane in which "
-        "everything moves, so that it does nothing: give it a direction in the plane, such as "
+        f"Weight acts against {force.upward.name!r}, along the normal of the plane in which "
+        "everything moves, and has no effect: give it a direction in the plane, such as "
         "Weight(upward=Direction('upward', fixed=(0, 1, 0))), make the points by "
         "flat(..., normal='y'), which moves them in the plane of x and z, or leave it out"
         for force in mechanism.forces

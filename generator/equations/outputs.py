@@ -248,8 +248,7 @@ class _Builder:
         """See that every independent coordinate moves some mass: else it has no acceleration."""
         moved = {k for body in self.massive for k in self.motion.placed[body].motion}
         idle = [
-            f"independent joint {part.joint.name!r} moves no body of massive; name one there that "
-            "it moves"
+            f"independent joint {part.joint.name!r} moves no body in massive; add one that it moves"
             for part in self.states.joints
             if moved.isdisjoint(part.coordinates)
         ]

@@ -33,7 +33,7 @@ def between_crosses(mechanism: Mechanism, cycle: Cycle) -> str:
         if any(joint.second.name != body for joint in crosses):
             return f"{found}: give it a hinge on a body that the others do not move"
         return (
-            f"{found}. As a rod it needs but one: make the other a ball joint. As a shaft it must "
+            f"{found}. As a rod it needs only one: make the other a ball joint. As a shaft it must "
             "telescope: make it of two bodies, with a Prismatic along the line of the crosses"
         )
     return ""

@@ -180,7 +180,7 @@ class Table:
         if others:
             return (
                 f"column {short(heading.text)!r} is in {given}, and a row of units or a comment "
-                f"says {others[0]}. Keep one of them."
+                f"has {others[0]}. Keep one of them."
             )
         return ""
 
@@ -358,7 +358,7 @@ def _stated(source: str, number: int, comment: str) -> Iterator[str]:
         yield from units
     elif found and re.match(r"\W*(all\s+)?units?\s*[:=]", comment, re.IGNORECASE):
         problem = (
-            f"line {number}: the comment {short(legible(comment.strip()))!r} states units that are "
+            f"line {number}: the comment {short(legible(comment.strip()))!r} has units that are "
             "not known. Write them as # units: mm, deg."
         )
         raise InputError([problem], source)

@@ -180,7 +180,7 @@ class Validator:
         if isinstance(value, str) and value in names:
             return value
         hint = f"{suggestion(value, names)} " if isinstance(value, str) else ""
-        there = "" if hint.startswith("Known are") else f"There are {', '.join(names)}."
+        there = "" if hint.startswith("Known are") else f"Known are: {', '.join(names)}."
         self.fail(f"{name} {shown(value)} is not known. {hint}{there}".strip())
         return next(iter(names), "")
 

@@ -191,16 +191,16 @@ def _check_names(
             arguments.fail(f"variants {name!r} is not known. {suggestion(name, known)}")
         elif body := without_mass(model, name):
             arguments.fail(
-                f"variants {name!r} changes nothing: the equations of {model.equations.NAME} leave "
-                f"the {body} without mass."
+                f"variants {name!r} has no effect: the {body} has no mass in the equations of "
+                f"{model.equations.NAME}."
             )
     for name, course in courses.items():
         if name in columns and not isinstance(course, Mapping):
             arguments.fail(f"{name!r} is in both inputs and variants: give one of them.")
         elif isinstance(course, Mapping) and name not in columns:
             arguments.fail(
-                f"inputs {name!r} has several courses: variants needs {name!r}, the label of one "
-                "of them for each system."
+                f"inputs {name!r} has several time series: variants needs {name!r}, the label of "
+                "one of them for each system."
             )
 
 
@@ -311,7 +311,7 @@ def _checked(
     strange = [label for label in numbered(values)[0] if label not in choices]
     if strange:
         arguments.fail(
-            f"variants {name!r} has the label {shown(strange[0])}; its courses are "
+            f"variants {name!r} has the label {shown(strange[0])}; its time series are "
             f"{', '.join(map(shown, choices))}."
         )
     return values

@@ -81,9 +81,9 @@ def span_of(given: Validator, t_span: Any) -> tuple[float, float]:
     apart = math.ulp(farthest)
     if apart > _TOLD_APART and farthest > _FAR * abs(last - first):
         given.fail(
-            f"t_span = {shown(t_span)}: so far from zero only times {apart:.1g} s apart "
-            "differ, and every step would err by as much. Count all times from the first one, "
-            "which is zero."
+            f"t_span = {shown(t_span)}: times of this size are rounded to {apart:.1g} s, "
+            "which is an error of every step. Measure all times from the first one, which is "
+            "zero."
         )
     return first, last
 

@@ -480,8 +480,8 @@ class CarAssembly(Assembly):
         """
         if self.car.drives:
             problem = (
-                'a car with car = "full" travels, and a ride is that of a car that does not. Write '
-                'car = "roll"; in Python: car.with_changes({"car": "roll"}).'
+                'a car with car = "full" travels; a ride needs a car that does not. Write car = '
+                '"roll"; in Python: car.with_changes({"car": "roll"}).'
             )
             raise InputError([problem], self.heading)
 

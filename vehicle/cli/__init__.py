@@ -67,7 +67,7 @@ class _Commands(CommandGroup):
 
 app = typer.Typer(
     cls=_Commands,
-    help="Suspensions with kinematic loops, in closed form: checked, moved, simulated, compared.",
+    help="Kinematics, compliance, loads and motions of suspensions, axles and cars.",
     epilog=_EXIT_CODES,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
@@ -143,7 +143,7 @@ def main(
         ),
     ] = False,
 ) -> None:
-    """Suspensions with kinematic loops, in closed form: checked, moved, simulated, compared."""
+    """Kinematics, compliance, loads and motions of suspensions, axles and cars."""
     del version
 
 

@@ -42,8 +42,8 @@ def command(
 ) -> None:
     """Print the change of characteristics per millimetre or degree of each value of the file.
 
-    The table is for one position; data files have all. Values of a section or * that cannot
-    change, such as an inertia of a part without mass, are left out and listed.
+    The table is for one position; data files have all positions. Values of a section or * that
+    cannot change, such as an inertia of a part without mass, are left out and listed.
     """
     from ...datasets import export
     from .. import studies as variation

@@ -41,7 +41,7 @@ def command(
 ) -> None:
     """Print bands of the characteristics of many cars within tolerances, and their causes.
 
-    The table is for one position; data files have all, netCDF also the shares and each car.
+    The table is for one position; data files have all positions, netCDF also causes and cars.
     """
     from ...datasets import export
     from .. import studies as variation

@@ -20,13 +20,13 @@ def command(
     *,
     load: Annotated[
         list[str] | None,
-        option("At these loads [N]; half, once and 1.5 times the nominal one.", "NUMBER,..."),
+        option("Loads [N]. Default: 0.5, 1 and 1.5 times the nominal load.", "NUMBER,..."),
     ] = None,
     output: BarOptions,
 ) -> None:
     """Print stiffnesses, friction, load sensitivity and lengths of a tyre; --plot draws curves.
 
-    At the speed and the pressure of the file, in the axes of ISO 8855. Keys of the file that are
+    Speed and pressure are those of the file, axes those of ISO 8855. Keys of the file that are
     not used are listed.
     """
     from ...core.validator import Validator

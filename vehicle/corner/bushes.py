@@ -48,8 +48,8 @@ _LARGEST = 1e300
 # No bush is softer or stiffer than this, in its display units.
 _SOFTEST, _STIFFEST = 1e-3, 1e12
 _NO_DAMPING = (
-    "The damping of a bush does nothing here: loads and compliance are at rest, and motions have "
-    "rigid joints. Leave it out; enter the dynamic stiffnesses where you want those of a frequency."
+    "The damping of a bush has no effect: loads and compliance are static, and motions have rigid "
+    "joints. Leave it out; for results at a frequency enter the dynamic stiffnesses."
 )
 # Two directions nearer to each other than this angle [rad] define no plane.
 _LEAST_ANGLE = 1e-3
@@ -390,7 +390,7 @@ def _axes(
     """Return the axes of a bush as rows: its own, and the two across it."""
     usual_axis = spin if isinstance(joint, FixedJoint) else joint.axis(design)
     if usual_axis is None and "axis" not in table:
-        given.fail(f"{title} axis is needed: no direction there is that of a bush by itself.")
+        given.fail(f"{title} axis is needed: a bush at this point has no default axis.")
         return np.eye(3)
     along = _direction(given, title, table, "axis", usual_axis)
     if isinstance(joint, TelescopeJoint):

@@ -180,7 +180,7 @@ def matched(
         usual = [by_key[key(name)] for name in names if key(name) in by_key]
         if len(usual) > 1:
             problems.append(
-                f"{' and '.join(usual)} may both be {ours}. Say which: --name {ours}={usual[0]}."
+                f"{' and '.join(usual)} may both be {ours}. Choose one: --name {ours}={usual[0]}."
             )
         if usual:
             found[ours] = usual[0]
@@ -211,7 +211,7 @@ def kind_of(there: Collection[str], given: Mapping[str, str], source: str) -> st
             f"--kind {near[0]} --name {missing[0]}=NAME. It has: {listed(there)}."
         )
     else:
-        problem = f"it may be {' or '.join(near)}. Say which: --kind {near[0]}."
+        problem = f"it may be {' or '.join(near)}. Choose one: --kind {near[0]}."
     raise InputError([problem], source)
 
 

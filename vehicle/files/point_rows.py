@@ -95,7 +95,7 @@ def _of_workbook(file: Path, pages: Sequence[Page], wanted: str | None) -> Named
         having = [page for page in pages if page.name == wanted]
     if len(having) > 1:
         text = " and ".join(repr(page.name) for page in having)
-        problem = f"there are hardpoints on the sheets {text}. Say which: --sheet (sheet=)."
+        problem = f"there are hardpoints on the sheets {text}. Choose one: --sheet (sheet=)."
         raise InputError([problem], str(file))
     page = next(iter(having or filled), None)
     if page is None or not page.rows:

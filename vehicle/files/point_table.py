@@ -207,8 +207,8 @@ def _points(found: NamedColumns, columns: Iterable[int]) -> dict[str, Point]:
             problems.append(f"row {number}, {short(name)}: {_no_point(values)}")
         elif key(name) in spelt:
             other = spelt[key(name)]
-            same = "is" if other == name else f"and {short(other)} are one point, which is"
-            problems.append(f"row {number}: {short(name)} {same} there twice. Keep one of them.")
+            same = "is" if other == name else f"and {short(other)} are the same point,"
+            problems.append(f"row {number}: {short(name)} {same} given twice. Keep one of them.")
         else:
             points[name] = (x, y, z)
             spelt[key(name)] = name
@@ -221,7 +221,7 @@ def _points(found: NamedColumns, columns: Iterable[int]) -> dict[str, Point]:
 
 def _no_point(values: Iterable[Any]) -> str:
     text = ", ".join(repr("" if v is None else short(legible(str(v)), 30)) for v in values)
-    formula = " A formula counts once Excel has saved its value." if None in [*values] else ""
+    formula = " A formula needs a value that Excel has saved." if None in [*values] else ""
     return f"three numbers are needed, not {text}.{formula}"
 
 
@@ -270,7 +270,7 @@ def merged(
         problem = (
             f"none of its rows is a hardpoint that every {old.TITLE} has: "
             f"{near or listed(left_out)}. "
-            f"Known are: {', '.join(every)}. Say what the table calls them: --name "
+            f"Known are: {', '.join(every)}. Assign the names of the table: --name "
             f"{every[0]}={short(left_out[0])} (names=)."
         )
         raise InputError([problem], table.source)

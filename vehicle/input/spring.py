@@ -116,8 +116,8 @@ class SpringSection(Section):
             return problems
         if key == "length_mm":
             return [
-                f"{free} = {getattr(self, free)}: a curve over length_mm says what the force is at "
-                f"every length. Leave {free} out, or give the curve over compression_mm."
+                f"{free} = {getattr(self, free)}: a curve over length_mm gives the force at every "
+                f"length. Leave {free} out, or give the curve over compression_mm."
                 for free in _FREE
                 if getattr(self, free) is not None
             ]
@@ -133,7 +133,7 @@ class SpringSection(Section):
             if self.free_length_mm is not None and self.free_length_mm <= places[-1]:
                 problem = (
                     f"compression_mm goes to {places[-1]} mm and free_length_mm = "
-                    f"{self.free_length_mm} mm: nothing is left of the spring. Correct one of them."
+                    f"{self.free_length_mm} mm: the spring has no length left. Correct one."
                 )
                 return [problem]
             return []

@@ -134,14 +134,15 @@ class MultiLinkHardpoints(Hardpoints):
         shift, turn = free[-1, :3], free[-1, 3:]
         most = np.abs(free[-1]).argmax()
         words = f"turns about {'xyz'[most - 3]}" if most > 2 else f"moves along {'xyz'[most]}"
-        times = "without end" if firm[-1] < 1e-9 else f"{1.0 / firm[-1]:.0f} times that"
+        times = "infinitely many" if firm[-1] < 1e-9 else f"{1.0 / firm[-1]:.0f}"
         found = np.round([*shift, *turn], 2).tolist()
         problem = (
             f"{self.text(*(f'{link}_outer' for link in _WORDS))}: the five links hardly hold the "
-            f"knuckle, which {words} (shift and turn {found}): if a link is a little longer, it "
-            f"moves {times} with the wheel at its height; at most {_LOOSEST:g} times are allowed. "
-            "Let no two links lie on one line, no three in a plane meet in a point, no four meet "
-            "in one at all, and let the toe link pass at a distance from the steering axis."
+            f"knuckle, which {words} (shift and turn {found}): its displacement is {times} "
+            f"times the elongation of a link, with the wheel at its height; at most {_LOOSEST:g} "
+            "times are allowed. Move the links: no two on one line, no three of a plane through "
+            "one point, no four through one point, and the toe link at a distance from the "
+            "steering axis."
         )
         return [problem]
 

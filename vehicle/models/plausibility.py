@@ -298,7 +298,7 @@ def unlikely_inertia(bodies: Mapping[str, RigidBody], size: float) -> Iterator[s
             if gyration > size:
                 yield (
                     f"[bodies.{name}] mass_kg = {body.mass_kg:g} kg and its inertia make a radius "
-                    f"of gyration of {gyration:.3g} m, and the suspension is {size:.2f} m large. "
+                    f"of gyration of {gyration:.3g} m in a suspension of the size {size:.2f} m. "
                     "Is the inertia in kg mm^2, or the mass wrong?"
                 )
 

@@ -104,7 +104,7 @@ def cars(
             if numbers > _MOST_NUMBERS:
                 given.fail(
                     f"values: {frame.size} cars make {numbers:.3g} numbers, and at most "
-                    f"{_MOST_NUMBERS:.3g} are kept. Name fewer characteristics, or reductions."
+                    f"{_MOST_NUMBERS:.3g} are allowed. Name fewer, or reductions."
                 )
     collected = _Collected(curves, kept, frame.size)
     curves_of_many(
@@ -182,7 +182,7 @@ def _places(given: Validator, suspension: Subject, names: Any) -> dict[str, Desi
         given.fail("values: one place or more is needed.")
     for name in names:
         if name not in known:
-            given.fail(f"values: {name} is no number of the file. {suggestion(name, [*known])}")
+            given.fail(f"values: {name} is not a number of the file. {suggestion(name, [*known])}")
     return {name: known[name] for name in names if name in known}
 
 

@@ -145,6 +145,6 @@ def refuse_bushes(given: Validator, places: Iterable[DesignVariable], overs: Ite
     if soft and not any(over in HELD for over in overs):
         given.fail(
             f"{', '.join(soft[:3])}{' ...' if soft[3:] else ''}: these results do not depend on "
-            "bushes, since joints are rigid. Leave bushes out, or ask for compliance: name what "
-            "holds the wheels (held), or give limits and targets of compliance."
+            "bushes, since joints are rigid. Leave bushes out, or ask for compliance: give the "
+            "support of the wheels (held), or limits and targets of compliance."
         )

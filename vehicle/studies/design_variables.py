@@ -152,7 +152,7 @@ def matching(given: Validator, suspension: Subject, patterns: Any) -> dict[str, 
             given.fail(f"{pattern} is a list, as of a curve; single numbers vary. Leave it out.")
         elif not found:
             hint = _hint(pattern, known)
-            given.fail(f"{pattern} is no number of the input file, nor a section of it. {hint}")
+            given.fail(f"{pattern} is neither a number nor a section of the input file. {hint}")
         wanted |= found
         if found:
             fixed = lists.keys() - found

@@ -326,8 +326,8 @@ def check_data(
         assembly.refuse_of_steering([goal.name])
         if goal.name not in available(assembly, goal.over):
             given.fail(
-                f"{name}: the file has not the data that this needs, see [vehicle], [rack], "
-                "[tyre] and [bushings]."
+                f"{name}: the file lacks data for this characteristic. Add them to [vehicle], "
+                "[rack], [tyre] or [bushings]."
             )
             continue
         missing = goal.at[~np.isfinite(goal.curves.of(assembly)[0])]

@@ -229,13 +229,13 @@ def _refuse_counts(given: Validator, objectives: int, population: int, generatio
     if not 2 <= objectives <= _MOST_OBJECTIVES:
         given.fail(
             f"targets, minimise, maximise: they make {objectives} objectives, and 2 to "
-            f"{_MOST_OBJECTIVES} are needed. For one there is `kintrafo optimise`; put what must "
-            "only be kept among the limits."
+            f"{_MOST_OBJECTIVES} are needed. For one there is `kintrafo optimise`; conditions "
+            "that must be kept belong to limits."
         )
     if population * generations > _MOST_CARS:
         given.fail(
             f"population = {population}, generations = {generations}: they make "
-            f"{population * generations} suspensions, and at most {_MOST_CARS} are looked at."
+            f"{population * generations} suspensions, and at most {_MOST_CARS} are allowed."
         )
 
 

@@ -129,7 +129,7 @@ def _axes(
         given.fail("values: one place or more is needed.")
     count = np.prod([along.size for along in axes.values()], dtype=float)
     if count > _MOST_CARS:
-        given.fail(f"values: they make {count:g} combinations, at most {_MOST_CARS:g} are taken.")
+        given.fail(f"values: they make {count:g} combinations, and {_MOST_CARS:g} are allowed.")
     return axes
 
 
@@ -173,9 +173,9 @@ class _Cars:
     def _check_equations(self, model: AnyModel) -> None:
         if model.equations is not self.model.equations:
             message = (
-                f"values: some ask for the equations {model.equations.NAME}, which have more in "
-                f"them than those of the file, {self.model.equations.NAME}. Let the file have a "
-                "little of what is zero in it."
+                f"values: some need the equations {model.equations.NAME}, and the file has "
+                f"{self.model.equations.NAME}. Give small nonzero values in the file to keys that "
+                "are zero or left out."
             )
             raise _OtherEquationsError(message)
         if model.allowed_lengths() != self.model.allowed_lengths():

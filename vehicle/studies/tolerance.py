@@ -125,7 +125,7 @@ def tolerance(
                 given.fail(
                     f"count = {count}: {len(curves.names)} characteristics at "
                     f"{curves.positions.size} positions make {numbers:.3g} numbers, and at most "
-                    f"{_MOST_NUMBERS:.3g} are kept. Name fewer, or fewer positions."
+                    f"{_MOST_NUMBERS:.3g} are allowed. Choose fewer characteristics or positions."
                 )
     off = _drawn(distribution, root, count, seed) * np.array([*spread.values()])
     cars = _Cars(suspension, [*spread], off, curves, bounds)
@@ -149,7 +149,7 @@ def _root_of(given: Validator, correlation: Any, size: int, distribution: str) -
     elif not (np.array_equal(matrix, matrix.T) and (np.diag(matrix) == 1.0).all()):
         given.fail("correlation: it must be symmetric, with ones on its diagonal.")
     elif np.linalg.eigvalsh(matrix)[0] < -1e-12 * size:
-        given.fail("correlation: no values vary like that (an eigenvalue is negative).")
+        given.fail("correlation: this is not a correlation matrix (an eigenvalue is negative).")
     if given.failed:
         return np.eye(size)
     sizes, vectors = np.linalg.eigh(matrix)

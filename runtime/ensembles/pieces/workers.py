@@ -102,8 +102,8 @@ def _local_workers(given: Validator, cluster: Any, cores: int) -> Workers:
     number = given.whole("cluster", cluster)
     if number > cores:
         given.fail(
-            f"cluster = {number}: there are {cores} threads for so many workers, and each needs "
-            "one. Ask for fewer workers, or for more threads."
+            f"cluster = {number}: each worker needs a thread, and there are {cores}. Ask for fewer "
+            "workers, or for more threads."
         )
     _package()
     return Workers(number, max(1, cores // number))
@@ -184,8 +184,8 @@ def _refuse_dead(address: str) -> None:
                     raise ConnectionResetError(errno.ECONNRESET, os.strerror(errno.ECONNRESET))
     except (OSError, OverflowError) as error:
         problem = (
-            f"cluster = {address!r}: nothing answers there ({error}). Check the address, or start "
-            "a scheduler there: dask scheduler"
+            f"cluster = {address!r}: there is no reply ({error}). Check the address, or start a "
+            "scheduler there: dask scheduler"
         )
         raise InputError([problem], "ensemble") from error
 

@@ -423,7 +423,7 @@ def test_what_listens_and_is_no_scheduler(car: Model, monkeypatch: Any) -> None:
     monkeypatch.setattr(workers, "_PATIENCE", 0.3)
     with socket.create_server(("127.0.0.1", 0)) as server:
         port = server.getsockname()[1]
-        with pytest.raises(InputError, match=r"nothing answers there \(timed out"):
+        with pytest.raises(InputError, match=r"there is no reply \(timed out"):
             ensemble(car, None, SPAN, cluster=f"127.0.0.1:{port}")
 
 

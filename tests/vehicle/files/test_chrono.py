@@ -696,7 +696,7 @@ class TestTires:
 class TestMultiLink:
     def test_its_wheel_moves_on_the_five_links_that_the_refusal_tells(self):
         """Against the joints of Chrono: a hinge of the arm, and rods of constant length."""
-        with pytest.raises(InputError, match="upper arm is two links with one outer point"):
+        with pytest.raises(InputError, match="two links to one outer point for the upper arm"):
             chrono.read(LINKS)
         data = content(LINKS)
         arm, links = data["Upper Arm"], (data["Lateral"], data["Trailing Link"], data["Tierod"])

@@ -209,7 +209,9 @@ def test_what_has_no_meaning_is_refused(limits: Any, refused: Any) -> None:
 
 def test_without_bushes_nothing_is_judged(goals: Path) -> None:
     wanted = variation.goals(variation.read(goals))
-    with pytest.raises(InputError, match=r"has not the data that this needs, .* and \[bushings\]"):
+    with pytest.raises(
+        InputError, match=r"lacks data for this characteristic\. .* or \[bushings\]"
+    ):
         variation.judge(Suspension.load("reference_car"), wanted)
 
 

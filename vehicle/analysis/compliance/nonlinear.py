@@ -315,9 +315,9 @@ def _towards(
         step *= 0.5
         if abs(step) <= _LEAST_STEP * abs(end):
             problem = (
-                f"no equilibrium that lasts was found under {load.words} of more than "
-                f"{at:.4g} {load.unit}: the bushes do not hold the linkage. Leave greater "
-                "ones out, or make the bushes stiffer."
+                f"no stable equilibrium was found under {load.words} of more than {at:.4g} "
+                f"{load.unit}: the bushes do not hold the linkage. Use smaller loads or "
+                "stiffer bushes."
             )
             raise PositionError(problem)
     return state

@@ -146,8 +146,8 @@ def at_height(
         shown = display_of(over.attributes())
         at = ", ".join(f"{shown.factor * a:.4g} {shown.units}" for a in along[~base.found][:3])
         problem = (
-            f"no equilibrium that lasts was found at a {over.long_name} of {at}: the bushes do not "
-            "hold the linkage there. Make them stiffer, or leave that out."
+            f"no stable equilibrium was found at a {over.long_name} of {at}: the bushes do not "
+            "hold the linkage there. Make them stiffer, or leave out that position."
         )
         raise PositionError(problem)
     if words := suspension.overstretched(base):

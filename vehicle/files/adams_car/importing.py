@@ -185,8 +185,8 @@ def _points(
     missing = [name for name in points_of(kind).names() if name not in found]
     if missing and whole:
         problems.append(
-            f"hardpoints of a {KINDS[kind].TITLE} are missing: {', '.join(missing)}. Say what they "
-            f"are called (--name {missing[0]}=NAME), or which file has them (--from FILE). "
+            f"hardpoints of a {KINDS[kind].TITLE} are missing: {', '.join(missing)}. Give "
+            f"their names (--name {missing[0]}=NAME), or a file with them (--from FILE). "
             f"The subsystem has: {listed(subsystem.points)}."
         )
     if not found:

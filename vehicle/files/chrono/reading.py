@@ -29,10 +29,10 @@ _TEMPLATES: Mapping[str, tuple[type[PointsFile], type[SuspensionFile]]] = {
 _REFUSED = {
     "MultiLink": (
         " Its spring and damper are attached to the trailing link, beside the line through its "
-        "joints, so that they depend on its rotation about this line, which its universal joint "
-        "sets and which is another one for the links here. The wheel moves alike on five links: "
-        "write a multi_link file in which the upper arm is two links with one outer point, beside "
-        "lateral link, trailing link and tie rod."
+        "joints. They depend on the rotation of the link about this line, which differs from that "
+        "of a link in kintrafo. The motion of the wheel is that of five links: write a multi_link "
+        "file with two links to one outer point for the upper arm, and the lateral link, the "
+        "trailing link and the tie rod."
     ),
 }
 

@@ -305,14 +305,14 @@ def _suspension(given: Any, key: str, folder: Path) -> Suspension:
 
 def _problems_of_sides(axle: Axle) -> list[str]:
     problems = [
-        f'{side}: its file says [vehicle] side = "{suspension.vehicle.side}". Exchange the two, or '
-        "correct the file."
+        f'{side}: its file has [vehicle] side = "{suspension.vehicle.side}". Exchange the two '
+        "files, or correct this one."
         for side, suspension in axle.sides.items()
         if suspension.vehicle.side != side
     ]
     problems += [
-        f'{side}: its file says [vehicle] end = "{suspension.vehicle.end}", and the axle is the '
-        f"{axle.end} one. Correct one of the two."
+        f'{side}: its file has [vehicle] end = "{suspension.vehicle.end}", and this is the '
+        f"{axle.end} axle. Correct one of the two."
         for side, suspension in axle.sides.items()
         if suspension.vehicle.end not in (None, axle.end)
     ]

@@ -435,8 +435,8 @@ def _end_of(axle: AnyAxle) -> str:
 
 def _problems_of_axles(car: Car) -> list[str]:
     problems = [
-        f"{end}: its file says that it is the {_end_of(axle)} axle. Exchange the two, or correct "
-        "the file."
+        f"{end}: its file describes the {_end_of(axle)} axle. Exchange the two files, or correct "
+        "this one."
         for end, axle in car.axles.items()
         if _end_of(axle) != end
     ]
@@ -538,8 +538,8 @@ def _problems_of_driving(car: Car) -> list[str]:
         if not height < tyre.radius + _HIGHEST:
             problems.append(
                 f"[tyres] {end}: the tyre has a radius of {1e3 * tyre.radius:g} mm without load, "
-                f"and the wheel centre is {1e3 * height:g} mm above the ground at design. Give a "
-                "tyre that reaches it."
+                f"and the wheel centre is {1e3 * height:g} mm above the ground at design. Use a "
+                "tyre that reaches the ground."
             )
     return problems
 

@@ -33,8 +33,8 @@ OF_DRIVING = ("tyres", "brakes", "air")
 _BY_NAME = WithJsonSchema({"type": "string"})
 _FILE = "file beside this one, or the name of a packaged data set: "
 _OF_A_SEAT = (
-    "the name of a seat begins that of its acceleration: letters, digits and _ are allowed, and "
-    'not "body", whose acceleration is that of the centre of mass. Rename it.'
+    'the name of a seat may have letters, digits and _, and must not be "body", which is the name '
+    "of the acceleration of the centre of mass. Rename it."
 )
 # How each coordinate of the body moves it against its own inertia.
 _INERTIA = {"pitch": "yy", "roll": "xx", "yaw": "zz"}
@@ -123,12 +123,12 @@ class CarFile(Section):
             for key in needed
             if key not in given
         ]
-        others = " and ".join(f'"{word}"' for word in get_args(Freedoms)[1:])
+        others = " or ".join(f'"{word}"' for word in get_args(Freedoms)[1:])
         belongs = {"corner": 'a quarter car, car = "heave"'} | dict.fromkeys(
-            of_axles, f"a car of two axles, car = {others}"
+            of_axles, f"a car with two axles, car = {others}"
         )
         problems += [
-            f"{key} is given, which is of {belongs[key]}. Remove that line, or change `car`."
+            f"{key} is given, which is a key of {belongs[key]}. Remove that line, or change `car`."
             for key in given
             if key not in needed
         ]

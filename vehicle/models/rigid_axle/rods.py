@@ -94,13 +94,13 @@ class Hold:
         firm, free = self._at_rest()
         if firm * _LOOSEST >= 1.0:
             return []
-        times = "without end" if firm < _NOTHING else f"{1.0 / firm:.0f} times that"
+        times = "infinitely many" if firm < _NOTHING else f"{1.0 / firm:.0f}"
         problem = (
-            f"[rods] {', '.join(self.names)} hardly hold the axle, which moves {_said(free)}: if "
-            f"a rod is a little longer, it moves {times}, at one height and inclination of the "
-            f"axle; at most {_LOOSEST:g} times are allowed. Of the rods two or more must stop it "
-            "along x and in pitch, and one or two triangulated ones along y: a Panhard rod, or "
-            "upper links that meet."
+            f"[rods] {', '.join(self.names)} hardly hold the axle, which moves {_said(free)}: "
+            f"its displacement is {times} times the elongation of a rod, at constant height and "
+            f"inclination; at most {_LOOSEST:g} times are allowed. Two or more rods must hold the "
+            "axle along x and in pitch; a Panhard rod, or upper links that meet, must hold it "
+            "along y."
         )
         return [problem]
 
@@ -115,27 +115,26 @@ class Hold:
         begin = (
             f"[rods] {given} rod{'s' if given != 1 else ''}, {', '.join(self.names) or 'none'}: "
             f"{NEEDED} are needed. A beam has six degrees of freedom, an axle keeps two of "
-            f"them, heave and roll, and each rod takes one. These take {rank}"
+            f"them, heave and roll, and each rod removes one. These remove {rank}"
         )
         if given < NEEDED:
             missing = "rod" if given == NEEDED - 1 else "rods"
-            return f"{begin}, and {_FREEDOMS - rank} are left. Add the missing {missing}."
+            return f"{begin}, and {_FREEDOMS - rank} remain. Add the missing {missing}."
         sizes = ", ".join(f"{size:.3g}" for size in self.sizes)
         begin += f" (the singular values of their constraints are {sizes}), and "
         if rank == NEEDED:
             return (
-                f"{begin}2 are left: the rods repeat each other, and would be strained against "
-                "each other. Leave one of them out."
+                f"{begin}2 remain: the rods are redundant, and would be strained against each "
+                "other. Leave one of them out."
             )
         if rank == _FREEDOMS:
-            return f"{begin}none is left: the axle cannot move. Leave rods out."
+            return f"{begin}none remains: the axle cannot move. Leave rods out."
         _, _, directions = np.linalg.svd(self.rows)
         return (
-            f"{begin}one is left, {_said(directions[-1])}: such an axle heaves and rolls only "
-            "because its bushes deflect, and here rods are rigid. Leave one of the rods out: "
+            f"{begin}one remains, {_said(directions[-1])}: such an axle heaves and rolls only "
+            "because its bushes deflect, and these rods are rigid. Leave one of the rods out: "
             "three links and a Panhard rod, or four links of which two are triangulated. Or "
-            "describe "
-            "bushes in [bushings]: compliance takes all five."
+            "describe bushes in [bushings]: compliance takes all five."
         )
 
 
