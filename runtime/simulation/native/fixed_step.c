@@ -104,6 +104,9 @@ static int see_jumps(worker *w, double step)
 {
     kt_fixed *m = w->own;
     int jumped = m->method->jumped(w, step);
+    if (jumped < 0) {
+        return jumped;
+    }
     m->calm = jumped ? 0 : m->calm + 1;
     m->jumps = m->calm >= OFTEN_CALM ? 0 : m->jumps + jumped;
     return m->jumps >= OFTEN_JUMPS ? m->method->refuse_jumps(w, step) : 0;
@@ -118,9 +121,7 @@ static int take_step(worker *w)
     }
     double most = longest(w), end = end_of_step(&m->times, most), step = end - m->times.time;
     code = m->method->prepare(w, step);
-    if (!code && m->method->attempt(w, end, step)) {
-        code = KT_REFUSED;
-    }
+    code = code ? code : m->method->attempt(w, end, step);
     code = code ? code : see_jumps(w, step);
     if (code) {
         m->times.next = fabs(step);

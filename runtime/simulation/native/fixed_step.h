@@ -13,8 +13,8 @@
 /* The steps of one method; codes are those of a solver, zero where nothing is wrong. */
 typedef struct {
     int (*prepare)(worker *w, double step);             /* what is needed before the stages, or refuse the step */
-    int (*attempt)(worker *w, double end, double step); /* find the end; positive where the model refuses a stage */
-    int (*jumped)(worker *w, double step);              /* whether rates jump to and fro in the step */
+    int (*attempt)(worker *w, double end, double step); /* find the end, or a code */
+    int (*jumped)(worker *w, double step);              /* whether rates jump to and fro in the step, or a code */
     int (*refuse_jumps)(worker *w, double step);        /* the code of steps that do so again and again */
     void (*fit)(worker *w);                             /* find the polynomial within the last step */
 } kt_fixed_method;

@@ -1,12 +1,17 @@
 /*
  * The classical Runge-Kutta method of order 4 with steps of one length, as it runs in real time: four
- * evaluations a step, whatever comes. What lies within a step is interpolated by the cubic through both of
+ * evaluations a step for any motion. What lies within a step is interpolated by the cubic through both of
  * its ends (Hermite), at no evaluations.
  *
- * A step that is too long makes what is fast grow, and says nothing of it. So before each step the largest
- * eigenvalue of its Jacobian is bounded, and a step that is not stable is refused. Rates may also jump to and
- * fro between the stages, as those of friction that sticks, where no Jacobian says so: that is seen by them.
+ * A step that is too long makes what is fast grow, and no error estimate shows it. So the largest eigenvalue of
+ * the exact Jacobian is bounded, and a step that is not stable is refused. The Jacobian costs more than the
+ * step, and is evaluated at the first step, at one in many, and at each step whose own rates differ by more than
+ * the last Jacobian explains. A motion that grows shows in these differences long before it shows in the state.
+ *
+ * Rates may also jump to and fro between the stages, as those of friction that sticks, where no Jacobian shows
+ * it: the rates of the stages do.
  */
+#include "eigenvalues.h"
 #include "fixed_step.h"
 #include "worker.h"
 
@@ -21,8 +26,8 @@
  */
 #define STABLE 2.61
 
-/* The bound is that of the power 2^8 of the matrix: some per cent above the largest eigenvalue at most. */
-#define SQUARINGS 8
+/* So many steps at most have one Jacobian. */
+#define STEPS_OF_ONE 128
 
 /*
  * Rates jump where a step times what their change between two stages has beyond the Jacobian is more than this
@@ -39,86 +44,104 @@ typedef struct {
     double *memory;
     double *stage;                      /* a state; the rates at the begin are those of all stages, 4 x states */
     double *jacobian, *matrix, *square; /* states x states */
+    double *weights; /* of the states, in which the Jacobian is balanced */
+    double norm;     /* of the balanced Jacobian */
+    double length;   /* of the longest step that the Jacobian was found to be stable with */
+    int steps;       /* that go by the Jacobian */
+    int here;        /* it is that of the begin of this step */
 } method;
 
 /* -- stability -------------------------------------------------------------------------------- */
-
-/* Return the greatest sum of a row's magnitudes, by which all entries are divided. */
-static double normalise(double *matrix, int n)
-{
-    double norm = 0.0;
-    for (int i = 0; i < n; ++i) {
-        double sum = 0.0;
-        for (int j = 0; j < n; ++j) {
-            sum += fabs(matrix[i * n + j]);
-        }
-        norm = fmax(norm, sum);
-    }
-    for (int i = 0; norm > 0.0 && i < n * n; ++i) {
-        matrix[i] /= norm;
-    }
-    return norm;
-}
-
-static void square(method *m, int n)
-{
-    for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < n; ++j) {
-            double sum = 0.0;
-            for (int k = 0; k < n; ++k) {
-                sum += m->matrix[i * n + k] * m->matrix[k * n + j];
-            }
-            m->square[i * n + j] = sum;
-        }
-    }
-    double *other = m->matrix;
-    m->matrix = m->square;
-    m->square = other;
-}
-
-/*
- * Bound the magnitude of all eigenvalues times a step: the norm of a power of the matrix is not below that power
- * of any of them, and the root of the norm comes down to the largest as the power grows (Gelfand). Most
- * steps are known to be stable by the first or second power; no more is done for them.
- */
-static double bound(worker *w, double step)
-{
-    method *m = w->own;
-    int n = w->problem->state_count;
-    double logarithm = log2(step), part = 1.0;
-    memcpy(m->matrix, m->jacobian, (size_t)(n * n) * sizeof *m->matrix);
-    for (int k = 0; k <= SQUARINGS; ++k, part *= 0.5) {
-        if (k) {
-            square(m, n);
-        }
-        logarithm += part * log2(normalise(m->matrix, n)); /* of zero: nothing moves */
-        if (logarithm <= log2(STABLE)) {
-            break;
-        }
-    }
-    return exp2(logarithm);
-}
 
 /* See that a step is stable by the Jacobian of a state; note the longest one otherwise. */
 static int check(worker *w, double time, const double *state, double step)
 {
     method *m = w->own;
+    int n = w->problem->state_count;
     ++m->fixed.counted.jacobians;
+    m->length = 0.0;
     if (kt_jacobian(w, time, state, m->jacobian)) {
         return KT_REFUSED;
     }
-    double found = bound(w, step);
+    memcpy(m->matrix, m->jacobian, (size_t)(n * n) * sizeof *m->matrix);
+    m->norm = kt_balance(m->matrix, n, m->weights);
+    double found = step * kt_bound_eigenvalues(m->matrix, m->square, n, STABLE / step);
     if (found > STABLE) {
         w->result->longest_step = step * STABLE / found;
         return KT_UNSTABLE_STEP;
     }
+    m->length = step;
+    m->steps = 0;
     return 0;
+}
+
+/* The same by the Jacobian at the begin of a step, unless that is known. */
+static int check_here(worker *w, double step)
+{
+    method *m = w->own;
+    int code = m->here ? 0 : check(w, m->fixed.times.time, m->fixed.state, fabs(step));
+    m->here = !code;
+    return code;
+}
+
+/* Return the Euclidean norm of a vector whose elements have weights. */
+static double weighed(const method *m, int n, const double *vector)
+{
+    double sum = 0.0;
+    for (int i = 0; i < n; ++i) {
+        double element = m->weights[i] * vector[i];
+        sum += element * element;
+    }
+    return sqrt(sum);
+}
+
+/*
+ * Return whether the rates at two states of one time differ by no more than those of a stable step may: little,
+ * or as the last Jacobian has it. Both differences are overwritten.
+ */
+static int explained(const method *m, int n, double step, double *states, double *rates)
+{
+    double by_states = weighed(m, n, states), by_rates = fabs(step) * weighed(m, n, rates);
+    double rounding = fabs(step) * m->norm * weighed(m, n, m->fixed.state);
+    if (by_rates <= JUMP * by_states || by_rates <= ROUNDINGS * DBL_EPSILON * rounding) {
+        return 1;
+    }
+    if (!(by_rates <= STABLE * by_states)) { /* nor a NaN */
+        return 0;
+    }
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            rates[i] -= m->jacobian[i * n + j] * states[j];
+        }
+    }
+    return fabs(step) * weighed(m, n, rates) <= JUMP * by_states;
+}
+
+/* The same for both pairs of states in a step: the second and third stage, and the fourth and the end. */
+static int all_explained(const worker *w, double step)
+{
+    const method *m = w->own;
+    int n = w->problem->state_count;
+    double *states = m->matrix, *rates = m->square;
+    const double *k = m->fixed.rates;
+    for (int i = 0; i < n; ++i) {
+        states[i] = 0.5 * step * (k[n + i] - k[i]);
+        rates[i] = k[2 * n + i] - k[n + i];
+    }
+    if (!explained(m, n, step, states, rates)) {
+        return 0;
+    }
+    for (int i = 0; i < n; ++i) {
+        states[i] = step / 6.0 * (k[i] + 2.0 * k[n + i] - 4.0 * k[2 * n + i] + k[3 * n + i]);
+        rates[i] = m->fixed.end_rates[i] - k[3 * n + i];
+    }
+    return explained(m, n, step, states, rates);
 }
 
 /* -- a step ----------------------------------------------------------------------------------- */
 
 /* Find the rates of the stages, and state and rates at the end; positive where the model refuses one. */
-static int attempt(worker *w, double end, double step)
+static int find_end(worker *w, double end, double step)
 {
     static const double NODES[4] = {0.0, 0.5, 0.5, 1.0};
     method *m = w->own;
@@ -139,10 +162,21 @@ static int attempt(worker *w, double end, double step)
     return kt_fixed_rates(w, end, m->fixed.end_state, m->fixed.end_rates);
 }
 
+/* Where the model refuses a state of a step, the step may be what leads there. */
+static int attempt(worker *w, double end, double step)
+{
+    if (!find_end(w, end, step)) {
+        return 0;
+    }
+    int code = check_here(w, step);
+    return code ? code : KT_REFUSED;
+}
+
 static int prepare(worker *w, double step)
 {
-    const method *m = w->own;
-    return check(w, m->fixed.times.time, m->fixed.state, fabs(step));
+    method *m = w->own;
+    m->here = 0;
+    return m->steps++ < STEPS_OF_ONE && fabs(step) <= m->length ? 0 : check_here(w, step);
 }
 
 /* -- jumps ------------------------------------------------------------------------------------ */
@@ -151,7 +185,7 @@ static int prepare(worker *w, double step)
  * Return whether rates jump between the second and the third stage, which are at one time. Rates of positions do
  * not; what the others change by is measured against all.
  */
-static int jumped(worker *w, double step)
+static int jump(const worker *w, double step)
 {
     const method *m = w->own;
     int n = w->problem->state_count, positions = w->problem->position_count, others = n - positions;
@@ -173,6 +207,17 @@ static int jumped(worker *w, double step)
         moved += 0.5 * (faster + (i < positions ? fabs(b[i] - a[i]) : 0.0));
     }
     return fabs(step) * beyond > JUMP * moved && beyond > ROUNDINGS * DBL_EPSILON * rounding;
+}
+
+/* The same where the last Jacobian does not explain the rates; a code where the one here is not stable. */
+static int jumped(worker *w, double step)
+{
+    const method *m = w->own;
+    if (!m->here && all_explained(w, step)) {
+        return 0;
+    }
+    int code = check_here(w, step);
+    return code ? code : jump(w, step);
 }
 
 static double change(const double *from, const double *to, int count)
@@ -208,7 +253,9 @@ static int refuse_jumps(worker *w, double step)
         memcpy(first ? high : low, m->stage, (size_t)n * sizeof *low);
         memcpy(first ? rates_high : rates_low, m->fixed.rates, (size_t)n * sizeof *low);
     }
-    return check(w, time, m->stage, fabs(step));
+    int code = check(w, time, m->stage, fabs(step));
+    m->length = 0.0; /* the next step has a Jacobian of its own */
+    return code;
 }
 
 /* -- within the step -------------------------------------------------------------------------- */
@@ -240,7 +287,7 @@ static int open_method(worker *w, double start)
     if (!m) {
         return KT_MEMORY;
     }
-    m->memory = calloc((8 + KT_TERMS + 3 * n) * n, sizeof *m->memory);
+    m->memory = calloc((9 + KT_TERMS + 3 * n) * n, sizeof *m->memory);
     if (!m->memory) {
         return KT_MEMORY;
     }
@@ -253,6 +300,7 @@ static int open_method(worker *w, double start)
     m->jacobian = m->fixed.terms + KT_TERMS * n;
     m->matrix = m->jacobian + n * n;
     m->square = m->matrix + n * n;
+    m->weights = m->square + n * n;
     kt_fixed_open(w, &METHOD, start);
     return KT_DONE;
 }

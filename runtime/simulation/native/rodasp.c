@@ -134,7 +134,7 @@ static void find_stage(method *m, int n, int stage, double step)
     solve(m, n, right, m->stages + stage * n);
 }
 
-/* Find all stages, and state and rates at the end; positive where the model refuses one. */
+/* Find all stages, and state and rates at the end, or refuse them where the model does. */
 static int attempt(worker *w, double end, double step)
 {
     method *m = w->own;
@@ -149,14 +149,14 @@ static int attempt(worker *w, double end, double step)
         }
         double time = NODES[s] < 1.0 ? m->fixed.times.time + NODES[s] * step : end;
         if (kt_fixed_rates(w, time, m->point, m->found)) {
-            return 1;
+            return KT_REFUSED;
         }
         find_stage(m, n, s, step);
     }
     for (int i = 0; i < n; ++i) {
         m->fixed.end_state[i] += m->stages[(STAGES - 1) * n + i]; /* to the point of the last stage */
     }
-    return kt_fixed_rates(w, end, m->fixed.end_state, m->fixed.end_rates);
+    return kt_fixed_rates(w, end, m->fixed.end_state, m->fixed.end_rates) ? KT_REFUSED : 0;
 }
 
 /* Return whether rates jump between the points of the last two stages, which are at one time. */

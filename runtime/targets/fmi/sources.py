@@ -20,9 +20,9 @@ EQUATIONS = "equations"
 _CORE = ("dead_points.c", "derivatives.c", "model.h", "steps.c", "unit.c", "unit.h")
 # What integrates, without what needs SUNDIALS.
 _NATIVE = (
-    "dormand_prince.c", "dormand_prince.h", "fixed_step.c", "fixed_step.h", "integrate.c",
-    "integrate.h", "margins.c", "margins.h", "number.h", "pieces.h", "polynomial.h", "powers.h",
-    "rk4.c", "roots.c", "roots.h", "trust.h", "worker.h",
+    "dormand_prince.c", "dormand_prince.h", "eigenvalues.c", "eigenvalues.h", "fixed_step.c",
+    "fixed_step.h", "integrate.c", "integrate.h", "margins.c", "margins.h", "number.h", "pieces.h",
+    "polynomial.h", "powers.h", "rk4.c", "roots.c", "roots.h", "trust.h", "worker.h",
 )  # fmt: skip
 
 
