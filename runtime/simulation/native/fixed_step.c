@@ -53,7 +53,9 @@ static void reach(kt_fixed_times *t, double end, double most)
 int kt_fixed_begin(worker *w, double time, double length)
 {
     kt_fixed *m = w->own;
-    memcpy(m->state, w->y, (size_t)w->problem->state_count * sizeof *m->state);
+    size_t size = (size_t)w->problem->state_count * sizeof *m->state;
+    m->elsewhere = memcmp(m->end_state, w->y, size) != 0;
+    memcpy(m->state, w->y, size);
     memset(&m->counted, 0, sizeof m->counted);
     m->times.time = m->times.reached = m->times.origin = time;
     m->times.since = 0;

@@ -36,6 +36,7 @@ typedef struct {
     double *rates, *end_rates; /* at the begin; at the end, which are those of the next begin */
     double *terms;             /* KT_TERMS x states: the polynomial within the last step */
     int jumps, calm;           /* steps in which rates have jumped, and those in a row in which not */
+    int elsewhere;             /* the state is not that to which the step before led */
     int fresh, fitted;         /* the rates at `time` are not known; the terms are those of the last step */
     kt_statistics counted;
 } kt_fixed;

@@ -26,6 +26,12 @@
  */
 #define STABLE 2.61
 
+/* Rates that differ by no more than this part of what they may are not looked at further. */
+#define LITTLE 0.25
+
+/* What differs by this much is near the end of stability, where each step has its own Jacobian. */
+#define NEAR (0.5 * STABLE)
+
 /* So many steps at most have one Jacobian. */
 #define STEPS_OF_ONE 128
 
@@ -46,9 +52,10 @@ typedef struct {
     double *jacobian, *matrix, *square; /* states x states */
     double *weights; /* of the states, in which the Jacobian is balanced */
     double norm;     /* of the balanced Jacobian */
-    double length;   /* of the longest step that the Jacobian was found to be stable with */
+    double length;   /* of the longest step that the Jacobian lets be stable, as was seen */
+    int due;         /* the next step has a Jacobian of its own */
+    int here;        /* the Jacobian is that of the begin of this step */
     int steps;       /* that go by the Jacobian */
-    int here;        /* it is that of the begin of this step */
 } method;
 
 /* -- stability -------------------------------------------------------------------------------- */
@@ -59,7 +66,7 @@ static int check(worker *w, double time, const double *state, double step)
     method *m = w->own;
     int n = w->problem->state_count;
     ++m->fixed.counted.jacobians;
-    m->length = 0.0;
+    m->due = 1;
     if (kt_jacobian(w, time, state, m->jacobian)) {
         return KT_REFUSED;
     }
@@ -71,7 +78,7 @@ static int check(worker *w, double time, const double *state, double step)
         return KT_UNSTABLE_STEP;
     }
     m->length = step;
-    m->steps = 0;
+    m->due = m->steps = 0;
     return 0;
 }
 
@@ -81,6 +88,7 @@ static int check_here(worker *w, double step)
     method *m = w->own;
     int code = m->here ? 0 : check(w, m->fixed.times.time, m->fixed.state, fabs(step));
     m->here = !code;
+    m->fixed.elsewhere = 0;
     return code;
 }
 
@@ -97,16 +105,17 @@ static double weighed(const method *m, int n, const double *vector)
 
 /*
  * Return whether the rates at two states of one time differ by no more than those of a stable step may: little,
- * or as the last Jacobian has it. Both differences are overwritten.
+ * or as the last Jacobian has it. Both differences are overwritten. The next step may be longer than this one.
  */
-static int explained(const method *m, int n, double step, double *states, double *rates)
+static int explained(const method *m, int n, double *states, double *rates)
 {
-    double by_states = weighed(m, n, states), by_rates = fabs(step) * weighed(m, n, rates);
-    double rounding = fabs(step) * m->norm * weighed(m, n, m->fixed.state);
-    if (by_rates <= JUMP * by_states || by_rates <= ROUNDINGS * DBL_EPSILON * rounding) {
+    double step = m->length;
+    double by_states = weighed(m, n, states), by_rates = step * weighed(m, n, rates);
+    double rounding = step * m->norm * weighed(m, n, m->fixed.state);
+    if (by_rates <= LITTLE * by_states || by_rates <= ROUNDINGS * DBL_EPSILON * rounding) {
         return 1;
     }
-    if (!(by_rates <= STABLE * by_states)) { /* nor a NaN */
+    if (!(by_rates <= NEAR * by_states)) { /* nor a NaN */
         return 0;
     }
     for (int i = 0; i < n; ++i) {
@@ -114,28 +123,33 @@ static int explained(const method *m, int n, double step, double *states, double
             rates[i] -= m->jacobian[i * n + j] * states[j];
         }
     }
-    return fabs(step) * weighed(m, n, rates) <= JUMP * by_states;
+    return step * weighed(m, n, rates) <= LITTLE * by_states;
 }
 
-/* The same for both pairs of states in a step: the second and third stage, and the fourth and the end. */
-static int all_explained(const worker *w, double step)
+/* The same of the second and third stage. */
+static int middle_explained(const worker *w, double step)
 {
     const method *m = w->own;
     int n = w->problem->state_count;
-    double *states = m->matrix, *rates = m->square;
     const double *k = m->fixed.rates;
     for (int i = 0; i < n; ++i) {
-        states[i] = 0.5 * step * (k[n + i] - k[i]);
-        rates[i] = k[2 * n + i] - k[n + i];
+        m->matrix[i] = 0.5 * step * (k[n + i] - k[i]);
+        m->square[i] = k[2 * n + i] - k[n + i];
     }
-    if (!explained(m, n, step, states, rates)) {
-        return 0;
-    }
+    return explained(m, n, m->matrix, m->square);
+}
+
+/* The same of the fourth stage and the end. */
+static int end_explained(const worker *w, double step)
+{
+    const method *m = w->own;
+    int n = w->problem->state_count;
+    const double *k = m->fixed.rates;
     for (int i = 0; i < n; ++i) {
-        states[i] = step / 6.0 * (k[i] + 2.0 * k[n + i] - 4.0 * k[2 * n + i] + k[3 * n + i]);
-        rates[i] = m->fixed.end_rates[i] - k[3 * n + i];
+        m->matrix[i] = step / 6.0 * (k[i] + 2.0 * k[n + i] - 4.0 * k[2 * n + i] + k[3 * n + i]);
+        m->square[i] = m->fixed.end_rates[i] - k[3 * n + i];
     }
-    return explained(m, n, step, states, rates);
+    return explained(m, n, m->matrix, m->square);
 }
 
 /* -- a step ----------------------------------------------------------------------------------- */
@@ -176,7 +190,8 @@ static int prepare(worker *w, double step)
 {
     method *m = w->own;
     m->here = 0;
-    return m->steps++ < STEPS_OF_ONE && fabs(step) <= m->length ? 0 : check_here(w, step);
+    m->due |= m->fixed.elsewhere || ++m->steps > STEPS_OF_ONE || fabs(step) > m->length;
+    return m->due ? check_here(w, step) : 0;
 }
 
 /* -- jumps ------------------------------------------------------------------------------------ */
@@ -212,12 +227,11 @@ static int jump(const worker *w, double step)
 /* The same where the last Jacobian does not explain the rates; a code where the one here is not stable. */
 static int jumped(worker *w, double step)
 {
-    const method *m = w->own;
-    if (!m->here && all_explained(w, step)) {
-        return 0;
-    }
-    int code = check_here(w, step);
-    return code ? code : jump(w, step);
+    method *m = w->own;
+    int known = middle_explained(w, step);
+    int code = known ? 0 : check_here(w, step);
+    m->due = !end_explained(w, step);
+    return code ? code : !known && jump(w, step);
 }
 
 static double change(const double *from, const double *to, int count)
@@ -254,7 +268,7 @@ static int refuse_jumps(worker *w, double step)
         memcpy(first ? rates_high : rates_low, m->fixed.rates, (size_t)n * sizeof *low);
     }
     int code = check(w, time, m->stage, fabs(step));
-    m->length = 0.0; /* the next step has a Jacobian of its own */
+    m->due = 1; /* for this is not where a step begins */
     return code;
 }
 

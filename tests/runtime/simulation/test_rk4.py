@@ -14,6 +14,7 @@ from kintrafo import (
     Model,
     SignalEvent,
     SimulationError,
+    Stepper,
     System,
     equilibrium,
     simulate,
@@ -180,6 +181,55 @@ def test_a_motion_that_becomes_stiff_ends_there() -> None:
     # where the strut sticks the Jacobian is that of the friction at rest, wherever that is
     assert told == pytest.approx(0.99 * 2.61 / fastest(model, held, 1e-9), rel=0.1)
     assert run(told, model=model, start=start, span=(0.0, 0.02)).success
+
+
+def stiffest_of(model, found):
+    """Return the greatest magnitude of an eigenvalue at each state of a result, by LAPACK."""
+    size = len(model.state_names)
+    matrices = model.evaluate("rhs_jacobian", found.y.T, found.inputs)
+    return np.abs(np.linalg.eigvals(matrices.reshape(-1, size, size))).max(axis=1)
+
+
+@pytest.mark.parametrize("step", [3e-4, 1e-3, 3e-3, 1e-2])
+@pytest.mark.parametrize("friction", [(50.0, 1e-3), (200.0, 1e-2), (600.0, 1e-2), (600.0, 1e-5)])
+def test_no_step_of_a_result_is_unstable(friction, step) -> None:
+    """Steps that slide through friction or stick in it: the Jacobian at each of them, by LAPACK."""
+    force, velocity = friction
+    changes = {"strut.friction_N": force, "strut.friction_velocity_m_per_s": velocity}
+    model = Model(MODEL.suspension.with_changes(changes))
+    start = np.array(state_at_height(model, 0.305))
+    start[2] = 0.3  # sliding
+    try:
+        found = run(step, model=model, start=start, span=(0.0, 0.4), t_eval=None)
+    except SimulationError as error:
+        found = error.partial
+    stiffest = step * stiffest_of(model, found)
+    # the last state is that of no step, or of the one that is refused
+    assert stiffest[:-1].max() < 2.61
+    if found.success:
+        truth = simulate(model, (0.0, 0.4), start, method="BDF", rtol=1e-9, atol=1e-12)
+        moved = np.abs(START[0] - truth.y[0, -1])
+        assert abs(found.y[0, -1] - truth.y[0, -1]) < 1e-3 * moved
+
+
+def test_the_jacobian_is_evaluated_now_and_then() -> None:
+    """At one step of 128, where motions are slow; where they are near the limit, at more."""
+    assert run(1e-3).njev <= 10
+    step = 0.9 * 2.61 / fastest(damped(1e5), np.array(START))
+    assert run(step, model=damped(1e5), span=(0.0, 100 * step)).njev > 90
+
+
+def test_a_stepper_that_is_elsewhere_is_checked_there() -> None:
+    """A state that the steps before did not lead to has a Jacobian of its own."""
+    changes = {"strut.friction_N": 600.0, "strut.friction_velocity_m_per_s": 1e-3}
+    model = Model(MODEL.suspension.with_changes(changes))
+    start = np.array(state_at_height(model, 0.305))
+    start[2] = 0.3
+    stepper = Stepper(model, 1e-3, start)
+    stepper.step()
+    stepper.state[2] = 0.0  # where it sticks
+    with pytest.raises(SimulationError, match="not stable"):
+        stepper.step()
 
 
 def test_dead_points_are_those_of_other_methods() -> None:
