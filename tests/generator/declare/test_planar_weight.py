@@ -28,7 +28,7 @@ def upward(*along):
     ids=["up", "down", "left"],
 )
 def test_gravity_along_the_normal_is_refused(normal, weight):
-    with pytest.raises(g.DeclarationError, match=r"Weight pulls against .* it does nothing"):
+    with pytest.raises(g.DeclarationError, match=r"Weight acts against .* and has no effect"):
         pendulum(normal, **weight)
 
 
@@ -37,7 +37,7 @@ def test_so_it_is_where_things_slide_in_the_plane():
     rail = g.flat("rail_start", (0.0, 0.0)), g.flat("rail_end", (1.0, 0.5))
     guide = g.Prismatic("guide", GROUND, slider, g.Direction("rail", between=rail))
     named = (guide.slide("s", "slide"),)
-    with pytest.raises(g.DeclarationError, match="it does nothing"):
+    with pytest.raises(g.DeclarationError, match="has no effect"):
         g.Mechanism("rail", "t", (guide,), (g.Weight(),), named)
     g.Mechanism("rail", "t", (guide,), (g.Weight(**upward(0, 1, 0)),), named)
 

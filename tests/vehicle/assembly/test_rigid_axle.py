@@ -466,8 +466,8 @@ def test_four_links_and_a_panhard_rod_are_one_too_many() -> None:
         )
     (problem,) = error.value.problems
     assert "5 rods" in problem
-    assert "These take 5 (the singular values of their constraints are" in problem
-    assert "one is left" in problem
+    assert "These remove 5 (the singular values of their constraints are" in problem
+    assert "one remains" in problem
     assert "only because its bushes deflect" in problem
     # word for word on the page
     assert problem in " ".join(PAGE.read_text(encoding="utf-8").split())
@@ -475,7 +475,7 @@ def test_four_links_and_a_panhard_rod_are_one_too_many() -> None:
 
 def test_a_rod_that_repeats_another_is_one_too_many() -> None:
     """Five rods along x in one pattern take four freedoms: one of them is not needed."""
-    with pytest.raises(InputError, match="2 are left: the rods repeat each other"):
+    with pytest.raises(InputError, match="2 remain: the rods are redundant"):
         planar(0.0, 400.0).with_changes(
             {"rods.fifth": {"chassis": [620.0, 0.0, 310.0], "axle": [20.0, 0.0, 310.0]}}
         )

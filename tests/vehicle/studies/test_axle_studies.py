@@ -120,5 +120,5 @@ def test_what_an_axle_does_not_have_is_refused(given: Any, refused: Any) -> None
 
 
 def test_the_file_of_a_rigid_axle_has_no_sides() -> None:
-    with pytest.raises(InputError, match=r"side\.hardpoints is no number"):
+    with pytest.raises(InputError, match=r"side\.hardpoints is neither a number"):
         variation.sensitivity(RigidAxle.load("rigid_axle"), ["side.hardpoints"])

@@ -191,7 +191,7 @@ def test_a_front_of_stiffnesses() -> None:
     toe = under(member, "toe_by_recession", [0.0])[0]
     column = next(name for name in found.dataset if "toe_by_recession" in str(name))
     assert np.rad2deg(found.dataset[column].values[0]) * 1e3 == pytest.approx(toe)
-    with pytest.raises(InputError, match="give limits and targets of compliance"):
+    with pytest.raises(InputError, match="or limits and targets of compliance"):
         variation.pareto(CAR, {REAR: 300.0}, {"toe": {"value": 0.1, "within": 0.01}}, **asked)
 
 
