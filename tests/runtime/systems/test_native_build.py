@@ -123,6 +123,25 @@ def test_every_wheel_is_looked_at():
         ]
 
 
+def test_a_wheel_of_windows_moves_every_model_by_scipy():
+    """There are neither SUNDIALS nor lanes in it."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    windows = project["tool"]["cibuildwheel"]["windows"]
+    assert windows == {"before-all": "", "test-command": "python {project}/.ci/complete.py"}
+    done = complete("import sys, kintrafo.ensembles, kintrafo.generated; sys.platform = 'win32'")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "moved by SciPy" in done.stdout
+
+
+def test_wheels_of_a_release_are_for_three_systems_by_actions_that_stay_as_they_are():
+    text = (ROOT / ".github/workflows/release.yml").read_text(encoding="utf-8")
+    (systems,) = re.findall(r"os: \[(.*)\]", text)
+    assert {name.split("-")[0] for name in systems.split(", ")} == {"ubuntu", "macos", "windows"}
+    used = re.findall(r"uses: (\S+)", text)
+    assert used
+    assert [action for action in used if not re.fullmatch(r"[\w/.-]+@[0-9a-f]{40}", action)] == []
+
+
 @needs_ldd
 @pytest.mark.parametrize("module", [_macpherson, _calls, _steps])
 def test_a_model_needs_nothing_but_the_c_library(module):
