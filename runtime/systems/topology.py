@@ -119,7 +119,7 @@ def _joint(joint: Mapping[str, Any], numbers: Mapping[str, int]) -> dict[str, st
         "type": joint["type"],
         "first body": f"{numbers[first]} {first}",
         "second body": f"{numbers[second]} {second}",
-        "freedoms": str(joint["freedoms"]),
+        "degrees of freedom": str(joint["freedoms"]),
         "leaves in common": joint["common"],
     }
 

@@ -20,7 +20,7 @@ EXAMPLES = (
 )
 
 # Headings of the table of joints, where the keys of the result are other words.
-_HEADINGS = {"freedoms": "degrees of freedom", "leaves in common": "in common"}
+_HEADINGS = {"leaves in common": "in common"}
 _SECONDS = 3.0  # of search for joints that can be independent
 _MOST_CHOICES = 6
 
