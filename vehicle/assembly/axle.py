@@ -21,11 +21,11 @@ from ..models.axle.file import TorqueReaction
 from ..models.model import Model
 from ..models.plausibility import Plausibility
 from ..models.reach import PositionError
-from ..models.sides import LEFT, RIGHT, SIDES
+from ..models.sides import LEFT, RIGHT, SENSE, SIDES
 from . import motions
 from .anti_roll_bar import Bar
 from .assembly import Assembly, Bushings
-from .axle_coupling import TWIST_BY_TURN, on_the_bar, pull_of_bar, rules_of, turn_of_half
+from .axle_coupling import on_the_bar, pull_of_bar, rules_of, turn_of_half
 from .axle_kinematics import AxleKinematics
 from .corner import CornerAssembly, lines_of, poses_of
 from .coupling import STEERING, BodyPose, on_the_rack
@@ -473,7 +473,7 @@ class AxleAssembly(Assembly):
     def bar_twist(self, poses: Mapping[str, Any]) -> dict[str, Array]:
         """Return what each side adds to the twist of the bar, (n,) [rad]."""
         return {
-            f"_{side}": TWIST_BY_TURN[side] * turn_of_half(self.axle, side, poses[f"_{side}"])[1]
+            f"_{side}": SENSE[side] * turn_of_half(self.axle, side, poses[f"_{side}"])[1]
             for side in self.axle.halves
         }
 

@@ -10,13 +10,10 @@ from ...core.vectors import cross
 from ..corner.corner import Array
 from ..models.axle import Axle
 from ..models.points import carried
-from ..models.sides import LEFT, RIGHT, SIDES
+from ..models.sides import SENSE, SIDES
 from .coupling import STILL, BodyPose, on_both, sum_of
 from .load import Load
 from .part_poses import CornerParts
-
-TWIST_BY_TURN = {LEFT: 1.0, RIGHT: -1.0}
-"""Twist of the bar by the turn of each half."""
 
 BAR, LINK = "anti_roll_bar", "drop_link"
 
@@ -43,7 +40,7 @@ def pull_of_bar(axle: Axle, side: str, poses: CornerParts, torque: Array | float
     foot, turn = turn_of_half(axle, side, poses)
     half = axle.halves[side]
     direction, lever = half.lever(foot, turn)
-    force = (-TWIST_BY_TURN[side] * torque / lever)[:, None] * direction
+    force = (-SENSE[side] * torque / lever)[:, None] * direction
     return Load(half.body, "link_foot", LINK, force, np.zeros(3), foot)
 
 

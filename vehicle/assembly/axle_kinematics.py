@@ -15,13 +15,10 @@ from ..models.model import Model
 from ..models.points import carried
 from ..models.positions import PositionError, arm_angles, design_height
 from ..models.reach import at_rest, height_and_slope
-from ..models.sides import LEFT, RIGHT
+from ..models.sides import LEFT, RIGHT, SENSE
 from . import motions, wheel
 from .corner_kinematics import corner
 from .wheel_centre_line import inclination_rate
-
-SENSE = {LEFT: 1.0, RIGHT: -1.0}
-"""In which direction each side's angle twists the bar."""
 
 # The slope of a half's angle over travel is exact; its change is a difference of fourth order over
 # this step of the arm's angle [rad]: an error of the fourth power of that, and rounding over it.

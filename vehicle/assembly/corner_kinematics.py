@@ -14,6 +14,7 @@ from ...core.vectors import cross, turned
 from ...systems.inputs import rates_of
 from ..corner.corner import Array, CarrierMotion, Corner, SteeringAxis, Vehicle
 from ..corner.strokes import Strokes
+from ..corner.wheeled import WheeledSection
 from ..input.units import in_metres
 from ..kinds import Suspension
 from ..models.model import Model
@@ -47,7 +48,7 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
     at_design = spread(design_axis(model.suspension))
     strokes = _strokes(model, states, inputs)
     return Corner(
-        vehicle=vehicle(model.suspension),
+        vehicle=vehicle_of(model.suspension),
         center=points["wheel_center"],
         design_center=spread(model.suspension.hardpoints.metres("wheel_center")),
         axis=turned(rotation, at_design),
@@ -82,33 +83,39 @@ def gaps(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> 
     return model.suspension.gaps_at(_strokes(model, *at_rest(model, arm_angle, rack_position)))
 
 
-def vehicle(suspension: Suspension) -> Vehicle:
-    """Return what the input says about the vehicle, in SI units.
+def vehicle(described: WheeledSection, side: float, end: str | None) -> Vehicle:
+    """Return what a file says about the vehicle, in SI units, of one of its wheels.
 
     Parameters
     ----------
-    suspension : Suspension
-
-    Returns
-    -------
-    Vehicle
+    described : WheeledSection
+    side : float
+        +1 left, -1 right.
+    end : str or None
+        'front' or 'rear', where the file says it.
     """
-    given, steered = suspension.vehicle, suspension.steered()
-    rear = given.end == "rear"
+    given, tyre, steered = described.vehicle, described.tyre, described.steered()
+    rear = end == "rear"
+    per_turn = described.rack.travel_per_turn_mm if steered else None
     return Vehicle(
-        side=given.sign,
-        tyre_radius=_spread(suspension.tyre_radius()),
-        tyre_rate=_spread(suspension.tyre.rate_N_per_m),
-        tyre_lateral_rate=_spread(suspension.tyre.lateral_rate_N_per_m),
-        tyre_longitudinal_rate=_spread(suspension.tyre.longitudinal_rate_N_per_m),
+        side=side,
+        tyre_radius=_spread(described.tyre_radius()),
+        tyre_rate=_spread(tyre.rate_N_per_m),
+        tyre_lateral_rate=_spread(tyre.lateral_rate_N_per_m),
+        tyre_longitudinal_rate=_spread(tyre.longitudinal_rate_N_per_m),
         wheelbase=_metres(given.wheelbase_mm),
         center_of_gravity_height=_metres(given.center_of_gravity_height_mm),
         front_brake_share=_spread(given.front_brake_share),
         front=None if rear else True,
         rear=True if rear else None,
-        travel_per_turn=_metres(suspension.rack.travel_per_turn_mm) if steered else None,
+        travel_per_turn=_metres(per_turn),
         steered=True if steered else None,
     )
+
+
+def vehicle_of(suspension: Suspension) -> Vehicle:
+    """Return what the file of a suspension says about the vehicle."""
+    return vehicle(suspension, suspension.vehicle.sign, suspension.vehicle.end)
 
 
 def _strokes(model: Model, states: Array, inputs: Array) -> Strokes:

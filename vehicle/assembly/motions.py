@@ -9,7 +9,7 @@ from ..models.axle import Axle
 from ..models.positions import PositionError, design_height, travel_range
 from ..models.sides import LEFT, RIGHT
 from .rig import SweepRange
-from .usual import grid, usual_rack, usual_travel
+from .usual import CLEARANCE, grid, usual_rack, usual_travel
 from .wheel_centre_line import WheelCentreLine
 
 MOTIONS = {
@@ -25,9 +25,7 @@ USUAL_ROLL = np.deg2rad(4.0)
 USUAL_ROLL_STEP = np.deg2rad(0.25)
 USUAL_ANGLE_STEP = np.deg2rad(10.0)  # of the steering wheel
 _MOST_TURNS = 40.0 * np.pi  # twenty turns of it
-_MOST_ROLL = np.pi / 4.0
-# By default a sweep keeps clear of the ends of the motion by this part of them.
-_CLEARANCE = 0.02
+MOST_ROLL = np.pi / 4.0
 # Heights of wheels are met to their rounding, 1e-16 m of a metre: a step as small changes nothing.
 _CLOSE = 1e-15
 _MOST_STEPS = 100
@@ -53,10 +51,10 @@ def rolls(axle: Axle, extent: SweepRange) -> Array:
     """Return usual roll angles that both wheels reach [rad], zero included."""
     most = extent.roll
     if most is None:
-        ends = (1.0 - _CLEARANCE) * _most_opposite(axle) * np.array([-1.0, 1.0])
+        ends = (1.0 - CLEARANCE) * _most_opposite(axle) * np.array([-1.0, 1.0])
         most = min(USUAL_ROLL, *np.abs(WheelCentreLine.at(axle, -ends, ends).roll))
     with Validator("roll") as given:
-        most = given.number("roll", most, "rad", least=0.0, below=_MOST_ROLL)
+        most = given.number("roll", most, "rad", least=0.0, below=MOST_ROLL)
     return grid(-most, most, USUAL_ROLL_STEP)
 
 
@@ -131,7 +129,7 @@ def opposite(axle: Axle, angles: Array, rack: float = 0.0) -> tuple[Array, Array
     PositionError
         If a wheel does not get there.
     """
-    if np.abs(angles).max(initial=0.0) >= _MOST_ROLL:
+    if np.abs(angles).max(initial=0.0) >= MOST_ROLL:
         worst = np.degrees(np.abs(angles).max())
         problem = f"roll of {worst:.4g} deg: less than 45 deg is needed; Python's unit is rad."
         raise InputError([problem], "axle")

@@ -16,7 +16,7 @@ from ..corner.corner import UP, RoadWheel
 from ..corner.structure import LineForce, Structure
 from ..models.model import Model
 from ..models.points import hardpoints
-from .corner_kinematics import design_axis, vehicle
+from .corner_kinematics import design_axis, vehicle_of
 from .mass import PartMass
 from .wheel import lowest_point, upward_across
 
@@ -151,7 +151,7 @@ class CornerParts:
         turned = {name: rotations[..., i, :, :] for i, name in enumerate(bodies)}
         axis = turned[model.suspension.carrier] @ design_axis(model.suspension)
         points = hardpoints(model, states, inputs, poses=(centers, rotations))
-        radius = vehicle(model.suspension).tyre_radius
+        radius = vehicle_of(model.suspension).tyre_radius
         if radius is not None:
             points[CONTACT] = lowest_point(points[CENTER], axis, radius)
         return cls(
@@ -179,9 +179,8 @@ class CornerParts:
         """The wheel."""
         suspension = self.model.suspension
         at_design = suspension.hardpoints.metres(CENTER)
-        wheel = RoadWheel(
-            vehicle(suspension), self.points[CENTER], at_design, self.axis, design_axis(suspension)
-        )
+        facts, design = vehicle_of(suspension), design_axis(suspension)
+        wheel = RoadWheel(facts, self.points[CENTER], at_design, self.axis, design)
         return {"wheel": wheel}
 
     @property

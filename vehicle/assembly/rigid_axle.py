@@ -6,20 +6,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ...core.quantities import variable
-from ..corner.corner import Array
 from ..models.rigid_axle.axle import RigidAxle
 from ..models.rigid_axle.model import HEAVE, ROLL, RigidAxleModel
 from ..models.rigid_axle.structure import BEAM
-from ..models.sides import SIDES
 from .anti_roll_bar import RollBar
-from .load import Load
-from .measures.measure import Measure
 from .measures.rigid_axle import MEASURES
-from .part_poses import PartPoses
-from .rig import RigPosition
 from .rigid_axle_kinematics import RigidAxleKinematics
 from .rigid_axle_parts import RigidAxleParts
-from .soft_lines import SoftLines, lines_by_rates, lines_of_beam
+from .soft_lines import SoftLines, lines_by_rates
 from .whole_axle import WholeAxleAssembly
 
 if TYPE_CHECKING:
@@ -36,7 +30,8 @@ class RigidAxleAssembly(WholeAxleAssembly):
         Its equations, where there are some already.
     """
 
-    AXLE, MODEL = RigidAxle, RigidAxleModel
+    AXLE, MODEL, PARTS = RigidAxle, RigidAxleModel, RigidAxleParts
+    KINEMATICS, MEASURES = RigidAxleKinematics, MEASURES
     ENDS = (
         "a rod or a damper reaches no farther, or a spring or a damper has turned by a right angle"
     )
@@ -72,26 +67,11 @@ class RigidAxleAssembly(WholeAxleAssembly):
         rods = ", ".join(self.axle.rods).replace("_", " ")
         return f"A {self.axle.heading()} on {len(self.axle.rods)} rods, {rods}."
 
-    def parts(self, states: Array, inputs: Array | None = None) -> RigidAxleParts:
-        """Return its parts in states of its equations."""
-        return RigidAxleParts.of(self.model, states, inputs)
-
-    def measures(self, motion: str) -> tuple[Measure, ...]:
-        """Return its characteristics, the same over all motions."""
-        del motion
-        return MEASURES
-
-    def kinematics(self, position: RigPosition) -> RigidAxleKinematics:
-        """Return how the axle is and how it moves first."""
-        model = self.model if self.moves_rigidly else RigidAxleModel(self.axle)
-        return RigidAxleKinematics(
-            model, model.states_at(*(position.travels[side] for side in SIDES))
-        )
-
-    def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
+    def soft_lines(self, poses: Mapping[str, Any]) -> dict[str, SoftLines]:
         """Return how springs and stops deflect."""
-        beam = RigidAxleKinematics(self.model, poses[""].states)
-        return {"": lines_by_rates(beam) if self.axle.overheld else lines_of_beam(beam)}
+        if not self.axle.overheld:
+            return super().soft_lines(poses)
+        return {"": lines_by_rates(self.KINEMATICS(poses[""]))}
 
     def require_rigid_motion(self) -> None:
         """Refuse an axle on five rods."""
@@ -130,11 +110,3 @@ class RigidAxleAssembly(WholeAxleAssembly):
         if self.axle.anti_roll_bar is None:
             return None
         return RollBar(BEAM, self.model.parameters["bar_rate"])
-
-    def bar_loads(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
-        """Return the couple of a unit torque of the bar."""
-        return {"": [poses[""].bar_by_torque()]} if self.bar and self.bar.rate else {}
-
-    def bar_twist(self, poses: Mapping[str, Any]) -> dict[str, Array]:
-        """Return the roll of the axle, (n,) [rad]."""
-        return {"": poses[""].roll}

@@ -4,8 +4,9 @@ The parts are the beam, both wheels and the rods; names of points and of what th
 ``_left`` and ``_right``, as those of other axles do.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,22 +14,14 @@ from numpy.typing import NDArray
 from ...core.vectors import cross
 from ..corner.corner import UP
 from ..models.rigid_axle.axle import RigidAxle
-from ..models.rigid_axle.model import RigidAxleModel
+from ..models.rigid_axle.model import ROLL, RigidAxleModel
 from ..models.rigid_axle.structure import BEAM, CHASSIS, MIDDLE
-from ..models.sides import SIDES
+from ..models.sides import SENSE, SIDES
 from .load import Load
-from .part_poses import CENTER, CONTACT, road_axes
-from .wheel import lowest_point
-from .whole_axle_kinematics import SENSE
+from .part_poses import CENTER, road_axes
 from .whole_axle_parts import BAR, WholeAxleParts
 
 Array = NDArray[np.float64]
-
-PARAMETERS = {BEAM: "beam", "wheel_left": "left_wheel", "wheel_right": "wheel"}
-"""What begins the names of the parameters of parts with mass."""
-
-MASSIVE = {BEAM: "beam", "wheel_left": "left_wheel", "wheel_right": "right_wheel"}
-"""What they are called in the equations."""
 
 _LEFTWARD = np.array([0.0, 1.0, 0.0])
 
@@ -51,41 +44,63 @@ class RigidAxleParts(WholeAxleParts):
 
     model: RigidAxleModel
 
-    PARAMETERS = PARAMETERS
-    MASSIVE = MASSIVE
+    PARAMETERS: ClassVar[Mapping[str, str]] = {
+        BEAM: "beam",
+        "wheel_left": "left_wheel",
+        "wheel_right": "wheel",
+    }
+    MASSIVE: ClassVar[Mapping[str, str]] = {
+        BEAM: "beam",
+        "wheel_left": "left_wheel",
+        "wheel_right": "right_wheel",
+    }
+    RATE = "bar_rate"
 
     @classmethod
-    def of(
-        cls, model: RigidAxleModel, states: Array, inputs: Array | None = None
-    ) -> "RigidAxleParts":
+    def of(cls, model: RigidAxleModel, states: Array, inputs: Array | None = None) -> Self:
         """Return the parts in some states, by default without any input."""
-        if inputs is None:
-            inputs = np.zeros((len(states), len(model.input_names)))
-        bodies = {name: f"rod_{i}" for i, name in enumerate(model.axle.guides, 1)} | MASSIVE
-        rows = [model.equations.BODIES.index(body) for body in bodies.values()]
-        places = np.moveaxis(model.evaluate("positions", states, inputs)[:, rows], 1, 0)
-        turns = np.moveaxis(model.evaluate("orientations", states, inputs)[:, rows], 1, 0)
-        centers, turned = (dict(zip(bodies, found, strict=True)) for found in (places, turns))
-        points = _points(model.axle, centers[BEAM], turned[BEAM])
+        found = super().of(model, states, inputs)
         # rods have no mass, and so none of their own
         for name, (inner, outer) in model.axle.ends().items():
-            if name not in turned:
-                way = points[f"{name}_axle"] - points[f"{name}_{CHASSIS}"]
-                turned[name] = _upright_frames(way) @ _upright_frames(outer - inner).T
-            centers[name] = 0.5 * (points[f"{name}_{CHASSIS}"] + points[f"{name}_axle"])
-        return cls(model, states, inputs, centers, turned, points)
+            chassis, beam = (found.points[f"{name}_{end}"] for end in (CHASSIS, "axle"))
+            if name not in found.turned:
+                turned = _upright_frames(beam - chassis) @ _upright_frames(outer - inner).T
+                found.turned[name] = turned
+            found.centers[name] = 0.5 * (chassis + beam)
+        return found
+
+    @classmethod
+    def bodies(cls, axle: RigidAxle) -> Mapping[str, str]:
+        """Return what the parts that the equations have are called there."""
+        return {**{name: f"rod_{i}" for i, name in enumerate(axle.guides, 1)}, **cls.MASSIVE}
+
+    @classmethod
+    def placed(
+        cls, axle: RigidAxle, centers: Mapping[str, Array], turned: Mapping[str, Array]
+    ) -> dict[str, Array]:
+        """Return all points where the centre of mass of the beam is at a place, and turned so."""
+        still, moved = {}, {MIDDLE: axle.center}
+        for name, (inner, outer) in axle.ends().items():
+            still[f"{name}_{CHASSIS}"], moved[f"{name}_axle"] = inner, outer
+        for side in SIDES:
+            for name, point in axle.points(side).items():
+                (still if name.endswith("_top") else moved)[f"{name}_{side}"] = point
+            moved[f"{CENTER}_{side}"] = axle.center + SENSE[side] * axle.half_track * _LEFTWARD
+        begin, center, turn = cls.design_centers(axle)[BEAM], centers[BEAM], turned[BEAM]
+        points = {name: np.broadcast_to(point, center.shape) for name, point in still.items()}
+        points |= {name: center + turn @ (point - begin) for name, point in moved.items()}
+        of_wheels = {side: points[f"{CENTER}_{side}"] for side in SIDES}
+        return points | cls.contacts(axle, of_wheels, dict.fromkeys(SIDES, turn))
 
     @property
     def axle(self) -> RigidAxle:
         """The axle."""
         return self.model.axle
 
-    @cached_property
-    def design(self) -> dict[str, Array]:
-        """The points at design, (3,) [m]."""
-        begin = self.axle.bodies.beam.centre_of_mass(self.axle.hardpoints)
-        at_design = _points(self.axle, np.array([begin]), np.eye(3)[None])
-        return {name: point[0] for name, point in at_design.items()}
+    @classmethod
+    def design_centers(cls, axle: RigidAxle) -> dict[str, Array]:
+        """Return the centre of mass of the beam at design, (3,) [m]."""
+        return {BEAM: axle.bodies.beam.centre_of_mass(axle.hardpoints)}
 
     def carrier(self, side: str) -> str:
         """Return the beam, which carries both wheels."""
@@ -109,29 +124,27 @@ class RigidAxleParts(WholeAxleParts):
         along: Array = way / np.linalg.norm(way, axis=-1, keepdims=True)
         return along
 
-    @property
-    def roll(self) -> Array:
-        """The inclination of the axle, positive with the left wheel up, (n,) [rad]."""
-        return self.states[:, self.model.state_names.index("roll")]
-
     # -- what acts ------------------------------------------------------------------------------
 
-    def bar_by_torque(self) -> Load:
-        """Return what a unit torque of the anti-roll bar does on the axle: against its roll."""
+    @property
+    def twist(self) -> Array:
+        """The inclination of the axle, positive with the left wheel up, (n,) [rad]."""
+        return self.states[:, self.model.state_names.index(ROLL)]
+
+    @property
+    def rate_of_twist(self) -> float:
+        """The moment of the anti-roll bar by the inclination [N m/rad]; zero without one."""
+        return self.model.parameters[self.RATE]
+
+    def by_torque(self) -> list[Load]:
+        """Return what a unit torque of the anti-roll bar does: against the roll of the axle.
+
+        On the axle it is about the axle's axis forward.
+        """
         # the line through the wheels points left, and what is forward of it is level
         forward = road_axes(self.turned[BEAM][:, :, 1])[:, 0]
-        return Load(BEAM, MIDDLE, BAR, np.zeros(3), -forward, self.points[MIDDLE])
-
-    def _of_bar(self) -> list[Load]:
-        """Return the couple of the anti-roll bar, about the axle's axis forward."""
-        if self.axle.anti_roll_bar is None:
-            return []
-        unit = self.bar_by_torque()
-        torque = (self.model.parameters["bar_rate"] * self.roll)[:, None]
-        return [
-            replace(unit, part=part, moment=sign * torque * unit.moment)
-            for part, sign in ((BEAM, 1.0), (CHASSIS, -1.0))
-        ]
+        on_beam = Load(BEAM, MIDDLE, BAR, np.zeros(3), -forward, self.points[MIDDLE])
+        return [on_beam, replace(on_beam, part=CHASSIS, moment=forward)]
 
 
 def _upright_frames(way: Array) -> Array:
@@ -143,30 +156,3 @@ def _upright_frames(way: Array) -> Array:
     level = cross(along, np.broadcast_to(UP, along.shape))
     level /= np.linalg.norm(level, axis=-1, keepdims=True)
     return np.stack([along, level, cross(along, level)], axis=-1)
-
-
-def _points(axle: RigidAxle, center: Array, turned: Array) -> dict[str, Array]:
-    """Return all points where the centre of mass of the beam is at some place, and how it turned.
-
-    Parameters
-    ----------
-    axle : RigidAxle
-    center : ndarray, shape (n, 3)
-    turned : ndarray, shape (n, 3, 3)
-    """
-    still, moved = {}, {MIDDLE: axle.center}
-    for name, (inner, outer) in axle.ends().items():
-        still[f"{name}_{CHASSIS}"], moved[f"{name}_axle"] = inner, outer
-    for side in SIDES:
-        for name, point in axle.points(side).items():
-            (still if name.endswith("_top") else moved)[f"{name}_{side}"] = point
-        moved[f"{CENTER}_{side}"] = axle.center + SENSE[side] * axle.half_track * _LEFTWARD
-    begin = axle.bodies.beam.centre_of_mass(axle.hardpoints)
-    points = {name: np.broadcast_to(point, center.shape) for name, point in still.items()}
-    points |= {name: center + turned @ (point - begin) for name, point in moved.items()}
-    radius = axle.tyre_radius()
-    if radius is not None:
-        for side in SIDES:
-            axis = turned @ axle.wheel.spin_axis(SENSE[side])
-            points[f"{CONTACT}_{side}"] = lowest_point(points[f"{CENTER}_{side}"], axis, radius)
-    return points

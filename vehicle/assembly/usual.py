@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 USUAL_TRAVEL = 0.080  # bump and rebound of a passenger car [m]
 USUAL_RACK = 0.060  # to either side [m]
 # By default a sweep keeps clear of the ends of the motion by this part of them.
-_CLEARANCE = 0.02
+CLEARANCE = 0.02
 _MOST_POINTS = 100_000
 
 
@@ -94,7 +94,7 @@ def usual_travel(
     if rebound is None or bump is None:
         reach = travel_range(model, rack)
         design = design_height(model)
-        down, up = ((1.0 - _CLEARANCE) * abs(height - design) for height in reach.height)
+        down, up = ((1.0 - CLEARANCE) * abs(height - design) for height in reach.height)
         rebound = min(USUAL_TRAVEL, down) if rebound is None else rebound
         bump = min(USUAL_TRAVEL, up) if bump is None else bump
     return grid(-rebound, bump, step)

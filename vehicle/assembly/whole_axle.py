@@ -1,6 +1,5 @@
 """An axle without sides, such as a rigid axle, as an assembly: the members that all share."""
 
-from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from importlib import import_module
 from typing import Any, ClassVar, Literal
@@ -23,19 +22,19 @@ from .assembly import Assembly, Bushings
 from .axle import motions_of_two
 from .held import RestConditions
 from .load import Load
-from .motions import MOTIONS, USUAL_ROLL, USUAL_ROLL_STEP
+from .measures.measure import Measure
+from .motions import MOST_ROLL, MOTIONS, USUAL_ROLL, USUAL_ROLL_STEP
 from .part_poses import PartPoses
 from .rest import settled
 from .rig import RigPosition, SweepRange
-from .usual import USUAL_TRAVEL, grid
+from .soft_lines import SoftLines, lines_of_beam
+from .usual import CLEARANCE, USUAL_TRAVEL, grid
 from .wheel_names import WheelNames
+from .whole_axle_kinematics import WholeAxleKinematics
 from .whole_axle_parts import WholeAxleParts
 
 # What each wheel travels per metre of what varies; in roll it is the half track times the sine.
 _SHARES = {"bump": (1.0, 1.0), "left": (1.0, 0.0), "right": (0.0, 1.0)}
-_MOST_ROLL = np.pi / 4.0
-# By default a sweep keeps clear of the ends of the motion by this part of them.
-_CLEARANCE = 0.02
 # So far both wheels are moved when its reach is looked for [m].
 _FAR = 0.4
 _NO_REST = (
@@ -59,10 +58,17 @@ class WholeAxleAssembly(Assembly):
     ----------
     AXLE, MODEL : type
         What it is made of: the data of a file, and their equations.
+    PARTS, KINEMATICS : type
+        Its parts, and how they move first.
+    MEASURES : tuple of Measure
+        Its characteristics, the same over all motions.
     """
 
     AXLE: ClassVar[type[WholeAxle]]
     MODEL: ClassVar[type[WholeAxleModel]]
+    PARTS: ClassVar[type[WholeAxleParts]]
+    KINEMATICS: ClassVar[type[WholeAxleKinematics]] = WholeAxleKinematics
+    MEASURES: ClassVar[tuple[Measure, ...]]
     wheels = SIDES
     motions = motions_of_two(MOTIONS)
     BAR_SIGN = "positive with the left wheel up"
@@ -116,7 +122,7 @@ class WholeAxleAssembly(Assembly):
         if motion == "roll":
             with Validator("roll") as given:
                 amount = 0.0 if far.roll is None else far.roll
-                given.number("roll", amount, "rad", least=0.0, below=_MOST_ROLL)
+                given.number("roll", amount, "rad", least=0.0, below=MOST_ROLL)
             most = self._ends(motion, USUAL_ROLL) if far.roll is None else [-amount, amount]
             both = min(-most[0], most[1])
             return grid(-both, both, USUAL_ROLL_STEP)
@@ -135,7 +141,7 @@ class WholeAxleAssembly(Assembly):
         for value in (-most, most):
             left, right = self._travels(motion, np.array(value))
             part = self.model.farthest(float(left), float(right))
-            ends.append(value if part == 1.0 else (1.0 - _CLEARANCE) * part * value)
+            ends.append(value if part == 1.0 else (1.0 - CLEARANCE) * part * value)
         return ends
 
     def _travels(self, motion: str, along: Array) -> tuple[Array, Array]:
@@ -151,7 +157,7 @@ class WholeAxleAssembly(Assembly):
     ) -> RigPosition:
         """Return where the wheels are along a motion."""
         del travel, rack
-        if motion == "roll" and np.abs(along).max(initial=0.0) >= _MOST_ROLL:
+        if motion == "roll" and np.abs(along).max(initial=0.0) >= MOST_ROLL:
             worst = np.degrees(np.abs(along).max())
             message = f"roll of {worst:.4g} deg: less than 45 deg is needed; Python's unit is rad."
             raise PositionError(message)
@@ -199,14 +205,27 @@ class WholeAxleAssembly(Assembly):
         found: tuple[str, ...] = self.axle.joint_names
         return found
 
-    @abstractmethod
-    def parts(self, states: Array, inputs: Array | None = None) -> WholeAxleParts:
-        """Return its parts in states of its equations."""
+    def measures(self, motion: str) -> tuple[Measure, ...]:
+        """Return its characteristics, the same over all motions."""
+        del motion
+        return self.MEASURES
+
+    def kinematics(self, position: RigPosition) -> WholeAxleKinematics:
+        """Return how the axle is and how it moves first."""
+        self.require_rigid_motion()
+        return self.KINEMATICS(self._at(position))
 
     def poses(self, position: RigPosition) -> dict[str, PartPoses]:
         """Return its parts with rigid joints."""
+        return {"": self._at(position)}
+
+    def _at(self, position: RigPosition) -> WholeAxleParts:
         left, right = (position.travels[side] for side in SIDES)
-        return {"": self.parts(self.model.states_at(left, right))}
+        return self.PARTS.of(self.model, self.model.states_at(left, right))
+
+    def soft_lines(self, poses: Mapping[str, Any]) -> dict[str, SoftLines]:
+        """Return how springs and stops deflect."""
+        return {"": lines_of_beam(self.KINEMATICS(poses[""]))}
 
     @property
     def design_wheel_coordinates(self) -> Array:
@@ -230,7 +249,7 @@ class WholeAxleAssembly(Assembly):
         return {"": self._parts(coordinates)}
 
     def _parts(self, travels: Array) -> WholeAxleParts:
-        return self.parts(self.model.placed(*travels.T))
+        return self.PARTS.of(self.model, self.model.placed(*travels.T))
 
     def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
         """Return where it and its dampers reach, with springs and dampers upright."""
@@ -268,12 +287,20 @@ class WholeAxleAssembly(Assembly):
         """Return what acts on its parts, and the couple of the anti-roll bar."""
         return {"": poses[""].acting()}
 
+    def bar_loads(self, poses: Mapping[str, Any]) -> dict[str, list[Load]]:
+        """Return the couples of a unit torque of the bar, or of the beam."""
+        return {"": poses[""].by_torque()} if poses[""].rate_of_twist else {}
+
+    def bar_twist(self, poses: Mapping[str, Any]) -> dict[str, Array]:
+        """Return how far the bar, or the beam, is twisted, (n,) [rad]."""
+        return {"": poses[""].twist}
+
     def in_motion(
         self, states: Array, inputs: Array
     ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
         """Return its parts in some states, and the rates of these."""
         rates = self.model.evaluate("rhs", states, inputs)
-        return {"": self.parts(states, inputs)}, {"": rates}
+        return {"": self.PARTS.of(self.model, states, inputs)}, {"": rates}
 
     def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
         """Return bushes as a caller describes them, or those of the file."""

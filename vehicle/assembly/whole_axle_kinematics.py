@@ -1,41 +1,60 @@
-"""An axle that one file describes, at many positions: how its wheels are, and what springs do.
+"""An axle that one file describes, at many positions: how its wheels move first, and its springs.
+
+Motions are those of the two coordinates that move the wheels up and down, or of both wheels:
+``heave``, both rise by a metre; ``roll``, the left one rises by a metre and the right one falls;
+``left`` and ``right``, one of them rises by a metre and the other one keeps its height.
 
 Lengths of springs, and their forces, are differentiated by the equations themselves: velocities at
-unit rates of the two coordinates that move the wheels up and down are first derivatives, and the
-derivatives of these are second ones.
+unit rates of the coordinates are first derivatives, and the derivatives of these are second ones.
 """
 
-from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from ..corner.corner import Array, Vehicle
+from ...core.vectors import cross
+from ..corner.corner import Array, CarrierMotion, RoadWheel, Vehicle
 from ..input.spring_table import rate_at
-from ..input.units import in_metres
-from ..models.sides import LEFT, RIGHT, SIDES
-from ..models.whole_axle import WholeAxle, of_side
+from ..models.sides import SIDES
+from ..models.whole_axle import of_side
 from ..models.whole_axle_model import WholeAxleModel
-from .wheel import lowest_point, lowest_point_rate
+from .part_poses import CENTER, CONTACT
+from .wheel import lowest_point_rate
+from .wheel_centre_line import inclination_rate
+from .whole_axle_parts import WholeAxleParts
 
-SENSE = {LEFT: 1.0, RIGHT: -1.0}
-"""Where a wheel is along the axle, in half tracks to the left."""
+_WHEELS = {"heave": (1.0, 1.0), "roll": (1.0, -1.0), "left": (1.0, 0.0), "right": (0.0, 1.0)}
 
 
 @dataclass(frozen=True)
-class WholeAxleKinematics(ABC):
+class TravellingWheel(RoadWheel):
+    """A wheel, and how its carrier moves where both wheels rise by a metre.
+
+    Attributes
+    ----------
+    travel : CarrierMotion
+    """
+
+    travel: CarrierMotion
+
+
+@dataclass(frozen=True)
+class WholeAxleKinematics:
     """Such an axle at rest in many positions, of shape (n,).
 
     Attributes
     ----------
-    model : WholeAxleModel
-    states : ndarray, shape (n, states)
+    parts : WholeAxleParts
     """
 
-    model: WholeAxleModel
-    states: Array
+    parts: WholeAxleParts
+
+    @property
+    def model(self) -> WholeAxleModel:
+        """Its equations."""
+        return self.parts.model
 
     @property
     def axle(self) -> Any:
@@ -48,14 +67,26 @@ class WholeAxleKinematics(ABC):
         found: str = self.axle.end
         return found
 
-    @cached_property
+    @property
     def vehicles(self) -> tuple[Vehicle, ...]:
         """What the vehicle adds, the left wheel first."""
-        return tuple(vehicle_of(self.axle, side) for side in SIDES)
+        return tuple(wheel.vehicle for wheel in self.parts.wheels.values())
 
-    @abstractmethod
+    @cached_property
+    def corners(self) -> dict[str, TravellingWheel]:
+        """Both wheels, each with its motion in parallel travel."""
+        return {
+            side: TravellingWheel(**vars(wheel), travel=self.motion(side, "heave"))
+            for side, wheel in zip(SIDES, self.parts.wheels.values(), strict=True)
+        }
+
     def wheel_center(self, side: str) -> Array:
         """Return the centre of a wheel [m], (n, 3)."""
+        return self.parts.points[f"{CENTER}_{side}"]
+
+    def contact(self, side: str) -> Array:
+        """Return the lowest point of a wheel as a thin disc [m], (n, 3)."""
+        return self.parts.points[f"{CONTACT}_{side}"]
 
     @property
     def heave(self) -> Array:
@@ -64,44 +95,141 @@ class WholeAxleKinematics(ABC):
         height: Array = 0.5 * sum(heights) - self.axle.center[2]
         return height
 
-    @abstractmethod
-    def _spin_axis(self, side: str) -> Array:
-        """Return the spin axis of a wheel, which points left, (n, 3)."""
+    # -- how it moves by its coordinates ---------------------------------------------------------
 
-    @abstractmethod
-    def carrier_turning(self, side: str, by: str) -> Array:
+    @cached_property
+    def _twists(self) -> dict[str, Array]:
+        """Angular velocities and velocities at a unit rate of each coordinate, by part."""
+        return self.parts.twists()
+
+    def turning(self, side: str, by: str) -> Array:
         """Return the angular velocity of what carries a wheel per unit of a coordinate, (n, 3)."""
+        twist = self._twists[self.parts.carrier(side)]
+        return twist[:, self.model.COORDINATES.index(by), :3]
 
-    @abstractmethod
-    def center_velocity(self, side: str, by: str) -> Array:
-        """Return the velocity of the centre of a wheel per unit of a coordinate, (n, 3)."""
+    def velocity(self, side: str, place: Array, by: str) -> Array:
+        """Return the velocity of a place fixed to what carries a wheel per unit of a coordinate.
 
-    def contact(self, side: str) -> Array:
-        """Return the lowest point of a wheel as a thin disc [m], (n, 3)."""
-        radius = self.axle.tyre_radius()
-        assert radius is not None
-        return lowest_point(self.wheel_center(side), self._spin_axis(side), radius)
+        Parameters
+        ----------
+        side : str
+        place : ndarray, shape (n, 3)
+            [m].
+        by : str
+            The coordinate.
+        """
+        part = self.parts.carrier(side)
+        twist = self._twists[part][:, self.model.COORDINATES.index(by)]
+        return twist[:, 3:] + cross(twist[:, :3], place - self.parts.centers[part])
 
     def contact_rate(self, side: str, by: str) -> Array:
-        """Return how fast this point goes per unit of a coordinate, (n, 3)."""
-        radius = self.axle.tyre_radius()
+        """Return how fast the lowest point of a wheel goes per unit of a coordinate, (n, 3)."""
+        (radius,) = {vehicle.tyre_radius for vehicle in self.vehicles}
         assert radius is not None
-        velocity = self.center_velocity(side, by)
-        turning = self.carrier_turning(side, by)
-        return lowest_point_rate(velocity, self._spin_axis(side), turning, radius)
+        velocity = self.velocity(side, self.wheel_center(side), by)
+        axis = self.parts.wheel_axis(side)
+        return lowest_point_rate(velocity, axis, self.turning(side, by), radius)
+
+    # -- how it moves in motions of both wheels ---------------------------------------------------
+
+    @cached_property
+    def heights(self) -> Array:
+        """The derivatives of both heights by both coordinates, (n, 2, 2) [m/rad]."""
+        names = self.model.COORDINATES
+        rows = [[self.velocity(s, self.wheel_center(s), by)[:, 2] for by in names] for s in SIDES]
+        return np.moveaxis(np.array(rows), -1, 0)
+
+    @cached_property
+    def _of_motions(self) -> dict[str, Array]:
+        """Rates of both coordinates in each motion of the wheels, (n, 2) [rad/m]."""
+        return {
+            how: np.linalg.solve(self.heights, np.array(rise)[:, None])[..., 0]
+            for how, rise in _WHEELS.items()
+        }
+
+    def _in_motion(self, how: str, by_coordinate: list[Array]) -> Array:
+        """Return what is in a motion, (n, 3), of what is per unit of each coordinate."""
+        first, second = (
+            rate[:, None] * part
+            for rate, part in zip(self._of_motions[how].T, by_coordinate, strict=True)
+        )
+        found: Array = first + second
+        return found
+
+    def motion(self, side: str, how: str) -> CarrierMotion:
+        """Return how what carries a wheel moves per metre of a motion of both."""
+        names, center = self.model.COORDINATES, self.wheel_center(side)
+        return CarrierMotion(
+            self._in_motion(how, [self.velocity(side, center, by) for by in names]),
+            self._in_motion(how, [self.turning(side, by) for by in names]),
+        )
+
+    def contact_in(self, side: str, how: str) -> Array:
+        """Return how fast the lowest point of a wheel goes per metre of a motion, (n, 3) [1]."""
+        rates = [self.contact_rate(side, by) for by in self.model.COORDINATES]
+        return self._in_motion(how, rates)
+
+    def carried_in(self, side: str, place: Array, how: str) -> Array:
+        """Return the velocity of a place fixed to what carries a wheel per metre of a motion.
+
+        Parameters
+        ----------
+        side : str
+        place : ndarray, shape (n, 3)
+            [m].
+        how : {'heave', 'roll', 'left', 'right'}
+        """
+        motion = self.motion(side, how)
+        velocity: Array = motion.velocity + cross(motion.turning, place - self.wheel_center(side))
+        return velocity
+
+    @cached_property
+    def inclination_rate(self) -> Array:
+        """How fast the line through the wheel centres turns in roll, left end up [rad/m]."""
+        left, right = (self.wheel_center(side) for side in SIDES)
+        up, down = (self.motion(side, "roll").velocity for side in SIDES)
+        return inclination_rate(left - right, up - down)
+
+    @cached_property
+    def rolled(self) -> tuple[Array, Array]:
+        """Travels of both wheels, and lateral motion of both contacts, by a roll of the body.
+
+        The wheel centres move oppositely; (n, 2) each, the left wheel first [m/rad].
+        """
+        by_travel = -self.inclination_rate[:, None]
+        moved = np.stack([self.contact_in(side, "roll")[:, 1] for side in SIDES], -1)
+        return np.array(_WHEELS["roll"]) / by_travel, moved / by_travel
+
+    def path_slope(self, torque_on: str, side: str = "") -> Array:
+        """Return how far forward goes per rise where a longitudinal force acts, v_x / v_z [1].
+
+        That is the contact, fixed to what carries the wheel; the wheel centre if the body holds the
+        torque. Both wheels rise.
+
+        Parameters
+        ----------
+        torque_on : {'body', 'carrier'}
+        side : str, optional
+            By default it is the middle between both.
+        """
+        place = self.wheel_center if torque_on == "body" else self.contact
+        sides = (side,) if side else SIDES
+        velocity = np.mean([self.carried_in(one, place(one), "heave") for one in sides], axis=0)
+        slope: Array = velocity[:, 0] / velocity[:, 2]
+        return slope
 
     # -- its springs ----------------------------------------------------------------------------
 
     @cached_property
     def _signals(self) -> dict[str, Array]:
-        return self.model.signals(self.states)
+        return self.parts.signals()
 
     @cached_property
     def _at_unit_rate(self) -> dict[str, tuple[dict[str, Array], dict[str, Array]]]:
         """Signals at unit rates of both coordinates, and their derivatives by both, (n, 2)."""
         found = {}
         for by in self.model.COORDINATES:
-            states = self.states.copy()
+            states = self.parts.states.copy()
             states[:, self.model.state_names.index(f"{by}_rate")] = 1.0
             slopes = self.model.evaluate("signals_jacobian", states)[..., :2]
             by_name = dict(zip(self.model.signal_names, np.moveaxis(slopes, -2, 0), strict=True))
@@ -112,10 +240,10 @@ class WholeAxleKinematics(ABC):
         """Return a signal of the equations at rest."""
         return self._signals[name]
 
-    def compression(self, part: str, by: str) -> Array:
-        """Return how a spring or a damper is compressed per unit of a coordinate."""
-        signals, _ = self._at_unit_rate[by]
-        return -signals[f"{part}_velocity"]
+    def compression_in(self, part: str, how: str) -> Array:
+        """Return how a spring or a damper is compressed per metre of a motion [1]."""
+        compressed: Array = -(self.growth(part) * self._of_motions[how]).sum(-1)
+        return compressed
 
     @cached_property
     def of_springs(self) -> tuple[Array, Array]:
@@ -124,15 +252,50 @@ class WholeAxleKinematics(ABC):
         work, slopes = zip(*forces, strict=True)
         return np.sum(work, axis=0), np.sum(slopes, axis=0)
 
-    @property
-    @abstractmethod
-    def bar(self) -> Array:
-        """The stiffness of what couples the wheels, (n, 2, 2) [N/m], the left one first."""
+    @cached_property
+    def of_bar(self) -> tuple[Array, Array]:
+        """The same of the anti-roll bar, or of a beam, which resists the second coordinate."""
+        rate = self.model.parameters[self.parts.RATE]
+        turned = self.parts.states[:, self.model.state_names.index(self.model.COORDINATES[1])]
+        slopes = np.broadcast_to(np.diag([0.0, -rate]), (turned.size, 2, 2))
+        return np.stack([np.zeros_like(turned), -rate * turned], -1), slopes
 
-    @property
-    @abstractmethod
+    def wheel_force(self, side: str) -> Array:
+        """Return the vertical force at a wheel that springs, stops and bar take [N]."""
+        return self._at_wheels(self.of_springs[0] + self.of_bar[0])[:, SIDES.index(side)]
+
+    def _at_wheels(self, work: Array) -> Array:
+        """Return vertical forces at the wheel centres that hold some generalised ones, (n, 2)."""
+        forces = np.linalg.solve(self.heights.mT, work[..., None])
+        return np.asarray(-forces[..., 0], dtype=float)
+
+    @cached_property
     def springs(self) -> Array:
         """The stiffness of springs and stops at both wheels, (n, 2, 2) [N/m]."""
+        return self._stiffness(*self.of_springs)
+
+    @cached_property
+    def bar(self) -> Array:
+        """The stiffness of the anti-roll bar, or of a beam, at both wheels, (n, 2, 2) [N/m]."""
+        return self._stiffness(*self.of_bar)
+
+    def _stiffness(self, work: Array, slopes: Array) -> Array:
+        """Return the derivatives of both wheels' forces by both travels, left first [N/m].
+
+        Vertical forces F through the wheel centres do the same virtual work as springs and bar:
+        with the heights z and the coordinates q, ``Q + J' F = 0`` and ``J = dz/dq``, so that
+        ``J' dF/dz J = -dQ/dq - F d2z/dq2``.
+        """
+        forces, rows = self._at_wheels(work), []
+        for by in self.model.COORDINATES:
+            changes = self._at_unit_rate[by][1]
+            bend = (changes[f"{side}_axle_wheel_velocity"] for side in SIDES)
+            rows.append(
+                sum(force[:, None] * own for force, own in zip(forces.T, bend, strict=True))
+            )
+        inverse = np.linalg.inv(self.heights)
+        stiffness: Array = -inverse.mT @ (slopes + np.stack(rows, -2)) @ inverse
+        return stiffness
 
     def growth(self, path: str) -> Array:
         """Return how the length of a spring or a damper grows by both coordinates, (n, 2)."""
@@ -160,27 +323,6 @@ class WholeAxleKinematics(ABC):
         work = acting[:, None] * growth
         slopes_of_work = growth[..., :, None] * changes[..., None, :]
         return work, slopes_of_work + acting[:, None, None] * np.stack(bends, -2)
-
-
-def vehicle_of(axle: WholeAxle, side: str) -> Vehicle:
-    """Return what the vehicle adds to a wheel, in SI units."""
-    tyre, given = axle.tyre, axle.vehicle
-    lengths = given.wheelbase_mm, given.center_of_gravity_height_mm
-    wheelbase, height = (None if n is None else in_metres(n, "mm") for n in lengths)
-    front = axle.end == "front"
-    return Vehicle(
-        side=SENSE[side],
-        tyre_radius=axle.tyre_radius(),
-        tyre_rate=tyre.rate_N_per_m,
-        tyre_lateral_rate=tyre.lateral_rate_N_per_m,
-        tyre_longitudinal_rate=tyre.longitudinal_rate_N_per_m,
-        wheelbase=wheelbase,
-        center_of_gravity_height=height,
-        front_brake_share=given.front_brake_share,
-        front=True if front else None,
-        rear=None if front else True,
-        steered=None,
-    )
 
 
 _SPRINGS = tuple(

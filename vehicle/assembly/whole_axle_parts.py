@@ -6,9 +6,9 @@ other axles do.
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,14 +17,14 @@ from ...systems.allowed import LengthLimit
 from ..corner.corner import UP, RoadWheel
 from ..corner.structure import LineForce, Structure
 from ..corner.wheel_loads import UNITS
-from ..models.sides import SIDES
+from ..models.sides import SENSE, SIDES
 from ..models.whole_axle import of_side
 from ..models.whole_axle_model import WholeAxleModel
+from .corner_kinematics import vehicle
 from .load import Load, known
 from .mass import PartMass
-from .part_poses import CENTER, forces_along
-from .wheel import upward_across
-from .whole_axle_kinematics import SENSE, vehicle_of
+from .part_poses import CENTER, CONTACT, forces_along
+from .wheel import lowest_point, upward_across
 
 Array = NDArray[np.float64]
 
@@ -49,6 +49,8 @@ class WholeAxleParts(ABC):
         What begins the names of the parameters of parts with mass, by part.
     MASSIVE : mapping of str to str
         What they are called in the equations.
+    RATE : str
+        The parameter that is the rate of what couples both wheels, by the second coordinate.
     """
 
     model: WholeAxleModel
@@ -60,6 +62,53 @@ class WholeAxleParts(ABC):
 
     PARAMETERS: ClassVar[Mapping[str, str]]
     MASSIVE: ClassVar[Mapping[str, str]]
+    RATE: ClassVar[str]
+
+    @classmethod
+    def of(cls, model: Any, states: Array, inputs: Array | None = None) -> Self:
+        """Return the parts in some states, by default without any input."""
+        if inputs is None:
+            inputs = np.zeros((len(states), len(model.input_names)))
+        bodies = cls.bodies(model.axle)
+        rows = [model.equations.BODIES.index(body) for body in bodies.values()]
+        places = np.moveaxis(model.evaluate("positions", states, inputs)[:, rows], 1, 0)
+        turns = np.moveaxis(model.evaluate("orientations", states, inputs)[:, rows], 1, 0)
+        centers, turned = (dict(zip(bodies, found, strict=True)) for found in (places, turns))
+        points = cls.placed(model.axle, centers, turned)
+        return cls(model, states, inputs, centers, turned, points)
+
+    @classmethod
+    def bodies(cls, axle: Any) -> Mapping[str, str]:
+        """Return what the parts that the equations have are called there."""
+        del axle
+        return cls.MASSIVE
+
+    @classmethod
+    @abstractmethod
+    def placed(
+        cls, axle: Any, centers: Mapping[str, Array], turned: Mapping[str, Array]
+    ) -> dict[str, Array]:
+        """Return all points where the parts are at some places, and turned so, (n, 3) [m]."""
+
+    @staticmethod
+    def contacts(
+        axle: Any, centers: Mapping[str, Array], turned: Mapping[str, Array]
+    ) -> dict[str, Array]:
+        """Return the lowest points of both wheels, if their radius is known, (n, 3) [m].
+
+        Parameters
+        ----------
+        axle : WholeAxle
+        centers, turned : mapping of str to ndarray
+            Of each wheel by its side: its centre [m], and the rotation of what carries it.
+        """
+        radius = axle.tyre_radius()
+        if radius is None:
+            return {}
+        axes = {side: turned[side] @ axle.wheel.spin_axis(SENSE[side]) for side in SIDES}
+        return {
+            f"{CONTACT}_{side}": lowest_point(centers[side], axes[side], radius) for side in SIDES
+        }
 
     @property
     def axle(self) -> Any:
@@ -72,10 +121,17 @@ class WholeAxleParts(ABC):
         found: Structure = self.axle.structure()
         return found
 
-    @property
-    @abstractmethod
+    @cached_property
     def design(self) -> dict[str, Array]:
         """The points at design, (3,) [m]."""
+        centers = {part: center[None] for part, center in self.design_centers(self.axle).items()}
+        turned = dict.fromkeys(centers, np.eye(3)[None])
+        return {name: at[0] for name, at in self.placed(self.axle, centers, turned).items()}
+
+    @classmethod
+    @abstractmethod
+    def design_centers(cls, axle: Any) -> dict[str, Array]:
+        """Return the centres of mass of what carries the wheels at design, (3,) [m]."""
 
     @abstractmethod
     def carrier(self, side: str) -> str:
@@ -86,7 +142,7 @@ class WholeAxleParts(ABC):
         """Both wheels, the left one first, by their parts."""
         return {
             f"wheel_{side}": RoadWheel(
-                vehicle_of(self.axle, side),
+                vehicle(self.axle, SENSE[side], self.axle.end),
                 self.points[f"{CENTER}_{side}"],
                 self.design[f"{CENTER}_{side}"],
                 SENSE[side] * self.wheel_axis(side),
@@ -186,9 +242,30 @@ class WholeAxleParts(ABC):
 
     # -- what acts ------------------------------------------------------------------------------
 
+    @property
+    @abstractmethod
+    def twist(self) -> Array:
+        """The twist of what couples both wheels, positive with the left one up, (n,) [rad]."""
+
+    @property
+    @abstractmethod
+    def rate_of_twist(self) -> float:
+        """Its torque by the twist [N m/rad]; zero without one."""
+
+    @property
+    def torque(self) -> Array:
+        """Its torque, positive as the twist, (n,) [N m]."""
+        return self.rate_of_twist * self.twist
+
+    @abstractmethod
+    def by_torque(self) -> list[Load]:
+        """Return what a unit torque of it does to the parts: against its twist."""
+
     def acting(self) -> list[Load]:
         """Return the forces that need no input: weights, springs, dampers, stops, the bar."""
-        return [*known(self), *self._of_bar()]
+        of_bar = self.by_torque() if self.rate_of_twist else []
+        torque = self.torque[:, None]
+        return [*known(self), *(replace(one, moment=torque * one.moment) for one in of_bar)]
 
     def weights(self) -> dict[str, Array]:
         """Return the weight of each part that has a mass, (3,) [N]."""
@@ -198,7 +275,3 @@ class WholeAxleParts(ABC):
     def forces_along_lines(self) -> dict[str, Array]:
         """Return the force of each spring and damper, positive when it pushes, (n,) [N]."""
         return forces_along(self.structure, self.model, self.states, self.inputs)
-
-    @abstractmethod
-    def _of_bar(self) -> list[Load]:
-        """Return the loads of what couples both wheels."""

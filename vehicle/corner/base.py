@@ -18,7 +18,6 @@ from typing import Any, ClassVar, Self, TypeVar, get_args
 
 from pydantic import Field, ValidationError
 
-from ...core.columns import number
 from ...core.errors import InputError
 from ...core.suggestions import suggestion
 from ...core.validator import Validator
@@ -33,14 +32,11 @@ from ..data.starter import (
     whole_axles,
 )
 from ..input.bodies import Bodies
-from ..input.damper import NO_CURVE, Damper
-from ..input.described import DescribedSection, check_keys
+from ..input.described import check_keys
 from ..input.hardpoints import Hardpoints
 from ..input.messages import messages_of
 from ..input.places import reverse
-from ..input.spring import rate_key
-from ..input.stop import NO_STOP, StopSection
-from ..input.units import in_metres
+from ..input.stop import StopSection
 from ..input.vehicle import GravitySection, Steering, TyreSection, VehicleSection, WheelSection
 from .bushes import Bush, Bushings, bushes_of, mirrored_bushings, softness_of_rack
 from .corner import Array, CarrierMotion, Plane, SpringForce, Stroke
@@ -49,7 +45,7 @@ from .facts import Extended, Names
 from .geometry import geometry_problems
 from .strokes import Strokes
 from .structure import Structure
-from .wheel_loads import needed_radius
+from .wheeled import WheeledSection
 
 # The top-level key that says which suspension a file describes.
 KIND = "suspension"
@@ -59,11 +55,8 @@ _AN_AXLE = (
     "it names as `side`, `right` or `left`."
 )
 
-# A wheel centre lower than this above z = 0 says that z = 0 is not the ground, in m.
-_SMALLEST_WHEEL_RADIUS = 0.1
 
-
-class Suspension(DescribedSection):
+class Suspension(WheeledSection):
     """A suspension at its design position. Immutable.
 
     Make one with `load`, `from_dict` or `with_changes`: they return the kind that the data name
@@ -220,31 +213,6 @@ class Suspension(DescribedSection):
         """The body that carries the wheel."""
         return self.hardpoints.CARRIERS["wheel_center"]
 
-    def tyre_radius(self) -> float | None:
-        """Return the radius of the wheel as a thin disc.
-
-        Returns
-        -------
-        float or None
-            ``tyre.radius_mm`` in m where it is given. Otherwise the height of the wheel centre at
-            design above z = 0, which is the ground in files that follow the conventions; None where
-            that is less than 100 mm, as no car has such wheels.
-        """
-        if self.tyre.radius_mm is not None:
-            return in_metres(self.tyre.radius_mm, "mm")
-        height: float = number(self.hardpoints.metres("wheel_center")[2])
-        return height if height >= _SMALLEST_WHEEL_RADIUS else None
-
-    def wheel_load_parameters(self) -> dict[str, float]:
-        """Return the additional parameters of equations with wheel loads as inputs [m].
-
-        Raises
-        ------
-        InputError
-            If the radius of the wheel is not known.
-        """
-        return {"tyre_radius": needed_radius(self.tyre_radius())}
-
     def mirrored(self) -> Self:
         """Return the same suspension on the other side of the vehicle.
 
@@ -376,10 +344,6 @@ class Suspension(DescribedSection):
         """
         return {}
 
-    def rate_key(self, part: str) -> str:
-        """Return where the rate of a part, "spring" or "damper", is in the file."""
-        return rate_key(part, getattr(self, "spring", None))
-
     @abstractmethod
     def parameters(self) -> dict[str, float]:
         """Return everything that the equations of motion need, in SI units.
@@ -431,24 +395,6 @@ class Suspension(DescribedSection):
             "[tyre] lifts_off": self.tyre.lifts_off,
         }
         return [name for name, is_present in present.items() if is_present]
-
-    def parameters_of_extras(self, length: float, curve: Damper | None) -> dict[str, float]:
-        """Return parameters of the complete equations only, without friction, in SI units.
-
-        Parameters
-        ----------
-        length : float
-            Of what the stops limit, at the design position [m].
-        curve : Damper or None
-            That of the damper, where it has one.
-        """
-        values = dict(NO_CURVE) if curve is None else curve.parameters()
-        for side, stop in (("bump", self.bump_stop), ("rebound", self.rebound_stop)):
-            values |= (stop or NO_STOP).parameters(side, length)
-        return values | {
-            "tyre_damper_rate": self.tyre.damper_rate_N_s_per_m,
-            "tyre_lifts_off": float(self.tyre.lifts_off),
-        }
 
     @classmethod
     def further_problems(cls, sections: Mapping[str, Any]) -> list[str]:

@@ -3,3 +3,6 @@
 LEFT, RIGHT = "left", "right"
 SIDES = (LEFT, RIGHT)
 """In the order of every dimension ``wheel``."""
+
+SENSE = {LEFT: 1.0, RIGHT: -1.0}
+"""Where a wheel is across the vehicle, in half tracks to the left."""

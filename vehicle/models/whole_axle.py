@@ -17,25 +17,17 @@ from ...systems.allowed import LengthLimit
 from ..corner.bushes import Bush
 from ..corner.corner import Array
 from ..corner.structure import Structure
-from ..corner.wheel_loads import needed_radius
+from ..corner.wheeled import WheeledSection
 from ..data import data_sets
 from ..data.starter import WHOLE_AXLES, words_of
-from ..input.damper import NO_CURVE
-from ..input.described import DescribedSection, check_keys
+from ..input.described import check_keys
 from ..input.messages import messages_of
-from ..input.spring import rate_key
-from ..input.stop import NO_STOP
-from ..input.units import in_metres
 from .plausibility import Plausibility, beyond_the_table, unusual_alignment
 from .sides import LEFT, RIGHT, SIDES
 
 if TYPE_CHECKING:
-    from ..corner.bushes import Bushings
     from ..corner.coil_sprung import ApartDamper
-    from ..input.hardpoints import Hardpoints
     from ..input.spring import SpringSection
-    from ..input.stop import StopSection
-    from ..input.vehicle import GravitySection, TyreSection, WheelSection
     from .axle.file import Brakes, End
     from .whole_axle_file import AxleDrive, WholeAxleVehicle
 
@@ -43,12 +35,10 @@ if TYPE_CHECKING:
 _SMALLEST_HALF_TRACK = 0.1
 # Two ends of a spring or a damper are farther apart than this [m].
 SHORTEST = 0.001
-# A wheel centre lower than this above z = 0 says that z = 0 is not the ground [m].
-_SMALLEST_WHEEL_RADIUS = 0.1
 _MIRROR = np.array([1.0, -1.0, 1.0])
 
 
-class WholeAxle(DescribedSection):
+class WholeAxle(WheeledSection):
     """An axle with both wheels, at its design position, as one file describes it. Immutable.
 
     Make one with `load`, `from_dict` or `with_changes`. The attributes are the sections of the
@@ -82,17 +72,10 @@ class WholeAxle(DescribedSection):
     if TYPE_CHECKING:
         # sections that every class has, in places of its own
         vehicle: WholeAxleVehicle
-        hardpoints: Hardpoints
-        wheel: WheelSection
         spring: SpringSection
         damper: ApartDamper
-        bump_stop: StopSection | None
-        rebound_stop: StopSection | None
-        tyre: TyreSection
-        gravity: GravitySection
         brakes: Brakes
         drive: AxleDrive | None
-        bushings: Bushings | None
 
     def __init__(self, /, **data: Any) -> None:
         try:
@@ -205,16 +188,6 @@ class WholeAxle(DescribedSection):
             Label, colour, width and the points of each line, (n, 3) [m].
         """
 
-    def tyre_radius(self) -> float | None:
-        """Return the radius of a wheel as a thin disc [m]; None where nothing says it.
-
-        ``tyre.radius_mm`` where it is given, otherwise the height of the wheel centre above z = 0.
-        """
-        if self.tyre.radius_mm is not None:
-            return in_metres(self.tyre.radius_mm, "mm")
-        height = float(self.center[2])
-        return height if height >= _SMALLEST_WHEEL_RADIUS else None
-
     @abstractmethod
     def structure(self) -> Structure:
         """Return the structure that connects its parts."""
@@ -245,16 +218,6 @@ class WholeAxle(DescribedSection):
         """Return the parameters of a side, by the names that those of the right one have."""
         return of_side(self.parameters(), side)
 
-    def wheel_load_parameters(self) -> dict[str, float]:
-        """Return what equations need besides that have the loads on the wheels as inputs [m].
-
-        Raises
-        ------
-        InputError
-            If the radius of the wheels is not known.
-        """
-        return {"tyre_radius": needed_radius(self.tyre_radius())}
-
     def length(self, part: str, side: str) -> float:
         """Return the length of a spring or a damper at design [m].
 
@@ -264,10 +227,6 @@ class WholeAxle(DescribedSection):
         side : {'left', 'right'}
         """
         return _length(self.points(side), part)
-
-    def rate_key(self, part: str) -> str:
-        """Return where the rate of the springs or the dampers is, or the springs' curve."""
-        return rate_key(part, self.spring)
 
     def _of_wheels(self, bodies: Mapping[str, float]) -> dict[str, float]:
         """Return the parameters of wheels, springs, dampers, stops and tyres of both sides.
@@ -287,19 +246,14 @@ class WholeAxle(DescribedSection):
         """Return the parameters of spring, damper, stops and tyre of a side, without its name."""
         points, damper = self.points(side), self.damper
         length = _length(points, "damper")
-        curve = dict(NO_CURVE) if damper.curve is None else damper.curve.parameters()
         values = {
             **self.tyre.parameters(),
             **components("spin_axis", self.wheel.spin_axis(sign)),
-            **curve,
-            **(self.bump_stop or NO_STOP).parameters("bump", length),
-            **(self.rebound_stop or NO_STOP).parameters("rebound", length),
+            **self.parameters_of_extras(length, damper.curve),
             **self.spring.parameters(_length(points, "spring"), general=True),
             "damper_rate": damper.rate_N_s_per_m or 0.0,
             "damper_friction": damper.friction_N,
             "damper_friction_speed": damper.friction_velocity_m_per_s,
-            "tyre_damper_rate": self.tyre.damper_rate_N_s_per_m,
-            "tyre_lifts_off": float(self.tyre.lifts_off),
         }
         for name, point in points.items():
             values |= components(name, point)

@@ -31,7 +31,9 @@ from kintrafo.vehicle.analysis.scenario import Scenario, run
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.measures import rigid_axle_rolling as formulas
 from kintrafo.vehicle.assembly.measures.rigid_axle import MEASURES
+from kintrafo.vehicle.assembly.measures.whole_axle import wheel_rate, wheel_rate_alone
 from kintrafo.vehicle.assembly.rigid_axle_kinematics import RigidAxleKinematics
+from kintrafo.vehicle.assembly.rigid_axle_parts import RigidAxleParts
 from rigid_axles import (
     AXLE,
     LEFT,
@@ -52,7 +54,7 @@ PLACES = [(0.0, 0.0), (0.06, 0.0), (-0.05, 0.08), (0.03, -0.1), (-0.08, -0.03)]
 def beam_at(axle: RigidAxle, heave: float, roll: float) -> RigidAxleKinematics:
     """Return an axle in one position."""
     model = RigidAxleModel(axle)
-    return RigidAxleKinematics(model, model.state(heave=heave, roll=roll)[None])
+    return RigidAxleKinematics(RigidAxleParts.of(model, model.state(heave=heave, roll=roll)[None]))
 
 
 # -- where the axle is ----------------------------------------------------------------------------
@@ -65,7 +67,9 @@ def test_the_axle_is_where_a_root_finder_puts_it(axle: RigidAxle) -> None:
         middle, turn = found.pose(heave, roll)
         beam = beam_at(axle, heave, roll)
         # rounding over a condition of some ten
-        np.testing.assert_allclose(beam.center[0], middle, rtol=0.0, atol=2e-13)
+        np.testing.assert_allclose(
+            beam.parts.points["axle_middle"][0], middle, rtol=0.0, atol=2e-13
+        )
         for side, sign in (("left", 1.0), ("right", -1.0)):
             place = middle + turn.apply(sign * axle.half_track * LEFT)
             signals = [beam.signal(f"{side}_axle_wheel_center_{x}")[0] for x in "xyz"]
@@ -84,7 +88,7 @@ def test_first_motions_are_those_of_the_root_finder(axle: RigidAxle) -> None:
         by = slopes(lambda h, r: found.place(point, h, r), at)
         beam = beam_at(axle, *at)
         here = found.place(point, *at)
-        told = np.stack([beam.velocity(here, name)[0] for name in ("heave", "roll")], -1)
+        told = np.stack([beam.velocity("left", here, name)[0] for name in ("heave", "roll")], -1)
         # 1e-12 of the fourth order, and 1e-13 of the positions over the step
         np.testing.assert_allclose(told, by, rtol=0.0, atol=3e-10)
 
@@ -127,14 +131,14 @@ def test_rates_at_the_wheels_are_those_of_the_energy() -> None:
     told = flat(characteristics.over(LOPSIDED, "left", [0.05]))
     assert set(told.sizes) == {"wheel_travel"}
     model = RigidAxleModel(LOPSIDED)
-    beam = RigidAxleKinematics(model, model.states_at(*at)[None])
+    beam = RigidAxleKinematics(RigidAxleParts.of(model, model.states_at(*at)[None]))
     forces = [beam.wheel_force(side)[0] for side in ("left", "right")]
     np.testing.assert_allclose(forces, slopes(energy, at), rtol=0.0, atol=5e-5)
     second = slopes(lambda a, b: slopes(energy, (a, b)), at)
     np.testing.assert_allclose((beam.springs + beam.bar)[0], second, rtol=0.0, atol=1e-2)
-    rates = [formulas.wheel_rate(beam, side)[0] for side in ("left", "right")]
+    rates = [wheel_rate(beam, side)[0] for side in ("left", "right")]
     np.testing.assert_allclose(rates, second.sum(axis=1), rtol=0.0, atol=1e-2)
-    alone = [formulas.wheel_rate_alone(beam, side)[0] for side in ("left", "right")]
+    alone = [wheel_rate_alone(beam, side)[0] for side in ("left", "right")]
     np.testing.assert_allclose(alone, np.diag(second), rtol=0.0, atol=1e-2)
 
 

@@ -23,6 +23,7 @@ from kintrafo import (
 from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.assembly.rig import RigPosition
+from kintrafo.vehicle.assembly.twist_beam import TwistBeamParts
 from listed_loads import wrench
 from scipy.integrate import solve_ivp
 
@@ -93,7 +94,7 @@ def followed(left: float, right: float) -> dict[str, Array]:
     ("left", "right"), [(0.06, 0.06), (0.07, -0.05), (0.0, 0.08), (-0.1, 0.03)]
 )
 def test_positions_are_those_that_the_halves_are_led_to(left: float, right: float) -> None:
-    poses = assembly_of(AXLE).parts(MODEL.states_at(np.array([left]), np.array([right])))
+    poses = TwistBeamParts.of(MODEL, MODEL.states_at(np.array([left]), np.array([right])))
     for side, turned in followed(left, right).items():
         # a hundred steps with a tolerance of 1e-12
         np.testing.assert_allclose(poses.turned[f"arm_{side}"][0], turned, rtol=0.0, atol=1e-9)
@@ -120,7 +121,7 @@ def test_roll_is_the_angle_of_the_line_through_the_wheels() -> None:
     states = MODEL.states_at(
         *(assembly_of(AXLE).position("roll", angles).travels[s] for s in SIDES)
     )
-    centers = assembly_of(AXLE).parts(states).points
+    centers = TwistBeamParts.of(MODEL, states).points
     line = centers["wheel_center_left"] - centers["wheel_center_right"]
     found = -np.arctan2(line[:, 2], np.hypot(line[:, 0], line[:, 1]))
     np.testing.assert_allclose(found, angles, rtol=0.0, atol=1e-14)
@@ -225,7 +226,7 @@ def test_forces_and_rates_are_slopes_of_the_energy() -> None:
 
     kinematics = _at(at)
     rates = kinematics.springs[0] + kinematics.bar[0]
-    np.testing.assert_allclose(kinematics.beam_twist[0], twist(*at), rtol=1e-9)
+    np.testing.assert_allclose(kinematics.parts.twist[0], twist(*at), rtol=1e-9)
     for i, side in enumerate(SIDES):
         unit = np.eye(2)[i]
         slope = sum(w * whole(at + n * step * unit) for n, w in weights.items()) / step

@@ -2,10 +2,11 @@
 
     `measure`      what a measure is, and the values of some
     `quantities`   name, unit, definition and sign of each quantity
-    `corner`, `axle`, `rigid_axle`  the measures of each assembly
+    `corner`, `axle`, `rigid_axle`, `twist_beam`  the measures of each assembly
+    `whole_axle`   what springs do on any axle without sides
     `rolling`      track, roll moment and roll stiffness of two wheels: the formulas
     `axle_rolling` roll centre, jacking and the anti-roll bar of two corners
-    `rigid_axle_rolling` roll centre, jacking and motion ratios of a rigid axle
+    `rigid_axle_rolling` roll centre and jacking of a rigid axle
     `pitching`     anti-dive, anti-lift and anti-squat
     `ackermann`    what compares two wheels that are steered
 

@@ -6,9 +6,9 @@ Each takes an `AxleKinematics` and returns an array over its positions, SI units
 import numpy as np
 
 from ...corner.corner import Array, Corner
-from ...models.sides import LEFT, RIGHT
+from ...models.sides import LEFT, RIGHT, SENSE
 from .. import wheel
-from ..axle_kinematics import SENSE, AxleKinematics
+from ..axle_kinematics import AxleKinematics
 
 
 def track_change(pair: AxleKinematics) -> Array:

@@ -1,16 +1,14 @@
 """The measures of a rigid axle."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
-from ...corner.corner import Array
 from ...models.rigid_axle.model import HEAVE, ROLL
-from ..rigid_axle_kinematics import RigidAxleKinematics
 from . import pitching, rolling
 from . import rigid_axle_rolling as rolls
 from .corner import GROUND, PITCH
 from .measure import Measure, of_axle, of_wheel
 from .quantities import QUANTITIES
+from .whole_axle import SPRINGS, is_at, signal
 
 _ON_AXLE = "contacts with brakes on the axle, wheel centres with inboard ones"
 _IN_AXLE = "contacts with the final drive in the axle, wheel centres with it on the body"
@@ -21,14 +19,6 @@ _JACKING = replace(
     "heave",
     sign="positive when a force to the left lifts the body",
 )
-
-
-def _is(end: str, *, driven: bool = False) -> Callable[[RigidAxleKinematics], bool]:
-    return lambda beam: beam.end == end and (beam.axle.drive is not None or not driven)
-
-
-def _signal(name: str) -> Callable[[RigidAxleKinematics, str], Array]:
-    return lambda beam, side: beam.signal(f"{side}_{name}")
 
 
 GUIDANCE = (
@@ -47,9 +37,9 @@ GUIDANCE = (
         "pinion_angle",
         lambda beam: (1.0 if beam.end == "front" else -1.0) * beam.coordinate("pitch"),
     ),
-    of_wheel("camber", _signal("axle_camber")),
-    of_wheel("toe", _signal("axle_toe")),
-    of_wheel("steer", _signal("axle_steer")),
+    of_wheel("camber", signal("axle_camber")),
+    of_wheel("toe", signal("axle_toe")),
+    of_wheel("steer", signal("axle_steer")),
 )  # fmt: skip
 """Where the axle goes."""
 
@@ -61,62 +51,26 @@ ON_THE_ROAD = (
     ),
     Measure(_JACKING, rolls.jacking, "axle", GROUND),
     of_axle(
-        "anti_dive", pitching.braking, (*PITCH, "front_brake_share"), _is("front"),
+        "anti_dive", pitching.braking, (*PITCH, "front_brake_share"), is_at("front"),
         "b (L / h) v_x / v_z under braking: brake share b, wheelbase L, height h of the gravity "
         f"centre; {_ON_AXLE}",
     ),
     of_axle(
-        "anti_lift_driven", pitching.driving, PITCH, _is("front", driven=True),
+        "anti_lift_driven", pitching.driving, PITCH, is_at("front", driven=True),
         f"d (L / h) v_x / v_z under drive: drive share d; {_IN_AXLE}",
     ),
     of_axle(
-        "anti_lift_braked", pitching.braking, (*PITCH, "front_brake_share"), _is("rear"),
+        "anti_lift_braked", pitching.braking, (*PITCH, "front_brake_share"), is_at("rear"),
         f"-(1 - b) (L / h) v_x / v_z under braking: front brake share b; {_ON_AXLE}",
     ),
     of_axle(
-        "anti_squat", pitching.driving, PITCH, _is("rear", driven=True),
+        "anti_squat", pitching.driving, PITCH, is_at("rear", driven=True),
         f"-d (L / h) v_x / v_z under drive: drive share d; {_IN_AXLE}",
     ),
 )  # fmt: skip
 """What forces of the road do by the axle's paths."""
 
-SPRINGS = (
-    of_wheel(
-        "spring_length", _signal("spring_length"), definition="distance of the spring's seats"
-    ),
-    of_wheel(
-        "damper_length", _signal("damper_length"), definition="distance of the damper's ends"
-    ),
-    of_wheel(
-        "motion_ratio", lambda beam, side: rolls.motion_ratio(beam, "spring", side),
-        definition="compression of the spring per travel of both wheels",
-    ),
-    of_wheel(
-        "roll_motion_ratio",
-        lambda beam, side: rolls.roll_motion_ratio(beam, "spring", side),
-    ),
-    of_wheel(
-        "damper_motion_ratio", lambda beam, side: rolls.motion_ratio(beam, "damper", side),
-        definition="compression of the damper per travel of both wheels",
-    ),
-    of_wheel(
-        "damper_roll_motion_ratio",
-        lambda beam, side: rolls.roll_motion_ratio(beam, "damper", side),
-    ),
-    of_wheel(
-        "wheel_force", lambda beam, side: beam.wheel_force(side),
-        definition="vertical force at the wheel that springs, stops and bar take; no unsprung "
-        "weight",
-    ),
-    of_wheel(
-        "wheel_rate", rolls.wheel_rate,
-        definition="derivative of the wheel force with respect to the travel of both wheels, "
-        "without tyres",
-    ),
-    of_wheel("wheel_rate_alone", rolls.wheel_rate_alone),
-    of_axle("roll_moment", rolling.moment, GROUND),
-    of_axle("roll_moment_gradient", rolling.moment_gradient, GROUND),
-    of_axle("roll_stiffness", rolling.stiffness, GROUND),
+OF_BAR = (
     of_axle(
         "roll_stiffness_bar", rolling.of_bar, GROUND,
         lambda beam: beam.axle.anti_roll_bar is not None,
@@ -125,7 +79,7 @@ SPRINGS = (
         "roll_stiffness_with_tyres", rolling.with_tyres, (*GROUND, "tyre_rate"), rolling.has_tyres
     ),
 )  # fmt: skip
-"""What springs, dampers, stops and the anti-roll bar do."""
+"""What the anti-roll bar does, and the tyres."""
 
-MEASURES = (*GUIDANCE, *ON_THE_ROAD, *SPRINGS)
+MEASURES = (*GUIDANCE, *ON_THE_ROAD, *SPRINGS, *OF_BAR)
 """All of them."""

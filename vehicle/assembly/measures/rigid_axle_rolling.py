@@ -1,4 +1,4 @@
-"""Roll centre, jacking and motion ratios of a rigid axle: the formulas.
+"""Roll centre and jacking of a rigid axle: the formulas.
 
 Each takes a `RigidAxleKinematics` and returns an array over its positions, SI units, chassis axes.
 """
@@ -9,7 +9,7 @@ from ...corner.corner import Array
 from ...models.rigid_axle.model import HEAVE, ROLL
 from ...models.sides import LEFT, RIGHT, SIDES
 from ..rigid_axle_kinematics import RigidAxleKinematics
-from ..whole_axle_kinematics import SENSE
+from .whole_axle import dot
 
 
 def roll_center_height(beam: RigidAxleKinematics) -> Array:
@@ -23,11 +23,11 @@ def roll_center_height(beam: RigidAxleKinematics) -> Array:
     middle, line = 0.5 * (left + right), (left - right)[:, 1:]
     line = line / np.linalg.norm(line, axis=-1, keepdims=True)
     across = np.stack([-line[:, 1], line[:, 0]], -1)
-    roll, heave = (beam.velocity(middle, by)[:, 1:] for by in (ROLL, HEAVE))
-    times = -_dot(across, roll) / _dot(across, heave)
+    roll, heave = (beam.velocity(LEFT, middle, by)[:, 1:] for by in (ROLL, HEAVE))
+    times = -dot(across, roll) / dot(across, heave)
     velocity = roll + times[:, None] * heave
-    turning = beam.turning(ROLL)[:, 0] + times * beam.turning(HEAVE)[:, 0]
-    height: Array = _dot(line, velocity) / turning
+    turning = beam.turning(LEFT, ROLL)[:, 0] + times * beam.turning(LEFT, HEAVE)[:, 0]
+    height: Array = dot(line, velocity) / turning
     return height
 
 
@@ -38,39 +38,6 @@ def jacking(beam: RigidAxleKinematics) -> Array:
     as it rises.
     """
     middle = 0.5 * (beam.contact(LEFT) + beam.contact(RIGHT))
-    velocity = beam.velocity(middle, HEAVE)
+    velocity = beam.velocity(LEFT, middle, HEAVE)
     lift: Array = -velocity[:, 1] / velocity[:, 2]
     return lift
-
-
-def motion_ratio(beam: RigidAxleKinematics, part: str, side: str) -> Array:
-    """Return the compression of a spring or damper per travel of both wheels [1]."""
-    return beam.compression(f"{side}_{part}", HEAVE)
-
-
-def roll_motion_ratio(beam: RigidAxleKinematics, part: str, side: str) -> Array:
-    """Return the same per travel of the side's wheel, the other one moving oppositely [1]."""
-    return SENSE[side] * beam.compression(f"{side}_{part}", ROLL) / beam.lever
-
-
-def wheel_rate(beam: RigidAxleKinematics, side: str) -> Array:
-    """Return the derivative of a wheel's force by the travel of both wheels [N/m]."""
-    rates: Array = _of_all(beam)[:, SIDES.index(side), :].sum(-1)
-    return rates
-
-
-def wheel_rate_alone(beam: RigidAxleKinematics, side: str) -> Array:
-    """Return the derivative of a wheel's force by its own travel, the other one at rest [N/m]."""
-    place = SIDES.index(side)
-    rates: Array = _of_all(beam)[:, place, place]
-    return rates
-
-
-def _of_all(beam: RigidAxleKinematics) -> Array:
-    """Return the stiffness of springs, stops and bar at both wheels [N/m]."""
-    return beam.springs + beam.bar
-
-
-def _dot(one: Array, other: Array) -> Array:
-    product: Array = (one * other).sum(-1)
-    return product

@@ -10,14 +10,14 @@ from dataclasses import replace
 import numpy as np
 
 from ...corner.corner import Array, CarrierMotion, RoadWheel
-from ...models.sides import SIDES
+from ...models.sides import SENSE, SIDES
 from .. import wheel
-from ..twist_beam_kinematics import TwistBeamKinematics
-from ..whole_axle_kinematics import SENSE
+from ..whole_axle_kinematics import WholeAxleKinematics
 from . import axle_rolling, pitching, rolling
 from .corner import GROUND, PITCH
 from .measure import Measure, of_axle, of_corner, of_wheel
 from .quantities import QUANTITIES
+from .whole_axle import SPRINGS, dot, is_at
 
 _JACKING = replace(
     QUANTITIES["jacking"],
@@ -27,7 +27,7 @@ _JACKING = replace(
 )
 
 
-def roll_center_height(of: TwistBeamKinematics) -> Array:
+def roll_center_height(of: WholeAxleKinematics) -> Array:
     """Return the height of the roll centre above the line through the contacts [m].
 
     As the wheel centres move oppositely, seen from the front, the line through the contacts turns
@@ -41,14 +41,14 @@ def roll_center_height(of: TwistBeamKinematics) -> Array:
     roll, heave = (
         np.stack([of.contact_in(side, how)[:, 1:] for side in SIDES]) for how in ("roll", "heave")
     )
-    times = -_dot(across, roll.mean(axis=0)) / _dot(across, heave.mean(axis=0))
+    times = -dot(across, roll.mean(axis=0)) / dot(across, heave.mean(axis=0))
     moved = roll + times[:, None] * heave
-    turning = _dot(across, moved[0] - moved[1]) / length[:, 0]
-    height: Array = _dot(line, moved.mean(axis=0)) / turning
+    turning = dot(across, moved[0] - moved[1]) / length[:, 0]
+    height: Array = dot(line, moved.mean(axis=0)) / turning
     return height
 
 
-def jacking(of: TwistBeamKinematics, side: str) -> Array:
+def jacking(of: WholeAxleKinematics, side: str) -> Array:
     """Return the lift of the body by an inboard force at a contact, over that force [1]."""
     velocity = of.carried_in(side, of.contact(side), side)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -56,7 +56,7 @@ def jacking(of: TwistBeamKinematics, side: str) -> Array:
     return lift
 
 
-def in_roll(of: TwistBeamKinematics, side: str, rate: Callable[..., Array]) -> Array:
+def in_roll(of: WholeAxleKinematics, side: str, rate: Callable[..., Array]) -> Array:
     """Return what changes by the carrier's motion, by the roll of the body to the wheels' line."""
     # the left wheel up is the right side of the body down, reversed
     found: Array = -rate(of.corners[side], of.motion(side, "roll")) / of.inclination_rate
@@ -65,15 +65,6 @@ def in_roll(of: TwistBeamKinematics, side: str, rate: Callable[..., Array]) -> A
 
 def _steer_rate(corner: RoadWheel, motion: CarrierMotion) -> Array:
     return -corner.vehicle.side * wheel.toe_rate(corner, motion)
-
-
-def _dot(one: Array, other: Array) -> Array:
-    product: Array = (one * other).sum(-1)
-    return product
-
-
-def _is(end: str, *, driven: bool = False) -> Callable[[TwistBeamKinematics], bool]:
-    return lambda of: of.end == end and (of.axle.drive is not None or not driven)
 
 
 MEASURES = (
@@ -107,48 +98,18 @@ MEASURES = (
         "centres moving "
         "oppositely",
     ),
-    of_wheel("anti_dive", pitching.braking, (*PITCH, "front_brake_share"), _is("front")),
-    of_wheel("anti_lift_driven", pitching.driving, PITCH, _is("front", driven=True)),
-    of_wheel("anti_lift_braked", pitching.braking, (*PITCH, "front_brake_share"), _is("rear")),
-    of_wheel("anti_squat", pitching.driving, PITCH, _is("rear", driven=True)),
-    of_wheel("spring_length", lambda of, side: of.signal(f"{side}_spring_length")),
-    of_wheel("damper_length", lambda of, side: of.signal(f"{side}_damper_length")),
-    of_wheel(
-        "motion_ratio", lambda of, side: of.compression_in(f"{side}_spring", "heave"),
-        definition="compression of the spring per travel of both wheels",
-    ),
-    of_wheel(
-        "roll_motion_ratio",
-        lambda of, side: SENSE[side] * of.compression_in(f"{side}_spring", "roll"),
-    ),
-    of_wheel(
-        "damper_motion_ratio", lambda of, side: of.compression_in(f"{side}_damper", "heave"),
-        definition="compression of the damper per travel of both wheels",
-    ),
-    of_wheel(
-        "damper_roll_motion_ratio",
-        lambda of, side: SENSE[side] * of.compression_in(f"{side}_damper", "roll"),
-    ),
-    of_wheel("wheel_force", lambda of, side: of.wheel_force(side)),
-    of_wheel(
-        "wheel_rate", lambda of, side: (of.springs + of.bar)[:, SIDES.index(side), :].sum(-1),
-        definition="derivative of the wheel force with respect to the travel of both wheels, "
-        "without tyres",
-    ),
-    of_wheel(
-        "wheel_rate_alone",
-        lambda of, side: (of.springs + of.bar)[:, SIDES.index(side), SIDES.index(side)],
-    ),
-    of_axle("roll_moment", rolling.moment, GROUND),
-    of_axle("roll_moment_gradient", rolling.moment_gradient, GROUND),
-    of_axle("roll_stiffness", rolling.stiffness, GROUND),
+    of_wheel("anti_dive", pitching.braking, (*PITCH, "front_brake_share"), is_at("front")),
+    of_wheel("anti_lift_driven", pitching.driving, PITCH, is_at("front", driven=True)),
+    of_wheel("anti_lift_braked", pitching.braking, (*PITCH, "front_brake_share"), is_at("rear")),
+    of_wheel("anti_squat", pitching.driving, PITCH, is_at("rear", driven=True)),
+    *SPRINGS,
     of_axle("roll_stiffness_springs", rolling.of_springs, GROUND),
     of_axle("roll_stiffness_bar", rolling.of_bar, GROUND),
     of_axle("bar_share", rolling.bar_share, GROUND),
     of_axle(
         "roll_stiffness_with_tyres", rolling.with_tyres, (*GROUND, "tyre_rate"), rolling.has_tyres
     ),
-    of_axle("bar_twist", lambda of: of.beam_twist),
-    of_axle("bar_torque", lambda of: of.beam_torque),
+    of_axle("bar_twist", lambda of: of.parts.twist),
+    of_axle("bar_torque", lambda of: of.parts.torque),
 )  # fmt: skip
 """All of them, the same over every motion."""

@@ -1,0 +1,77 @@
+"""What springs, dampers, stops and the anti-roll bar do on any axle without sides."""
+
+from collections.abc import Callable
+from functools import partial
+
+from ...corner.corner import Array
+from ...models.sides import SENSE, SIDES
+from ..whole_axle_kinematics import WholeAxleKinematics
+from . import rolling
+from .corner import GROUND
+from .measure import of_axle, of_wheel
+
+
+def is_at(end: str, *, driven: bool = False) -> Callable[[WholeAxleKinematics], bool]:
+    """Return whether an axle is at an end of the vehicle, and driven where that is asked for."""
+    return lambda of: of.end == end and (of.axle.drive is not None or not driven)
+
+
+def dot(one: Array, other: Array) -> Array:
+    """Return the scalar products of vectors, (n,)."""
+    product: Array = (one * other).sum(-1)
+    return product
+
+
+def signal(name: str) -> Callable[[WholeAxleKinematics, str], Array]:
+    """Return what a signal of the equations is of a wheel."""
+    return lambda of, side: of.signal(f"{side}_{name}")
+
+
+def _ratio(part: str, how: str, of: WholeAxleKinematics, side: str) -> Array:
+    """Return how a spring or a damper is compressed per travel of its wheel in a motion."""
+    sense = SENSE[side] if how == "roll" else 1.0
+    return sense * of.compression_in(f"{side}_{part}", how)
+
+
+def wheel_rate(of: WholeAxleKinematics, side: str) -> Array:
+    """Return the derivative of a wheel's force by the travel of both wheels [N/m]."""
+    rates: Array = (of.springs + of.bar)[:, SIDES.index(side), :].sum(-1)
+    return rates
+
+
+def wheel_rate_alone(of: WholeAxleKinematics, side: str) -> Array:
+    """Return the derivative of a wheel's force by its own travel, the other one at rest [N/m]."""
+    place = SIDES.index(side)
+    rates: Array = (of.springs + of.bar)[:, place, place]
+    return rates
+
+
+SPRINGS = (
+    of_wheel("spring_length", signal("spring_length"), definition="distance of the spring's seats"),
+    of_wheel("damper_length", signal("damper_length"), definition="distance of the damper's ends"),
+    of_wheel(
+        "motion_ratio", partial(_ratio, "spring", "heave"),
+        definition="compression of the spring per travel of both wheels",
+    ),
+    of_wheel("roll_motion_ratio", partial(_ratio, "spring", "roll")),
+    of_wheel(
+        "damper_motion_ratio", partial(_ratio, "damper", "heave"),
+        definition="compression of the damper per travel of both wheels",
+    ),
+    of_wheel("damper_roll_motion_ratio", partial(_ratio, "damper", "roll")),
+    of_wheel(
+        "wheel_force", lambda of, side: of.wheel_force(side),
+        definition="vertical force at the wheel that springs, stops and bar take; no unsprung "
+        "weight",
+    ),
+    of_wheel(
+        "wheel_rate", wheel_rate,
+        definition="derivative of the wheel force with respect to the travel of both wheels, "
+        "without tyres",
+    ),
+    of_wheel("wheel_rate_alone", wheel_rate_alone),
+    of_axle("roll_moment", rolling.moment, GROUND),
+    of_axle("roll_moment_gradient", rolling.moment_gradient, GROUND),
+    of_axle("roll_stiffness", rolling.stiffness, GROUND),
+)  # fmt: skip
+"""By wheel and by axle, but for what couples both wheels."""

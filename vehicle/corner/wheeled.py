@@ -1,0 +1,88 @@
+"""What one file describes that has wheels: what suspensions and axles without sides share."""
+
+from typing import TYPE_CHECKING, Any
+
+from ...core.columns import number
+from ..input.damper import NO_CURVE, Damper
+from ..input.described import DescribedSection
+from ..input.spring import rate_key
+from ..input.stop import NO_STOP
+from ..input.units import in_metres
+from .wheel_loads import needed_radius
+
+if TYPE_CHECKING:
+    from ..input.hardpoints import Hardpoints
+    from ..input.stop import StopSection
+    from ..input.vehicle import GravitySection, TyreSection, WheelSection
+    from .bushes import Bushings
+
+# A wheel centre lower than this above z = 0 says that z = 0 is not the ground [m].
+_SMALLEST_WHEEL_RADIUS = 0.1
+
+
+class WheeledSection(DescribedSection):
+    """What a file describes that has wheels, with a section for each of its attributes."""
+
+    if TYPE_CHECKING:
+        # sections that every class has, in places of its own
+        vehicle: Any
+        rack: Any
+        hardpoints: Hardpoints
+        wheel: WheelSection
+        bump_stop: StopSection | None
+        rebound_stop: StopSection | None
+        tyre: TyreSection
+        gravity: GravitySection
+        bushings: Bushings | None
+
+    @classmethod
+    def steered(cls) -> bool:
+        """Return whether its wheels can be steered: whether there is a rack."""
+        return False
+
+    def tyre_radius(self) -> float | None:
+        """Return the radius of a wheel as a thin disc.
+
+        Returns
+        -------
+        float or None
+            ``tyre.radius_mm`` in m where it is given. Otherwise the height of the wheel centre at
+            design above z = 0, which is the ground in files that follow the conventions; None where
+            that is less than 100 mm, as no car has such wheels.
+        """
+        if self.tyre.radius_mm is not None:
+            return in_metres(self.tyre.radius_mm, "mm")
+        height: float = number(self.hardpoints.metres("wheel_center")[2])
+        return height if height >= _SMALLEST_WHEEL_RADIUS else None
+
+    def wheel_load_parameters(self) -> dict[str, float]:
+        """Return the additional parameters of equations with wheel loads as inputs [m].
+
+        Raises
+        ------
+        InputError
+            If the radius of the wheels is not known.
+        """
+        return {"tyre_radius": needed_radius(self.tyre_radius())}
+
+    def rate_key(self, part: str) -> str:
+        """Return where the rate of a part, "spring" or "damper", is, or the spring's curve."""
+        return rate_key(part, getattr(self, "spring", None))
+
+    def parameters_of_extras(self, length: float, curve: Damper | None) -> dict[str, float]:
+        """Return parameters of the complete equations only, without friction, in SI units.
+
+        Parameters
+        ----------
+        length : float
+            Of what the stops limit, at the design position [m].
+        curve : Damper or None
+            That of the damper, where it has one.
+        """
+        values = dict(NO_CURVE) if curve is None else curve.parameters()
+        for side, stop in (("bump", self.bump_stop), ("rebound", self.rebound_stop)):
+            values |= (stop or NO_STOP).parameters(side, length)
+        return values | {
+            "tyre_damper_rate": self.tyre.damper_rate_N_s_per_m,
+            "tyre_lifts_off": float(self.tyre.lifts_off),
+        }
