@@ -14,7 +14,7 @@ from ...core.memory import positions_given
 from ...core.named_types import ArrayLike
 from ...core.quantities import variable
 from ...core.validator import Validator
-from ..assembly.assembly import Assembly
+from ..assembly.assembly import HeldAssembly
 from ..assembly.by_wheel import by_ending
 from ..assembly.of import given_assembly
 from ..assembly.part_poses import PartPoses
@@ -105,7 +105,7 @@ Columns = dict[str, tuple[Array, str, str]]
 """Values, meaning and unit by name."""
 
 
-def _of_group(assembly: Assembly, suffix: str, poses: PartPoses) -> Columns:
+def _of_group(assembly: HeldAssembly, suffix: str, poses: PartPoses) -> Columns:
     """Return everything that the position of a group of parts decides, as columns."""
     model = poses.model
     found: Columns = {}
@@ -129,7 +129,7 @@ def _of_group(assembly: Assembly, suffix: str, poses: PartPoses) -> Columns:
     return found
 
 
-def _ended(assembly: Assembly, name: str) -> str:
+def _ended(assembly: HeldAssembly, name: str) -> str:
     """Return the name of a signal with that of its wheel at the end, where equations begin it."""
     if len(assembly.wheels) == 1:
         return name

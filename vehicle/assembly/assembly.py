@@ -31,6 +31,15 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+NOT_A_CAR = (
+    "this is a whole car, and a suspension or an axle is needed. The commands check, "
+    "characteristics, simulate, ride, drive, sensitivity, tolerance, optimise, pareto and compare "
+    "take a car; for others name the file of its axle or corner. In Python: "
+    'car.axles["front"], car.axles["rear"], car.corner.'
+)
+"""Said where something else is needed than a car."""
+
+
 @dataclass(frozen=True)
 class Bushings:
     """The bushes of an assembly, and how far its rack deflects.
@@ -38,7 +47,7 @@ class Bushings:
     Attributes
     ----------
     by_suffix : mapping of str to list of Bush
-        By what ends the names of the parts that they are between, as of `Assembly.poses`.
+        By what ends the names of the parts that they are between, as of `HeldAssembly.poses`.
     rack : float
         Displacement of the rack along its axis by a unit force [m/N]; zero where it is held.
     """
@@ -54,6 +63,9 @@ class Bushings:
 
 class Assembly(ABC):
     """A corner, an axle, a rigid axle or a car.
+
+    A car has neither parts nor bushes but those of its axles: what all others have besides is that
+    of `HeldAssembly`.
 
     Its parts may be in several groups that only an anti-roll bar and a rack join, as the two sides
     of an axle are: the members of a group are by the suffix of the names of its parts, ``""``,
@@ -246,14 +258,6 @@ class Assembly(ABC):
         """The motion in which the steering moves, if it has one."""
         return None
 
-    @abstractmethod
-    def coordinates_of(self, suffix: str) -> dict[str, str]:
-        """Return what the coordinates of a group are called, by its states in `poses`."""
-
-    @abstractmethod
-    def joints(self, suffix: str) -> tuple[str, ...]:
-        """Return the moving hardpoints of a group of parts, by their names in `poses`."""
-
     # -- what it is measured by -------------------------------------------------------------------
 
     @abstractmethod
@@ -321,6 +325,15 @@ class Assembly(ABC):
             inputs[..., model.input_names.index("rack_position")] = rack
         return states, inputs
 
+    def require_rigid_motion(self) -> None:
+        """Refuse an assembly that rigid joints do not let move.
+
+        Raises
+        ------
+        InputError
+        """
+
+    @abstractmethod
     def coordinates_at(self, position: RigPosition) -> Array:
         """Return the coordinates with rigid joints at positions of a rig, (n, coordinates).
 
@@ -329,12 +342,6 @@ class Assembly(ABC):
         PositionError
             If a position is out of reach; the message states the range.
         """
-        found = [
-            poses.states[..., poses.model.state_names.index(state)]
-            for suffix, poses in self.poses(position).items()
-            for state in self.coordinates_of(suffix)
-        ]
-        return np.stack(found, axis=-1)
 
     @abstractmethod
     def coordinates_at_rest(self, held: RestConditions) -> Array:
@@ -356,7 +363,95 @@ class Assembly(ABC):
         """
         del what
 
-    # -- its parts --------------------------------------------------------------------------------
+    # -- bushes -----------------------------------------------------------------------------------
+
+    @property
+    @abstractmethod
+    def has_bushes(self) -> bool:
+        """Whether its file has bushes."""
+
+    def with_bushings(self, bushings: Mapping[str, Any]) -> Any:
+        """Return its subject on other bushes than those of its file, see `bushes`."""
+        return self.subject.with_changes({"bushings": dict(bushings)})
+
+    # -- what its summary has ---------------------------------------------------------------------
+
+    MODES: ClassVar[Mapping[str, str]] = {}
+    """Coordinates of both wheels together, and what their modes on the tyres are called."""
+
+    @property
+    @abstractmethod
+    def heading(self) -> str:
+        """What it is called."""
+
+    @property
+    def corners(self) -> Mapping[str, Model]:
+        """The wheels that move by themselves; of two that are mirror images one."""
+        return {}
+
+    def plausibility(self) -> Plausibility:
+        """Return what is unlikely of it, besides what is of its corners."""
+        return Plausibility((), ())
+
+    def described(self) -> dict[str, str]:
+        """Return what it is at design in words, besides its corners, by their headings."""
+        return {}
+
+    def reach(self) -> dict[str, tuple[float, bool]]:
+        """Return how far both wheels go, 'down' and 'up' [m], and whether something ends that."""
+        return {}
+
+    @abstractmethod
+    def without_friction(self) -> "Assembly":
+        """Return the same without friction.
+
+        Raises
+        ------
+        InputError
+            If it moves only on its bushes.
+        """
+
+
+class HeldAssembly(Assembly):
+    """An assembly whose body is held: a corner, an axle, or an axle without sides."""
+
+    # -- its parts ---------------------------------------------------------------------------------
+
+    @abstractmethod
+    def coordinates_of(self, suffix: str) -> dict[str, str]:
+        """Return what the coordinates of a group are called, by its states in `poses`."""
+
+    @abstractmethod
+    def joints(self, suffix: str) -> tuple[str, ...]:
+        """Return the moving hardpoints of a group of parts, by their names in `poses`."""
+
+    def coordinates_at(self, position: RigPosition) -> Array:
+        """Return the coordinates with rigid joints at positions of a rig, (n, coordinates).
+
+        Raises
+        ------
+        PositionError
+            If a position is out of reach; the message states the range.
+        """
+        found = [
+            poses.states[..., poses.model.state_names.index(state)]
+            for suffix, poses in self.poses(position).items()
+            for state in self.coordinates_of(suffix)
+        ]
+        return np.stack(found, axis=-1)
+
+    @abstractmethod
+    def wheel_equations(self, wheel: str) -> tuple[Any, str, Mapping[str, str]]:
+        """Return equations in which a wheel moves on a body that is held.
+
+        Returns
+        -------
+        model : Model or WholeAxleModel
+        signals : str
+            What begins the names of the wheel's signals there.
+        names : mapping of str to str
+            The coordinates that move it there, and what they are called in `coordinates`.
+        """
 
     @abstractmethod
     def poses(self, position: RigPosition) -> dict[str, PartPoses]:
@@ -380,13 +475,13 @@ class Assembly(ABC):
             If the springs hold no wheel there.
         """
 
-    # -- where it stands --------------------------------------------------------------------------
+    # -- where it rests ----------------------------------------------------------------------------
 
     ENDS: ClassVar[str] = "the linkage reaches no farther"
     """The end of the wheels' travel, in words."""
 
     @property
-    def independent(self) -> Sequence["Assembly"]:
+    def independent(self) -> Sequence["HeldAssembly"]:
         """The assemblies that rest independently of each other, in the order of the wheels."""
         return (self,)
 
@@ -441,6 +536,10 @@ class Assembly(ABC):
             Displacements of the rack [m].
         """
 
+    @abstractmethod
+    def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
+        """Return whether a wheel has a stop."""
+
     def reached(self, coordinates: Array, racks: Array) -> NDArray[np.bool_]:
         """Return where parts within the reach of each wheel are together, (n,)."""
         del racks
@@ -450,19 +549,7 @@ class Assembly(ABC):
         """Return where a linkage is so near the end of its reach that it carries anything, (n,)."""
         return np.zeros(len(coordinates), dtype=bool)
 
-    def require_rigid_motion(self) -> None:  # noqa: B027 (most have nothing to refuse)
-        """Refuse an assembly that rigid joints do not let move.
-
-        Raises
-        ------
-        InputError
-        """
-
-    @abstractmethod
-    def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
-        """Return whether a wheel has a stop."""
-
-    # -- loads ------------------------------------------------------------------------------------
+    # -- loads -------------------------------------------------------------------------------------
 
     def torque_on(self, what: Literal["brakes", "drive"]) -> TorqueReaction | None:
         """Return what holds the torque of brakes or drive; None where nothing drives it."""
@@ -523,7 +610,7 @@ class Assembly(ABC):
     ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
         """Return its parts in states of its equations, and the rates of these, by suffix."""
 
-    # -- bushes -----------------------------------------------------------------------------------
+    # -- bushes ------------------------------------------------------------------------------------
 
     @abstractmethod
     def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
@@ -537,53 +624,7 @@ class Assembly(ABC):
             By hardpoint; of an axle those of one side, and the other has their image.
         """
 
-    def with_bushings(self, bushings: Mapping[str, Any]) -> Any:
-        """Return its subject on other bushes than those of its file, see `bushes`."""
-        return self.subject.with_changes({"bushings": dict(bushings)})
-
-    @property
-    @abstractmethod
-    def has_bushes(self) -> bool:
-        """Whether its file has bushes."""
-
-    # -- what its summary has ---------------------------------------------------------------------
-
-    MODES: ClassVar[Mapping[str, str]] = {}
-    """Coordinates of both wheels together, and what their modes on the tyres are called."""
-
-    @property
-    @abstractmethod
-    def heading(self) -> str:
-        """What it is called."""
-
-    @property
-    def corners(self) -> Mapping[str, Model]:
-        """The wheels that move by themselves; of two that are mirror images one."""
-        return {}
-
-    def plausibility(self) -> Plausibility:
-        """Return what is unlikely of it, besides what is of its corners."""
-        return Plausibility((), ())
-
-    def described(self) -> dict[str, str]:
-        """Return what it is at design in words, besides its corners, by their headings."""
-        return {}
-
-    def reach(self) -> dict[str, tuple[float, bool]]:
-        """Return how far both wheels go, 'down' and 'up' [m], and whether something ends that."""
-        return {}
-
-    @abstractmethod
-    def without_friction(self) -> "Assembly":
-        """Return the same without friction.
-
-        Raises
-        ------
-        InputError
-            If it moves only on its bushes.
-        """
-
-    # -- what couples the wheels ------------------------------------------------------------------
+    # -- what couples the wheels -------------------------------------------------------------------
 
     BAR_SIGN: ClassVar[str] = ""
     """When the torque of the anti-roll bar is positive."""

@@ -24,7 +24,7 @@ from ..models.reach import PositionError
 from ..models.sides import LEFT, RIGHT, SENSE, SIDES
 from . import motions
 from .anti_roll_bar import Bar
-from .assembly import Assembly, Bushings
+from .assembly import Bushings, HeldAssembly
 from .axle_coupling import on_the_bar, pull_of_bar, rules_of, turn_of_half
 from .axle_kinematics import AxleKinematics
 from .corner import CornerAssembly, lines_of, poses_of
@@ -53,7 +53,7 @@ _NO_REST = (
 _STEERING = ("steer", "rack")
 
 
-class AxleAssembly(Assembly):
+class AxleAssembly(HeldAssembly):
     """An axle of two corners.
 
     Parameters
@@ -209,6 +209,11 @@ class AxleAssembly(Assembly):
         signals = f"{prefix}{self.axle.end}_"
         return WheelNames(prefix, signals, f"{prefix}{names.spin}", f"{prefix}{names.actuator}")
 
+    def wheel_equations(self, wheel: str) -> tuple[Model, str, Mapping[str, str]]:
+        """Return the equations of one side."""
+        model = self.axle.models[wheel]
+        return model, "", {model.names.arm: f"{wheel}_{model.names.arm}"}
+
     def coordinates_at_rest(self, held: RestConditions) -> Array:
         """Return the arm angles of the state of rest nearest to that of the sides without a bar."""
         alone = held.without_inputs()
@@ -285,7 +290,7 @@ class AxleAssembly(Assembly):
         return {side: CornerAssembly(model) for side, model in self.axle.models.items()}
 
     @property
-    def independent(self) -> Sequence[Assembly]:
+    def independent(self) -> Sequence[HeldAssembly]:
         """The sides, if no anti-roll bar joins them."""
         return (self,) if self.axle.halves else tuple(self._corners.values())
 

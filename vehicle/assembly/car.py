@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal, NoReturn
+from typing import Any
 
 import numpy as np
 
@@ -23,29 +23,19 @@ from ..models.model import Model
 from ..models.reach import PositionError
 from ..models.sides import SIDES
 from ..models.whole_axle import WholeAxle
-from .assembly import Assembly, Bushings
+from .assembly import Assembly, HeldAssembly
 from .axle import AxleAssembly
 from .car_kinematics import CarKinematics, measures_of_axles
 from .controls import Controls
 from .corner import CornerAssembly
 from .held import RestConditions
 from .measures.measure import Measure
-from .part_poses import PartPoses
 from .quantity import HEAVE, PITCH, RACK, ROLL, Quantity
-from .rig import RigMotion, RigPosition, SweepRange, WheelReach
+from .rig import RigMotion, RigPosition, SweepRange
 from .running import straight
-from .soft_lines import SoftLines
 from .usual import grid
 from .wheel_names import WheelNames
-from .whole_axle import WholeAxleAssembly, whole_axle_assembly
-
-NOT_A_CAR = (
-    "this is a whole car, and a suspension or an axle is needed. The commands check, "
-    "characteristics, simulate, ride, drive, sensitivity, tolerance, optimise, pareto and compare "
-    "take a car; for others name the file of its axle or corner. In Python: "
-    'car.axles["front"], car.axles["rear"], car.corner.'
-)
-"""Said where something else is needed than a car."""
+from .whole_axle import whole_axle_assembly
 
 _MOTIONS = {
     "heave": RigMotion(HEAVE, "the body rises and falls on all wheels", "heave of the body"),
@@ -92,7 +82,7 @@ class CarAssembly(Assembly):
         return tuple(self.car.axles)
 
     @property
-    def held_parts(self) -> Mapping[str, Assembly]:
+    def held_parts(self) -> Mapping[str, HeldAssembly]:
         """Its axles, or the corner of a quarter car, on a body that is held."""
         return {end or "corner": part for end, part in self.held.items()}
 
@@ -181,16 +171,6 @@ class CarAssembly(Assembly):
     def has_bushes(self) -> bool:
         """Whether its files have bushes."""
         return any(part.has_bushes for part in self.held.values())
-
-    @property
-    def rules(self) -> tuple[str, ...]:
-        """What decides where statics alone does not."""
-        return tuple(dict.fromkeys(rule for part in self.held.values() for rule in part.rules))
-
-    def has_stop(self, wheel: str, which: Literal["bump_stop", "rebound_stop"]) -> bool:
-        """Return whether a wheel has a stop."""
-        end, side = self._place_of(wheel)
-        return self.held[end].has_stop(side, which)
 
     def without_friction(self) -> "CarAssembly":
         """Return the same without friction."""
@@ -514,17 +494,10 @@ class CarAssembly(Assembly):
         for end, part in self.held.items():
             for side in part.wheels:
                 wheel = f"{end}_{side}" if end else side
-                if isinstance(part, WholeAxleAssembly):
-                    names = {n: f"{end}_{n}" for n in part.coordinates}
-                    found[wheel] = _HeldWheel(part.model, part.names_of(side).signals, names)
-                else:
-                    model = (
-                        part.model
-                        if isinstance(part, CornerAssembly)
-                        else part.subject.models[side]
-                    )
-                    arm = model.names.arm
-                    found[wheel] = _HeldWheel(model, "", {arm: f"{wheel}_{arm}" if end else arm})
+                model, signals, names = part.wheel_equations(side)
+                before = f"{end}_" if end else ""
+                in_car = {name: f"{before}{own}" for name, own in names.items()}
+                found[wheel] = _HeldWheel(model, signals, in_car)
         return found
 
     def travels(self, states: Array) -> dict[str, Array]:
@@ -576,16 +549,13 @@ class CarAssembly(Assembly):
             return found | {"hop": {own: 1.0}}
         for end, part in self.held.items():
             names = [f"{end}_{name}" for name in part.coordinates]
-            apart = not isinstance(part, WholeAxleAssembly)
+            apart = not part.MODES
             hop = dict.fromkeys(names, 0.5) if apart else {names[0]: 1.0}
             tramp = {names[0]: 0.5, names[1]: -0.5} if apart else {names[1]: 1.0}
             found |= {f"{end}_hop": hop, f"{end}_tramp": tramp}
         return found
 
     # -- what is of an axle alone -----------------------------------------------------------------
-
-    def _refuse(self) -> NoReturn:
-        raise InputError([NOT_A_CAR], self.heading)
 
     def coordinates_at(self, position: RigPosition) -> Array:
         """Refuse: a car begins at rest, or at a state of its equations."""
@@ -594,58 +564,6 @@ class CarAssembly(Assembly):
             "heights of wheels: the body of a car moves too; it begins at rest. Leave them out."
         )
         raise InputError([problem], self.heading)
-
-    def coordinates_of(self, suffix: str) -> dict[str, str]:
-        """Refuse: parts are those of an axle."""
-        del suffix
-        self._refuse()
-
-    def joints(self, suffix: str) -> tuple[str, ...]:
-        """Refuse: hardpoints are those of an axle."""
-        del suffix
-        self._refuse()
-
-    def poses(self, position: RigPosition) -> dict[str, PartPoses]:
-        """Refuse: parts are those of an axle."""
-        del position
-        self._refuse()
-
-    def soft_lines(self, poses: Mapping[str, PartPoses]) -> dict[str, SoftLines]:
-        """Refuse: springs are those of an axle."""
-        del poses
-        self._refuse()
-
-    @property
-    def design_wheel_coordinates(self) -> Array:
-        """Refused: load cases are those of an axle."""
-        self._refuse()
-
-    def wheel_coordinates(self, travels: Sequence[float | None], rack: float) -> Array:
-        """Refuse: load cases are those of an axle."""
-        del travels, rack
-        self._refuse()
-
-    def wheel_reach(self, rack: float) -> Sequence[WheelReach] | None:
-        """Refuse: load cases are those of an axle."""
-        del rack
-        self._refuse()
-
-    def at_wheel_coordinates(self, coordinates: Array, racks: Array) -> dict[str, PartPoses]:
-        """Refuse: load cases are those of an axle."""
-        del coordinates, racks
-        self._refuse()
-
-    def in_motion(
-        self, states: Array, inputs: Array
-    ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
-        """Refuse: loads along a motion are those of an axle."""
-        del states, inputs
-        self._refuse()
-
-    def bushes(self, given: Validator, bushings: Mapping[str, Any] | None) -> Bushings:
-        """Refuse: bushes are those of an axle."""
-        del given, bushings
-        self._refuse()
 
 
 @dataclass(frozen=True)
@@ -688,14 +606,14 @@ class _HeldWheel:
         }
 
 
-def _held_parts(car: Car) -> dict[str, Assembly]:
+def _held_parts(car: Car) -> dict[str, HeldAssembly]:
     """Return the axles on a body that is held, by end; of a quarter car its corner."""
     if car.corner is not None:
         return {"": CornerAssembly(Model(car.corner))}
     return {end: _assembly(axle) for end, axle in car.axles.items()}
 
 
-def _assembly(axle: Axle | WholeAxle) -> Assembly:
+def _assembly(axle: Axle | WholeAxle) -> HeldAssembly:
     if isinstance(axle, WholeAxle):
         return whole_axle_assembly(axle.KEY)(axle)
     return AxleAssembly(axle)

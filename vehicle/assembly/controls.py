@@ -8,7 +8,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...core.errors import InputError
 from ...core.validator import Validator
-from ..models.axle.axle import Axle
 from ..models.car.car import Car
 from ..models.sides import SIDES
 from . import motions
@@ -41,9 +40,12 @@ class Controls:
     @cached_property
     def _sense(self) -> float:
         """The sense of the rack: it needs the positions of the axle, and is asked for often."""
-        front = self.car.axles["front"]
-        assert isinstance(front, Axle)
-        return sense_of_rack(front)
+        return sense_of_rack(self._front)
+
+    @property
+    def _front(self) -> Any:
+        """The front axle: one with a rack, where the car is steered."""
+        return self.car.axles["front"]
 
     def rack(
         self, angle: ArrayLike, rate: ArrayLike = 0.0, acceleration: ArrayLike = 0.0
@@ -70,8 +72,8 @@ class Controls:
                     ("acceleration", acceleration, "rad/s^2"),
                 )
             ]
-        front = self.car.axles["front"]
-        if not self.car.steered() or not isinstance(front, Axle):
+        front = self._front
+        if not self.car.steered():
             problem = "the front axle has no rack: nothing steers the car. Leave the angle out."
             raise InputError([problem], self.car.heading())
         if front.steering is None and motions.travel_per_turn(front) is None:

@@ -15,7 +15,7 @@ from ..kinds import Suspension
 from ..models.model import Model
 from ..models.positions import PositionError, arm_angles, design_height
 from ..models.reach import at_rest, height_and_slope, travel_range
-from .assembly import Assembly, Bushings
+from .assembly import Bushings, HeldAssembly
 from .corner_kinematics import corner
 from .coupling import BodyPose, on_the_rack, rules_of
 from .held import RestConditions
@@ -35,7 +35,7 @@ _TRAVEL = {"travel": RigMotion(TRAVEL, "the wheel rises and falls", "wheel trave
 _RACK = {"rack": RigMotion(RACK, "the rack moves, the wheel at one height", "the rack")}
 
 
-class CornerAssembly(Assembly):
+class CornerAssembly(HeldAssembly):
     """A corner.
 
     Parameters
@@ -122,6 +122,12 @@ class CornerAssembly(Assembly):
         """Return what its equations call what belongs to its wheel."""
         del wheel
         return WheelNames("", "", self.model.names.spin, self.model.names.actuator)
+
+    def wheel_equations(self, wheel: str) -> tuple[Model, str, Mapping[str, str]]:
+        """Return its own equations."""
+        del wheel
+        arm = self.model.names.arm
+        return self.model, "", {arm: arm}
 
     def at_rest(self, coordinates: Array, rack: float) -> tuple[Array, Array]:
         """Return states and inputs without rates; a free rack is a state."""

@@ -1,7 +1,7 @@
 """The assembly of what a file describes."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 from ...core.errors import InputError
 from ...core.validator import Validator
@@ -16,9 +16,9 @@ from ..models.car.equations import declared as car_declared
 from ..models.model import Model
 from ..models.whole_axle import WholeAxle
 from ..models.whole_axle_model import WholeAxleModel
-from .assembly import Assembly
+from .assembly import NOT_A_CAR, Assembly, HeldAssembly
 from .axle import AxleAssembly
-from .car import NOT_A_CAR, CarAssembly
+from .car import CarAssembly
 from .corner import CornerAssembly
 from .whole_axle import whole_axle_assembly
 
@@ -149,9 +149,13 @@ def given_model(given: Validator, model: Any) -> Assembly:
     return assembly_of(model) if isinstance(model, MODELS) else None  # type: ignore[return-value]
 
 
+@overload
+def given_assemblies(given: Validator, name: str, subjects: Any) -> dict[str, HeldAssembly]: ...
+@overload
 def given_assemblies(
-    given: Validator, name: str, subjects: Any, *, cars: bool = False
-) -> dict[str, Assembly]:
+    given: Validator, name: str, subjects: Any, *, cars: bool
+) -> dict[str, Assembly]: ...
+def given_assemblies(given: Validator, name: str, subjects: Any, *, cars: bool = False) -> Any:
     """Return the assemblies of an argument by their names, or refuse what is none.
 
     Parameters
@@ -173,9 +177,15 @@ def given_assemblies(
     }
 
 
+@overload
+def given_assembly(given: Validator, subject: Any, name: str = "subject") -> HeldAssembly: ...
+@overload
+def given_assembly(
+    given: Validator, subject: Any, name: str = "subject", *, cars: bool
+) -> Assembly: ...
 def given_assembly(
     given: Validator, subject: Any, name: str = "subject", *, cars: bool = False
-) -> Assembly:
+) -> Any:
     """Return the assembly of an argument, or refuse it; nothing is to be asked of what is refused.
 
     Parameters
@@ -188,8 +198,8 @@ def given_assembly(
         Whether it may be a car.
     """
     found = _found(subject)
-    if isinstance(found, CarAssembly) and not cars:
+    if found is not None and found.body_moves and not cars:
         given.fail(f"{name}: {NOT_A_CAR}")
     if found is None:
         given.instance(name, subject, Assembly, Assembly.NEEDED)
-    return found  # type: ignore[return-value]  # what is refused is never seen, see `Validator`
+    return found  # what is refused is never seen, see `Validator`

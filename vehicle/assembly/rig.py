@@ -53,7 +53,7 @@ class WheelReach:
     ----------
     coordinate : tuple of float
         Its coordinate at the lowest and at the highest position, as of
-        `Assembly.at_wheel_coordinates`.
+        `HeldAssembly.at_wheel_coordinates`.
     height : tuple of float
         Heights of the wheel centre there [m].
     """

@@ -18,7 +18,7 @@ from ..models.reach import PositionError
 from ..models.sides import SIDES
 from ..models.whole_axle import WholeAxle, class_in
 from ..models.whole_axle_model import WholeAxleModel
-from .assembly import Assembly, Bushings
+from .assembly import Bushings, HeldAssembly
 from .axle import motions_of_two
 from .held import RestConditions
 from .load import Load
@@ -45,7 +45,7 @@ _NO_REST = (
 _CLEAR = 1.02
 
 
-class WholeAxleAssembly(Assembly):
+class WholeAxleAssembly(HeldAssembly):
     """An axle of two wheels whose heights are those of two coordinates.
 
     Parameters
@@ -193,6 +193,10 @@ class WholeAxleAssembly(Assembly):
         return WheelNames(
             prefix, f"{prefix}axle_", f"{prefix}spin_angle", f"{prefix}spring_actuator"
         )
+
+    def wheel_equations(self, wheel: str) -> tuple[WholeAxleModel, str, Mapping[str, str]]:
+        """Return its own equations, whose coordinates move both wheels."""
+        return self.model, self.names_of(wheel).signals, {name: name for name in self.coordinates}
 
     def coordinates_of(self, suffix: str) -> dict[str, str]:
         """Return what the coordinates are called."""

@@ -20,7 +20,7 @@ from pydantic import Field, ValidationError
 
 from ...core.errors import InputError
 from ...core.suggestions import suggestion
-from ...core.validator import Validator
+from ...core.validator import Validator, shown
 from ...core.vectors import components, unit_vector
 from ...systems.allowed import LengthLimit
 from ..data import data_sets
@@ -180,6 +180,34 @@ class Suspension(WheeledSection):
             return _kind_of(data, cls)(**data)
         except InputError as error:
             raise InputError(error.problems, source) from None
+
+    @classmethod
+    def given(cls, given: Any, folder: Path, key: str) -> "Suspension":
+        """Return the suspension that a file of an axle or of a car gives, or its caller.
+
+        Parameters
+        ----------
+        given : Suspension, mapping, str or Path
+            Itself, what is in its file, or the name of that.
+        folder : Path
+            From where paths are counted.
+        key : str
+            The key that gives it, for messages.
+
+        Raises
+        ------
+        InputError
+            If it is none of these, or no suspension can be like this.
+        """
+        if isinstance(given, Suspension):
+            return given
+        if isinstance(given, Mapping):
+            return Suspension.from_dict(given)
+        if isinstance(given, str | Path):
+            packaged = isinstance(given, str) and given in data_sets()
+            return Suspension.load(given if packaged else folder / given)
+        problem = f"{shown(given)}: the name of a hardpoint file is needed."
+        raise InputError([problem], key)
 
     @classmethod
     def heading(cls) -> str:

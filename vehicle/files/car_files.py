@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..models.axle import Axle
+from ..models.axle.file import SECTIONS_OF_SIDES
 from ..models.car import Car
 from ..models.car.file import ENDS
 
@@ -46,13 +46,12 @@ def car_files(car: Car, path: str | Path) -> dict[Path, _Sections]:
     data = car.to_dict(exclude_defaults=True)
     _shorten(data.get("tyres", {}), own)
     found: dict[Path, _Sections] = {own: _Sections(data)}
-    for key, part in car.parts.items():
+    for key in car.parts:
         sections = data[key]
         data[key] = beside(key).name
         found[beside(key)] = _Sections(sections)
-        if isinstance(part, Axle):
-            for side in [name for name in ("side", "right", "left") if name in sections]:
-                file = beside(f"{key}_{side}")
-                found[file] = _Sections(sections[side])
-                sections[side] = file.name
+        for side in [name for name in SECTIONS_OF_SIDES if name in sections]:
+            file = beside(f"{key}_{side}")
+            found[file] = _Sections(sections[side])
+            sections[side] = file.name
     return found

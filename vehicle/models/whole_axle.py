@@ -14,6 +14,7 @@ from ...core.errors import InputError
 from ...core.validator import Validator
 from ...core.vectors import components
 from ...systems.allowed import LengthLimit
+from ...systems.compile.build import require_generator
 from ..corner.bushes import Bush
 from ..corner.corner import Array
 from ..corner.structure import Structure
@@ -145,6 +146,45 @@ class WholeAxle(WheeledSection):
     def overheld(self) -> bool:
         """Whether it moves only as its bushes deflect."""
         return False
+
+    # -- what a car takes of it, as of every axle -------------------------------------------------
+
+    whole: ClassVar[bool] = True
+    """Whether it has no sides."""
+    steering: ClassVar[None] = None
+    """No steering wheel moves a rack of it."""
+    pulled: ClassVar[str] = ""
+    """No drop links pull at it."""
+
+    @property
+    def wheel_centers(self) -> dict[str, Array]:
+        """The wheel centres at design by side [m]."""
+        return {side: self.points(side)["wheel_center"] for side in SIDES}
+
+    @property
+    def equations_name(self) -> str:
+        """The name of its equations."""
+        return self.KEY
+
+    def parameters_of_masses(self) -> list[Mapping[str, float]]:
+        """Return the parameters of masses and their centres of each side, by equal names."""
+        values = self.parameters()
+        right = {name: value for name, value in values.items() if not name.startswith("left_")}
+        return [right, of_side(values, LEFT)]
+
+    def parameters_in_a_car(self) -> dict[str, float]:
+        """Return the parameters by the names that a car's equations have for them."""
+        require_generator()
+        from ...generator.mechanisms import model_named  # noqa: PLC0415 (an extra)
+
+        values, mechanism = self.parameters(), model_named(self.KEY).mechanism
+        known: dict[str, float] = {p.name: p.default for p in mechanism.parameters} | values
+        # what is the image of something of one side has a name and a value of its own in a car
+        images = {
+            name: float(value.xreplace({one: known[one.name] for one in value.free_symbols}))
+            for name, value in mechanism.derived.items()
+        }
+        return values | images | {"right_gravity": values["gravity"]}
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
         """Return the lengths of the dampers that the file allows."""

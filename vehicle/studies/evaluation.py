@@ -12,9 +12,8 @@ from ..analysis.characteristics.datasets import dataset
 from ..analysis.compare import common_positions as common_to
 from ..analysis.compliance.flexibility import HELD, WheelSupport
 from ..analysis.compliance.linear import linear
-from ..assembly.assembly import Assembly
+from ..assembly.assembly import NOT_A_CAR, Assembly
 from ..assembly.by_wheel import flat
-from ..assembly.car import NOT_A_CAR
 from ..kinds import Suspension
 from ..models.axle import Axle
 from ..models.car import Car

@@ -11,7 +11,7 @@ from ....core.named_types import ArrayLike
 from ....core.quantities import Display, variable
 from ....core.validator import Validator
 from ...assembly import wheel
-from ...assembly.assembly import Assembly
+from ...assembly.assembly import HeldAssembly
 from ...assembly.by_wheel import WHEEL, of_wheels, wheel_coordinate
 from ...assembly.of import given_assembly
 from ...assembly.quantity import RACK, STEERING_WHEEL, Quantity
@@ -191,7 +191,7 @@ def elastokinematics(
 
 
 def _over_motion(
-    assembly: Assembly,
+    assembly: HeldAssembly,
     both: Sequence[ElasticEquilibrium],
     states: Sequence[ElasticState],
     over: Quantity,

@@ -12,7 +12,7 @@ from ....core.quantities import Display, display_of, variable
 from ....core.validator import Validator
 from ....core.vectors import cross
 from ...assembly import wheel
-from ...assembly.assembly import Assembly
+from ...assembly.assembly import HeldAssembly
 from ...assembly.by_wheel import WHEEL, of_wheel, of_wheels, wheel_coordinate
 from ...assembly.of import given_assembly
 from ...assembly.part_poses import touching, wheel_axes
@@ -158,7 +158,7 @@ def linear(
     return found.assign_attrs(title="compliance", held=HELD[held], left_out=without)
 
 
-def refuse_without_radius(given: Validator, assembly: Assembly) -> None:
+def refuse_without_radius(given: Validator, assembly: HeldAssembly) -> None:
     """Refuse a wheel whose radius is not known."""
     if None in assembly.tyre_radii:
         given.fail("[tyre] radius_mm is needed: where the road touches the wheel.")
@@ -168,7 +168,7 @@ def refuse_without_radius(given: Validator, assembly: Assembly) -> None:
 
 
 def _dataset(
-    assembly: Assembly, wheels: Sequence[RoadWheel], flexible: Array, travels: Array
+    assembly: HeldAssembly, wheels: Sequence[RoadWheel], flexible: Array, travels: Array
 ) -> xr.Dataset:
     """Return what the wheels do under each load, and the flexibility of their contacts."""
     over, found = TRAVEL.name, dict[str, xr.Variable]()

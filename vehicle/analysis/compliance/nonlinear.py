@@ -13,7 +13,7 @@ from ....core.named_types import ArrayLike
 from ....core.quantities import attributes, variable
 from ....core.validator import Validator
 from ...assembly import wheel
-from ...assembly.assembly import Assembly
+from ...assembly.assembly import HeldAssembly
 from ...assembly.by_wheel import WHEEL, of_wheels, wheel_coordinate
 from ...assembly.of import given_assembly
 from ...assembly.part_poses import CENTER, CONTACT
@@ -205,7 +205,9 @@ def nonlinear(
 # -- which wheels have the load -------------------------------------------------------------------
 
 
-def parts_of(given: Validator, assembly: Assembly, under: str, wheels: Any) -> tuple[float, ...]:
+def parts_of(
+    given: Validator, assembly: HeldAssembly, under: str, wheels: Any
+) -> tuple[float, ...]:
     """Return the parts of a load that the wheels have."""
     ways = {how.name: how.parts for how in loadings(BY_NAME[under], assembly.wheels)}
     if len(assembly.wheels) == 1:

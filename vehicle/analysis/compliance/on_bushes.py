@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ....core.quantities import display_of
 from ....core.validator import Validator
-from ...assembly.assembly import Assembly, Bushings
+from ...assembly.assembly import Bushings, HeldAssembly
 from ...assembly.load import Load, known
 from ...assembly.part_poses import PartPoses
 from ...assembly.quantity import TRAVEL, Quantity
@@ -38,7 +38,7 @@ RIGID = CompliantJoints({}, 0.0, {})
 
 
 def softs_of(
-    given: Validator, assembly: Assembly, bushings: Any, hardpoints: Hardpoints
+    given: Validator, assembly: HeldAssembly, bushings: Any, hardpoints: Hardpoints
 ) -> dict[str, CompliantJoints]:
     """Read the bushes, and what they carry at the hardpoints, by the suffixes of the parts."""
     if given.failed:
@@ -57,7 +57,7 @@ def softs_of(
     }
 
 
-def _carried_at_design(assembly: Assembly, bushes: Bushings) -> dict[str, Carried]:
+def _carried_at_design(assembly: HeldAssembly, bushes: Bushings) -> dict[str, Carried]:
     """Return what the joints carry at design, with what an anti-roll bar does there."""
     poses = assembly.poses(assembly.at_travel(np.zeros(1)))
     torque = assembly.bar_torque(poses)[:, None]
@@ -105,7 +105,7 @@ def carried_at(
 
 
 def on_joints(
-    assembly: Assembly,
+    assembly: HeldAssembly,
     poses: Mapping[str, PartPoses],
     softs: Mapping[str, CompliantJoints] | None = None,
 ) -> ElasticEquilibrium:

@@ -14,7 +14,7 @@ from ....core.validator import Validator
 from ....datasets.recording import TIME
 from ....simulation.result import Simulation
 from ....systems.system import System
-from ...assembly.assembly import Assembly
+from ...assembly.assembly import HeldAssembly
 from ...assembly.by_wheel import stacked
 from ...assembly.load import Load
 from ...assembly.of import given_assembly
@@ -139,7 +139,7 @@ def is_motion_of(model: System, result: Simulation) -> bool:
     )
 
 
-def in_motion(assembly: Assembly, states: Array, inputs: Array) -> xr.Dataset:
+def in_motion(assembly: HeldAssembly, states: Array, inputs: Array) -> xr.Dataset:
     """Return the loads in some states, of shape (n, states), as over time."""
     poses, rates = assembly.in_motion(states, inputs)
     acting, loads, holding = assembly.acting(poses), {}, []

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ....core.suggestions import suggestion
 from ....core.validator import Validator
-from ...assembly.assembly import Assembly
+from ...assembly.assembly import HeldAssembly
 from ...assembly.of import given_assembly
 from ...input.toml_file import read_sections
 from ...models.axle.file import TorqueReaction
@@ -88,7 +88,7 @@ def read(path: str | Path) -> dict[str, Any]:
 
 def cases_of(
     given: Validator,
-    assembly: Assembly,
+    assembly: HeldAssembly,
     described: Mapping[str, Any],
     static_loads: Sequence[float],
 ) -> list[tuple[Case, ...]]:
@@ -98,7 +98,7 @@ def cases_of(
     ----------
     given : Validator
         Gets what is wrong.
-    assembly : Assembly
+    assembly : HeldAssembly
     described : mapping
         By name, each with keys of `docs/suspension/loads.md`, which count for every wheel. Where
         there are several, a wheel may have some of its own under its name.

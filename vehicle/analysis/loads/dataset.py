@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ....core.quantities import variable
 from ....core.validator import Validator
 from ....core.vectors import cross
-from ...assembly.assembly import Assembly
+from ...assembly.assembly import HeldAssembly
 from ...assembly.by_wheel import WHEEL, flat, wheel_coordinate
 from ...assembly.coupling import BodyPose
 from ...assembly.load import Load
@@ -38,7 +38,7 @@ _NEEDED = "what kintrafo.loads.static or along returns is needed"
 
 def loads_of(
     over: str,
-    assembly: Assembly,
+    assembly: HeldAssembly,
     poses: Mapping[str, PartPoses],
     loads: Mapping[str, Sequence[Load]],
 ) -> xr.Dataset:
@@ -48,7 +48,7 @@ def loads_of(
     ----------
     over : str
         Dimension of the positions.
-    assembly : Assembly
+    assembly : HeldAssembly
     poses, loads : mapping
         By suffix.
     """
@@ -66,7 +66,7 @@ def loads_of(
 
 
 def _with_shared(
-    assembly: Assembly, poses: Mapping[str, PartPoses], loads: Mapping[str, Sequence[Load]]
+    assembly: HeldAssembly, poses: Mapping[str, PartPoses], loads: Mapping[str, Sequence[Load]]
 ) -> tuple[list[Load], dict[str, BodyPose]]:
     """Return all loads, those on what both sides share too, and where all parts are."""
     own = [of_side(load, suffix) for suffix, every in loads.items() for load in every]
@@ -79,7 +79,7 @@ def _with_shared(
     return [*own, *further], places | shared
 
 
-def design_centers(assembly: Assembly) -> dict[str, Array]:
+def design_centers(assembly: HeldAssembly) -> dict[str, Array]:
     """Return where the centre of each part is at design, see `BodyPose`, (3,) [m]."""
     poses = assembly.at_wheel_coordinates(assembly.design_wheel_coordinates[None], np.zeros(1))
     acting, loads = assembly.acting(poses), {}

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ....core.quantities import attributes, variable
 from ....core.validator import Validator
-from ...assembly.assembly import Assembly
+from ...assembly.assembly import HeldAssembly
 from ...assembly.by_wheel import stacked
 from ...assembly.load import Load
 from ...assembly.of import given_assembly
@@ -129,7 +129,7 @@ def static(
 
 
 def _at_rest_on_the_road(
-    given: Validator, assembly: Assembly, described: Mapping[str, Any]
+    given: Validator, assembly: HeldAssembly, described: Mapping[str, Any]
 ) -> list[float]:
     """Return the vertical forces on all wheels at rest, where a case needs them [N]."""
     if not in_parts_of_it(described):
@@ -145,7 +145,7 @@ def _at_rest_on_the_road(
 
 
 def _in_cases(
-    assembly: Assembly,
+    assembly: HeldAssembly,
     names: Sequence[str],
     loads: AppliedLoads,
     coordinates: Array,
@@ -155,12 +155,12 @@ def _in_cases(
 
     Parameters
     ----------
-    assembly : Assembly
+    assembly : HeldAssembly
     names : sequence of str
         Of the cases.
     loads : AppliedLoads
     coordinates : ndarray, shape (cases, wheels)
-        Positions of the wheels, see `Assembly.at_wheel_coordinates`.
+        Positions of the wheels, see `HeldAssembly.at_wheel_coordinates`.
     reasons : list of str
         Why a case is not carried; empty where it is.
     """
@@ -249,7 +249,7 @@ class _Balance:
 
 
 def _refused(
-    assembly: Assembly,
+    assembly: HeldAssembly,
     dead: Mapping[str, NDArray[np.bool_]],
     missing: Array,
     held: NDArray[np.bool_],
@@ -258,7 +258,7 @@ def _refused(
 
     Parameters
     ----------
-    assembly : Assembly
+    assembly : HeldAssembly
     dead : mapping
         By suffix, where what is carried has no bound, (n,).
     missing : ndarray, shape (n, wheels)

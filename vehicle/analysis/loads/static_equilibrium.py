@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...assembly.assembly import Assembly
+from ...assembly.assembly import HeldAssembly
 from ...assembly.load import known
 from ...assembly.part_poses import PartPoses
 from ...assembly.rig import WheelReach
@@ -59,18 +59,18 @@ _UNSTABLE = (
 )
 
 
-def static_equilibrium(assembly: Assembly, loads: AppliedLoads) -> tuple[Array, list[str]]:
+def static_equilibrium(assembly: HeldAssembly, loads: AppliedLoads) -> tuple[Array, list[str]]:
     """Return the positions of wheels under loads, and why there is none.
 
     Parameters
     ----------
-    assembly : Assembly
+    assembly : HeldAssembly
     loads : AppliedLoads
 
     Returns
     -------
     coordinates : ndarray, shape (n, wheels)
-        As of `Assembly.at_wheel_coordinates`; not numbers in cases that are not carried.
+        As of `HeldAssembly.at_wheel_coordinates`; not numbers in cases that are not carried.
     reasons : list of str
         Empty where a case is carried.
     """
@@ -95,7 +95,7 @@ class _Search:
 
     Attributes
     ----------
-    assembly : Assembly
+    assembly : HeldAssembly
     loads : AppliedLoads
     coordinates, low, high : ndarray, shape (n, wheels)
         Where they are, and between which they stay.
@@ -105,7 +105,7 @@ class _Search:
         Why a case is not carried; empty where it is.
     """
 
-    assembly: Assembly
+    assembly: HeldAssembly
     loads: AppliedLoads
     coordinates: Array
     low: Array
@@ -114,7 +114,7 @@ class _Search:
     reasons: list[str]
 
     @classmethod
-    def of(cls, assembly: Assembly, loads: AppliedLoads) -> "_Search":
+    def of(cls, assembly: HeldAssembly, loads: AppliedLoads) -> "_Search":
         """Begin at design, but with wheels that are held where they are."""
         count = len(loads.racks)
         coordinates = np.tile(assembly.design_wheel_coordinates, (count, 1))

@@ -5,27 +5,32 @@ from dataclasses import dataclass
 from functools import cached_property
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from ....core.errors import InputError
 from ....core.suggestions import suggestion
 from ....core.validator import Validator, shown
-from ....core.vectors import unit_vector
+from ....core.vectors import components, unit_vector
+from ....systems.allowed import LengthLimit
 from ...corner.bushes import RACK
 from ...data import data_sets
 from ...data.starter import AXLE, AXLES, not_of_a_suspension, whole_axle_in, whole_axles
 from ...input.described import Described, check_keys, described_by
 from ...input.messages import messages_of
 from ...input.places import put
+from ...input.vehicle import GravitySection, VehicleSection
 from ...kinds import Suspension
 from ..model import Model
 from ..sides import LEFT, RIGHT
 from .bar import AntiRollBar, HalfBar, mirrored_points
 from .file import SECTIONS_OF_SIDES, AxleFile, Brakes, Drive, End
 from .steering import SteeringCurve
+
+Array = NDArray[np.float64]
 
 # Bodies that no drop link is joined to.
 _NEVER_PULLED = ("tie_rod", "rack")
@@ -251,6 +256,96 @@ class Axle(Described):
         """Return whether its wheels can be steered: whether there is a rack."""
         return self.right.steered()
 
+    # -- what a car takes of it, as of every axle -------------------------------------------------
+
+    whole: ClassVar[bool] = False
+    """Whether it has no sides."""
+    overheld: ClassVar[bool] = False
+    """Whether it moves only as its bushes deflect."""
+
+    @property
+    def vehicle(self) -> VehicleSection:
+        """What its files say of the whole vehicle, the same of both sides."""
+        return self.right.vehicle
+
+    @property
+    def gravity(self) -> GravitySection:
+        """Gravity, the same of both sides."""
+        return self.right.gravity
+
+    @property
+    def wheel_centers(self) -> dict[str, Array]:
+        """The wheel centres at design by side [m]."""
+        return {side: one.hardpoints.metres("wheel_center") for side, one in self.sides.items()}
+
+    @property
+    def equations_name(self) -> str:
+        """The name of the equations of one side that have everything that both have.
+
+        Raises
+        ------
+        InputError
+            If there are none.
+        """
+        names = {str(model.equations.NAME): side for side, model in self.models.items()}
+        if len(names) != 1:
+            problem = (
+                f"the sides have different equations, {' and '.join(names)}: what one has and the "
+                "other has not, such as a stop or a curve, must be in both files. Add it there."
+            )
+            raise InputError([problem], "AxleModel")
+        return next(iter(names))
+
+    @property
+    def pulled(self) -> str:
+        """The part that drop links of an anti-roll bar pull at; empty without a bar."""
+        return self.bar.link_on if self.bar else ""
+
+    def allowed_lengths(self) -> tuple[LengthLimit, ...]:
+        """Return the lengths that the file of each side allows."""
+        return tuple(
+            one._replace(signal=f"{side}_{one.signal}", part=f"{side} {one.part}")
+            for side, own in self.sides.items()
+            for one in own.allowed_lengths()
+        )
+
+    def parameters_of_masses(self) -> list[Mapping[str, float]]:
+        """Return the parameters of masses and their centres of each side, by equal names."""
+        return [side.parameters() for side in self.sides.values()]
+
+    def parameters_by_side(self) -> dict[str, dict[str, float]]:
+        """Return the parameters of each side with its half of the anti-roll bar, in SI units."""
+        found = {side: dict(model.parameters) for side, model in self.models.items()}
+        for side, half in self.halves.items():
+            for name, vector in (
+                ("bar_bush", half.bush),
+                ("bar_axis", half.axis),
+                ("link_top", half.top),
+                ("link_foot", half.foot),
+            ):
+                found[side] |= components(name, vector)
+        return found
+
+    def parameters_of_bar(self) -> dict[str, float]:
+        """Return the parameters of the anti-roll bar itself, in SI units; none without one."""
+        if self.bar is None:
+            return {}
+        return {"bar_rate": self.bar.rate(), "bar_free_angle": self.bar.free_twist()}
+
+    def parameters_in_a_car(self) -> dict[str, float]:
+        """Return the parameters of both sides by the names that a car's equations have for them."""
+        sides = self.parameters_by_side()
+        # both sides have one rack, whose values are those of the right one
+        return (
+            self.parameters_of_bar()
+            | sides[RIGHT]
+            | {
+                f"{side}_{name}": value
+                for side, own in sides.items()
+                for name, value in own.items()
+            }
+        )
+
     def heading(self) -> str:
         """Return the name of the axle."""
         kinds = " and ".join(dict.fromkeys(side.TITLE for side in self.sides.values()))
@@ -289,18 +384,10 @@ def _sides_of(described: AxleFile, folder: Path, source: str) -> dict[str, Suspe
 
 
 def _suspension(given: Any, key: str, folder: Path) -> Suspension:
-    if isinstance(given, Suspension):
-        return given
-    if isinstance(given, Mapping):
-        return Suspension.from_dict(given)
-    if isinstance(given, str) and given in data_sets():
-        return Suspension.load(given)
-    if isinstance(given, str | Path):
-        if described_by(folder / given) == AXLE:
-            raise InputError([f"{given} is itself an axle. Name a hardpoint file."], key)
-        return Suspension.load(folder / given)
-    problem = f"{shown(given)}: the name of a hardpoint file is needed."
-    raise InputError([problem], key)
+    by_path = isinstance(given, str | Path) and given not in data_sets()
+    if by_path and described_by(folder / given) == AXLE:
+        raise InputError([f"{given} is itself an axle. Name a hardpoint file."], key)
+    return Suspension.given(given, folder, key)
 
 
 def _problems_of_sides(axle: Axle) -> list[str]:

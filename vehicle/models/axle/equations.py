@@ -4,9 +4,7 @@ from collections.abc import Callable
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
-from ....core.errors import InputError
 from ....core.validator import Validator
-from ....core.vectors import components
 from ....systems.allowed import LengthLimit
 from ....systems.compile.build import compile_mechanism, require_generator
 from ....systems.system import System
@@ -65,11 +63,7 @@ class AxleModel(System):
 
     def allowed_lengths(self) -> tuple[LengthLimit, ...]:
         """Return the lengths that the file of each side allows."""
-        return tuple(
-            one._replace(signal=f"{side}_{one.signal}", part=f"{side} {one.part}")
-            for side, own in self.axle.sides.items()
-            for one in own.allowed_lengths()
-        )
+        return self.axle.allowed_lengths()
 
     def __reduce__(self) -> tuple[Any, ...]:
         return partial(AxleModel, wheel_loads=self.wheel_loads), (self.axle,)
@@ -85,10 +79,10 @@ def declared(axle: Axle, *, wheel_loads: bool = False) -> "Formulation":
     from ....generator.mechanisms import model_named  # noqa: PLC0415
     from ....generator.mechanisms.suspension import with_wheel_loads  # noqa: PLC0415
 
-    corner = model_named(corner_of(axle))
+    corner = model_named(axle.equations_name)
     if wheel_loads:
         corner = with_wheel_loads(corner)
-    pulls = axle.bar.link_on if axle.bar else ""
+    pulls = axle.pulled
     parts = (corner.name, axle.end, "axle", pulls, "" if axle.symmetric else "two_sides")
     mechanism = page.mechanism(
         "_".join(part for part in parts if part),
@@ -101,45 +95,12 @@ def declared(axle: Axle, *, wheel_loads: bool = False) -> "Formulation":
     return page.model(corner, mechanism)
 
 
-def corner_of(axle: Axle) -> str:
-    """Return the name of the equations of one side that have everything that both have."""
-    names = {str(model.equations.NAME): side for side, model in axle.models.items()}
-    if len(names) != 1:
-        problem = (
-            f"the sides have different equations, {' and '.join(names)}: what one has and the "
-            "other has not, such as a stop or a curve, must be in both files. Add it there."
-        )
-        raise InputError([problem], "AxleModel")
-    return next(iter(names))
-
-
 def _parameters(axle: Axle, *, wheel_loads: bool) -> dict[str, float]:
-    of_sides = parameters_by_side(axle)
+    of_sides = axle.parameters_by_side()
     if wheel_loads:
         of_sides = {
             side: values | axle.sides[side].wheel_load_parameters()
             for side, values in of_sides.items()
         }
     left = {f"{LEFT}_{name}": value for name, value in of_sides[LEFT].items()}
-    return of_sides[RIGHT] | left | parameters_of_bar(axle)
-
-
-def parameters_by_side(axle: Axle) -> dict[str, dict[str, float]]:
-    """Return the parameters of each side with its half of the anti-roll bar, in SI units."""
-    found = {side: dict(model.parameters) for side, model in axle.models.items()}
-    for side, half in axle.halves.items():
-        for name, vector in (
-            ("bar_bush", half.bush),
-            ("bar_axis", half.axis),
-            ("link_top", half.top),
-            ("link_foot", half.foot),
-        ):
-            found[side] |= components(name, vector)
-    return found
-
-
-def parameters_of_bar(axle: Axle) -> dict[str, float]:
-    """Return the parameters of the anti-roll bar itself, in SI units; none without one."""
-    if axle.bar is None:
-        return {}
-    return {"bar_rate": axle.bar.rate(), "bar_free_angle": axle.bar.free_twist()}
+    return of_sides[RIGHT] | left | axle.parameters_of_bar()

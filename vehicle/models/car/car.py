@@ -23,7 +23,7 @@ from ...input.units import in_metres
 from ...kinds import Suspension
 from ...tyres import Tyre
 from ..axle.axle import Axle
-from ..sides import LEFT, SIDES
+from ..sides import SIDES
 from ..whole_axle import WholeAxle, whole_axle_class
 from .driving import named, tyre_of
 from .file import COORDINATES, ENDS, OF_DRIVING, CarFile
@@ -268,7 +268,7 @@ class Car(Described):
     def front_brake_share(self) -> float | None:
         """The part of the brake torque at the front wheels."""
         own = None if self.described.brakes is None else self.described.brakes.front_share
-        shares = [_vehicle_of(axle).front_brake_share for axle in self.axles.values()]
+        shares = [axle.vehicle.front_brake_share for axle in self.axles.values()]
         return next((s for s in (own, *shares) if s is not None), None)
 
     @property
@@ -285,7 +285,7 @@ class Car(Described):
     def steered(self) -> bool:
         """Return whether its rack can be moved: that of the front axle."""
         one = self.corner if self.corner is not None else self.axles["front"]
-        return isinstance(one, Axle | Suspension) and one.steered()
+        return one.steered()
 
     @property
     def origins(self) -> dict[str, float]:
@@ -301,7 +301,7 @@ class Car(Described):
         return {
             f"{end}_{side}": center + self.origins[end] * shift
             for end, axle in self.axles.items()
-            for side, center in _centers(axle).items()
+            for side, center in axle.wheel_centers.items()
         }
 
     @property
@@ -325,7 +325,7 @@ class Car(Described):
             words.append("[body] com_mm")
         words += self._unused_of_driving()
         rear = self.axles.get("rear")
-        if isinstance(rear, Axle) and rear.steered():
+        if rear is not None and rear.steered():
             words.append("rear axle: [rack] (a part of the body, and its tie rods hold the toe)")
         return tuple(words)
 
@@ -341,13 +341,6 @@ class Car(Described):
         ]
 
 
-def _centers(axle: AnyAxle) -> dict[str, Array]:
-    """Return the wheel centres of an axle in its own axes [m]."""
-    if isinstance(axle, WholeAxle):
-        return {side: axle.points(side)["wheel_center"] for side in SIDES}
-    return {side: one.hardpoints.metres("wheel_center") for side, one in axle.sides.items()}
-
-
 def _parts_of(described: CarFile, folder: Path, source: str) -> dict[str, Any]:
     """Return the corner, or the axles, by the keys that give them."""
     found: dict[str, Any] = {}
@@ -357,7 +350,8 @@ def _parts_of(described: CarFile, folder: Path, source: str) -> dict[str, Any]:
         if given is None:
             continue
         try:
-            found[key] = _corner(given, folder) if key == "corner" else _axle(given, key, folder)
+            is_corner = key == "corner"
+            found[key] = (Suspension.given if is_corner else _axle)(given, folder, key)
         except InputError as error:
             named = f"{key} = {shown(given)}" if isinstance(given, str) else key
             problems += [f"{named}: {problem}" for problem in error.problems]
@@ -392,20 +386,7 @@ def _copied(given: Any) -> Any:
     return dict(given) if isinstance(given, Mapping) else given
 
 
-def _corner(given: Any, folder: Path) -> Suspension:
-    if isinstance(given, Suspension):
-        return given
-    if isinstance(given, Mapping):
-        return Suspension.from_dict(given)
-    if isinstance(given, str) and given in data_sets():
-        return Suspension.load(given)
-    if isinstance(given, str | Path):
-        return Suspension.load(folder / given)
-    problem = f"{shown(given)}: the name of a hardpoint file is needed."
-    raise InputError([problem], "corner")
-
-
-def _axle(given: Any, key: str, folder: Path) -> AnyAxle:
+def _axle(given: Any, folder: Path, key: str) -> AnyAxle:
     if isinstance(given, Axle | WholeAxle):
         return given
     if isinstance(given, Mapping):
@@ -429,28 +410,24 @@ def _axle(given: Any, key: str, folder: Path) -> AnyAxle:
     raise InputError([problem], key)
 
 
-def _end_of(axle: AnyAxle) -> str:
-    return axle.end
-
-
 def _problems_of_axles(car: Car) -> list[str]:
     problems = [
-        f"{end}: its file describes the {_end_of(axle)} axle. Exchange the two files, or correct "
+        f"{end}: its file describes the {axle.end} axle. Exchange the two files, or correct "
         "this one."
         for end, axle in car.axles.items()
-        if _end_of(axle) != end
+        if axle.end != end
     ]
     problems += [
         "rear: [steering]: the rear wheels are not steered, and their rack is a part of the body. "
         "Remove that section."
         for axle in [car.axles["rear"]]
-        if isinstance(axle, Axle) and axle.steering is not None
+        if axle.steering is not None
     ]
     problems += [
         f"{end}: [rods] {', '.join(axle.to_dict()['rods'])}: an axle on five rods moves only on "
         "its bushes, and rods are rigid in a car. Leave one of them out."
         for end, axle in car.axles.items()
-        if isinstance(axle, WholeAxle) and axle.overheld
+        if axle.overheld
     ]
     return problems or [*_problems_of_places(car), *_problems_of_shared(car)]
 
@@ -484,7 +461,7 @@ def _problems_of_places(car: Car) -> list[str]:
 def _problems_of_shared(car: Car) -> list[str]:
     """See that the files of the axles agree on what belongs to the whole car."""
     problems = []
-    described = {end: _vehicle_of(axle) for end, axle in car.axles.items()}
+    described = {end: axle.vehicle for end, axle in car.axles.items()}
     for end, vehicle in described.items():
         base = vehicle.wheelbase_mm
         if base is not None and abs(base - (car.described.wheelbase_mm or 0.0)) > 1e3 * _CLOSE:
@@ -500,7 +477,7 @@ def _problems_of_shared(car: Car) -> list[str]:
                 f"whole car is {1e3 * own:.1f} mm by the masses of body, axles and wheels. Make "
                 "them agree within 5 mm, or remove the first."
             )
-    shares = {v.front_brake_share for v in described.values()} - {None}
+    shares = {s for v in described.values() if (s := v.front_brake_share) is not None}
     if len(shares) > 1:
         problems.append(
             f"[vehicle] front_brake_share is {' and '.join(f'{s:g}' for s in sorted(shares))} in "
@@ -509,12 +486,8 @@ def _problems_of_shared(car: Car) -> list[str]:
     return problems
 
 
-def _vehicle_of(axle: AnyAxle) -> Any:
-    return axle.vehicle if isinstance(axle, WholeAxle) else axle.right.vehicle
-
-
 def _problems_of_gravity(car: Car) -> list[str]:
-    found = {one.gravity.acceleration_m_per_s2 for one in _of_gravity(car)}
+    found = {one.gravity.acceleration_m_per_s2 for one in car.parts.values()}
     if len(found) == 1:
         return []
     values = " and ".join(f"{value:g} m/s^2" for value in sorted(found))
@@ -546,7 +519,7 @@ def _problems_of_driving(car: Car) -> list[str]:
 
 def _problems_of_brakes(car: Car) -> list[str]:
     own = car.described.brakes.front_share if car.described.brakes is not None else None
-    theirs = {_vehicle_of(axle).front_brake_share for axle in car.axles.values()} - {None}
+    theirs = {axle.vehicle.front_brake_share for axle in car.axles.values()} - {None}
     if own is None and not theirs:
         problem = (
             "[brakes] front_share is missing: the part of the torque at the front wheels. Add it, "
@@ -563,38 +536,20 @@ def _problems_of_brakes(car: Car) -> list[str]:
     return []
 
 
-def _of_gravity(car: Car) -> list[Any]:
-    if car.corner is not None:
-        return [car.corner]
-    axles = car.axles.values()
-    return [a if isinstance(a, WholeAxle) else a.right for a in axles]
-
-
 def masses(car: Car) -> list[tuple[float, Array]]:
     """Return every mass of a car with its centre at design, axes of the car [kg, m]."""
     found = [(car.described.body.mass_kg, car.com)]
     for end, axle in car.axles.items():
         shift = np.array([car.origins[end], 0.0, 0.0])
-        for values, mirrored in _parameters_of_bodies(axle):
+        for values in axle.parameters_of_masses():
             for name, mass in values.items():
                 if not name.endswith("_mass"):
                     continue
                 body = name.removesuffix("_mass")
                 at = "wheel_center" if body == "wheel" else f"{body}_com"
                 center = np.array([values[f"{at}_{axis}"] for axis in "xyz"])
-                found.append((mass, center * mirrored + shift))
+                found.append((mass, center + shift))
     return found
-
-
-def _parameters_of_bodies(axle: AnyAxle) -> list[tuple[dict[str, float], Array]]:
-    """Return the parameters that have masses and their centres, by side of an axle."""
-    same = np.ones(3)
-    if isinstance(axle, Axle):
-        return [(dict(side.parameters()), same) for side in axle.sides.values()]
-    values = axle.parameters()
-    left = {n.removeprefix(f"{LEFT}_"): v for n, v in values.items() if n.startswith(f"{LEFT}_")}
-    right = {n: v for n, v in values.items() if not n.startswith(f"{LEFT}_")}
-    return [(right, same), (left, same)]
 
 
 def center_of_gravity(car: Car) -> Array:

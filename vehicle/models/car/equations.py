@@ -14,12 +14,9 @@ from ....core.vectors import components
 from ....systems.allowed import LengthLimit
 from ....systems.compile.build import compile_mechanism, require_generator
 from ....systems.system import System
-from ..axle.axle import Axle
-from ..axle.equations import corner_of, parameters_by_side, parameters_of_bar
 from ..model import Model
-from ..sides import RIGHT, SIDES
-from ..whole_axle import WholeAxle
-from .car import AnyAxle, Car
+from ..sides import SIDES
+from .car import Car
 from .driving import Air
 
 if TYPE_CHECKING:
@@ -72,15 +69,11 @@ class CarModel(System):
         """Return the lengths that the files of the sides allow."""
         if self.car.corner is not None:
             return self.car.corner.allowed_lengths()
-        found = []
-        for end, axle in self.car.axles.items():
-            for prefix, limits in _limits(axle).items():
-                words = f"{end} {prefix.replace('_', ' ')}"
-                found += [
-                    one._replace(signal=f"{end}_{prefix}{one.signal}", part=f"{words}{one.part}")
-                    for one in limits
-                ]
-        return tuple(found)
+        return tuple(
+            one._replace(signal=f"{end}_{one.signal}", part=f"{end} {one.part}")
+            for end, axle in self.car.axles.items()
+            for one in axle.allowed_lengths()
+        )
 
     def __reduce__(self) -> tuple[Any, ...]:
         return CarModel, (self.car,)
@@ -89,24 +82,13 @@ class CarModel(System):
         return f"<CarModel {self.equations.NAME}>"
 
 
-def _limits(axle: AnyAxle) -> Mapping[str, tuple[LengthLimit, ...]]:
-    if isinstance(axle, WholeAxle):
-        return {"": axle.allowed_lengths()}
-    return {f"{side}_": own.allowed_lengths() for side, own in axle.sides.items()}
-
-
 def name_of(car: Car) -> str:
     """Return the name of the equations of a car, by what is in them."""
     if car.corner is not None:
         return f"quarter_{Model(car.corner).equations.NAME}"
     tyres = dict.fromkeys(tyre.law for tyre in car.tyres.values())
-    return "_".join([car.described.car, "car", *map(_name_of_axle, car.axles.values()), *tyres])
-
-
-def _name_of_axle(axle: AnyAxle) -> str:
-    if isinstance(axle, WholeAxle):
-        return axle.KEY
-    return f"{corner_of(axle)}_{axle.bar.link_on}" if axle.bar else corner_of(axle)
+    axles = [part for a in car.axles.values() for part in (a.equations_name, a.pulled) if part]
+    return "_".join([car.described.car, "car", *axles, *tyres])
 
 
 def _equations(car: Car, progress: Report | None) -> ModuleType:
@@ -190,10 +172,8 @@ class _End:
                 "brakes_on": axle.brakes.torque_on,
                 "drive_on": drive.torque_on if (drive := axle.drive) else None,
             }
-        if isinstance(axle, WholeAxle):
-            return cls(axle.KEY, whole=True, **rolling)
-        pulls = axle.bar.link_on if axle.bar else ""
-        return cls(corner_of(axle), whole=False, pulls=pulls, steered=end == "front", **rolling)
+        steered = end == "front" and not axle.whole
+        return cls(axle.equations_name, axle.whole, axle.pulled, steered, **rolling)
 
     def declared(self) -> "Formulation":
         """Return the declaration of the axle."""
@@ -254,7 +234,7 @@ def _parameters(car: Car, described: Mapping[str, Mapping[str, Any]]) -> dict[st
     if car.corner is not None:
         return values | Model(car.corner).parameters
     for end, axle in car.axles.items():
-        own = _of_whole_axle(axle) if isinstance(axle, WholeAxle) else _of_axle(axle)
+        own = axle.parameters_in_a_car()
         values["gravity"] = own["right_gravity"]
         values |= {f"{end}_{name}": value for name, value in own.items()}
     known = {name: value for name, value in values.items() if name in described}
@@ -293,29 +273,3 @@ def _of_driving(car: Car) -> dict[str, float]:
             "air_pitching": -float(sum(lift * levers[end] for end, lift in lifts.items())),
         }
     )
-
-
-def _of_axle(axle: Axle) -> dict[str, float]:
-    sides = parameters_by_side(axle)
-    # both sides have one rack, whose values are those of the right one
-    return (
-        parameters_of_bar(axle)
-        | sides[RIGHT]
-        | {f"{side}_{name}": value for side, own in sides.items() for name, value in own.items()}
-    )
-
-
-def _of_whole_axle(axle: WholeAxle) -> dict[str, float]:
-    from ....generator.mechanisms import model_named  # noqa: PLC0415 (an extra)
-
-    values = axle.parameters()
-    known: dict[str, float] = {
-        p.name: p.default for p in model_named(axle.KEY).mechanism.parameters
-    }
-    known |= values
-    # what is the image of something of one side has a name and a value of its own in a car
-    images = {
-        name: float(value.xreplace({symbol: known[symbol.name] for symbol in value.free_symbols}))
-        for name, value in model_named(axle.KEY).mechanism.derived.items()
-    }
-    return values | images | {"right_gravity": values["gravity"]}
