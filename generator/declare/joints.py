@@ -116,9 +116,37 @@ class Gear:
     ratio: Parameter
 
 
+class Turning(Joint):
+    """A joint whose coordinate is an angle."""
+
+    def angle(self, name: Name, meaning: str) -> RelativeCoordinate:
+        """Return its angle as a relative coordinate [rad].
+
+        Parameters
+        ----------
+        name, meaning
+            What it is called, and what it means for the documentation of the generated code.
+        """
+        return self._coordinate("angle", name, meaning)
+
+
+class Sliding(Joint):
+    """A joint whose coordinate is a slide."""
+
+    def slide(self, name: Name, meaning: str) -> RelativeCoordinate:
+        """Return its slide as a relative coordinate [m].
+
+        Parameters
+        ----------
+        name, meaning
+            What it is called, and what it means for the documentation of the generated code.
+        """
+        return self._coordinate("slide", name, meaning)
+
+
 @declared
 @dataclass(frozen=True)
-class Revolute(Joint):
+class Revolute(Turning):
     """A hinge about a line.
 
     Parameters
@@ -147,14 +175,10 @@ class Revolute(Joint):
     force_unit: ClassVar[str] = "N m"
     turns_about: ClassVar[tuple[str, ...]] = ("axis",)
 
-    def angle(self, name: Name, meaning: str) -> RelativeCoordinate:
-        """Report its angle [rad]."""
-        return self._coordinate("angle", name, meaning)
-
 
 @declared
 @dataclass(frozen=True)
-class Prismatic(Joint):
+class Prismatic(Sliding):
     """A guide along a direction; the slide is zero at the design position.
 
     Between two links that are pinned to other bodies in the same plane it makes a telescope, such
@@ -178,14 +202,10 @@ class Prismatic(Joint):
     unit: ClassVar[str] = "m"
     force_unit: ClassVar[str] = "N"
 
-    def slide(self, name: Name, meaning: str) -> RelativeCoordinate:
-        """Report its slide [m]."""
-        return self._coordinate("slide", name, meaning)
-
 
 @declared
 @dataclass(frozen=True)
-class Cylindrical(Joint):
+class Cylindrical(Turning, Sliding):
     """A telescope: slide along and rotation about a common line.
 
     Parameters
@@ -206,14 +226,6 @@ class Cylindrical(Joint):
     kind: ClassVar[str] = "cylindrical"
     common: ClassVar[str] = "an axis"
     coordinates: ClassVar[tuple[str, ...]] = ("slide", "angle")
-
-    def slide(self, name: Name, meaning: str) -> RelativeCoordinate:
-        """Report its slide [m]."""
-        return self._coordinate("slide", name, meaning)
-
-    def angle(self, name: Name, meaning: str) -> RelativeCoordinate:
-        """Report its angle [rad]."""
-        return self._coordinate("angle", name, meaning)
 
 
 @declared
@@ -253,11 +265,23 @@ class Universal(Joint):
         return self.at
 
     def azimuth(self, name: Name, meaning: str) -> RelativeCoordinate:
-        """Report the azimuth of its shaft [rad]."""
+        """Return its shaft's azimuth as a relative coordinate [rad].
+
+        Parameters
+        ----------
+        name, meaning
+            What it is called, and what it means for the documentation of the generated code.
+        """
         return self._coordinate("azimuth", name, meaning)
 
     def elevation(self, name: Name, meaning: str) -> RelativeCoordinate:
-        """Report the elevation of its shaft [rad]."""
+        """Return its shaft's elevation as a relative coordinate [rad].
+
+        Parameters
+        ----------
+        name, meaning
+            What it is called, and what it means for the documentation of the generated code.
+        """
         return self._coordinate("elevation", name, meaning)
 
 
@@ -299,7 +323,15 @@ class Free(Joint):
         name: Name,
         meaning: str,
     ) -> RelativeCoordinate:
-        """Report one of them [m or rad]."""
+        """Return one of them as a relative coordinate [m or rad].
+
+        Parameters
+        ----------
+        kind
+            Which of them.
+        name, meaning
+            What it is called, and what it means for the documentation of the generated code.
+        """
         return self._coordinate(kind, name, meaning)
 
 

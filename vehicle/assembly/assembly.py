@@ -325,7 +325,7 @@ class Assembly(ABC):
             inputs[..., model.input_names.index("rack_position")] = rack
         return states, inputs
 
-    def require_rigid_motion(self) -> None:
+    def require_rigid_motion(self) -> None:  # noqa: B027 (most have nothing to refuse)
         """Refuse an assembly that rigid joints do not let move.
 
         Raises

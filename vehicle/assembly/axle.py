@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.errors import InputError
 from ...core.quantities import variable
 from ...core.validator import Validator
 from ...core.vectors import unit_vector
@@ -26,7 +25,7 @@ from . import motions
 from .anti_roll_bar import Bar
 from .assembly import Bushings, HeldAssembly
 from .axle_coupling import on_the_bar, pull_of_bar, rules_of, turn_of_half
-from .axle_kinematics import AxleKinematics
+from .axle_kinematics import AxleKinematics, refuse_loose_link
 from .corner import CornerAssembly, lines_of, poses_of
 from .coupling import STEERING, BodyPose, on_the_rack
 from .held import RestConditions
@@ -491,21 +490,3 @@ def motions_of_two(words: Mapping[str, str]) -> dict[str, RigMotion]:
         LEFT: RigMotion(TRAVEL, words[LEFT], "travel of the left wheel"),
         RIGHT: RigMotion(TRAVEL, words[RIGHT], "travel of the right wheel"),
     }
-
-
-def refuse_loose_link(side: str, turn: Array, travels: Array) -> None:
-    """Refuse positions in which the drop link of a side does not reach its lever.
-
-    Raises
-    ------
-    InputError
-    """
-    lost = ~np.isfinite(turn)
-    if lost.any():
-        there = np.broadcast_to(travels, lost.shape)[lost]
-        first = 1e3 * float(there[np.abs(there).argmin()])
-        problem = (
-            f"[anti_roll_bar] the {side} drop link does not reach its lever at {first:+.4g} mm of "
-            "wheel travel. Choose less travel, or move link_top, link_foot or bush."
-        )
-        raise InputError([problem], "axle")

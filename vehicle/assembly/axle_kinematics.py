@@ -232,6 +232,24 @@ class AxleKinematics:
         return wheel.steer(self.left) - static[0], wheel.steer(self.right) - static[1]
 
 
+def refuse_loose_link(side: str, turn: Array, travels: Array) -> None:
+    """Refuse positions in which the drop link of a side does not reach its lever.
+
+    Raises
+    ------
+    InputError
+    """
+    lost = ~np.isfinite(turn)
+    if lost.any():
+        there = np.broadcast_to(travels, lost.shape)[lost]
+        first = 1e3 * float(there[np.abs(there).argmin()])
+        problem = (
+            f"[anti_roll_bar] the {side} drop link does not reach its lever at {first:+.4g} mm of "
+            "wheel travel. Choose less travel, or move link_top, link_foot or bush."
+        )
+        raise InputError([problem], "axle")
+
+
 def _diagonal(left: Array, right: Array) -> Array:
     nothing = np.zeros_like(left)
     return np.stack([np.stack([left, nothing], -1), np.stack([nothing, right], -1)], -2)
@@ -239,14 +257,7 @@ def _diagonal(left: Array, right: Array) -> Array:
 
 def _half(model: Model, half: HalfBar, angle: Array, rack: Array, travel: Array, side: str) -> Half:
     turn, slope, lever = _turned(model, half, angle, rack)
-    lost = ~np.isfinite(turn)
-    if lost.any():
-        first = 1e3 * float(travel[lost][np.abs(travel[lost]).argmin()])
-        problem = (
-            f"[anti_roll_bar] the {side} drop link does not reach its lever at {first:+.4g} mm of "
-            "wheel travel. Choose less travel, or move link_top, link_foot or bush."
-        )
-        raise InputError([problem], "axle")
+    refuse_loose_link(side, turn, travel)
     changes = (
         weight / _STEP * _turned(model, half, angle + by * _STEP, rack)[1]
         for by, weight in _WEIGHTS.items()

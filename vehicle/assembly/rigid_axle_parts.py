@@ -15,8 +15,9 @@ from ...core.vectors import cross
 from ..corner.corner import UP
 from ..models.rigid_axle.axle import RigidAxle
 from ..models.rigid_axle.model import ROLL, RigidAxleModel
-from ..models.rigid_axle.structure import BEAM, CHASSIS, MIDDLE
+from ..models.rigid_axle.structure import BEAM, MIDDLE
 from ..models.sides import SENSE, SIDES
+from ..models.whole_axle import CHASSIS
 from .load import Load
 from .part_poses import CENTER, road_axes
 from .whole_axle_parts import BAR, WholeAxleParts

@@ -1,7 +1,6 @@
 """A twist-beam axle as a file describes it, what holds its parts together, and its equations."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from types import ModuleType
 from typing import Annotated, Any, ClassVar
 
@@ -15,9 +14,7 @@ from ..corner.bushes import Bush, Bushings, bushes_of
 from ..corner.coil_sprung import ApartDamper
 from ..corner.corner import Array
 from ..corner.structure import (
-    FORCES_OF_A_DAMPER,
     FixedJoint,
-    LineForce,
     PartJoint,
     Points,
     SphericalJoint,
@@ -31,23 +28,15 @@ from ..input.stop import StopSection
 from ..input.units import in_metres
 from ..input.vehicle import GravitySection, TyreSection, WheelSection
 from .axle.file import Brakes, End
-from .plausibility import (
-    stray_points,
-    unlikely_inertia,
-    unlikely_rates,
-    unlikely_tyre,
-    unlikely_vehicle,
-    unlikely_wheel,
-)
 from .sides import LEFT, RIGHT, SIDES
-from .whole_axle import WholeAxle
+from .whole_axle import CHASSIS, WholeAxle, lines_of_sides, on_both_sides
 from .whole_axle_file import AxleDrive, WholeAxleHardpoints, WholeAxleVehicle
 from .whole_axle_model import WholeAxleModel
 
 LIFT, TWIST = "lift", "twist"
 """The coordinates: angle of both arms about the pivots, and of each about its line to the beam."""
 
-CHASSIS, CENTER, PIVOT, SHEAR_CENTER = "chassis", "wheel_center", "pivot", "shear_center"
+CENTER, PIVOT, SHEAR_CENTER = "wheel_center", "pivot", "shear_center"
 ACROSS = np.array([0.0, 1.0, 0.0])
 """The direction of the line through both pivots."""
 
@@ -56,10 +45,6 @@ _UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 _SHORTEST = 0.05
 # Newton's method is at the end where it moves nothing by more than this [rad]; it doubles digits.
 _CLOSE, _MOST_STEPS = 1e-14, 20
-_FORCES = {
-    "spring": ("spring_spring_force", "spring_actuator"),
-    "damper": tuple(f"damper_{name}" for name in FORCES_OF_A_DAMPER),
-}
 _ARMS, _BEAM = "#4a525a", "#d55e00"
 
 _Rate = Annotated[
@@ -214,17 +199,7 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
             joints.append(PivotJoint(CHASSIS, arm, (f"{PIVOT}_{side}",)))
             joints.append(FixedJoint(arm, f"wheel_{side}", (f"{CENTER}_{side}",)))
         joints.append(BeamJoint(f"arm_{RIGHT}", f"arm_{LEFT}", (SHEAR_CENTER,)))
-        lines = [
-            LineForce(
-                f"{name}_{side}",
-                tuple(f"{side}_{force}" for force in forces),
-                CHASSIS,
-                f"arm_{side}",
-                (f"{name}_top_{side}", f"{name}_seat_{side}"),
-            )
-            for name, forces in _FORCES.items()
-            for side in SIDES
-        ]
+        lines = lines_of_sides({side: f"arm_{side}" for side in SIDES})
         return Structure(joints, lines)
 
     def bushes(self, given: Validator, described: Mapping[str, Any]) -> list[Bush]:
@@ -249,14 +224,7 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
         return [
             own
             for bush in found
-            for own in (
-                [bush]
-                if bush.point == SHEAR_CENTER
-                else [
-                    bush.mirrored(f"{bush.point}_{LEFT}"),
-                    replace(bush, point=f"{bush.point}_{RIGHT}"),
-                ]
-            )
+            for own in ([bush] if bush.point == SHEAR_CENTER else on_both_sides(bush))
         ]
 
     def parameters(self) -> dict[str, float]:
@@ -265,7 +233,6 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
         The torque T of the beam by its twist does T times the rate of the twist, which is that of
         an arm's turn times `twist_ratio`; so the rate by the turn has the square of that.
         """
-        bodies = self.bodies.parameters(self.hardpoints)
         rate = float(np.degrees(self.beam.rate_Nm_per_deg)) * self.twist_ratio**2
         values = {
             **components(SHEAR_CENTER, self.shear_center),
@@ -273,11 +240,9 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
             "gravity": self.gravity.acceleration_m_per_s2,
             "beam_rate": rate,
             "opposite": -1.0,
-            **{name: value for name, value in bodies.items() if name.startswith("arm_")},
         }
-        wheel = {name: value for name, value in bodies.items() if name.startswith("wheel_")}
-        own = self._of_wheels(wheel)
-        return values | {n: v for n, v in own.items() if PIVOT not in n}
+        own = self._of_bodies("arm")
+        return values | {name: value for name, value in own.items() if PIVOT not in name}
 
     # -- its checks -----------------------------------------------------------------------------
 
@@ -303,22 +268,12 @@ and `[bushings.POINT]`, whose points are `pivot`, `shear_center` and `wheel_cent
 
     def _unlikely(self) -> Iterator[str]:
         """Say what is almost surely a mistake: units, and points that are swapped."""
-        points, unit = self.hardpoints, self.hardpoints.unit
-        given = {points.text(n): points.metres(n) for n in points.given() if n != CENTER}
-        yield from stray_points(given, unit)
-        yield from unlikely_vehicle(self.vehicle)
-        far = max(float(np.linalg.norm(at - self.center)) for at in given.values())
-        yield from unlikely_tyre(self.tyre)
-        yield from unlikely_inertia({"arm": self.bodies.arm}, far)
-        yield from unlikely_wheel(self.bodies.wheel, self.tyre_radius())
-        mass = self.bodies.arm.mass_kg + self.bodies.wheel.mass_kg
-        yield from unlikely_rates(
-            self.parameters(), self.length("spring", RIGHT), mass, self.rate_key
-        )
+        arm = self.bodies.arm
+        yield from self._unlikely_of({}, {"arm": arm}, 0.0, arm.mass_kg)
         if self.twist_beam == "rear" and self.pivot[0] < self.center[0]:
             yield (
-                f"{points.text(PIVOT)}: the pivots are behind the wheels, so that no arm trails. "
-                "Correct the sign of x."
+                f"{self.hardpoints.text(PIVOT)}: the pivots are behind the wheels, so that no arm "
+                "trails. Correct the sign of x."
             )
 
 

@@ -1,7 +1,8 @@
 """Axles without sides, such as a rigid axle: the members that all share."""
 
 from abc import abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from importlib import import_module
 from importlib.resources.abc import Traversable
 from types import ModuleType
@@ -17,17 +18,28 @@ from ...systems.allowed import LengthLimit
 from ...systems.compile.build import require_generator
 from ..corner.bushes import Bush
 from ..corner.corner import Array
-from ..corner.structure import Structure
+from ..corner.structure import FORCES_OF_A_DAMPER, LineForce, Structure
 from ..corner.wheeled import WheeledSection
 from ..data import data_sets
 from ..data.starter import WHOLE_AXLES, words_of
 from ..input.described import check_keys
 from ..input.messages import messages_of
-from .plausibility import Plausibility, beyond_the_table, unusual_alignment
+from .plausibility import (
+    Plausibility,
+    beyond_the_table,
+    stray_points,
+    unlikely_inertia,
+    unlikely_rates,
+    unlikely_tyre,
+    unlikely_vehicle,
+    unlikely_wheel,
+    unusual_alignment,
+)
 from .sides import LEFT, RIGHT, SIDES
 
 if TYPE_CHECKING:
     from ..corner.coil_sprung import ApartDamper
+    from ..input.bodies import RigidBody
     from ..input.spring import SpringSection
     from .axle.file import Brakes, End
     from .whole_axle_file import AxleDrive, WholeAxleVehicle
@@ -37,6 +49,12 @@ _SMALLEST_HALF_TRACK = 0.1
 # Two ends of a spring or a damper are farther apart than this [m].
 SHORTEST = 0.001
 _MIRROR = np.array([1.0, -1.0, 1.0])
+# The signals and inputs of a side that are the force of a spring or a damper.
+_FORCES = {
+    "spring": ("spring_spring_force", "spring_actuator"),
+    "damper": tuple(f"damper_{name}" for name in FORCES_OF_A_DAMPER),
+}
+CHASSIS = "chassis"
 
 
 class WholeAxle(WheeledSection):
@@ -77,6 +95,7 @@ class WholeAxle(WheeledSection):
         damper: ApartDamper
         brakes: Brakes
         drive: AxleDrive | None
+        bodies: Any
 
     def __init__(self, /, **data: Any) -> None:
         try:
@@ -268,17 +287,24 @@ class WholeAxle(WheeledSection):
         """
         return _length(self.points(side), part)
 
-    def _of_wheels(self, bodies: Mapping[str, float]) -> dict[str, float]:
-        """Return the parameters of wheels, springs, dampers, stops and tyres of both sides.
+    def _of_bodies(self, carrier: str) -> dict[str, float]:
+        """Return the parameters of what carries the wheels, and of all that there is of each side.
+
+        That are wheels, springs, dampers, stops and tyres.
 
         Parameters
         ----------
-        bodies : mapping
-            Of each body of a side.
+        carrier : str
+            The body that carries the wheels, or the right one.
         """
-        values: dict[str, float] = {}
+        values, wheel = {}, dict[str, float]()
+        for name, value in self.bodies.parameters(self.hardpoints).items():
+            if name.startswith(f"{carrier}_"):
+                values[name] = value
+            elif name.startswith("wheel_"):
+                wheel[name] = value
         for prefix, side, sign in (("", RIGHT, -1.0), ("left_", LEFT, 1.0)):
-            own = {**bodies, **self._of_side(side, sign)}
+            own = {**wheel, **self._of_side(side, sign)}
             values |= {f"{prefix}{name}": value for name, value in own.items()}
         return values
 
@@ -316,6 +342,39 @@ class WholeAxle(WheeledSection):
     @abstractmethod
     def _unlikely(self) -> Iterable[str]:
         """Say what is almost surely a mistake: units, points that are swapped."""
+
+    def _unlikely_of(
+        self,
+        points: Mapping[str, Array],
+        bodies: "Mapping[str, RigidBody]",
+        reach: float,
+        mass: float,
+    ) -> Iterator[str]:
+        """Yield what is almost surely a mistake on any such axle.
+
+        Parameters
+        ----------
+        points : mapping of str to ndarray
+            By what is in the file, besides the hardpoints [m].
+        bodies : mapping
+            Besides the wheel.
+        reach : float
+            By how much farther the bodies reach than the points are from the middle [m].
+        mass : float
+            Of what a wheel carries besides itself [kg].
+        """
+        own = self.hardpoints
+        given = {own.text(n): own.metres(n) for n in own.given() if n != "wheel_center"}
+        given.update(points)
+        yield from stray_points(given, own.unit)
+        yield from unlikely_vehicle(self.vehicle)
+        far = max(float(np.linalg.norm(at - self.center)) for at in given.values())
+        yield from unlikely_tyre(self.tyre)
+        yield from unlikely_inertia(bodies, reach + far)
+        wheel = self.bodies.wheel
+        yield from unlikely_wheel(wheel, self.tyre_radius())
+        length = self.length("spring", RIGHT)
+        yield from unlikely_rates(self.parameters(), length, mass + wheel.mass_kg, self.rate_key)
 
     def _own_problems(self) -> list[str]:
         """Say what else cannot be, where the points are good."""
@@ -368,6 +427,33 @@ def of_side(values: Mapping[str, float], side: str) -> Mapping[str, float]:
     if side == RIGHT:
         return values
     return {n.removeprefix("left_"): v for n, v in values.items() if n.startswith("left_")}
+
+
+def lines_of_sides(carriers: Mapping[str, str]) -> list[LineForce]:
+    """Return the springs and the dampers, between the chassis and what carries each wheel.
+
+    Parameters
+    ----------
+    carriers : mapping of str to str
+        By side.
+    """
+    return [
+        LineForce(
+            f"{name}_{side}",
+            tuple(f"{side}_{force}" for force in forces),
+            CHASSIS,
+            carrier,
+            (f"{name}_top_{side}", f"{name}_seat_{side}"),
+        )
+        for name, forces in _FORCES.items()
+        for side, carrier in carriers.items()
+    ]
+
+
+def on_both_sides(bush: Bush) -> list[Bush]:
+    """Return the bush of the right side, and its image before it."""
+    at = bush.point
+    return [bush.mirrored(f"{at}_{LEFT}"), replace(bush, point=f"{at}_{RIGHT}")]
 
 
 def _length(points: Mapping[str, Array], name: str) -> float:

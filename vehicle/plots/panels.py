@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TypedDict
 
 from matplotlib import rc_context
 from matplotlib.axes import Axes
@@ -14,15 +15,33 @@ from .curves import check_formats
 _COLUMNS = 2
 
 
+class FigureOptions(TypedDict, total=False):
+    """What every function takes that writes a figure of panels.
+
+    Attributes
+    ----------
+    title : str
+        Title of the figure; none by default.
+    force : bool
+        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path
+        Files that are never replaced.
+    """
+
+    title: str
+    force: bool
+    inputs: Paths
+
+
 def write_panels(
     draw: Callable[[Axes, str], None],
     names: Sequence[str],
     path: str | Path,
     *,
     height: float,
-    title: str,
-    force: bool,
-    inputs: Paths,
+    title: str = "",
+    force: bool = False,
+    inputs: Paths = (),
 ) -> Path:
     """Write one figure of several panels, two beside each other.
 
@@ -38,12 +57,8 @@ def write_panels(
         The ending is the format: ``.png``, ``.svg`` or ``.pdf``.
     height : float
         Of a row [in].
-    title : str
-        Title of the figure.
-    force : bool
-        Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
-    inputs : iterable of str or pathlib.Path
-        Files that are never replaced.
+    title, force, inputs
+        As of `FigureOptions`.
 
     Returns
     -------

@@ -3,17 +3,17 @@
 from itertools import combinations
 from pathlib import Path
 from textwrap import fill
+from typing import Unpack
 
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from ...core.files import Paths
 from ...core.quantities import bracketed, display_of
 from ...pictures.figures import BLUE, GREEN, ORANGE
 from ..studies.objectives import Objective
 from ..studies.pareto import Front
-from .panels import write_panels
+from .panels import FigureOptions, write_panels
 
 Array = NDArray[np.float64]
 
@@ -26,9 +26,7 @@ def write_front(
     path: str | Path,
     *,
     chosen: int = 0,
-    title: str = "",
-    force: bool = False,
-    inputs: Paths = (),
+    **how: Unpack[FigureOptions],
 ) -> Path:
     """Write a front, the suspension as it was, and members that are marked.
 
@@ -36,7 +34,7 @@ def write_front(
     ----------
     found : Front
         From `kintrafo.variation.pareto`.
-    path, title, force, inputs
+    path, **how
         As of `panels.write_panels`.
     chosen : int, optional
         A member that is marked besides the compromise.
@@ -51,9 +49,7 @@ def write_front(
         [*panels],
         path,
         height=3.4,
-        title=title,
-        force=force,
-        inputs=inputs,
+        **how,
     )
 
 

@@ -1,15 +1,14 @@
 """Curves of a tyre: forces and moment over slip, by load and camber, and combined slip."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 from matplotlib.axes import Axes
 
-from ...core.files import Paths
 from ...pictures.figures import BLUE, GREEN, ORANGE
 from ..tyres import Tyre
-from .panels import write_panels
+from .panels import FigureOptions, write_panels
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,17 +26,14 @@ _DASHES = ("-", "--", ":", "-.")
 def write_tyre(
     tyre: Tyre,
     path: str | Path,
-    *,
-    title: str = "",
-    force: bool = False,
-    inputs: Paths = (),
+    **how: Unpack[FigureOptions],
 ) -> Path:
     """Write curves of a tyre: forces and aligning moment over slip, at several loads and cambers.
 
     Parameters
     ----------
     tyre : Tyre
-    path, title, force, inputs
+    path, **how
         As of `panels.write_panels`.
 
     Returns
@@ -63,9 +59,7 @@ def write_tyre(
         [*panels],
         path,
         height=3.2,
-        title=title,
-        force=force,
-        inputs=inputs,
+        **how,
     )
 
 

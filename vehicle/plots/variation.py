@@ -3,14 +3,13 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from textwrap import fill
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
-from ...core.files import Paths
 from ...core.quantities import bracketed, display_of, displayed, long_name
 from ...pictures.figures import BLUE, ORANGE
 from ...pictures.turned import turn
@@ -23,7 +22,7 @@ from ..studies.sensitivity import PLACE, Effect, effects
 from ..studies.sweep_axes import sweep_axis
 from ..studies.tolerance import QUANTILE
 from .goals import mark, of_curve
-from .panels import write_panels
+from .panels import FigureOptions, write_panels
 
 # Before and after: they differ in black and white, too.
 _PAIR = ((BLUE, "-"), (ORANGE, "--"))
@@ -41,9 +40,7 @@ def write_bars(
     names: Sequence[str],
     *,
     at: float = 0.0,
-    title: str = "",
-    force: bool = False,
-    inputs: Paths = (),
+    **how: Unpack[FigureOptions],
 ) -> Path:
     """Write which values move characteristics most, each in its own axes for each unit.
 
@@ -51,7 +48,7 @@ def write_bars(
     ----------
     dataset : xarray.Dataset
         From `kintrafo.vehicle.studies.sensitivity`.
-    path, title, force, inputs
+    path, **how
         As of `panels.write_panels`.
     names : sequence of str
         Characteristics.
@@ -72,9 +69,7 @@ def write_bars(
         [*panels],
         path,
         height=2.6,
-        title=title,
-        force=force,
-        inputs=inputs,
+        **how,
     )
 
 
@@ -84,9 +79,7 @@ def write_bands(
     names: Sequence[str],
     *,
     limits: Sequence[Limit] = (),
-    title: str = "",
-    force: bool = False,
-    inputs: Paths = (),
+    **how: Unpack[FigureOptions],
 ) -> Path:
     """Write the bands of characteristics over the positions, and their deviations from nominal.
 
@@ -94,7 +87,7 @@ def write_bands(
     ----------
     dataset : xarray.Dataset
         From `kintrafo.vehicle.studies.tolerance`.
-    path, names, title, force, inputs
+    path, names, **how
         As of `write_bars`.
     limits : sequence of Limit, optional
         Drawn where they are about one of the curves.
@@ -109,19 +102,14 @@ def write_bands(
         [*panels],
         path,
         height=3.0,
-        title=title,
-        force=force,
-        inputs=inputs,
+        **how,
     )
 
 
 def write_optimum(
     found: Optimum,
     path: str | Path,
-    *,
-    title: str = "",
-    force: bool = False,
-    inputs: Paths = (),
+    **how: Unpack[FigureOptions],
 ) -> Path:
     """Write what there were targets and limits for, before and after, with these.
 
@@ -129,7 +117,7 @@ def write_optimum(
     ----------
     found : Optimum
         From `kintrafo.vehicle.studies.optimise`.
-    path, title, force, inputs
+    path, **how
         As of `write_bars`.
 
     Returns
@@ -157,7 +145,7 @@ def write_optimum(
         mark(axes, of_curve(goals, panel.name, panel.over))
         _around(axes, over.attributes() | {"long_name": over.long_name}, quantity.attributes())
 
-    return write_panels(draw, [*panels], path, height=2.6, title=title, force=force, inputs=inputs)
+    return write_panels(draw, [*panels], path, height=2.6, **how)
 
 
 def _bars(axes: Axes, dataset: xr.Dataset, name: str, found: Sequence[Effect]) -> None:

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -19,20 +18,12 @@ from ...input.stop import StopSection
 from ...input.units import in_metres
 from ...input.vehicle import GravitySection, TyreSection, WheelSection
 from ..axle.file import Brakes, End
-from ..plausibility import (
-    stray_points,
-    unlikely_inertia,
-    unlikely_rates,
-    unlikely_tyre,
-    unlikely_vehicle,
-    unlikely_wheel,
-)
-from ..sides import LEFT, RIGHT, SIDES
-from ..whole_axle import SHORTEST, WholeAxle
+from ..sides import SIDES
+from ..whole_axle import CHASSIS, SHORTEST, WholeAxle, on_both_sides
 from ..whole_axle_file import AxleDrive, WholeAxleHardpoints, WholeAxleVehicle
 from .file import LeftHardpoints, RigidAxleBodies, RodSection, RollBarSection
 from .rods import NEEDED, Ends, Hold
-from .structure import CENTER, CHASSIS, of_a_file, structure_of
+from .structure import CENTER, of_a_file, structure_of
 
 # Nearer to the vertical than this, a rod stands on its axle and does not guide it [deg].
 _SMALLEST_ANGLE = 1.0
@@ -187,16 +178,11 @@ Points of bushings are the names of the rods with the ending `_chassis` or `_axl
             points |= {f"{name}_{CHASSIS}": inner, f"{name}_axle": outer}
         spin = -self.wheel.spin_axis(-1.0)
         found = bushes_of(given, described, of_a_file(self.rods), points, spin)
-        sides = [
-            bush
-            for bearing in found
-            if bearing.point == CENTER
-            for bush in (
-                bearing.mirrored(f"{CENTER}_{LEFT}"),
-                replace(bearing, point=f"{CENTER}_{RIGHT}"),
-            )
+        return [
+            own
+            for bush in sorted(found, key=lambda bush: bush.point == CENTER)
+            for own in (on_both_sides(bush) if bush.point == CENTER else [bush])
         ]
-        return [*(bush for bush in found if bush.point != CENTER), *sides]
 
     def parameters(self) -> dict[str, float]:
         """Return everything that the equations of motion need, by their names, in SI units."""
@@ -212,10 +198,7 @@ Points of bushings are the names of the rods with the ending `_chassis` or `_axl
             chassis, axle = ends[name]
             values |= components(f"rod_{number}_chassis", chassis)
             values |= components(f"rod_{number}_axle", axle)
-        bodies = self.bodies.parameters(self.hardpoints)
-        values |= {name: value for name, value in bodies.items() if name.startswith("beam_")}
-        wheel = {name: value for name, value in bodies.items() if name.startswith("wheel_")}
-        return values | self._of_wheels(wheel)
+        return values | self._of_bodies("beam")
 
     # -- its checks -----------------------------------------------------------------------------
 
@@ -281,27 +264,20 @@ Points of bushings are the names of the rods with the ending `_chassis` or `_axl
 
     def _unlikely(self) -> Iterable[str]:
         """Say what is almost surely a mistake: units, and rods that are swapped."""
-        points, unit = self.hardpoints, self.hardpoints.unit
-        given = {points.text(n): points.metres(n) for n in points.given() if n != "wheel_center"}
+        ends_of_rods = {
+            f"[rods.{name}] {end}": at
+            for name, ends in self.ends().items()
+            for end, at in zip(RodSection.model_fields, ends, strict=True)
+        }
+        beam = self.bodies.beam
+        yield from self._unlikely_of(
+            ends_of_rods, {"beam": beam}, self.half_track, 0.5 * beam.mass_kg
+        )
         for name, ends in self.ends().items():
-            given |= {
-                f"[rods.{name}] {end}": at
-                for end, at in zip(RodSection.model_fields, ends, strict=True)
-            }
-        yield from stray_points(given, unit)
-        yield from unlikely_vehicle(self.vehicle)
-        far = max(float(np.linalg.norm(at - self.center)) for at in given.values())
-        yield from unlikely_tyre(self.tyre)
-        yield from unlikely_inertia({"beam": self.bodies.beam}, self.half_track + far)
-        yield from unlikely_wheel(self.bodies.wheel, self.tyre_radius())
-        half = 0.5 * self.bodies.beam.mass_kg + self.bodies.wheel.mass_kg
-        length = self.length("spring", RIGHT)
-        yield from unlikely_rates(self.parameters(), length, half, self.rate_key)
-        for name, ends in self.ends().items():
-            chassis, beam = (float(np.hypot(*(end - self.center)[[0, 2]])) for end in ends)
-            if beam > chassis + _SWAPPED:
+            inner, outer = (float(np.hypot(*(end - self.center)[[0, 2]])) for end in ends)
+            if outer > inner + _SWAPPED:
                 yield (
-                    f"[rods.{name}]: the end on the axle is {1e3 * beam:.0f} mm from the line "
-                    f"through the wheels, that on the chassis {1e3 * chassis:.0f} mm. Are the two "
+                    f"[rods.{name}]: the end on the axle is {1e3 * outer:.0f} mm from the line "
+                    f"through the wheels, that on the chassis {1e3 * inner:.0f} mm. Are the two "
                     "swapped?"
                 )

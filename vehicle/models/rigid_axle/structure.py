@@ -7,26 +7,20 @@ The parts are the beam, both wheels and the rods by their names. Points of a rod
 from collections.abc import Iterable
 
 from ...corner.structure import (
-    FORCES_OF_A_DAMPER,
     FixedJoint,
-    LineForce,
     PartJoint,
     SphericalJoint,
     Structure,
     UniversalJoint,
 )
 from ..sides import SIDES
+from ..whole_axle import CHASSIS, lines_of_sides
 
-BEAM, CHASSIS = "beam", "chassis"
+BEAM = "beam"
 CENTER = "wheel_center"
 MIDDLE = "axle_middle"
 """The point between the wheel centres, at which an anti-roll bar acts."""
 
-# The signals and inputs of a side that are the force of a spring or a damper.
-_FORCES = {
-    "spring": ("spring_spring_force", "spring_actuator"),
-    "damper": tuple(f"damper_{name}" for name in FORCES_OF_A_DAMPER),
-}
 _UPWARD = (0.0, 0.0, 1.0)
 
 
@@ -38,17 +32,7 @@ def structure_of(rods: Iterable[str]) -> Structure:
     rods : iterable of str
     """
     bearings = [FixedJoint(BEAM, f"wheel_{side}", (f"{CENTER}_{side}",)) for side in SIDES]
-    lines = [
-        LineForce(
-            f"{name}_{side}",
-            tuple(f"{side}_{force}" for force in forces),
-            CHASSIS,
-            BEAM,
-            (f"{name}_top_{side}", f"{name}_seat_{side}"),
-        )
-        for name, forces in _FORCES.items()
-        for side in SIDES
-    ]
+    lines = lines_of_sides(dict.fromkeys(SIDES, BEAM))
     # how the bar gets to the body is left out
     return Structure((*_of_rods(rods), *bearings), lines, {MIDDLE: ""})
 
