@@ -1,6 +1,6 @@
 """How wheels move over the motions of a rig on their bushes, and with rigid joints."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,11 +16,12 @@ from ...assembly.by_wheel import WHEEL, of_wheels, wheel_coordinate
 from ...assembly.of import given_assembly
 from ...assembly.quantity import RACK, STEERING_WHEEL, Quantity
 from ...assembly.rig import SweepRange
-from ...corner.corner import Array, RoadWheel
+from ...corner.corner import Array
 from ..characteristics.datasets import DATA_SET, KNOWN
 from .equilibrium import LOADS, ElasticEquilibrium, ElasticState
 from .linear import OF_BEAM
 from .on_bushes import (
+    CURVES,
     HARDPOINTS,
     WHEEL_LOAD,
     Hardpoints,
@@ -54,15 +55,6 @@ _IN_ROLL = Quantity(
     "positive when it resists roll",
     display=Display("N m/deg", np.pi / 180.0),
 )
-_CURVES: dict[Quantity, Callable[[RoadWheel], Array]] = {
-    KNOWN["travel"][name]: formula
-    for name, formula in {
-        "toe": wheel.toe,
-        "camber": wheel.camber,
-        "half_track_change": wheel.half_track_change,
-        "wheelbase_change": wheel.wheelbase_change,
-    }.items()
-}
 _STEERED = {KNOWN["rack"]["steer"]: wheel.steer}
 
 
@@ -204,7 +196,7 @@ def _over_motion(
         [*(one.wheels[which] for one in both[:-1]), on_bushes(both[-1], states[-1], which)]
         for which in range(len(assembly.wheels))
     ]
-    curves = _CURVES | (_STEERED if over in (RACK, STEERING_WHEEL) else {})
+    curves = {**CURVES, **(_STEERED if over in (RACK, STEERING_WHEEL) else {})}
     for quantity, formula in curves.items():
         values = [np.stack([formula(state) for state in own]) for own in wheels]
         data[quantity.name] = of_wheels(quantity, dims, values)

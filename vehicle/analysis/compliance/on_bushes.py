@@ -1,6 +1,6 @@
 """An assembly on its bushes, as a caller describes them, held by the road."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ....core.quantities import display_of
 from ....core.validator import Validator
+from ...assembly import wheel
 from ...assembly.assembly import Bushings, HeldAssembly
 from ...assembly.load import Load, known
 from ...assembly.part_poses import PartPoses
@@ -16,6 +17,7 @@ from ...assembly.quantity import TRAVEL, Quantity
 from ...corner.bushes import RACK, Bush
 from ...corner.corner import RoadWheel
 from ...models.reach import PositionError
+from ..characteristics.datasets import KNOWN
 from ..loads.reactions import BalanceEquations
 from .connections import GUIDE, Carried, CompliantJoints
 from .equilibrium import LOADS, ElasticEquilibrium, ElasticState
@@ -34,6 +36,17 @@ HARDPOINTS = {
 WHEEL_LOAD = Quantity(
     "wheel_load", "N", "wheel load", "vertical force of the road", "positive upward"
 )
+CURVES: Mapping[Quantity, Callable[[RoadWheel], Array]] = {
+    KNOWN["travel"][name]: formula
+    for name, formula in {
+        "toe": wheel.toe,
+        "camber": wheel.camber,
+        "half_track_change": wheel.half_track_change,
+        "wheelbase_change": wheel.wheelbase_change,
+    }.items()
+}
+"""Where a wheel is that bushes hold."""
+
 RIGID = CompliantJoints({}, 0.0, {})
 
 
