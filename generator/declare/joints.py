@@ -116,7 +116,7 @@ class Gear:
     ratio: Parameter
 
 
-class Turning(Joint):
+class TurningJoint(Joint):
     """A joint whose coordinate is an angle."""
 
     def angle(self, name: Name, meaning: str) -> RelativeCoordinate:
@@ -130,7 +130,7 @@ class Turning(Joint):
         return self._coordinate("angle", name, meaning)
 
 
-class Sliding(Joint):
+class SlidingJoint(Joint):
     """A joint whose coordinate is a slide."""
 
     def slide(self, name: Name, meaning: str) -> RelativeCoordinate:
@@ -146,7 +146,7 @@ class Sliding(Joint):
 
 @declared
 @dataclass(frozen=True)
-class Revolute(Turning):
+class Revolute(TurningJoint):
     """A hinge about a line.
 
     Parameters
@@ -178,7 +178,7 @@ class Revolute(Turning):
 
 @declared
 @dataclass(frozen=True)
-class Prismatic(Sliding):
+class Prismatic(SlidingJoint):
     """A guide along a direction; the slide is zero at the design position.
 
     Between two links that are pinned to other bodies in the same plane it makes a telescope, such
@@ -205,7 +205,7 @@ class Prismatic(Sliding):
 
 @declared
 @dataclass(frozen=True)
-class Cylindrical(Turning, Sliding):
+class Cylindrical(TurningJoint, SlidingJoint):
     """A telescope: slide along and rotation about a common line.
 
     Parameters
