@@ -64,6 +64,8 @@ LEAST_SPANS = {
 }
 # So many curves have their names beside them, more have a legend.
 _FEW_NAMES = 3
+# A figure with more rows than this has the names of the lines in each row.
+_SHORT = 3
 
 # A curve with more ups and downs than this, such as a rough road, is a thin line.
 _MANY_TURNS, _THIN = 40, 0.7
@@ -148,6 +150,7 @@ def draw(
         result.set_size_inches(size[0], size[1] + _BELOW)
     if once:
         _legend_below(result, once, marks)
+        _name_rows(panels[: len(names)].tolist(), once, columns)
     else:
         shape = np.array(size) / (columns, rows) - _AROUND
         _name_lines(result, panels, curves, shape, alone=alone)
@@ -254,7 +257,8 @@ def _describe_alone(axes: Axes, data: xr.DataArray) -> None:
 
 
 def _describe_panel(axes: Axes, data: xr.DataArray) -> None:
-    axes.set_ylabel(fill(_typeset(bracketed(long_name(data), data.attrs)), 26), fontsize=9.5)
+    label = _typeset(bracketed(long_name(data), data.attrs))
+    axes.set_ylabel(fill(label, 26, break_on_hyphens=False), fontsize=9.5)
     axes.set_title(fill(str(data.attrs.get("sign", "")), 46), fontsize=8, color="#555555")
 
 
@@ -437,6 +441,14 @@ def _legend_in(axes: Axes, lines: _Named) -> None:
     if lines.handles:
         size = {"fontsize": 8, "title_fontsize": 8}
         axes.legend(lines.handles, lines.labels, title=lines.title, loc="best", **size)
+
+
+def _name_rows(panels: Sequence[Axes], lines: _Named, columns: int) -> None:
+    """Name the lines of a high figure in each row too: its legend below is far away."""
+    if len(panels) <= _SHORT * columns:
+        return
+    for axes in panels[::columns]:
+        axes.legend(lines.handles, lines.labels, loc="best", frameon=False, fontsize=7)
 
 
 def _legend_below(result: Figure, lines: _Named, marks: Mapping[str, Any]) -> None:

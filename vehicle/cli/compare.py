@@ -22,8 +22,9 @@ if TYPE_CHECKING:
     from ..assembly.assembly import Assembly
     from ..studies.evaluation import Subject
 
-# Curves of two data sets are equal if they differ by less than this part of their size.
-_ROUNDING = 1e-9
+# Curves of two data sets cover each other in a picture if they differ by less than this part of the
+# span of the axis: less than the width of a line.
+_WIDTH_OF_A_LINE = 0.01
 
 EXAMPLES = (
     "kintrafo compare reference_car my_car.toml",
@@ -113,11 +114,18 @@ def command(
 
 
 def _differing(table: "Dataset") -> list[str]:
-    """Return the curves in which two data sets differ by more than rounding."""
+    """Return the curves in which the difference of two data sets can be seen."""
+    from ...core.quantities import display_of
+    from ...pictures.curves import LEAST_SPANS
+    from ..plots.curves import without_copies
+
     found = []
-    for name, data in table.data_vars.items():
+    for name in without_copies(table, table.data_vars):
+        data = table[name]
         between = data.max("data_set") - data.min("data_set")
-        if float(between.max()) > _ROUNDING * float(abs(data).max()):
+        shown = display_of(data.attrs)
+        span = max(float(data.max() - data.min()), LEAST_SPANS.get(shown.units, 0.0) / shown.factor)
+        if float(between.max()) > _WIDTH_OF_A_LINE * span:
             found.append(str(name))
     return found or [str(name) for name in table.data_vars]
 

@@ -68,7 +68,7 @@ def command(
     if outputs.pages:
         from ..plots.variation import write_bands
 
-        title = f"{title_of(file)}: {cars} cars by {tolerances.stem}"
+        title = f"{title_of(file)}: {cars} cars within {tolerances.stem}"
         limits = variation.limits(given.get("limits", {}), sweep_axes_of(subject))
         written += outputs.draw(write_bands, dataset, look.names, limits=limits, title=title)
     if output.json:

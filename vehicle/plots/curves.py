@@ -247,7 +247,7 @@ def grouped(dataset: xr.Dataset, goals: Sequence[Goal] = ()) -> dict[str, tuple[
         for name in names
         if not is_constant(displayed(dataset[name])) or _is_wanted(dataset[name], goals)
     )
-    for name in _without_copies(dataset, varying or names):
+    for name in without_copies(dataset, varying or names):
         group = group_of(name)
         groups[group] = (*groups.get(group, ()), name)
     return {group: groups[group] for group in ORDER if group in groups}
@@ -274,8 +274,15 @@ def first_curves(dataset: xr.Dataset) -> tuple[str, ...]:
     return tuple(shown) if len(shown) >= _FEWEST_FIRST else ()
 
 
-def _without_copies(dataset: xr.Dataset, names: Iterable[Hashable]) -> Iterator[Hashable]:
-    """Yield the names of curves without those that equal an earlier one or its negative."""
+def without_copies(dataset: xr.Dataset, names: Iterable[Hashable]) -> Iterator[Hashable]:
+    """Yield the names of curves without those that equal an earlier one or its negative.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+    names : iterable of str
+        Of variables.
+    """
     seen: list[xr.DataArray] = []
     for name in names:
         data = dataset[name]

@@ -178,8 +178,10 @@ def _bands(
     nominal = displayed(dataset[f"{name}_nominal"])
     shift = nominal if deviation else np.zeros_like(nominal)
     least, low, _, high, most = displayed(data.transpose(QUANTILE, along)) - shift
-    axes.fill_between(position, least, most, color=BLUE, alpha=0.15, label="all", linewidth=0)
-    axes.fill_between(position, low, high, color=BLUE, alpha=0.35, label="nine in ten", linewidth=0)
+    axes.fill_between(position, least, most, color=BLUE, alpha=0.15, label="all cars", linewidth=0)
+    axes.fill_between(
+        position, low, high, color=BLUE, alpha=0.35, label="90 % of them", linewidth=0
+    )
     axes.plot(position, nominal - shift, color="black", linewidth=1.4, label="nominal")
     words = dict(data.attrs)
     if deviation:

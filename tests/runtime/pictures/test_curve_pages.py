@@ -91,3 +91,15 @@ def test_no_curve_is_drawn_twice():
     shown["opposite"] = -shown["one"].assign_attrs(shown["one"].attrs)
     names = [name for group in grouped(shown).values() for name in group]
     assert names == ["one"]
+
+
+def test_a_high_figure_names_its_lines_in_each_row():
+    """Its legend below is far from most panels."""
+    lines = 0.02 * TRAVEL, -0.02 * TRAVEL
+    one = curves(*lines, names=("first", "second"))
+    several = xr.Dataset({f"curve_{i}": (1.0 + i) * one["one"] for i in range(11)})
+    for curve in several.values():
+        curve.attrs = dict(one["one"].attrs)
+    panels = figure(several, list(several)).axes
+    named = [panel.get_legend() is not None for panel in panels]
+    assert named == [index % 3 == 0 for index in range(11)]

@@ -11,6 +11,7 @@ from folders import ROOT
 from kintrafo import Model, Suspension, characteristics
 from kintrafo.core.tabulated import number, significant
 from kintrafo.vehicle import cli
+from kintrafo.vehicle.cli.compare import _differing
 from kintrafo.vehicle.data.starter import not_of_a_suspension
 from matplotlib.image import imread
 
@@ -206,6 +207,14 @@ def test_characteristics_at_design(kintrafo):
     found = json.loads(out)
     assert found["over_travel"]["variables"]["camber"]["units"] == "rad"
     assert len(found["over_travel"]["coordinates"]["wheel_travel"]["values"]) == 9
+
+
+def test_a_picture_compares_the_curves_whose_differences_can_be_seen():
+    """Neither those that cover each other, nor a curve twice, as toe and steer."""
+    cars = (Suspension.load("reference_car"),) * 2
+    cars = (cars[0], cars[1].with_changes({"strut.spring_rate_N_per_m": 30e3}))
+    table = xr.concat([characteristics.over(car) for car in cars], "data_set")
+    assert _differing(table) == ["wheel_rate", "ride_rate"]
 
 
 def test_compare_with_itself_differs_by_nothing(kintrafo):
