@@ -1,9 +1,13 @@
-"""A car that drives and is quickly derived: struts and trailing arms on linear tyres."""
+"""Cars that are quickly derived.
+
+One drives, on struts, trailing arms and linear tyres; one heaves, pitches and rolls on arms alone.
+"""
 
 from __future__ import annotations
 
 from typing import Any
 
+import kintrafo
 from kintrafo.vehicle.models.car import Car
 
 TYRE = {
@@ -39,3 +43,27 @@ FILE: dict[str, Any] = {
 def light_car(**changes: Any) -> Car:
     """Return it with changes of places in its file."""
     return Car.from_dict(FILE).with_changes({"body.mass_kg": 1300.0, **changes})
+
+
+def car_on_arms() -> Car:
+    """Return a car on four trailing arms, with the shortest equations."""
+    arm = kintrafo.load("trailing_arm_car")
+    axles = {
+        end: {
+            "axle": end,
+            "side": arm.with_changes(
+                {"vehicle.end": end, "vehicle.center_of_gravity_height_mm": None}
+            ),
+        }
+        for end in ("front", "rear")
+    }
+    data = {"car": "roll", "wheelbase_mm": 2600.0, "rear_origin_mm": -2600.0}
+    data["body"] = {
+        "mass_kg": 1200.0,
+        "com_mm": [-1200.0, 20.0, 600.0],
+        "inertia_xx_kg_m2": 450.0,
+        "inertia_yy_kg_m2": 1800.0,
+        "inertia_zz_kg_m2": 1900.0,
+    }
+    data["seats"] = {"driver": {"place_mm": [-1500.0, 400.0, 500.0]}}
+    return Car.from_dict(data | {end: kintrafo.Axle.from_dict(axle) for end, axle in axles.items()})

@@ -32,8 +32,16 @@ def damper_curve(parameters: Parameters) -> Callable[[float], float]:
 
 def spring_force(parameters: Parameters, length: float) -> float:
     """Return the force of the spring at a length (m), by its rate and its curve together."""
-    straight = parameters["spring_rate"] * (parameters["spring_free_length"] - length)
-    return straight + _curve(parameters, "spring_table", -1.0)(-length)
+    return _spring(parameters)(length)
+
+
+def _spring(parameters: Parameters) -> Callable[[float], float]:
+    rate, free = parameters["spring_rate"], parameters["spring_free_length"]
+    curve = _curve(parameters, "spring_table", -1.0)
+    return lambda length: rate * (free - length) + curve(-length)
+
+
+_RULE = np.polynomial.legendre.leggauss(3)
 
 
 def spring_energy(parameters: Parameters, length: float) -> float:
@@ -43,12 +51,9 @@ def spring_energy(parameters: Parameters, length: float) -> float:
     knots = [parameters[f"spring_table_knot_{i}"] for i in range(DAMPER_SEGMENTS + 1)]
     low, high = sorted((free, length))
     ends = np.unique(np.clip([low, *knots, high], low, high))
-    at, weights = np.polynomial.legendre.leggauss(3)
+    (at, weights), force = _RULE, _spring(parameters)
     pieces = [
-        0.5
-        * (b - a)
-        * weights
-        @ [spring_force(parameters, 0.5 * (a + b + (b - a) * x)) for x in at]
+        0.5 * (b - a) * weights @ [force(0.5 * (a + b + (b - a) * x)) for x in at]
         for a, b in pairwise(ends)
     ]
     return float(np.sign(free - length) * np.sum(pieces))

@@ -5,18 +5,19 @@ from __future__ import annotations
 import mpmath
 import numpy as np
 import pytest
+from driving_cars import car_on_arms
 from free_bodies import freed
 from kintrafo.generator.equations.outputs import Derivation, generate
-from kintrafo.generator.mechanisms import car, model_named
+from kintrafo.generator.mechanisms import model_named
+from kintrafo.vehicle.models.car.equations import declared
+from own_models import derive
 from symbolic import constants_of, derivatives_of, python
-
-ARMS = car.of_corners(model_named("trailing_arm"))
 
 
 @pytest.fixture(scope="module")
 def arms() -> Derivation:
     """A car of trailing arms, whose body heaves, pitches and rolls."""
-    return generate(car.car("arms", "A car", (ARMS, ARMS), car.FREEDOMS))
+    return derive(declared(car_on_arms()))
 
 
 @pytest.fixture(scope="module")

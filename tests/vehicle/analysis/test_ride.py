@@ -5,10 +5,12 @@ from __future__ import annotations
 import kintrafo
 import numpy as np
 import pytest
+from driving_cars import car_on_arms
 from kintrafo.vehicle.analysis.ride.linear import linear_at_rest
 from kintrafo.vehicle.analysis.ride.outputs import upward
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.roads import CLASSES, Road, bump, iso8608, isotropic_coherence
+from own_models import own
 from scipy.signal import csd, welch
 
 
@@ -241,29 +243,12 @@ def test_a_held_body_does_not_ride() -> None:
 
 @pytest.fixture(scope="module")
 def whole() -> kintrafo.CarModel:
-    """Return a car on four trailing arms, with the shortest equations."""
-    arm = kintrafo.load("trailing_arm_car")
-    axles = {
-        end: kintrafo.Axle.from_dict(
-            {
-                "axle": end,
-                "side": arm.with_changes(
-                    {"vehicle.end": end, "vehicle.center_of_gravity_height_mm": None}
-                ),
-            }
+    """Return a car on four trailing arms, derived once for this and for tests of its equations."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(
+            "kintrafo.vehicle.models.car.equations.compile_mechanism", lambda model, **_: own(model)
         )
-        for end in ("front", "rear")
-    }
-    body = {
-        "mass_kg": 1200.0,
-        "com_mm": [-1200.0, 20.0, 600.0],
-        "inertia_xx_kg_m2": 450.0,
-        "inertia_yy_kg_m2": 1800.0,
-        "inertia_zz_kg_m2": 1900.0,
-    }
-    seats = {"driver": {"place_mm": [-1500.0, 400.0, 500.0]}}
-    data = {"car": "roll", "wheelbase_mm": 2600.0, "rear_origin_mm": -2600.0, "body": body}
-    return kintrafo.CarModel(kintrafo.Car.from_dict(data | axles | {"seats": seats}))
+        return kintrafo.CarModel(car_on_arms())
 
 
 def test_corner_weights_carry_the_car(whole: kintrafo.CarModel) -> None:
