@@ -7,9 +7,16 @@ import sys
 import warnings
 from contextlib import chdir
 from pathlib import Path
+from typing import TYPE_CHECKING
 from unittest.mock import patch
 
 import pytest
+from rich.text import Text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from rich.table import Table
 
 ROOT = Path(__file__).parents[1]
 
@@ -30,3 +37,12 @@ def run_module(name: str, *arguments: object) -> None:
         with pytest.raises(SystemExit) as end:
             runpy.run_module(name, run_name="__main__")
     assert not end.value.code
+
+
+def lines_of(tables: Iterable[Table]) -> list[list[str]]:
+    """Return the cells of tables, line by line, as they are printed."""
+    return [
+        [Text.from_markup(str(cell)).plain for cell in line]
+        for made in tables
+        for line in zip(*([column.header, *column.cells] for column in made.columns), strict=True)
+    ]

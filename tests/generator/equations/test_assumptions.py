@@ -37,12 +37,11 @@ from own_mechanisms import (
     Parts,
     Sketch,
     askew,
-    ball,
-    cross,
     guide,
     heading,
     hinge,
     reported,
+    spatial_four_bar,
 )
 from own_models import Built, derive, has_gcc, own
 
@@ -276,43 +275,9 @@ def test_defaults_that_leave_the_plane_are_refused_before_anything_is_compiled(
 # -- shafts of crosses ----------------------------------------------------------------------------
 
 
-def spatial_four_bar(*, cross_at_rocker: bool) -> Formulation:
-    """Return hinge - rod - hinge on skew axes; the rod's cross at either of its ends."""
-    if cross_at_rocker:
-        rod = (
-            ball("pin", "crank", "rod", "crank_end"),
-            cross("cross", "rocker", "rod", "rocker_end", "crank_end", "cross_axis"),
-        )
-    else:
-        rod = (
-            cross("cross", "crank", "rod", "crank_end", "rocker_end", "cross_axis"),
-            ball("pin", "rod", "rocker", "rocker_end"),
-        )
-    return declared(
-        "bent",
-        (
-            hinge("drive", "ground", "crank", "crank_bearing", "crank_line"),
-            *rod,
-            hinge("pivot", "ground", "rocker", "rocker_bearing", "rocker_line"),
-        ),
-        {
-            "crank_bearing": (0.0, 0.0, 0.0),
-            "crank_end": (0.03, 0.14, 0.05),
-            "rocker_bearing": (0.45, 0.02, 0.1),
-            "rocker_end": (0.4, 0.2, 0.3),
-        },
-        {
-            "crank_line": (0.9, -0.2, 0.3),
-            "rocker_line": (0.3, 1.1, -0.5),
-            "cross_axis": (0.2, -0.4, 1.0),
-        },
-        ("drive",),
-    )
-
-
 @pytest.mark.parametrize("at_rocker", [False, True])
 def test_a_shaft_that_is_not_the_line_of_its_rod_is_refused(*, at_rocker: bool) -> None:
-    model = spatial_four_bar(cross_at_rocker=at_rocker)
+    model = spatial_four_bar("bent", cross_at_rocker=at_rocker)
     declared_cross = model.mechanism.joint("cross")
     assert isinstance(declared_cross, Universal)
     values = numbers(model)

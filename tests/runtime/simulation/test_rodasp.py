@@ -336,16 +336,6 @@ def test_a_step_without_a_solution_is_refused(following: Any) -> None:
     assert run(0.01, system, start, span=(1.0, 0.9)).success
 
 
-def test_dead_points_are_those_of_other_methods() -> None:
-    inputs = {"strut_force": -1e6}
-    ended = []
-    for options in ({"method": "RODASP", "step": 1e-4}, {"method": "DOP853", "rtol": 1e-10}):
-        with pytest.raises(SimulationError, match="cannot reach") as caught:
-            simulate(MODEL, SPAN, START, inputs=inputs, **options)  # type: ignore[arg-type]
-        ended.append(caught.value.time)
-    assert ended[0] == pytest.approx(ended[1], rel=1e-3)
-
-
 @pytest.mark.parametrize("wrong", [{"step": None}, {"step": 1e-9}, {"rtol": 1e-6, "max_step": 0.1}])
 def test_what_cannot_be_used(wrong: dict[str, Any], refused: Any) -> None:
     given = {"method": "RODASP", "step": 1e-3} | wrong

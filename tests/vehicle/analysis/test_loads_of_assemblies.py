@@ -228,16 +228,32 @@ def test_a_case_that_is_not_carried_ends_no_other(name: str, case: Any, words: s
     assert not any(np.isfinite(lost[key]).any() for key in lost if "case" in found[key].dims)
 
 
-def test_usual_cases_of_an_axle_act_where_its_file_holds_the_torque() -> None:
-    usual = loads.standard_cases(AXLE)
+# An axle whose engine is on the body, and one that carries it; the torque held elsewhere.
+AT_THE_WHEEL = {"contact_g": [0.5, 0.0, 0.9]}
+ON_THE_BODY = {"contact_g": [0.0, 0.0, 0.9], "center_g": [0.5, 0.0, 0.0]}
+
+
+@pytest.mark.parametrize(
+    ("axle", "drive", "other", "moved"),
+    [
+        (AXLE, ON_THE_BODY, "carrier", AT_THE_WHEEL),
+        (RIGID["lopsided"], AT_THE_WHEEL, "body", ON_THE_BODY),
+    ],
+    ids=["axle", "rigid"],
+)
+def test_usual_cases_of_an_axle_act_where_its_file_holds_the_torque(
+    axle: Any, drive: Any, other: str, moved: Any
+) -> None:
+    usual = loads.standard_cases(axle)
     assert usual["brake"] == {"contact_g": [-1.3, 0.0, 1.3]}
-    assert usual["drive"] == {"contact_g": [0.0, 0.0, 0.9], "center_g": [0.5, 0.0, 0.0]}
-    inboard = loads.standard_cases(AXLE.with_changes({"brakes.torque_on": "body"}))
+    assert usual["drive"] == drive
+    inboard = loads.standard_cases(axle.with_changes({"brakes.torque_on": "body"}))
     assert inboard["brake"] == {"contact_g": [0.0, 0.0, 1.3], "center_g": [-1.3, 0.0, 0.0]}
+    assert inboard["corner"] == usual["corner"]
     assert inboard["trail_brake"]["right"]["center_g"] == [-0.9, 0.0, 0.0]
-    at_the_wheel = loads.standard_cases(AXLE.with_changes({"drive.torque_on": "carrier"}))
-    assert at_the_wheel["drive"] == {"contact_g": [0.5, 0.0, 0.9]}
-    assert [*inboard, *at_the_wheel] == [*usual, *usual]
+    elsewhere = loads.standard_cases(axle.with_changes({"drive.torque_on": other}))
+    assert elsewhere["drive"] == moved
+    assert [*inboard, *elsewhere] == [*usual, *usual]
 
 
 @pytest.mark.parametrize("subject", SHORT.values(), ids=SHORT)

@@ -5,6 +5,7 @@ from pathlib import Path
 import kintrafo
 import numpy as np
 import pytest
+from as_commands import lines_of
 from kintrafo.core.quantities import variable
 from kintrafo.vehicle.analysis.handling import HandlingResult, load_manoeuvre
 from kintrafo.vehicle.analysis.handling.result import quantity
@@ -13,16 +14,7 @@ from kintrafo.vehicle.cli.loading import note_unused
 from kintrafo.vehicle.cli.outputs import PlotOptions
 from kintrafo.vehicle.plots import handling
 from kintrafo.vehicle.plots.handling import write_curves, write_path
-from rich.text import Text
 from xarray import Dataset
-
-
-def lines_of(tables):
-    return [
-        [Text.from_markup(cell).plain for cell in line]
-        for made in tables
-        for line in zip(*([column.header, *column.cells] for column in made.columns), strict=True)
-    ]
 
 
 def motion(runs=0):

@@ -1,19 +1,11 @@
 """Tables of ``kintrafo ride``: the wheels have a column each, the body has its figures in one."""
 
 import numpy as np
+from as_commands import lines_of
 from kintrafo.vehicle.assembly.by_wheel import WHEEL
 from kintrafo.vehicle.cli import ride
 from kintrafo.vehicle.plots.curves import figure
-from rich.text import Text
 from xarray import Dataset
-
-
-def _lines(tables):
-    return [
-        [Text.from_markup(cell).plain for cell in line]
-        for made in tables
-        for line in zip(*([column.header, *column.cells] for column in made.columns), strict=True)
-    ]
 
 
 def test_wheels_are_columns_and_the_linear_prediction_is_a_row():
@@ -24,7 +16,7 @@ def test_wheels_are_columns_and_the_linear_prediction_is_a_row():
         {"body_acceleration": ((), 0.0, of_body), "load": (WHEEL, [0.0, 0.0], of_wheels)}, wheels
     )
     linear = Dataset({"load_psd": (WHEEL, [0.0, 0.0], {"rms": [41.0, 51.0]})}, wheels)
-    lines = _lines(ride._ride(motion, linear, "a road"))
+    lines = lines_of(ride._ride(motion, linear, "a road"))
     assert ["wheels", "", "front left", "rear right"] in lines
     assert ["load [N]", "rms", "40", "50"] in lines
     assert ["", "largest", "4000", "5000"] in lines
@@ -38,7 +30,7 @@ def test_at_rest_no_value_of_the_body_is_below_a_wheel():
     found = Dataset(
         {"load": (WHEEL, [3.0, 4.0], {"units": "N"}), "heave": ((), 2e-3, {"units": "m"})}, wheels
     )
-    lines = _lines(ride._rest(found, "my_car"))
+    lines = lines_of(ride._rest(found, "my_car"))
     assert ["load [N]", "3", "4"] in lines
     assert ["heave [mm]", "2"] in lines
 

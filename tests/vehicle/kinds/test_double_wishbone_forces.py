@@ -10,7 +10,7 @@ import pytest
 from kintrafo import Model, Suspension
 from kintrafo.generated import double_wishbone, double_wishbone_general
 from kintrafo.generator.mechanisms.double_wishbone import MODELS
-from oracle.maximal import Motion, Oracle
+from own_models import Built
 from scipy.integrate import solve_ivp
 
 CAR = Suspension.load("double_wishbone_car")
@@ -91,7 +91,8 @@ class Bench:
             }
         )
         self.model = Model(car)
-        self.oracle = Oracle(MODELS[1], self.model.parameters)
+        self.built = Built(MODELS[1], self.model.equations, self.model.parameters)
+        self.oracle = self.built.oracle
 
     def inputs(self, time):
         phase = 8.0 * np.pi * time
@@ -107,19 +108,11 @@ class Bench:
         found = self.model.signals(state[:4], inputs)
         lost = (found["damper_force"] + found["friction_force"]) * found["spring_velocity"]
         # the tyre's force of `signals` is along the wheel's plane; its rise is what counts
-        motion = self.motion(state[:4], inputs)
+        motion = self.built.motion(state[:4], inputs)
         tyre = self.oracle.wrench(motion, dict(zip(self.model.input_names, inputs, strict=True)))
         conserved = self.power_of_the_rest(motion)
         power = tyre @ motion.twist[1:].ravel() - conserved
         return np.append(self.model.evaluate("rhs", state[:4], inputs), [power, float(lost)])
-
-    def motion(self, state, inputs):
-        velocities = self.model.evaluate("velocities", state, inputs)
-        return Motion(
-            np.concatenate((np.zeros((1, 3)), self.model.evaluate("positions", state, inputs))),
-            np.concatenate((np.eye(3)[None], self.model.evaluate("orientations", state, inputs))),
-            np.concatenate((np.zeros((1, 6)), np.roll(velocities, 3, axis=1))),
-        )
 
     def power_of_the_rest(self, motion):
         """Return the power of weight, spring and stops: minus the rate of their energy."""
@@ -147,7 +140,7 @@ def test_energy_is_what_damper_friction_and_tyre_leave():
     energies, loads, stopped = [], [], []
     for time, state in zip(times, result.y.T, strict=True):
         inputs = bench.inputs(time)
-        energies.append(bench.oracle.energy(bench.motion(state[:4], inputs)))
+        energies.append(bench.oracle.energy(bench.built.motion(state[:4], inputs)))
         found = bench.model.signals(state[:4], inputs)
         loads.append(float(found["tyre_force"]))
         stopped.append(float(found["bump_stop_force"] - found["rebound_stop_force"]))

@@ -4,14 +4,13 @@ import json
 import re
 
 import kintrafo
-import numpy as np
 import pytest
 from browser import Watched, needs_chromium, slide
 from kintrafo import Model, state_at_height
 from kintrafo.vehicle.models.points import hardpoints
 from kintrafo.vehicle.report.grid import Grid, GridAxis
 from kintrafo.vehicle.report.page import render
-from kintrafo.vehicle.report.poses import poses, reachable_grid
+from kintrafo.vehicle.report.poses import reachable_grid
 
 MODEL = Model("double_wishbone_car")
 
@@ -56,18 +55,6 @@ def test_motion_is_a_second_that_dies_out(data):
     assert data["motion"]["time"] == {"first": 0.0, "step": 1e-3, "count": 1001}
     names = {signal["key"] for signal in data["motion"]["signals"]}
     assert {"wheel_center_z_over_time", "damper_force_over_time"} <= names
-
-
-def test_poses_are_those_of_the_model():
-    travel, rack = np.array([-0.08, 0.013, 0.1]), np.array([-0.06, 0.021])
-    found = poses(MODEL, travel, rack)
-    for i, t in enumerate(travel):
-        for k, r in enumerate(rack):
-            state = state_at_height(MODEL, 0.3 + t, rack_position=r)
-            inputs = MODEL.inputs({"rack_position": r})
-            for name, point in hardpoints(MODEL, state, inputs).items():
-                # both find the arm's angle to the last digits
-                assert found.points[name][i, k] == pytest.approx(point, abs=1e-14), name
 
 
 def test_grid_is_as_wide_as_a_page_covers():

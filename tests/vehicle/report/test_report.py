@@ -121,18 +121,21 @@ def test_interpolation_is_worst_where_it_is_measured():
 # -- positions ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("free_rack", [False, True])
-def test_poses_are_those_of_bracketed_roots(free_rack):
-    model = Model("reference_car", free_rack=free_rack)
+@pytest.mark.parametrize(
+    ("name", "free_rack"),
+    [("reference_car", False), ("reference_car", True), ("double_wishbone_car", False)],
+)
+def test_poses_are_those_of_bracketed_roots(name, free_rack):
+    model = Model(name, free_rack=free_rack)
     travel, rack = np.array([-0.08, 0.013, 0.1]), np.array([-0.06, 0.021])
     found = poses(model, travel, rack)
     for i, t in enumerate(travel):
         for k, r in enumerate(rack):
             state = state_at_height(model, DESIGN_HEIGHT + t, rack_position=r)
             inputs = model.inputs({} if free_rack else {"rack_position": r})
-            for name, point in hardpoints(model, state, inputs).items():
+            for of, point in hardpoints(model, state, inputs).items():
                 # both find the arm's angle to the last digits
-                assert found.points[name][i, k] == pytest.approx(point, abs=1e-14), name
+                assert found.points[of][i, k] == pytest.approx(point, abs=1e-14), of
 
 
 def test_grid_is_as_wide_as_the_mechanism_allows():
