@@ -138,8 +138,8 @@ class ApartDamper(CoilDamper):
 
     length_min_mm: Positive | None = Field(
         default=None,
-        description="distance of damper_seat and damper_top with the damper pressed in as far as "
-        "it goes; no position beyond it is returned",
+        description="distance of damper_seat and damper_top with the damper fully compressed; no "
+        "position beyond it is returned",
     )
 
 
