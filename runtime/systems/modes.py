@@ -181,47 +181,53 @@ def mode_of_states(
 
 
 def modes_of_motions(
-    matrix: Array, names: tuple[str, ...], motions: Sequence[Sequence[int]]
-) -> tuple[Mode, ...]:
-    """Return the mode of each motion, and none of them twice where there are enough.
+    matrix: Array, names: tuple[str, ...], motions: Array, weights: Array
+) -> tuple[tuple[Mode, float], ...]:
+    """Return a mode for each motion, none of them twice, and the part of the motion in it.
 
-    As `mode_of_states` for each. Where two motions take part most in the same mode, as wheels of
-    equal axles do, modes are shared out so that the sum of all participations is greatest; so are
-    the real eigenvalues, two for each overdamped motion.
+    The part of a motion in a mode is its kinetic energy there, over that of all motions. Modes are
+    assigned so that the sum of the parts is greatest; the real eigenvalues of motions that do not
+    oscillate are assigned two at a time.
 
     Parameters
     ----------
     matrix, names
         As in `mode_of_states`.
-    motions : sequence of sequence of int
-        The places of each: a coordinate and its rate.
+    motions : ndarray, shape (motions, states)
+        Amplitude of each motion by the states: no more of them than modes.
+    weights : ndarray, shape (motions,)
+        The mass or moment of inertia of each.
     """
     from scipy.optimize import linear_sum_assignment  # noqa: PLC0415 (slow to import)
 
-    values, left, right = _decompose(matrix)
-    parts = _participation(left, right)
-    shares = np.array([parts[list(places)].sum(axis=0) for places in motions])
-    upper = np.flatnonzero(values.imag > 0.0)
-    # none of those in which no motion takes part, such as the zeros of wheels that spin freely
-    real = np.flatnonzero((values.imag == 0.0) & (shares.max(axis=0) > _LEAST_SHARE))
+    values, _, right = _decompose(matrix)
+    energies = weights[:, None] * np.abs(motions @ right) ** 2
+    total = energies.sum(axis=0)
+    # none of those in which no motion takes part, such as the zeros of wheels that spin freely:
+    # eigenvectors have the length one, rates included
+    size = total * (1.0 + np.abs(values) ** 2)
+    moving = size > _LEAST_SHARE * size.max()
+    shares = np.divide(energies, total, out=np.zeros_like(energies), where=moving)
+    upper = np.flatnonzero(moving & (values.imag > 0.0))
+    real = np.flatnonzero(moving & (values.imag == 0.0))
     # a motion that does not oscillate takes part most in two of the real eigenvalues
-    in_two = np.sort(shares[:, real], axis=1)[:, -2:].sum(axis=1, keepdims=True)
-    options = np.hstack([2.0 * shares[:, upper], np.repeat(in_two, real.size // 2, axis=1)])
+    in_two = 0.5 * np.sort(shares[:, real], axis=1)[:, -2:].sum(axis=1, keepdims=True)
+    options = np.hstack([shares[:, upper], np.repeat(in_two, real.size // 2, axis=1)])
     rows, columns = linear_sum_assignment(options, maximize=True)
     damped = rows[columns >= upper.size]
     _, chosen = linear_sum_assignment(np.repeat(shares[damped][:, real], 2, axis=0), maximize=True)
     own = dict(zip(damped.tolist(), real[chosen].reshape(-1, 2).tolist(), strict=True))
-    found = {}
+    found = []
     for row, column in zip(rows.tolist(), columns.tolist(), strict=True):
         if row in own:
             pair = sorted(own[row], key=lambda k: values[k].real)
-            found[row] = _mode(tuple(values[k] for k in pair), right[:, pair[0]], names)
+            eigenvalues = tuple(values[k] for k in pair)
         else:
-            k = upper[column]
-            found[row] = _mode((values[k], values[k].conjugate()), right[:, k], names)
-    return tuple(
-        found.get(i) or mode_of_states(matrix, names, places) for i, places in enumerate(motions)
-    )
+            pair = [upper[column]]
+            eigenvalues = values[pair[0]], values[pair[0]].conjugate()
+        part = float(shares[row, pair].mean())
+        found.append((_mode(eigenvalues, right[:, pair[0]], names), part))
+    return tuple(found)
 
 
 def _mode(values: tuple[complex, ...], shape: Complex, names: tuple[str, ...]) -> Mode:
@@ -234,8 +240,22 @@ def _decompose(matrix: Array) -> tuple[Complex, Complex, Complex]:
     from scipy.linalg import eig  # noqa: PLC0415 (slow to import)
 
     found = cast("tuple[Complex, Complex, Complex]", eig(matrix, left=True, right=True))
-    order = _order(found[0])
-    return found[0][order], found[1][:, order], found[2][:, order]
+    values, left, right = found
+    values[np.abs(values) <= _rounding(matrix, left, right)] = 0.0
+    order = _order(values)
+    return values[order], left[:, order], right[:, order]
+
+
+def _rounding(matrix: Array, left: Complex, right: Complex) -> Array:
+    """Return how far rounding moves each eigenvalue, to first order.
+
+    That is the rounding of the matrix over the product of the two eigenvectors, of length one. Two
+    zeros that belong to one eigenvector move by the square root of rounding.
+    """
+    eps, size = float(np.finfo(np.float64).eps), float(np.linalg.norm(matrix))
+    product = np.abs(np.einsum("ik,ik->k", left.conj(), right))
+    part: Array = eps / np.maximum(product, eps**0.5)
+    return size * part
 
 
 def _order(values: Complex) -> NDArray[np.intp]:

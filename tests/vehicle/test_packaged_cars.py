@@ -11,11 +11,12 @@ import kintrafo
 import numpy as np
 import pytest
 from kintrafo import Model
+from kintrafo.systems.modes import modes_of_motions
 from kintrafo.vehicle.analysis.characteristics import over
 from kintrafo.vehicle.analysis.checkup import checkup
 from kintrafo.vehicle.assembly.of import assembly_of
 from kintrafo.vehicle.data.starter import packaged_cars
-from kintrafo.vehicle.models.car.car import center_of_gravity, masses
+from kintrafo.vehicle.models.car.car import center_of_gravity, masses, suspension_masses
 
 if TYPE_CHECKING:
     from kintrafo.vehicle.models.car import Car
@@ -53,6 +54,42 @@ def test_its_tyres_leave_the_road_and_its_axles_pass_their_check(name: str) -> N
     for part in assembly.held_parts.values():
         assert all(tyre.lifts_off for tyre in part.tyres)
         assert checkup(part).problems == ()
+
+
+@pytest.mark.parametrize("name", CARS)
+def test_its_modes_keep_their_names_while_its_damping_grows(name: str) -> None:
+    """Of a body on four masses on springs, with masses and rates of the car."""
+    car = kintrafo.load(name)
+    body, axles = car.described.body, suspension_masses(car)
+    places = np.array([car.wheel_centers[wheel] - car.com for wheel in car.wheels])
+    on_body = np.stack([np.ones(4), -places[:, 0], places[:, 1]], axis=1)
+    inertia = body.elements()
+    mass = np.array([body.mass_kg, inertia["yy"], inertia["xx"], *np.repeat(0.5, 4)])
+    mass[3:] *= np.repeat([axles[end] for end in car.axles], 2)
+    springs = [over(Model(car.axles[e].right), "travel", [0.0])["wheel_rate"] for e in car.axles]
+    rates = np.repeat([float(rate.values.ravel()[0]) for rate in springs], 2)
+    tyres = np.repeat([car.axles[e].right.tyre.rate_N_per_m for e in car.axles], 2)
+    stretched = np.hstack([on_body, -np.eye(4)])  # of springs, by body and wheels
+    stiffness = stretched.T @ np.diag(rates) @ stretched + np.diag([0.0, 0.0, 0.0, *tyres])
+    halves = np.kron(np.eye(2), [[0.5, 0.5], [0.5, -0.5]])
+    motions = np.zeros((7, 14))
+    motions[:3, :3], motions[3:, 3:7] = np.eye(3), halves
+    weights = np.array([*mass[:3], *np.repeat([*axles.values()], 2)])
+    before, clear_before = np.full(7, np.nan), np.zeros(7, dtype=bool)
+    for ratio in np.linspace(0.02, 0.4, 39):
+        dampers = np.diag(2.0 * ratio * np.sqrt(rates * body.mass_kg / 4.0))
+        left = np.hstack([stiffness, stretched.T @ dampers @ stretched]) / mass[:, None]
+        matrix = np.vstack([np.eye(7, 14, k=7), -left])
+        found = modes_of_motions(matrix, tuple(map(str, range(14))), motions, weights)
+        assert len({mode.eigenvalues for mode, _ in found}) == 7
+        frequencies = np.array([mode.natural_frequency for mode, _ in found])
+        assert frequencies[:3].max() < frequencies[3:].min()
+        # nearly equal axles share their hop and tramp half and half, and have no clear names
+        clear = np.array([part for _, part in found]) > 0.6
+        assert clear[2]
+        steps = np.abs(frequencies / before - 1.0)[clear & clear_before]
+        assert not (steps > 0.02).any()
+        before, clear_before = frequencies, clear
 
 
 def test_the_bmw_has_the_mass_of_its_source() -> None:

@@ -17,11 +17,11 @@ from ..corner.corner import Array
 from ..input.units import in_metres
 from ..input.vehicle import TyreSection
 from ..models.axle.axle import Axle
-from ..models.car.car import Car, center_of_gravity, masses
+from ..models.car.car import Car, center_of_gravity, masses, suspension_masses
 from ..models.car.equations import CarModel
 from ..models.model import Model
 from ..models.reach import PositionError
-from ..models.sides import SIDES
+from ..models.sides import LEFT, RIGHT, SIDES
 from ..models.whole_axle import WholeAxle
 from .assembly import Assembly, HeldAssembly
 from .axle import AxleAssembly
@@ -541,18 +541,40 @@ class CarAssembly(Assembly):
             else 0.0
         )
 
-    def mode_shapes(self) -> dict[str, dict[str, float]]:
-        """Return the motions by which modes are named: shares of coordinates, by name."""
-        found = {name: {name: 1.0} for name in self.car.coordinates}
-        if not self.axles:
-            (own,) = self.held[""].coordinates
-            return found | {"hop": {own: 1.0}}
-        for end, part in self.held.items():
-            names = [f"{end}_{name}" for name in part.coordinates]
-            apart = not part.MODES
-            hop = dict.fromkeys(names, 0.5) if apart else {names[0]: 1.0}
-            tramp = {names[0]: 0.5, names[1]: -0.5} if apart else {names[1]: 1.0}
-            found |= {f"{end}_hop": hop, f"{end}_tramp": tramp}
+    def mode_motions(self, state: Array) -> dict[str, tuple[float, dict[str, float]]]:
+        """Return the motions by which modes are named: mass, and amplitude by coordinates.
+
+        Those of the body, and the heights of the wheel centres above the road, together and
+        oppositely. The mass of an axle is that of all its parts; of a pitch and a roll of the body
+        it is a moment of inertia.
+
+        Parameters
+        ----------
+        state : ndarray
+            Of rest.
+        """
+        body, inertia = self.car.described.body, self.car.described.body.elements()
+        of_body = {"heave": body.mass_kg, "pitch": inertia["yy"], "roll": inertia["xx"]}
+        found = {name: (of_body[name], {name: 1.0}) for name in self.car.coordinates}
+        heights = self._wheel_heights(state)
+        for end, mass in suspension_masses(self.car).items():
+            if not end:
+                (height,) = heights.values()
+                return found | {"hop": (mass, height)}
+            left, right = (heights[f"{end}_{side}"] for side in (LEFT, RIGHT))
+            for name, sign in (("hop", 1.0), ("tramp", -1.0)):
+                shares = {k: 0.5 * left.get(k, 0.0) + 0.5 * sign * right.get(k, 0.0)
+                          for k in {**left, **right}}  # fmt: skip
+                found[f"{end}_{name}"] = mass, shares
+        return found
+
+    def _wheel_heights(self, state: Array) -> dict[str, dict[str, float]]:
+        """Return the derivatives of the heights of wheel centres above the road, by coordinates."""
+        found = {}
+        for wheel, slopes in self.travel_slopes(state).items():
+            x, y, _ = self.car.wheel_centers[wheel] - self.car.com if self.axles else np.zeros(3)
+            by_body = {"heave": 1.0, "pitch": -x, "roll": y}
+            found[wheel] = {n: by_body[n] for n in self.car.coordinates} | slopes
         return found
 
     # -- what is of an axle alone -----------------------------------------------------------------

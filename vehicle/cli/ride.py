@@ -282,11 +282,12 @@ def _words(names: "DataArray") -> list[str]:
 def _modes(found: "Dataset", file: str) -> "Table":
     rows = [
         (str(name).replace("_", " "), f"{float(own['frequency']):.2f}",
-         f"{float(own['damping_ratio']):.3f}")
+         f"{float(own['damping_ratio']):.3f}", f"{100.0 * float(own['energy']):.0f} %")
         for name in found["mode"].values
         for own in [found.sel(mode=name)]
     ]  # fmt: skip
-    return table(f"{file}: modes at rest", ("mode", "frequency [Hz]", "damping ratio"), rows)
+    head = ("mode", "frequency [Hz]", "damping ratio", "energy in this motion")
+    return table(f"{file}: modes at rest", head, rows)
 
 
 def _ride(motion: "Dataset", linear: "Dataset | None", title: str) -> "list[Table]":

@@ -20,7 +20,7 @@ from ....core.quantities import variable
 from ....core.validator import Validator
 from ....datasets.columns import AS_COLUMNS
 from ....systems.linearisation import Linearisation, linearise
-from ....systems.modes import modes_of_motions
+from ....systems.modes import Mode, modes_of_motions
 from ...assembly.by_wheel import WHEEL, wheel_coordinate
 from ...assembly.car import CarAssembly
 from ...assembly.equilibrium import equilibrium
@@ -49,11 +49,18 @@ def modes(subject: Any) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Over ``mode``: ``frequency``, undamped [Hz], and ``damping_ratio``, without friction. The
-        modes are those in which the motion of the name takes part most, none of them twice:
-        ``heave``, ``pitch`` and ``roll`` of the body; ``front_hop`` and ``rear_hop``, both wheels
-        of an axle together, and ``front_tramp`` and ``rear_tramp``, oppositely; of a quarter car
-        ``heave`` and ``hop``.
+        Over ``mode``: ``frequency``, undamped [Hz], and ``damping_ratio``, without friction;
+        ``energy``, the part of its kinetic energy that is in the motion of its name. Names are
+        ``heave``, ``pitch`` and ``roll`` of the body; ``front_hop`` and ``rear_hop``,
+        both wheels of an axle together, and ``front_tramp`` and ``rear_tramp``, oppositely; of a
+        quarter car ``heave`` and ``hop``.
+
+    Notes
+    -----
+    A mode is named by where its kinetic energy is: that of the body in heave, pitch and roll, and
+    that of the wheels in their heights above the road, together and oppositely. Names are assigned
+    together, so that the sum of these parts is greatest. Near one half, as between heave and pitch
+    of a car with much damping, two modes share two motions, and small changes exchange the names.
 
     Examples
     --------
@@ -63,42 +70,30 @@ def modes(subject: Any) -> xr.Dataset:
     {'heave': 1.27, 'hop': 12.25}
     """
     assembly = car_assembly("modes", subject)
-    linear = linear_at_rest(assembly)
-    matrix, names, motions = _in_motions(assembly, linear)
-    places = [[names.index(name), names.index(f"{name}_rate")] for name in motions]
-    found = modes_of_motions(matrix, names, places)
+    found = named_modes(assembly, linear_at_rest(assembly))
+    rows = [(mode.natural_frequency, mode.damping_ratio, part) for mode, part in found.values()]
+    columns = zip(_OF_MODES.items(), np.array(rows).T, strict=True)
     return xr.Dataset(
-        {
-            "frequency": variable(
-                "mode",
-                np.array([mode.natural_frequency for mode in found]),
-                "undamped natural frequency",
-                "Hz",
-            ),
-            "damping_ratio": variable(
-                "mode", np.array([mode.damping_ratio for mode in found]), "damping ratio", "1"
-            ),
-        },
-        {"mode": ("mode", list(motions), {"long_name": "mode"})},
+        {name: variable("mode", column, *described) for (name, described), column in columns},
+        {"mode": ("mode", [*found], {"long_name": "mode"})},
         {"title": "modes at rest"},
     )
 
 
-def _in_motions(
-    assembly: CarAssembly, linear: Linearisation
-) -> tuple[Array, tuple[str, ...], tuple[str, ...]]:
-    """Return A over the motions that modes are named by, in place of coordinates."""
-    shapes = assembly.mode_shapes()
-    half = len(linear.state_names) // 2
-    coordinates = linear.state_names[:half]
-    known = {name for shape in shapes.values() for name in shape}
-    rows = list(shapes.values())
-    rows += [{name: 1.0} for name in coordinates if name not in known]
-    names = (*shapes, *(name for name in coordinates if name not in known))
-    turned = np.array([[row.get(name, 0.0) for name in coordinates] for row in rows])
-    whole = np.kron(np.eye(2), turned)
-    matrix = whole @ linear.A @ np.linalg.inv(whole)
-    return matrix, (*names, *(f"{name}_rate" for name in names)), tuple(shapes)
+_OF_MODES = {
+    "frequency": ("undamped natural frequency", "Hz"),
+    "damping_ratio": ("damping ratio", "1"),
+    "energy": ("part of the kinetic energy of the mode in the motion of its name", "1"),
+}
+
+
+def named_modes(assembly: CarAssembly, linear: Linearisation) -> dict[str, tuple[Mode, float]]:
+    """Return the modes of linear equations at rest by name, with the energy of that motion."""
+    motions = assembly.mode_motions(linear.state)
+    names = linear.state_names
+    rows = np.array([[row.get(name, 0.0) for name in names] for _, row in motions.values()])
+    weights = np.array([mass for mass, _ in motions.values()])
+    return dict(zip(motions, modes_of_motions(linear.A, names, rows, weights), strict=True))
 
 
 def response(

@@ -552,6 +552,20 @@ def masses(car: Car) -> list[tuple[float, Array]]:
     return found
 
 
+def suspension_masses(car: Car) -> dict[str, float]:
+    """Return the mass of all parts of each axle, by its end; of a quarter car by an empty name."""
+    if car.corner is not None:
+        parts: dict[str, list[Mapping[str, float]]] = {"": [car.corner.parameters()]}
+    else:
+        parts = {end: [*axle.parameters_of_masses()] for end, axle in car.axles.items()}
+    return {
+        end: sum(
+            mass for values in several for name, mass in values.items() if name.endswith("_mass")
+        )
+        for end, several in parts.items()
+    }
+
+
 def center_of_gravity(car: Car) -> Array:
     """Return the centre of gravity of a whole car at design, axes of the car [m]."""
     found = masses(car)
