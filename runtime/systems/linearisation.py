@@ -177,9 +177,8 @@ class Linearisation:
         InputError
             If there is no such input, or an eigenvalue lies on one of the frequencies.
         """
-        states, column = self._responding(frequency, source)
-        response = states @ self.C.T + column @ self.D.T
-        return {name: response[..., i] for i, name in enumerate(self.output_names)}
+        _, response = self.responses(frequency, [source])
+        return {name: response[..., i, 0] for i, name in enumerate(self.output_names)}
 
     def state_response(self, frequency: ArrayLike, source: str) -> Complex:
         """Return how the states follow a small harmonic input, (..., states).
@@ -196,28 +195,48 @@ class Linearisation:
         InputError
             If there is no such input, or an eigenvalue lies on one of the frequencies.
         """
-        return self._responding(frequency, source)[0]
+        return self.responses(frequency, [source])[0][..., 0]
 
-    def _responding(self, frequency: ArrayLike, source: str) -> tuple[Complex, Complex]:
-        """Return the amplitudes of states and inputs while one input moves harmonically."""
+    def responses(self, frequency: ArrayLike, sources: Sequence[str]) -> tuple[Complex, Complex]:
+        """Return how states and outputs follow small harmonic inputs, each by itself.
+
+        Parameters
+        ----------
+        frequency : array_like
+            [Hz].
+        sources : sequence of str
+            Inputs, as of `frequency_response`.
+
+        Returns
+        -------
+        tuple of ndarray
+            Of states, (..., states, sources), and of outputs, (..., outputs, sources).
+
+        Raises
+        ------
+        InputError
+            If there is no such input, or an eigenvalue lies on one of the frequencies.
+        """
         with Validator("frequency response") as given:
             frequencies = given.array("frequency", frequency, "Hz", empty=True)
-            given.among("source", source, self.input_names)
+            for source in sources:
+                given.among("source", source, self.input_names)
             if np.abs(frequencies).max(initial=0.0) > _GREATEST_FREQUENCY:
                 given.fail(f"frequency: {_GREATEST_FREQUENCY:g} Hz at most, in size, are possible.")
         s = (2j * np.pi * frequencies[..., None]).astype(np.complex128)
-        column = self._harmonic(source, s)
+        columns = np.stack([self._harmonic(source, s) for source in sources], axis=-1)
         moved = s[..., None] * np.eye(len(self.A)) - self.A
         try:
-            found = np.linalg.solve(moved, (column @ self.B.T)[..., None])
+            found = np.linalg.solve(moved, self.B @ columns)
         except np.linalg.LinAlgError as error:
             problem = (
                 "frequency: an undamped mode lies on one of the frequencies (at 0 Hz what turns "
                 "freely), where the response is infinite. Leave that frequency out."
             )
             raise InputError([problem], "frequency response") from error
-        states: Complex = found[..., 0].astype(np.complex128)
-        return states, column
+        states: Complex = found.astype(np.complex128)
+        outputs: Complex = (self.C @ states + self.D @ columns).astype(np.complex128)
+        return states, outputs
 
     def _harmonic(self, source: str, s: Complex) -> Complex:
         """Return the amplitudes of all inputs while one of them moves with amplitude one."""

@@ -204,7 +204,7 @@ class Difference:
     name, data_set : str
         Characteristic, as in a flat table, and what is compared with the first one.
     first, other : float
-        Both values at the design position; NaN where they are not defined.
+        Both values at the design position, or another; NaN where they are not defined.
     largest : float
         The difference, other minus first, where it is largest; NaN where there is none.
     where : float
@@ -224,13 +224,15 @@ class Difference:
         return self.other - self.first
 
 
-def differences(dataset: xr.Dataset) -> list[Difference]:
+def differences(dataset: xr.Dataset, at: float = 0.0) -> list[Difference]:
     """Return the differences of the suspensions of a comparison from the first one.
 
     Parameters
     ----------
     dataset : xarray.Dataset
         From `compare`; of axles each wheel has differences of its own.
+    at : float, optional
+        The position of `first` and `other`, SI units; by default that of design.
 
     Returns
     -------
@@ -250,22 +252,22 @@ def differences(dataset: xr.Dataset) -> list[Difference]:
     table = flat(dataset)
     curves = {str(n): data for n, data in table.items() if DATA_SET in data.dims}
     return [
-        _difference(name, data, label)
+        _difference(name, data, label, at)
         for name, data in curves.items()
         for label in map(str, dataset[DATA_SET].values[1:])
     ]
 
 
-def _difference(name: str, data: xr.DataArray, label: str) -> Difference:
+def _difference(name: str, data: xr.DataArray, label: str, at: float) -> Difference:
     along = next(d for d in data.dims if d != DATA_SET)
     positions = np.asarray(data[along].values, dtype=np.float64)
     first = np.asarray(data.isel({DATA_SET: 0}).values, dtype=np.float64)
     other = np.asarray(data.sel({DATA_SET: label}).values, dtype=np.float64)
     both = np.isfinite(first) & np.isfinite(other)
     change = np.subtract(other, first, out=np.full(first.shape, np.nan), where=both)
-    design = int(np.argmin(np.where(both, np.abs(positions), np.inf)))
+    design = int(np.argmin(np.where(both, np.abs(positions - at), np.inf)))
     worst = int(np.nanargmax(np.abs(change))) if both.any() else design
-    if not abs(positions[design]) <= _AT_DESIGN:
+    if not abs(positions[design] - at) <= _AT_DESIGN:
         first, other = np.full((2, positions.size), np.nan)
     return Difference(
         name=name,

@@ -98,3 +98,11 @@ LATERAL_ACCELERATION = Quantity(
     "acceleration of the centre of gravity across the heading, in a steady turn on a level road",
     "positive to the left",
 )
+SPEED = Quantity(
+    "speed",
+    "m/s",
+    "speed",
+    "of the car along the road",
+    "positive forward",
+    Display("km/h", 3.6),
+)

@@ -1,6 +1,6 @@
 """``kintrafo compare``: curves of several suspensions over each other, and what differs."""
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
@@ -11,6 +11,7 @@ from . import goals as wanted
 from .loading import assembly_of_file
 from .options import Held, Of, among, argument, option
 from .outputs import CurveOptions, name_files, title_of
+from .variation_options import AXES_OF_CARS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -46,10 +47,13 @@ def command(
     ],
     *,
     over: Annotated[
-        Literal["travel", "rack", "bump", "roll", "left", "right", "steer"] | None,
+        str | None,
         option(
-            "Motion: travel or rack of suspensions, the others of axles. Default: travel, bump of "
-            "axles, or that of the measured curves."
+            "Motion: travel or rack of suspensions; bump, roll, left, right or steer of axles; "
+            "heave, pitch or roll of cars, and, with options as of kintrafo sensitivity, speed or "
+            "lateral_acceleration. Default: travel, bump of axles, heave of cars, or that of the "
+            "measured curves.",
+            "NAME[:OPTION=VALUE]",
         ),
     ] = None,
     of: Of = None,
@@ -72,7 +76,12 @@ def command(
     """
     from ..analysis import compare
     from ..assembly.by_wheel import flat
-    from ..studies.sweep_axes import compliances_over, sweep_axes_of
+    from ..studies.sweep_axes import (
+        compliances_over,
+        name_of_axis,
+        sweep_axes_of,
+        sweep_axis,
+    )
 
     outputs = output.files(*files, goals)
     dataset, way, subjects = _compared(files, over, held)
@@ -90,7 +99,9 @@ def command(
         name for name in both if name in table
     ]
     shown = among(of, map(str, table.data_vars)) if of else [str(n) for n in table.data_vars]
-    found = [difference for difference in compare.differences(dataset) if difference.name in shown]
+    of_cars = name_of_axis(way) in AXES_OF_CARS
+    every = compare.differences(dataset, sweep_axis(way).at if of_cars else 0.0)
+    found = [difference for difference in every if difference.name in shown]
     first, *others = (str(name) for name in dataset["data_set"].values)
     drawn = table.assign_coords(
         data_set=("data_set", _titles(dataset["data_set"].values), dataset["data_set"].attrs)
@@ -150,6 +161,7 @@ class _Compared(NamedTuple):
 def _compared(files: list[str], over: str | None, held: Held | None) -> _Compared:
     from ..analysis import compare
     from ..analysis.characteristics.datasets import given_motion
+    from ..studies.sweep_axes import name_of_axis
 
     measured = [file for file in files if file.lower().endswith(".csv")]
     assemblies = _assemblies([file for file in files if file not in measured])
@@ -157,6 +169,8 @@ def _compared(files: list[str], over: str | None, held: Held | None) -> _Compare
     if measured:
         dataset, way = _beside(assemblies, measured, over, held or "height")
         return _Compared(dataset, way, subjects)
+    if over is not None and len(assemblies) > 1 and name_of_axis(over) in AXES_OF_CARS:
+        return _over_axis(assemblies, over)
     for file, assembly in assemblies.items():
         if over is not None and over not in assembly.motions:
             assembly.refuse_motion(over)
@@ -166,6 +180,22 @@ def _compared(files: list[str], over: str | None, held: Held | None) -> _Compare
     with progress_bar("characteristics") as progress:
         dataset = compare.compare(assemblies, over=over, held=held, progress=progress)
     return _Compared(dataset, given_motion(first, over), subjects)
+
+
+def _over_axis(assemblies: "Mapping[str, Assembly]", over: str) -> _Compared:
+    """Return what cars have over speed or in steady turns, beside each other."""
+    from ...core.validator import Validator
+    from ..analysis.compare import beside_each_other
+    from ..studies.evaluation import common_positions, curves_over
+    from ..studies.sweep_axes import given_axis, sweep_axes_of
+
+    subjects = {name: assembly.subject for name, assembly in assemblies.items()}
+    with Validator("--over") as given:
+        for subject in subjects.values():
+            over = given_axis(given, "--over", over, sweep_axes_of(subject))
+    positions = common_positions([*assemblies.values()], over)
+    datasets = [curves_over(assembly, over, positions) for assembly in assemblies.values()]
+    return _Compared(beside_each_other(assemblies, datasets), over, subjects)
 
 
 def _assemblies(files: list[str]) -> "dict[str, Assembly]":

@@ -53,9 +53,9 @@ def read(
     from ...core.errors import InputError
     from .. import studies as variation
     from ..analysis.compliance.flexibility import HELD
-    from ..studies.sweep_axes import sweep_axis
+    from ..studies.sweep_axes import name_of_axis, sweep_axis
 
-    looked_at = [over for over in ways if over in known or over in HELD]
+    looked_at = [over for over in ways if name_of_axis(over) in known or over in HELD]
     if not looked_at:
         problem = f"goals are about curves over {_or(known)}, and these are over {_or(ways)}."
         raise InputError([problem], str(path))

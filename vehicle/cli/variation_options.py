@@ -1,7 +1,7 @@
 """What the commands about values that vary look at."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
 from .options import Held, Of, among, option
 
@@ -11,21 +11,41 @@ if TYPE_CHECKING:
     from ..assembly.assembly import Assembly
     from ..studies.evaluation import Subject
 
+AXES_OF_CARS = ("lateral_acceleration", "speed")
+"""What curves of cars may be over, beside motions of the body."""
+
+_AXES = ("travel", "rack", "bump", "roll", "left", "right", "heave", "pitch", *AXES_OF_CARS)
+
+
+def _completed_axis(incomplete: str) -> list[str]:
+    return [name for name in _AXES if name.startswith(incomplete)]
+
+
 Over = Annotated[
-    Literal[
-        "travel", "rack", "bump", "roll", "left", "right", "heave", "pitch", "lateral_acceleration"
-    ]
-    | None,
+    str | None,
     option(
         "What varies along the curves: travel or rack of a suspension; bump, roll, left or right "
-        "of an axle; heave, pitch or roll of the body of a car, or the lateral acceleration of "
-        "steady turns at 100 km/h. Default: travel, bump of an axle, heave of a car.",
+        "of an axle; heave, pitch or roll of the body of a car; speed of a car on a rough road "
+        "(options road and seat: speed:road=C); or the lateral acceleration of steady turns at a "
+        "speed of 100 km/h (options speed_km_per_h, radius_m, steering_wheel_deg: "
+        "lateral_acceleration:radius_m=60). Default: travel, bump of an axle, heave of a car.",
+        "NAME[:OPTION=VALUE]",
         show_default=False,
+        autocompletion=_completed_axis,
     ),
 ]
 At = Annotated[
     float,
     option("Position of the table; over roll and pitch in deg, over acceleration in m/s^2.", "MM"),
+]
+AtOfAxis = Annotated[
+    float | None,
+    option(
+        "Position of the table; over roll and pitch in deg, over acceleration in m/s^2, over speed "
+        "in km/h. Default: 0, 80 over speed, 1 at a radius or steering wheel angle.",
+        "MM",
+        show_default=False,
+    ),
 ]
 
 
@@ -43,7 +63,7 @@ class StudyOptions:
             show_default=False,
         ),
     ] = None
-    at: At = 0.0
+    at: AtOfAxis = None
 
 
 # What is shown where nothing is said, as far as the file has the data for it.
@@ -65,6 +85,20 @@ _USUAL = {
         "roll_gradient",
         "sideslip_gradient",
         "steering_wheel_angle",
+    ),
+    "speed": (
+        "acceleration_rms",
+        "weighted_rms",
+        "load_variation",
+        "load_variation_front_left",
+        "load_variation_rear_left",
+        "travel_rms",
+        "travel_rms_front_left",
+        "travel_rms_rear_left",
+        "heave_frequency",
+        "heave_damping_ratio",
+        "pitch_frequency",
+        "roll_frequency",
     ),
 }
 # Of cars these are of each axle.
@@ -120,34 +154,37 @@ class StudyCurves:
     @classmethod
     def of(cls, subject: "Subject", asked: StudyOptions) -> "StudyCurves":
         """Return what is looked at; what there is not is refused."""
+        from ...core.validator import Validator
         from ..assembly.of import assembly_of
         from ..studies.evaluation import usual_positions
-        from ..studies.sweep_axes import UNDER_LOADS, sweep_axes_of, sweep_axis
+        from ..studies.sweep_axes import UNDER_LOADS, given_axis, sweep_axes_of, sweep_axis
 
         known = sweep_axes_of(subject)
         if asked.held is not None:
             among([asked.over or known[0]], known[:1], "--over beside --held")
-        over = asked.held or among([asked.over or known[0]], known, "--over")[0]
+        with Validator("--over") as given:
+            over = asked.held or given_axis(given, "--over", asked.over or known[0], known)
         assembly, axis = assembly_of(subject), sweep_axis(over)
+        at = axis.factor * axis.at if asked.at is None else asked.at
         names = _chosen(assembly, asked.of, over)
-        positions = with_position(usual_positions(assembly, over), asked.at, over)
+        positions = with_position(usual_positions(assembly, over), at, over)
         key = "held" if over in UNDER_LOADS else "over"
-        where = f"at {asked.at:g} {axis.unit} of {axis.words}"
+        where = f"at {at:g} {axis.unit} of {axis.words}"
         how = {key: over, "positions": positions}
-        return cls(over, names, asked.at / axis.factor, where, how)
+        return cls(over, names, at / axis.factor, where, how)
 
 
 def _chosen(assembly: "Assembly", wanted: list[str] | None, over: str) -> list[str]:
     """Return the characteristics that are shown, those that were asked for or the usual ones."""
     from ..studies.evaluation import available
-    from ..studies.sweep_axes import UNDER_LOADS
+    from ..studies.sweep_axes import UNDER_LOADS, name_of_axis
 
     assembly.refuse_of_steering(wanted or ())
     known = available(assembly, over)
     if wanted is not None:
         return among(wanted, known)
     moved = (*_USUAL_OF_AXLES, *_OF_ENDS) if len(assembly.wheels) > 1 else _USUAL["travel"]
-    usual = known if over in UNDER_LOADS else _USUAL.get(over, moved)
+    usual = known if over in UNDER_LOADS else _USUAL.get(name_of_axis(over), moved)
     return [name for name in usual if name in known]
 
 

@@ -14,7 +14,7 @@ from ..assembly.of import assembly_of
 from ..assembly.quantity import Quantity
 from .design_variables import DesignVariable, scaled
 from .evaluation import Subject, available, usual_positions, values_of
-from .sweep_axes import sweep_axes_of, sweep_axis
+from .sweep_axes import given_axis, sweep_axes_of, sweep_axis
 
 Array = NDArray[np.float64]
 
@@ -26,7 +26,7 @@ class Curves:
     Attributes
     ----------
     over : str
-        Of `ways.WAYS`; or what holds the wheel under loads.
+        Of `sweep_axes.ALL_AXES`, with its options; or what holds the wheel under loads.
     positions : ndarray
         [m]; over roll [rad].
     names : tuple of str
@@ -105,7 +105,7 @@ def curves_of(
     With what holds the wheels under loads these are compliances.
     """
     ways = sweep_axes_of(suspension)
-    over = ways[0] if over is None else given.among("over", over, ways)
+    over = ways[0] if over is None else given_axis(given, "over", over, ways)
     if held is not None:
         over = _held(given, suspension, over, held)
     if positions is not None:

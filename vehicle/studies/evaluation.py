@@ -18,7 +18,7 @@ from ..kinds import Suspension
 from ..models.axle import Axle
 from ..models.car import Car
 from ..models.whole_axle import WholeAxle
-from .sweep_axes import SWEEP_AXES
+from .sweep_axes import sweep_axis
 
 Array = NDArray[np.float64]
 Subject = Suspension | Axle | WholeAxle | Car
@@ -39,21 +39,16 @@ def check_held_subject(given: Validator, subject: Any) -> None:
         given.fail(f"suspension: {NOT_A_CAR}")
 
 
-def _usual_of_axis(over: str) -> tuple[float, ...]:
-    """Return the usual positions of a sweep axis with its own; motions of a rig have none here."""
-    return SWEEP_AXES[over].usual if over in SWEEP_AXES else ()
-
-
 def usual_positions(assembly: Assembly, over: str) -> Array:
     """Return the usual positions, as far as the wheels go, SI units."""
-    if usual := _usual_of_axis(over):
+    if usual := sweep_axis(over).usual:
         return np.array(usual)
     return assembly.usual(assembly.usual_motion if over in HELD else over)
 
 
 def common_positions(assemblies: Sequence[Assembly], over: str) -> Array:
     """Return the usual positions that all of some cars reach, SI units, zero included."""
-    if usual := _usual_of_axis(over):
+    if usual := sweep_axis(over).usual:
         return np.array(usual)
     return common_to(assemblies, assemblies[0].usual_motion if over in HELD else over)
 
@@ -63,7 +58,7 @@ def curves_over(assembly: Assembly, over: str, positions: Array) -> xr.Dataset:
     if over in HELD:
         found = linear(assembly, None, positions, held=cast("WheelSupport", over))
         return found.drop_dims(["moved", "by"])
-    curves = SWEEP_AXES[over].curves if over in SWEEP_AXES else None
+    curves = sweep_axis(over).curves
     return curves(assembly, positions) if curves else dataset(assembly, over, positions)
 
 
@@ -71,7 +66,8 @@ def values_of(
     assembly: Assembly, over: str, positions: Array, names: Collection[str] | None = None
 ) -> dict[str, Array]:
     """Return characteristics or compliances by the names of their columns, all or some."""
-    if over not in HELD and not assembly.axles:
+    of_a_motion = over not in HELD and sweep_axis(over).curves is None
+    if of_a_motion and not assembly.axles:
         return assembly.values(over, positions, names)
     curves = flat(curves_over(assembly, over, positions))
     return {str(name): data.values for name, data in curves.items()}
@@ -81,4 +77,4 @@ def available(assembly: Assembly, over: str) -> tuple[str, ...]:
     """Return the characteristics, or compliances, for which the file has the data."""
     if over in HELD and not assembly.has_bushes:
         return ()
-    return tuple(values_of(assembly, over, np.zeros(1)))
+    return tuple(values_of(assembly, over, np.array([sweep_axis(over).at])))

@@ -16,7 +16,16 @@ from ..assembly.quantity import Quantity
 from ..input.toml_file import read_sections
 from .curves import CurveBundle, Curves
 from .evaluation import available
-from .sweep_axes import OF_CORNERS, SWEEP_AXES, compliances_over, sweep_axes_of, sweep_axis
+from .sweep_axes import (
+    ALL_AXES,
+    OF_CORNERS,
+    compliances_over,
+    given_axis,
+    name_of_axis,
+    options_of,
+    sweep_axes_of,
+    sweep_axis,
+)
 
 Array = NDArray[np.float64]
 
@@ -45,7 +54,7 @@ class Goal:
     name : str
         Characteristic.
     over : str
-        Of `ways.WAYS`; or what holds the wheel under loads.
+        Of `sweep_axes.ALL_AXES`, with its options; or what holds the wheel under loads.
     at : ndarray, shape (n,)
         Positions [m]; over roll [rad].
     """
@@ -185,9 +194,9 @@ def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> lis
 
 def _ways(given: Validator, ways: Any) -> Sequence[str]:
     """Return what goals may be over; the usual where what is given is no such names."""
-    names = given.names("ways", ways, SWEEP_AXES)
+    names = given.names("ways", ways, ALL_AXES)
     if not names and not given.failed:
-        given.fail(f"ways is empty: one is needed, of {', '.join(SWEEP_AXES)}.")
+        given.fail(f"ways is empty: one is needed, of {', '.join(ALL_AXES)}.")
     return names or OF_CORNERS
 
 
@@ -320,7 +329,7 @@ def check_data(
     ways = sweep_axes_of(suspension)
     for goal in goals:
         name = f"{goal.name} over {ways[0] if goal.over in HELD else goal.over}"
-        if goal.over not in (*ways, *HELD):
+        if name_of_axis(goal.over) not in (*ways, *HELD):
             given.fail(f"{name}: the curves of this subject are over {', '.join(ways)}.")
             continue
         assembly.refuse_of_steering([goal.name])
@@ -430,13 +439,16 @@ def _tables(
     for name, table in _listed(described):
         title = f"[{section}.{name}]"
         if not isinstance(table, Mapping):
-            at_key = SWEEP_AXES[ways[0]].key
+            at_key = sweep_axis(ways[0]).key
             given.fail(f"{title} must be a section, with {' and '.join([at_key, *sorted(keys)])}.")
             continue
-        over = given.among(f"{title} over", table.get("over", ways[0]), ways)
+        named = table.get("over", ways[0])
+        options = options_of(named) if isinstance(named, str) else ()
+        chosen = {key: table[key] for key in options if key in table}
+        over = given_axis(given, f"{title} over", named, ways, chosen)
         under_loads = compliances_over(over)
-        at_key, known = SWEEP_AXES[over].key, {**SWEEP_AXES[over].known, **under_loads}
-        known_keys = [at_key, "over", *sorted(keys)]
+        at_key, known = sweep_axis(over).key, {**sweep_axis(over).known, **under_loads}
+        known_keys = [at_key, "over", *options, *sorted(keys)]
         if name in under_loads:
             known_keys.append("held")
             over = given.among(f"{title} held", table.get("held", "height"), HELD)
@@ -446,7 +458,12 @@ def _tables(
             continue
         shown = display_of(known[name].attributes())
         unit, factor = sweep_axis(over).unit, sweep_axis(over).factor
-        at = given.array(f"{title} {at_key}", table.get(at_key, 0.0), unit, dimensions=[0, 1])
+        at = given.array(
+            f"{title} {at_key}",
+            table.get(at_key, factor * sweep_axis(over).at),
+            unit,
+            dimensions=[0, 1],
+        )
         positions = np.atleast_1d(at) / factor
         yield name, _Table(given, title, table, over, positions, shown.units, shown.factor)
 

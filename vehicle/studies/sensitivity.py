@@ -17,7 +17,7 @@ from .batch import curves_of_many, moved_by
 from .curves import Curves, changed, curves_of, refuse_bushes
 from .design_variables import DesignVariable, matching, names_bushes
 from .evaluation import Subject, check_subject
-from .sweep_axes import SWEEP_AXES, UNDER_LOADS
+from .sweep_axes import known_anywhere
 
 Array = NDArray[np.float64]
 
@@ -373,9 +373,7 @@ def _effects(dataset: xr.Dataset, name: str, at: float) -> Iterator[Effect]:
     data = dataset[name]
     along = next(str(d) for d in data.dims if d != PLACE)
     column = data.sel({along: at}, method="nearest").values
-    ways = (SWEEP_AXES | UNDER_LOADS).values()
-    quantity = next(way.known[name] for way in ways if name in way.known)
-    shown = display_of(quantity.attributes())
+    shown = display_of(known_anywhere(name).attributes())
     units = dataset["place_display_unit"].values.tolist()
     sizes = column * shown.factor / dataset["place_display_factor"].values
     found = [

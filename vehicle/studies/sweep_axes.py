@@ -1,68 +1,20 @@
 """What curves may be over: motions of a rig, supports of wheels under loads, steady turns."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
-import numpy as np
-import xarray as xr
-from numpy.typing import NDArray
-
-from ...core.quantities import display_of
+from ...core.validator import Validator, shown
 from ..analysis.characteristics.datasets import ALONG, KNOWN, OF_AXLES, OF_CARS
 from ..analysis.compliance.flexibility import HELD
 from ..analysis.compliance.linear import COMPLIANCES, COMPLIANCES_OF_AXLES
-from ..analysis.handling.circle import columns_of_turns, turns_at
-from ..analysis.handling.subject import driving_car
-from ..assembly.assembly import Assembly
 from ..assembly.of import assembly_of
-from ..assembly.quantity import HEAVE, LATERAL_ACCELERATION, PITCH, ROLL, TRAVEL, Quantity
-from ..models.car.car import WHEELS
-
-Array = NDArray[np.float64]
-
-TURNING_SPEED = 100.0 / 3.6
-"""Constant speed of the steady turns of studies [m/s]."""
-
-
-@dataclass(frozen=True)
-class SweepAxis:
-    """What varies along some curves.
-
-    Attributes
-    ----------
-    along : Quantity
-    known : mapping of str to Quantity
-        The curves over it, by the names of their columns.
-    words : str
-        'wheel travel'.
-    curves : callable, optional
-        Returns the curves of an assembly at some positions, where no motion of a rig has them.
-    usual : tuple of float, optional
-        The usual positions of such curves, SI units.
-    """
-
-    along: Quantity
-    known: Mapping[str, Quantity]
-    words: str
-    curves: Callable[[Assembly, Array], xr.Dataset] | None = None
-    usual: tuple[float, ...] = ()
-
-    @property
-    def unit(self) -> str:
-        """The display unit of what varies."""
-        return display_of(self.along.attributes()).units
-
-    @property
-    def key(self) -> str:
-        """The key of positions in a file of goals: ``at_mm``, ``at_m_per_s2``."""
-        return f"at_{self.unit.replace('/', '_per_').replace('^', '')}"
-
-    @property
-    def factor(self) -> float:
-        """How many of them the SI unit has."""
-        return display_of(self.along.attributes()).factor
-
+from ..assembly.quantity import HEAVE, PITCH, ROLL, TRAVEL, Quantity
+from . import riding, turning
+from .axis import SweepAxis
+from .riding import RIDE
+from .turning import TURNS
 
 _OF_AXLES = {
     "bump": (TRAVEL, "parallel wheel travel"),
@@ -70,14 +22,6 @@ _OF_AXLES = {
     "left": (TRAVEL, "travel of the left wheel"),
     "right": (TRAVEL, "travel of the right wheel"),
 }
-TURNS = "lateral_acceleration"
-"""Steady turns of cars that drive."""
-
-
-def _steady_turns(assembly: Assembly, accelerations: Array) -> xr.Dataset:
-    return turns_at(driving_car("steady turns", assembly), TURNING_SPEED, accelerations)
-
-
 SWEEP_AXES: dict[str, SweepAxis] = {
     "travel": SweepAxis(TRAVEL, KNOWN["travel"], "wheel travel"),
     "rack": SweepAxis(ALONG["rack"], KNOWN["rack"], "the rack"),
@@ -89,13 +33,6 @@ SWEEP_AXES: dict[str, SweepAxis] = {
     "roll": SweepAxis(ROLL, OF_AXLES[ROLL.name] | OF_CARS, "roll"),
     "heave": SweepAxis(HEAVE, OF_CARS, "heave of the body"),
     "pitch": SweepAxis(PITCH, OF_CARS, "pitch of the body"),
-    TURNS: SweepAxis(
-        LATERAL_ACCELERATION,
-        columns_of_turns(WHEELS),
-        f"lateral acceleration at {3.6 * TURNING_SPEED:g} km/h",
-        _steady_turns,
-        (0.0, 1.0, 2.0, 3.0, 4.0),
-    ),
 }
 """What characteristics may be over, by the name of the motion."""
 
@@ -111,16 +48,126 @@ _COMPLIANCES_OVER: dict[str, Mapping[str, Quantity]] = {
 }
 
 
+@dataclass(frozen=True)
+class _Family:
+    """Axes of one name that differ in options.
+
+    Attributes
+    ----------
+    options : tuple of str
+        Their names.
+    axis : callable
+        Returns the axis with some options, which it checks.
+    """
+
+    options: tuple[str, ...]
+    axis: Callable[[Validator, Mapping[str, Any]], SweepAxis]
+
+
+_FAMILIES = {
+    TURNS: _Family(turning.OPTIONS, turning.axis),
+    RIDE: _Family(riding.OPTIONS, riding.axis),
+}
+
+
+def options_of(over: str) -> tuple[str, ...]:
+    """Return the names of the options of an axis; none of most of them."""
+    return _FAMILIES[name_of_axis(over)].options if name_of_axis(over) in _FAMILIES else ()
+
+
+def name_of_axis(over: str) -> str:
+    """Return the name of an axis without its options: that of ``speed:road=C`` is ``speed``."""
+    return over.partition(":")[0]
+
+
+def given_axis(
+    given: Validator,
+    title: str,
+    over: Any,
+    ways: Iterable[str],
+    options: Mapping[str, Any] | None = None,
+) -> str:
+    """Check an axis and its options, and return its name with them: ``speed:road=C,seat=driver``.
+
+    Parameters
+    ----------
+    given : Validator
+    title : str
+        What the axis is in messages.
+    over : str
+        Its name, with or without options.
+    ways : iterable of str
+        The names that are possible.
+    options : mapping, optional
+        Further options, such as those of a file.
+    """
+    known = tuple(ways)
+    name = name_of_axis(over) if isinstance(over, str) else over
+    if given.among(title, name, known) != name:
+        return known[0]
+    texts = [text for text in over.partition(":")[2].split(",") if text]
+    found: dict[str, Any] = {}
+    for key, mark, value in (text.partition("=") for text in texts):
+        if not mark or not options_of(name):
+            given.fail(f"{title} = {shown(over)}: write NAME:OPTION=VALUE,... Options are those of "
+                       f"{' and '.join(_FAMILIES)}.")  # fmt: skip
+            return name
+        found[given.among(f"option of {name}", key.strip(), options_of(name))] = value.strip()
+    found |= options or {}
+    written = ",".join(f"{key}={found[key]}" for key in options_of(name) if key in found)
+    chosen = f"{name}:{written}" if written else name
+    if found:
+        _axis_of(given, name, found)
+    return name if given.failed else chosen
+
+
+def _axis_of(given: Validator, name: str, options: Mapping[str, Any]) -> SweepAxis:
+    """Return an axis of a family; numbers may be texts."""
+    numbers = {key: _number(value) if key != "seat" else value for key, value in options.items()}
+    return _FAMILIES[name].axis(given, numbers)
+
+
+def _number(value: Any) -> Any:
+    if not isinstance(value, str):
+        return value
+    try:
+        return float(value)
+    except ValueError:
+        return value
+
+
+@lru_cache(maxsize=256)
 def sweep_axis(over: str) -> SweepAxis:
-    """Return what some curves are over."""
-    return (SWEEP_AXES | UNDER_LOADS)[over]
+    """Return what some curves are over.
+
+    Raises
+    ------
+    InputError
+        If its options cannot be.
+    """
+    name, _, text = over.partition(":")
+    if name not in _FAMILIES:
+        return (SWEEP_AXES | UNDER_LOADS)[name]
+    pairs = (option.partition("=") for option in text.split(",") if option)
+    with Validator(name) as given:
+        return _axis_of(given, name, {key: value for key, _, value in pairs})
+
+
+def known_anywhere(name: str) -> Quantity:
+    """Return what a name of a curve represents over any axis."""
+    axes = [*SWEEP_AXES.values(), *UNDER_LOADS.values(), *map(sweep_axis, _FAMILIES)]
+    return next(axis.known[name] for axis in axes if name in axis.known)
+
+
+ALL_AXES = (*SWEEP_AXES, *_FAMILIES)
+"""The names of all axes."""
 
 
 def sweep_axes_of(subject: Any) -> tuple[str, ...]:
     """Return what the characteristics of an assembly may be over, the usual first."""
     assembly = assembly_of(subject)
     if assembly.body_moves:
-        return (*assembly.motions, *([TURNS] if assembly.drives else ()))
+        return (*assembly.motions, TURNS if assembly.drives else RIDE)
     alone = len(assembly.wheels) == 1
     return OF_CORNERS if alone else tuple(_OF_AXLES)
 

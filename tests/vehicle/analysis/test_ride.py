@@ -135,6 +135,25 @@ def test_a_quarter_car_is_that_of_two_masses_in_the_limit(car: kintrafo.Car) -> 
     )
     expected = np.sort(np.abs(roots))[::2] / (2.0 * np.pi)
     np.testing.assert_allclose(np.sort(modes), expected, rtol=1e-2)
+    # the numbers of its ride, from the densities of the same formulas
+    n, speed = np.linspace(0.2, 50.0, 20001), 25.0
+    s = 2j * np.pi * n
+    coupling = rate + damping * s
+    whole = (sprung * s**2 + coupling) * (wheel * s**2 + coupling + tyre) - coupling**2
+    body, hub = tyre * coupling / whole, tyre * (sprung * s**2 + coupling) / whole
+    road = 64e-6 * (n / speed / 0.1) ** -2.0 / speed
+    expected = {
+        "acceleration_rms": s**2 * body, "load_rms": tyre * (hub - 1.0), "travel_rms": hub - body,
+    }  # fmt: skip
+    numbers = kintrafo.ride.by_speed(one, [10.0, speed])
+    for name, response in expected.items():
+        wanted = np.sqrt(np.trapezoid(np.abs(response) ** 2 * road, n))
+        assert float(numbers[name][1]) == pytest.approx(wanted, rel=3e-2), name
+        # the density of the road is as 1 / n^2: twice the speed, twice the density
+        ratio = float(numbers[name][1] / numbers[name][0])
+        assert ratio == pytest.approx(np.sqrt(2.5), rel=1e-9)
+    static = (sprung + wheel) * 9.81
+    np.testing.assert_allclose(numbers["load_variation"] * static, numbers["load_rms"], rtol=2e-2)
 
 
 _INERTIA = ("mass_kg", "inertia_xx_kg_m2", "inertia_yy_kg_m2", "inertia_zz_kg_m2")
@@ -307,6 +326,25 @@ def test_equal_axles_have_as_many_modes_as_names(whole: kintrafo.CarModel) -> No
     modes = linear_at_rest(assembly_of(car)).modes
     wanted = np.sort([mode.natural_frequency for mode in modes if mode.oscillates])
     np.testing.assert_allclose(found, wanted, rtol=1e-9)
+
+
+def test_numbers_over_speed_are_those_of_the_spectra(whole: kintrafo.CarModel) -> None:
+    numbers = kintrafo.ride.by_speed(whole, [15.0, 30.0], "C", seat="driver")
+    spectra = kintrafo.ride.response(whole, 30.0, "C")
+    driver = spectra["driver_acceleration_psd"].attrs
+    for name, wanted in (
+        ("acceleration_rms", driver["rms"]), ("weighted_rms", driver["weighted_rms"]),
+        ("load_rms", spectra["load_psd"].attrs["rms"]),
+        ("travel_rms", spectra["travel_psd"].attrs["rms"]),
+    ):  # fmt: skip
+        np.testing.assert_allclose(numbers[name].isel(speed=1), wanted, rtol=1e-12)
+    modes = kintrafo.ride.modes(whole)
+    for name, each in modes.groupby("mode"):
+        assert float(numbers[f"{name}_frequency"][0]) == float(each["frequency"].item())
+    with pytest.raises(kintrafo.InputError, match="more than 0 m/s"):
+        kintrafo.ride.by_speed(whole, [0.0])
+    with pytest.raises(kintrafo.InputError, match="driver"):
+        kintrafo.ride.by_speed(whole, [10.0], seat="drivr")
 
 
 def test_four_wheels_ride_as_the_linear_equations_say(whole: kintrafo.CarModel) -> None:

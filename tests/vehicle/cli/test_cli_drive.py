@@ -129,7 +129,7 @@ def test_values_that_are_not_used_are_counted(capsys):
     (["driving_car", "--manoeuvre", "constant_speed_circle", "--speed", "0"],
      "a car that does not move is on no circle"),
     (["driving_car", "--speed", "-5"], "speed_km_per_h = -5.0 km/h is out of range"),
-    (["driving_car", "--manoeuvre", "circle", "--speed", "50"], "give one of the two"),
+    (["driving_car", "--manoeuvre", "circle", "--speed", "50"], "give one of the three"),
     (["driving_car", "--manoeuvre", "circle", "--animate", "a.gif"], "no motion to show"),
     (["driving_car", "--animate", "a.mp4"], ".gif"),
 ])  # fmt: skip

@@ -15,8 +15,9 @@ from kintrafo.vehicle.assembly.by_wheel import flat
 from kintrafo.vehicle.models.car import equations
 from kintrafo.vehicle.models.car.equations import CarModel
 from kintrafo.vehicle.studies.design_variables import places_of
-from kintrafo.vehicle.studies.sweep_axes import TURNING_SPEED, TURNS
+from kintrafo.vehicle.studies.sweep_axes import TURNS
 
+TURNING_SPEED = 100.0 / 3.6
 RIDES = kintrafo.load("reference_vehicle")
 DRIVES = light_car()
 ROD, MASS = "front.side.hardpoints.tie_rod_inner.z", "body.mass_kg"
@@ -26,8 +27,8 @@ RATE = "rear.side.spring.rate_N_per_m"
 SECOND_ORDER = 1e-4
 
 
-def turn(car: Any, acceleration: float) -> Any:
-    found = circle(car, speed=TURNING_SPEED, lateral_acceleration=[acceleration])
+def turn(car: Any, acceleration: float, speed: float = TURNING_SPEED) -> Any:
+    found = circle(car, speed=speed, lateral_acceleration=[acceleration])
     return flat(found.curves[""].isel(lateral_acceleration=0))
 
 
@@ -91,6 +92,99 @@ def test_derivatives_of_steady_turns() -> None:
         found["understeer_gradient"][:, 0], found["understeer_gradient"][:, 2], rtol=1e-6
     )
     np.testing.assert_allclose(found["fz_front_left"], found["fz_front_right"][:, ::-1], rtol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("option", "constant", "value"),
+    [
+        ("speed_km_per_h=72", "travel_speed", 20.0),
+        ("radius_m=60", "curvature", 1.0 / 60.0),
+        ("steering_wheel_deg=30", "steering_wheel_angle", np.deg2rad(30.0)),
+    ],
+)
+def test_something_is_constant_in_steady_turns(option: str, constant: str, value: float) -> None:
+    over, at = f"{TURNS}:{option}", [1.0, 3.0]
+    names = ["travel_speed", "curvature", "steering_wheel_angle", "roll_angle"]
+    own = variation.cars(DRIVES, {MASS: [1300.0]}, over=over, positions=[-3.0, *at], names=names)
+    np.testing.assert_allclose(own[constant][0, 1:], value, rtol=1e-9)
+    # kinematics of the turn at a speed: v r = a, but for the cosine of the sideslip angle
+    product = own["curvature"] * own["travel_speed"] ** 2
+    np.testing.assert_allclose(product[0], [-3.0, *at], rtol=2e-2)
+    # the turn at the same speed is the same one, as are its neighbours with other masses
+    speed = float(own["travel_speed"][0, 2])
+    same = turn(DRIVES, 3.0, speed)
+    for name in names:
+        assert float(own[name][0, 2]) == pytest.approx(float(same[name]), rel=1e-9)
+    slope = variation.sensitivity(DRIVES, [MASS], over=over, positions=[3.0], names=["roll_angle"])
+    more, less = (
+        variation.cars(DRIVES, {MASS: [1300.0 + by]}, over=over, positions=[3.0])["roll_angle"]
+        for by in (1.0, -1.0)
+    )
+    wanted = float((more - less).item()) / 2.0
+    assert slope["roll_angle"].item() == pytest.approx(wanted, rel=SECOND_ORDER)
+
+
+QUARTER = kintrafo.load("quarter_car")
+SPRING, DAMPER = "corner.strut.spring_rate_N_per_m", "corner.strut.damper_rate_N_s_per_m"
+
+
+def test_derivatives_of_a_ride() -> None:
+    over, names = "speed:road=C", ["weighted_rms", "load_variation", "travel_rms", "hop_frequency"]
+    found = variation.sensitivity(
+        QUARTER, [SPRING, DAMPER], over=over, positions=[20.0], names=names
+    )
+    for row, place in enumerate((SPRING, DAMPER)):
+        value = places_of(QUARTER)[place].value
+        more, less = (
+            kintrafo.ride.by_speed(QUARTER.with_changes({place: value + by}), [20.0], "C")
+            for by in (1e-3 * value, -1e-3 * value)
+        )
+        for name in names:
+            wanted = float((more[name] - less[name]).item()) / (2e-3 * value)
+            assert found[name][row, 0].item() == pytest.approx(wanted, rel=SECOND_ORDER)
+
+
+def test_a_ride_comes_to_its_targets() -> None:
+    """Two rates for a frequency and a damping ratio; and what comfort then is, is a limit."""
+    targets = {
+        "heave_frequency": {"over": "speed", "value": 1.1, "within": 1e-3},
+        "heave_damping_ratio": {"over": "speed", "value": 0.3, "within": 1e-3},
+    }
+    limits = {"weighted_rms": {"over": "speed", "road": "C", "at_km_per_h": [80.0], "most": 2.0}}
+    found = variation.optimise(QUARTER, {SPRING: 12e3, DAMPER: 1500.0}, targets, limits)
+    assert found.success, found.message
+    modes = kintrafo.ride.modes(found.suspension).sel(mode="heave")
+    assert float(modes["frequency"]) == pytest.approx(1.1, abs=1e-3)
+    assert float(modes["damping_ratio"]) == pytest.approx(0.3, abs=1e-3)
+    (verdict,) = variation.judge(
+        found.suspension, variation.goals({"limits": limits}, ["heave", "speed"])
+    )
+    comfort = kintrafo.ride.by_speed(found.suspension, [80.0 / 3.6], "C")["weighted_rms"].item()
+    assert verdict.beyond == pytest.approx(comfort - 2.0, abs=1e-12)
+    assert verdict.over == "speed:road=C"
+
+
+@pytest.mark.parametrize(
+    ("car", "over", "words"),
+    [
+        (DRIVES, f"{TURNS}:radius_m=60,speed_km_per_h=80", "one of them is constant"),
+        (DRIVES, f"{TURNS}:radius=60", "radius_m"),
+        (DRIVES, f"{TURNS}:radius_m=sixty", "radius_m"),
+        (DRIVES, f"{TURNS}:radius_m", "NAME:OPTION=VALUE"),
+        (DRIVES, "heave:radius_m=60", "NAME:OPTION=VALUE"),
+        (QUARTER, "speed:road=Z", "A, B, C"),
+        (QUARTER, "speed:seat=driver", r"\[seats.NAME\]"),
+        (QUARTER, TURNS, "speed"),
+    ],
+)
+def test_options_of_axes_that_cannot_be_are_refused(car: Any, over: str, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        variation.sensitivity(car, ["body.mass_kg"], over=over)
+
+
+def test_a_car_that_does_not_move_is_on_no_radius() -> None:
+    found = variation.cars(DRIVES, {MASS: [1300.0]}, over=f"{TURNS}:radius_m=60", positions=[0.0])
+    assert "does not move" in str(found["reason"].item())
 
 
 def test_an_understeer_gradient_comes_to_its_target() -> None:

@@ -33,6 +33,8 @@ _OF_SIDESLIP = 0.02
 _MOST = 60.0
 # Lateral acceleration at which turns on a given radius begin [m/s^2].
 _GENTLE = 0.5
+# Speed at which turns of one steering wheel angle begin [m/s], and the factor of its steps.
+_SLOW, _FASTER = 2.0, 1.5
 # The greatest lateral acceleration of most cars is about this one [m/s^2].
 _USUAL = 10.0
 _IMAGINARY = 1e-30
@@ -114,25 +116,44 @@ class Turns:
         Parameters
         ----------
         acceleration : float
-            Where it is on a given radius: more than zero, since a car that does not move has no
-            steady turn [m/s^2].
+            Where it is at a given radius or steering wheel angle: more than zero, since a car that
+            does not move has no steady turn [m/s^2].
         """
-        last = SteadyCondition("lateral_acceleration", 0.0)
-        if self.first.kind == "speed":
-            unknown, found = self.equations.solve(
-                self.equations.near_straight(self.first.value), self.first, last
-            )
-        else:
-            last = SteadyCondition("lateral_acceleration", self.sense * acceleration)
+        straight = self.first.kind == "speed"
+        begun = 0.0 if straight else self.sense * acceleration
+        last = SteadyCondition("lateral_acceleration", begun)
+        if straight:
+            near = self.equations.near_straight(self.first.value)
+        elif self.first.kind == "curvature":
             speed = float(np.sqrt(acceleration / abs(self.first.value)))
-            near = self.equations.near_straight(speed)
-            for share in (0.0, 0.5, 1.0):
-                # the circle is closed in steps: a small one is far from straight running
-                around = SteadyCondition("curvature", share * self.first.value)
-                near, found = self.equations.solve(near, SteadyCondition("speed", speed), around)
-            unknown, found = self.equations.solve(near, self.first, last)
+            near, _ = self._entered(speed)
+        else:
+            near, found = self._entered(_SLOW)
+            near = self._faster(near, found, acceleration)
+        unknown, found = self.equations.solve(near, self.first, last)
         self._unknown, self._reached, self._tangent = unknown, last.value, found.tangent
         return found
+
+    def _entered(self, speed: float) -> tuple[Array, Steady]:
+        """Return the turn at a speed: a small circle is far from straight running."""
+        near = self.equations.near_straight(speed)
+        at = SteadyCondition("speed", speed)
+        for share in (0.0, 0.5, 1.0):
+            around = SteadyCondition(self.first.kind, share * self.first.value)
+            near, found = self.equations.solve(near, at, around)
+        return near, found
+
+    def _faster(self, near: Array, found: Steady, acceleration: float) -> Array:
+        """Return the turn of the same steering wheel angle with about a lateral acceleration."""
+        own = abs(found.unknowns["forward"] * found.unknowns["yaw_rate"])
+        if own == 0.0:
+            raise NoSteadyMotionError("the car goes straight on")
+        wanted = _SLOW * float(np.sqrt(acceleration / own))
+        speed = _SLOW
+        while speed != wanted:
+            speed = min(max(wanted, speed / _FASTER), speed * _FASTER)
+            near, _ = self.equations.solve(near, self.first, SteadyCondition("speed", speed))
+        return near
 
     def to(self, acceleration: float) -> Steady:
         """Return the turn with a lateral acceleration, beyond those that were found before.
@@ -208,7 +229,7 @@ def steady_turns(
     ----------
     car : DrivingCar
     first : SteadyCondition
-        Speed or curvature of all of them.
+        Speed, curvature or steering wheel angle of all of them.
     sense : {1, -1}, optional
         1 for turns to the left.
     step : float, optional
@@ -243,14 +264,14 @@ def steady_turns(
     return HandlingResult(*_described(turns, slowest, found, limit))
 
 
-def turns_at(car: DrivingCar, speed: float, accelerations: Array) -> xr.Dataset:
-    """Return steady turns of one speed at some lateral accelerations, of either sign, and zero.
+def turns_at(car: DrivingCar, first: SteadyCondition, accelerations: Array) -> xr.Dataset:
+    """Return steady turns at some lateral accelerations of either sign, and at a speed also zero.
 
     Parameters
     ----------
     car : DrivingCar
-    speed : float
-        [m/s]
+    first : SteadyCondition
+        Speed, curvature or steering wheel angle of all of them, as in turns to the left.
     accelerations : ndarray, shape (n,)
         Lateral accelerations, positive in turns to the left [m/s^2].
 
@@ -264,21 +285,31 @@ def turns_at(car: DrivingCar, speed: float, accelerations: Array) -> xr.Dataset:
     PositionError
         If the tyres carry no such turn, or the car no such speed.
     """
-    first = SteadyCondition("speed", speed)
     found: dict[float, Steady] = {}
+    slowest: Steady | None = None
+    straight = first.kind == "speed"
+    if not straight and (accelerations == 0.0).any():
+        raise PositionError(
+            f"lateral_acceleration: at a {_words(first)} a car without lateral acceleration does "
+            "not move. Choose more or less than 0 m/s^2."
+        )
     for sense in (1, -1):
-        turns = Turns(car, first, sense)
-        asked = np.unique(np.maximum(sense * accelerations, 0.0))
-        if sense < 0 and asked[-1] == 0.0:
+        asked = np.unique(sense * accelerations[sense * accelerations > 0.0])
+        if not asked.size and not (straight and sense > 0):
             continue
+        turns = Turns(car, first.turned(sense), sense)
         try:
-            found.setdefault(0.0, turns.begin(0.0))
-        except NoSteadyMotionError:
+            begun = turns.begin(0.0 if straight else min(float(asked[0]), _GENTLE))
+        except (NoSteadyMotionError, ModelError):
             raise PositionError(_none(first)) from None
-        found, limit = _followed(turns, found, asked[asked > 0.0], None)
+        slowest = slowest or begun
+        own, limit = _followed(turns, {turns.reached: begun}, asked, None)
         if np.isfinite(limit):
             raise PositionError(_beyond(first, limit))
-    _, curves = _described(turns, found[0.0], found, np.nan)
+        found |= own
+        turned = turns
+    assert slowest is not None
+    _, curves = _described(turned, slowest, found, np.nan)
     order = [*found]
     places = [order.index(value) for value in (accelerations + 0.0).tolist()]
     return curves[""].isel(lateral_acceleration=places)
@@ -366,6 +397,8 @@ def _none(first: SteadyCondition) -> str:
 def _words(first: SteadyCondition) -> str:
     if first.kind == "speed":
         return f"constant speed of {3.6 * first.value:g} km/h"
+    if first.kind == "steering_wheel":
+        return f"constant steering wheel angle of {np.rad2deg(abs(first.value)):g} deg"
     return f"constant radius of {abs(1.0 / first.value):g} m"
 
 

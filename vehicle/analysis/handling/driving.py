@@ -64,11 +64,20 @@ def drive(
     return found.run(car, progress or _nothing)._replace(runs=tuple(runs))
 
 
+# What is constant in steady turns: the condition, and its unit.
+_CONSTANT = {
+    "speed": ("speed", "m/s"),
+    "radius": ("curvature", "m"),
+    "steering_wheel": ("steering_wheel", "rad"),
+}
+
+
 def circle(
     subject: Any,
     *,
     speed: float | None = None,
     radius: float | None = None,
+    steering_wheel: float | None = None,
     lateral_acceleration: Any = None,
     step: float = 0.25,
     turn: Literal["left", "right"] = "left",
@@ -83,9 +92,11 @@ def circle(
     subject : Car or CarModel
         A car that drives, ``car = "full"`` in its file.
     speed : float, optional
-        Constant speed; either this or `radius` [m/s].
+        Constant speed [m/s]; one of the three is needed.
     radius : float, optional
         Constant radius of the path [m].
+    steering_wheel : float, optional
+        Constant angle of the steering wheel [rad].
     lateral_acceleration : array_like, optional
         Those wanted, positive and rising; by default in equal steps up to the greatest one [m/s^2].
     step : float, optional
@@ -104,11 +115,12 @@ def circle(
         If the car does not drive, or there is no such turn.
     """
     with Validator("circle") as given:
-        if (speed is None) == (radius is None):
-            given.fail("speed, radius: give one of the two.")
-        for name, value, unit in (("speed", speed, "m/s"), ("radius", radius, "m")):
-            if value is not None:
-                given.number(name, value, unit, above=0.0)
+        constant = {"speed": speed, "radius": radius, "steering_wheel": steering_wheel}
+        chosen = {name: value for name, value in constant.items() if value is not None}
+        if len(chosen) != 1:
+            given.fail("speed, radius, steering_wheel: give one of the three.")
+        for name, value in chosen.items():
+            given.number(name, value, _CONSTANT[name][1], above=0.0)
         step = given.number("step", step, "m/s^2", above=0.0)
         given.among("turn", turn, ("left", "right"))
         wanted = None
@@ -118,11 +130,9 @@ def circle(
             if not given.failed and ((wanted <= 0.0).any() or (np.diff(wanted) <= 0.0).any()):
                 given.fail("lateral_acceleration: more than 0 m/s^2, rising, is needed.")
     car, sense = driving_car("circle", subject), 1 if turn == "left" else -1
-    first = (
-        SteadyCondition("speed", speed)
-        if speed
-        else SteadyCondition("curvature", sense / (radius or 1.0))
-    )
+    ((name, value),) = chosen.items()
+    kind, _ = _CONSTANT[name]
+    first = SteadyCondition(kind, 1.0 / value if kind == "curvature" else value).turned(sense)
     return steady_turns(car, first, sense=sense, step=step, wanted=wanted)
 
 

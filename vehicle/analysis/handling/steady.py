@@ -54,6 +54,10 @@ class SteadyCondition:
     kind: str
     value: float
 
+    def turned(self, sense: int) -> "SteadyCondition":
+        """Return the same of turns to the left, sense 1, or to the right, -1."""
+        return self if self.kind == "speed" else SteadyCondition(self.kind, sense * self.value)
+
     def off(self, unknown: Mapping[str, float]) -> tuple[float, dict[str, float]]:
         """Return how far it is from its value, and the derivatives by unknowns."""
         v, w, r = unknown["forward"], unknown["left"], unknown["yaw_rate"]

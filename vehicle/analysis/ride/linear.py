@@ -31,6 +31,11 @@ from .weighting import weighting
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+Responses = dict[str, Complex]
+"""Of an output, by the wheel under which the road is: (f,), or (wheels, f)."""
+
+FREQUENCIES = np.arange(0.2, 50.0 + 1e-9, 0.02)
+"""The usual frequencies of spectra [Hz]."""
 
 
 def linear_at_rest(assembly: CarAssembly) -> Linearisation:
@@ -136,23 +141,22 @@ def response(
     with Validator("response") as given:
         speed = given.number("speed", speed, "m/s", above=0.0)
         at_reference = roughness_of(given, roughness)
-        default = np.arange(0.2, 50.0 + 1e-9, 0.02)
-        chosen = default if frequency is None else frequency
+        chosen = FREQUENCIES if frequency is None else frequency
         frequencies = given.array("frequency", chosen, "Hz", dimensions=[1])
         if not given.failed and (frequencies <= 0.0).any():
             given.fail("frequency: more than 0 Hz is needed.")
         if not given.failed and (frequencies.size < 2 or (np.diff(frequencies) <= 0.0).any()):
             given.fail("frequency: two or more are needed, each above the one before it.")
     linear = linear_at_rest(assembly)
-    by_wheel = {w: _outputs(assembly, linear, frequencies, w) for w in assembly.wheels}
+    found = responses_by_wheel(assembly, linear, frequencies)
     variables: dict[str, Any] = {}
     for name, (words, unit) in _described(assembly).items():
-        rows = {wheel: found[name] for wheel, found in by_wheel.items()}
-        density = _density(assembly, rows, frequencies, speed, at_reference)
+        rows = found[name]
+        own = density(assembly, rows, frequencies, speed, at_reference)
         of_wheels = name in OUTPUTS_OF_WHEELS and len(assembly.wheels) > 1
         dims = (WHEEL, "frequency") if of_wheels else ("frequency",)
-        spectrum_of = variable(dims, density, f"spectrum of {words}", f"({unit})^2/Hz")
-        spectrum_of.attrs |= _rms(density, frequencies, accelerates=unit == "m/s^2")
+        spectrum_of = variable(dims, own, f"spectrum of {words}", f"({unit})^2/Hz")
+        spectrum_of.attrs |= _rms(own, frequencies, accelerates=unit == "m/s^2")
         variables[f"{name}_psd"] = spectrum_of
         sizes = np.stack([np.abs(row) for row in rows.values()])
         by_road = f"size of {words} by the height of the road under a wheel"
@@ -174,13 +178,31 @@ def _described(assembly: CarAssembly) -> dict[str, tuple[str, str]]:
     return body_outputs(assembly) | OUTPUTS_OF_WHEELS
 
 
+def responses_by_wheel(
+    assembly: CarAssembly, linear: Linearisation, frequencies: Array
+) -> dict[str, Responses]:
+    """Return the responses of every output to the road under each wheel."""
+    roads = [assembly.names_of(wheel).road for wheel in assembly.wheels]
+    states, signals = linear.responses(frequencies, roads)
+    by_wheel = {
+        wheel: _outputs(assembly, linear, frequencies, states[..., i], signals[..., i])
+        for i, wheel in enumerate(assembly.wheels)
+    }
+    return {
+        name: {wheel: found[name] for wheel, found in by_wheel.items()}
+        for name in _described(assembly)
+    }
+
+
 def _outputs(
-    assembly: CarAssembly, linear: Linearisation, frequencies: Array, wheel: str
+    assembly: CarAssembly,
+    linear: Linearisation,
+    frequencies: Array,
+    states: Complex,
+    outputs: Complex,
 ) -> dict[str, Complex]:
     """Return the response of every output to the road under a wheel: (f,), or (wheels, f)."""
-    road = assembly.names_of(wheel).road
-    states = linear.state_response(frequencies, road)
-    signals = linear.frequency_response(frequencies, road)
+    signals = dict(zip(linear.output_names, np.moveaxis(outputs, -1, 0), strict=True))
     half = len(linear.state_names) // 2
     position = dict(
         zip(linear.state_names[:half], np.moveaxis(states[..., :half], -1, 0), strict=True)
@@ -201,9 +223,9 @@ def _outputs(
     return found | {name: (row[0] if single else np.stack(row)) for name, row in rows.items()}
 
 
-def _density(
+def density(
     assembly: CarAssembly,
-    rows: dict[str, Complex],
+    rows: Responses,
     frequencies: Array,
     speed: float,
     at_reference: float,
@@ -224,10 +246,18 @@ def _density(
     return np.asarray(total * spectrum(at_reference, frequencies / speed) / speed)
 
 
+def root_mean_square(density: Array, frequencies: Array) -> Array:
+    """Return that of a density, over the last dimension."""
+    return np.asarray(np.sqrt(np.trapezoid(density, frequencies, axis=-1)))
+
+
+def weighted_root_mean_square(density: Array, frequencies: Array) -> Array:
+    """Return that of a vertical acceleration as it is felt (W_k of ISO 2631-1)."""
+    return root_mean_square(density * np.abs(weighting(frequencies)) ** 2, frequencies)
+
+
 def _rms(density: Array, frequencies: Array, *, accelerates: bool) -> dict[str, Any]:
-    rms = np.sqrt(np.trapezoid(density, frequencies, axis=-1))
-    found = {"rms": rms.tolist()}
+    found = {"rms": root_mean_square(density, frequencies).tolist()}
     if accelerates:
-        felt = density * np.abs(weighting(frequencies)) ** 2
-        found["weighted_rms"] = np.sqrt(np.trapezoid(felt, frequencies, axis=-1)).tolist()
+        found["weighted_rms"] = weighted_root_mean_square(density, frequencies).tolist()
     return found

@@ -1,5 +1,6 @@
 """Steady-state circular driving (ISO 4138), without a simulation."""
 
+import math
 from typing import ClassVar, Literal
 
 from pydantic import Field
@@ -13,7 +14,7 @@ from .manoeuvre import Progress
 
 
 class Circle(Section):
-    """Steady turns of one speed or one radius, up to the greatest lateral acceleration."""
+    """Steady turns of one speed, radius or steering wheel angle, up to the limit of the tyres."""
 
     TITLE: ClassVar[str] = "steady-state circle"
     CURVES: ClassVar[tuple[str, ...]] = ("",)
@@ -21,16 +22,20 @@ class Circle(Section):
 
     manoeuvre: Literal["circle"] = Field(description="which manoeuvre this is")
     speed_km_per_h: NonNegative | None = Field(
-        default=None, description="constant speed; either this or radius_m"
+        default=None, description="constant speed; or else radius_m or steering_wheel_deg"
     )
     radius_m: Positive | None = Field(default=None, description="constant radius")
+    steering_wheel_deg: Positive | None = Field(
+        default=None, description="constant angle of the steering wheel"
+    )
     turn: Literal["left", "right"] = Field(default="left", description='"left" or "right"')
     step_m_per_s2: Positive = Field(default=0.25, description="step of the lateral acceleration")
 
     def problems(self) -> list[str]:
         """Say what cannot be."""
-        if (self.speed_km_per_h is None) == (self.radius_m is None):
-            return ["speed_km_per_h, radius_m: give one of the two."]
+        constant = (self.speed_km_per_h, self.radius_m, self.steering_wheel_deg)
+        if sum(value is not None for value in constant) != 1:
+            return ["speed_km_per_h, radius_m, steering_wheel_deg: give one of the three."]
         if self.speed_km_per_h == 0.0:
             problem = (
                 "speed_km_per_h = 0 km/h: a car that does not move is on no circle. Enter more "
@@ -43,7 +48,11 @@ class Circle(Section):
         """Return gradients, and curves by lateral acceleration."""
         sense = 1 if self.turn == "left" else -1
         if self.radius_m is not None:
-            first = SteadyCondition("curvature", sense / self.radius_m)
+            first = SteadyCondition("curvature", 1.0 / self.radius_m)
+        elif self.steering_wheel_deg is not None:
+            first = SteadyCondition("steering_wheel", math.radians(self.steering_wheel_deg))
         else:
             first = SteadyCondition("speed", (self.speed_km_per_h or 0.0) / 3.6)
-        return steady_turns(car, first, sense=sense, step=self.step_m_per_s2, progress=progress)
+        return steady_turns(
+            car, first.turned(sense), sense=sense, step=self.step_m_per_s2, progress=progress
+        )

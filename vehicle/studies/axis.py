@@ -1,0 +1,56 @@
+"""What varies along the curves of a study."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...core.quantities import display_of
+from ..assembly.assembly import Assembly
+from ..assembly.quantity import Quantity
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SweepAxis:
+    """What varies along some curves.
+
+    Attributes
+    ----------
+    along : Quantity
+    known : mapping of str to Quantity
+        The curves over it, by the names of their columns.
+    words : str
+        'wheel travel'.
+    curves : callable, optional
+        Returns the curves of an assembly at some positions, where no motion of a rig has them.
+    usual : tuple of float, optional
+        The usual positions of such curves, SI units.
+    at : float, optional
+        The position where none is named, SI units.
+    """
+
+    along: Quantity
+    known: Mapping[str, Quantity]
+    words: str
+    curves: Callable[[Assembly, Array], xr.Dataset] | None = None
+    usual: tuple[float, ...] = ()
+    at: float = 0.0
+
+    @property
+    def unit(self) -> str:
+        """The display unit of what varies."""
+        return display_of(self.along.attributes()).units
+
+    @property
+    def key(self) -> str:
+        """The key of positions in a file of goals: ``at_mm``, ``at_m_per_s2``."""
+        return f"at_{self.unit.replace('/', '_per_').replace('^', '')}"
+
+    @property
+    def factor(self) -> float:
+        """How many of them the SI unit has."""
+        return display_of(self.along.attributes()).factor

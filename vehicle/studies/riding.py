@@ -1,0 +1,48 @@
+"""Curves of studies over the speed of a car on a rough road: the numbers of its ride."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...core.validator import Validator
+from ..analysis.ride.by_speed import OF_CAR, OF_WHEELS, by_speed
+from ..assembly.assembly import Assembly
+from ..assembly.by_wheel import of_wheel
+from ..assembly.quantity import SPEED
+from ..models.car.car import WHEELS
+from ..roads.rough import roughness_of
+from .axis import SweepAxis
+
+Array = NDArray[np.float64]
+
+RIDE = "speed"
+"""Speed of cars that do not drive, on a rough road."""
+OPTIONS = ("road", "seat")
+"""The class of the road, or G(n0) [m^3], and where accelerations are."""
+
+_USUAL_KM_PER_H, _AT_KM_PER_H = (40.0, 60.0, 80.0, 100.0, 120.0), 80.0
+_KNOWN = OF_CAR | {
+    each.name: each
+    for quantity in OF_WHEELS
+    for each in (quantity, *(of_wheel(quantity, wheel) for wheel in WHEELS))
+}
+
+
+def axis(given: Validator, options: Mapping[str, Any]) -> SweepAxis:
+    """Return the axis of speeds on a road."""
+    road, seat = options.get("road", "B"), options.get("seat")
+    roughness_of(given, road)
+    if seat is not None:
+        given.text("seat", seat)
+    place = "" if seat is None else f", at the place of the {seat}"
+    known = f"class {road}" if isinstance(road, str) else f"G(n0) = {road} m^3"
+
+    def curves(assembly: Assembly, speeds: Array) -> xr.Dataset:
+        return by_speed(assembly, speeds, road, seat=seat)
+
+    usual = tuple(v / 3.6 for v in _USUAL_KM_PER_H)
+    words = f"speed on a road of {known}{place}"
+    return SweepAxis(SPEED, _KNOWN, words, curves, usual, _AT_KM_PER_H / 3.6)
