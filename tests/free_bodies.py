@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from changes import changed
@@ -34,6 +35,12 @@ from kintrafo.generator import (
     Weight,
 )
 from kintrafo.generator.declare.world import WORLD
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from oracle.maximal import Motion, Reduced
+    from own_models import Built
 
 INERTIA = (0.11, 0.23, 0.31, 0.02, -0.03, 0.01)
 
@@ -164,6 +171,23 @@ def state_near(
         state[place + 3 : place + 7] = unit_quaternion(random)
     state[layout.positions :] = random.uniform(-speed, speed, layout.speeds)
     return state
+
+
+def compared(
+    built: Built, count: int, reach: float = 0.05
+) -> Iterator[tuple[np.ndarray, np.ndarray, Motion, Reduced, int]]:
+    """Yield states and inputs at random, the motion there, and what the oracle says of it.
+
+    The last element is the number of positions: rates come behind them.
+    """
+    random, layout = np.random.default_rng(0), built.module.LAYOUT
+    names = list(built.module.INPUTS)
+    for _ in range(count):
+        state, inputs = state_near(built, random, reach), random.uniform(-1.0, 1.0, len(names))
+        inputs[[name.endswith("_position") for name in names]] *= reach
+        motion, named = built.motion(state, inputs), built.named(inputs)
+        given = {joint: named[moved.rates[1]] for joint, moved in built.model.motions.items()}
+        yield state, inputs, motion, built.oracle.reduced(motion, named, given), layout.positions
 
 
 def tethered() -> Formulation:

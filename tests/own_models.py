@@ -223,7 +223,7 @@ class Built:
         """Return inputs by name."""
         return dict(zip(self.module.INPUTS, map(float, inputs), strict=True))
 
-    def motion(self, state: Array, inputs: Array) -> Motion:
+    def motion(self, state: Array, inputs: Array | None) -> Motion:
         """Return poses and twists of all bodies as the model computes them, the ground first."""
         velocities = self("velocities", state, inputs)
         return Motion(

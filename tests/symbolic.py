@@ -13,11 +13,17 @@ from typing import TYPE_CHECKING, Any
 
 import mpmath
 import numpy as np
+from kintrafo.generator.equations.dynamics import Dynamics
+from kintrafo.generator.equations.in_motion import InMotion
+from kintrafo.generator.planning.plan import CataloguePlan
+from kintrafo.generator.program import ConstantStage, Program
+from sympy import Symbol
 from sympy.printing.pycode import MpmathPrinter
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from kintrafo.generator import Formulation
     from kintrafo.generator.equations.outputs import Derivation
     from kintrafo.generator.program import Function
     from kintrafo.generator.program.newton import IterationBlock
@@ -262,3 +268,32 @@ def constants_of(model: Derivation, parameters: Mapping[str, float]) -> dict[str
     """Return the constants of a parameter set by name, in mpmath's precision."""
     values = {name: mpmath.mpf(value) for name, value in parameters.items()}
     return dict(zip(model.prepare.labels, python(model.prepare)(values), strict=True))
+
+
+def accelerations(
+    model: Formulation, parameters: Mapping[str, float], moving: Mapping[str, float]
+) -> list[float]:
+    """Derive the accelerations of a model alone, and evaluate them in mpmath's precision.
+
+    Parameters
+    ----------
+    parameters
+        Value of every parameter that is not derived from others, SI units.
+    moving
+        State and inputs by name, SI units.
+    """
+    mechanism = model.mechanism
+    constants = ConstantStage(
+        tuple(Symbol(p.name) for p in mechanism.parameters),
+        derived={Symbol(name): value for name, value in mechanism.derived.items()},
+    )
+    program = Program(constants)
+    dynamics = Dynamics(InMotion.of(program, CataloguePlan.of(model)))
+    function = program.function("rhs", "", dict(dynamics.accelerations))
+    prepare = constants.function([function])
+    given, now = (
+        {name: mpmath.mpf(value) for name, value in values.items()}
+        for values in (parameters, moving)
+    )
+    known = dict(zip(prepare.labels, python(prepare)(given), strict=True))
+    return [float(a) for a in python(function)(known | now)]

@@ -2,7 +2,6 @@
 
 import dataclasses
 
-import mpmath
 import numpy as np
 import pytest
 from changes import changed
@@ -18,37 +17,15 @@ from kintrafo.generator import (
     Point,
 )
 from kintrafo.generator.declare.declared import declared
-from kintrafo.generator.equations.dynamics import Dynamics
-from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.mechanisms import macpherson
-from kintrafo.generator.planning.plan import CataloguePlan
-from kintrafo.generator.program import ConstantStage, Program
 from oracle.reference import perturbed_parameters
-from symbolic import python
-from sympy import Symbol
+from symbolic import accelerations
 
-STATE = {"beta1": 1.5, "beta5": 0.3, "beta1_rate": 2.0, "beta5_rate": 90.0}
-INPUTS = {
-    "rack_position": 0.01,
-    "rack_velocity": 0.2,
-    "rack_acceleration": -1.0,
-    "strut_force": 0.0,
-    "road_height": 0.005,
-}
-
-
-def accelerations(model, parameters):
-    """Derive a model and evaluate its accelerations with mpmath."""
-    symbols = tuple(Symbol(p.name) for p in model.mechanism.parameters)
-    constants = ConstantStage(symbols)
-    program = Program(constants)
-    dynamics = Dynamics(InMotion.of(program, CataloguePlan.of(model)))
-    function = program.function("rhs", "", dict(dynamics.accelerations))
-    prepare = constants.function([function])
-    given = {name: mpmath.mpf(value) for name, value in parameters.items()}
-    values = dict(zip(prepare.labels, python(prepare)(given), strict=True))
-    moving = {name: mpmath.mpf(value) for name, value in (STATE | INPUTS).items()}
-    return [float(a) for a in python(function)(values | moving)]
+MOVING = {
+    "beta1": 1.5, "beta5": 0.3, "beta1_rate": 2.0, "beta5_rate": 90.0, "rack_position": 0.01,
+    "rack_velocity": 0.2, "rack_acceleration": -1.0, "strut_force": 0.0, "road_height": 0.005,
+}  # fmt: skip
+"""A state and inputs."""
 
 
 @pytest.mark.parametrize("seed", [1, 2])
@@ -66,10 +43,10 @@ def test_line_spring_along_the_strut_is_the_telescope_spring(seed):
     (strut,) = model.mechanism.elements
     free_length = parameters["strut_length_max"] - parameters["spring_free_slide"]
     by_line = accelerations(
-        changed(model, (strut, line)), parameters | {"coil_free_length": free_length}
+        changed(model, (strut, line)), parameters | {"coil_free_length": free_length}, MOVING
     )
     # both are evaluated with 15 digits of mpmath; the forces are large differences of lengths
-    assert by_line == pytest.approx(accelerations(model, parameters), rel=1e-11)
+    assert by_line == pytest.approx(accelerations(model, parameters, MOVING), rel=1e-11)
 
 
 @declared
@@ -103,7 +80,9 @@ def test_a_force_of_one_s_own_applies_itself():
     forces = {n: parameters["gravity"] * parameters[f"{b.name}_mass"] for n, b in lifts.items()}
     thrusts = (Thrust(b, b.center, ForceLevel(n, 0.0, "lift")) for n, b in lifts.items())
     mechanism = dataclasses.replace(model.mechanism, forces=(*model.mechanism.forces, *thrusts))
-    lifted = accelerations(dataclasses.replace(model, mechanism=mechanism), parameters | forces)
-    weightless = accelerations(model, parameters | {"gravity": 0.0})
+    lifted = accelerations(
+        dataclasses.replace(model, mechanism=mechanism), parameters | forces, MOVING
+    )
+    weightless = accelerations(model, parameters | {"gravity": 0.0}, MOVING)
     # both are evaluated with 15 digits of mpmath; the forces are large differences of lengths
     assert lifted == pytest.approx(weightless, rel=1e-11)

@@ -8,6 +8,7 @@ import own_mechanisms
 import pytest
 from free_bodies import (
     INERTIA,
+    compared,
     freed,
     product,
     rig,
@@ -202,17 +203,6 @@ def test_a_spinning_body_has_its_known_frequencies(block):
 # -- several bodies -------------------------------------------------------------------------------
 
 
-def _compared(built, count, reach=0.05):
-    random, layout = np.random.default_rng(0), built.module.LAYOUT
-    names = list(built.module.INPUTS)
-    for _ in range(count):
-        state, inputs = state_near(built, random, reach), random.uniform(-1.0, 1.0, len(names))
-        inputs[[name.endswith("_position") for name in names]] *= reach
-        motion, named = built.motion(state, inputs), built.named(inputs)
-        given = {joint: named[moved.rates[1]] for joint, moved in built.model.motions.items()}
-        yield state, inputs, motion, built.oracle.reduced(motion, named, given), layout.positions
-
-
 def _close(found, expected, part=1e-11):
     np.testing.assert_allclose(
         found, expected, rtol=0.0, atol=part * np.abs(expected).max(initial=1.0)
@@ -220,7 +210,7 @@ def _close(found, expected, part=1e-11):
 
 
 def test_equations_are_those_of_maximal_coordinates(box):
-    for state, inputs, motion, expected, positions in _compared(box, 4):
+    for state, inputs, motion, expected, positions in compared(box, 4):
         assert np.abs(box.oracle.closure(motion).rate).max() < 1e-13
         _close(box("mass_matrix", state, inputs), expected.mass_matrix)
         _close(box("bias", state, inputs), expected.inertial)
@@ -233,7 +223,7 @@ def test_equations_are_those_of_maximal_coordinates(box):
 
 
 def test_outputs_are_those_of_the_oracle(box):
-    for state, inputs, motion, expected, _ in _compared(box, 3):
+    for state, inputs, motion, expected, _ in compared(box, 3):
         signals = kintrafo.System(box.module).signals(state, inputs)
         jet = box.oracle.point(motion, "limb", np.array([0.8, 0.5, 0.6]))
         acceleration = jet.rows @ expected.body_accelerations.ravel() + jet.convective
@@ -258,7 +248,7 @@ def test_loops_hang_on_it(model):
     """What rests on the ground elsewhere, on a body in the air; the oracle closes it anew."""
     model = freed(model)
     built = Built.of(model, own(model, arrays=True, derivatives=False))
-    for state, inputs, motion, expected, positions in _compared(built, 3, 0.1):
+    for state, inputs, motion, expected, positions in compared(built, 3, 0.1):
         assert np.abs(built.oracle.closure(motion).value).max() < 1e-13
         assert np.abs(built.oracle.closure(motion).rate).max() < 1e-11
         _close(built("rhs", state, inputs)[positions:], expected.accelerations, 1e-10)

@@ -6,15 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from free_bodies import state_near
+from free_bodies import compared
 from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.kinematics.jointed import jointed_base
 from kintrafo.generator.mechanisms import MODELS, car, model_named
-from kintrafo.systems.compile.build import build
-from kintrafo.systems.compile.loader import load
 from oracle_check import check_with_the_oracle
-from own_models import Built
+from own_models import Built, own
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -56,22 +54,15 @@ def test_accelerations_are_those_of_the_oracle(
     check_with_the_oracle(model, tmp_path, reach=0.05, count=3, operations=operations)
 
 
-def test_a_car_that_moves_freely_is_that_of_the_oracle(tmp_path: Path) -> None:
+def test_a_car_that_moves_freely_is_that_of_the_oracle() -> None:
     arms = car.of_corners(model_named("trailing_arm"))
     model = car.car("free", "A car", (arms, arms), car.FREE)
-    folder = tmp_path / f"{model.name}-arrays"
-    folder.mkdir()
-    build(generate(model, derivatives=False), folder, None)
-    built, random = Built.of(model, load(folder)), np.random.default_rng(5)
-    places = built.module.LAYOUT.positions
-    for _ in range(2):
-        state = state_near(built, random)
-        inputs = random.uniform(-0.05, 0.05, len(built.module.INPUTS))
-        motion, named = built.motion(state, inputs), built.named(inputs)
-        expected = built.oracle.reduced(motion, named, {}).accelerations
-        found = built("rhs", state, inputs)[places:]
-        scale = np.abs(expected).max()
-        np.testing.assert_allclose(found, expected, rtol=1e-10, atol=1e-10 * scale)
+    built = Built.of(model, own(model, arrays=True, derivatives=False))
+    for state, inputs, _, expected, positions in compared(built, 2):
+        found, scale = built("rhs", state, inputs), np.abs(expected.accelerations).max()
+        np.testing.assert_allclose(
+            found[positions:], expected.accelerations, rtol=1e-10, atol=1e-10 * scale
+        )
 
 
 def test_only_a_body_that_carries_all_is_a_base() -> None:

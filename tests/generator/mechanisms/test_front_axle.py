@@ -13,27 +13,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-import sympy as sp
 from folders import ROOT
 from kintrafo import System, simulate
 from kintrafo.generated import front_axle, macpherson
 from kintrafo.generator.backends.counting import operations_of
-from kintrafo.generator.equations.dynamics import Dynamics
-from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import front_axle as declaration
-from kintrafo.generator.planning.plan import CataloguePlan
-from kintrafo.generator.program import ConstantStage, Program
-from oracle.maximal import Motion, Oracle
+from oracle.maximal import Oracle
 from oracle.reference import perturbed_parameters
+from own_models import Built
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
-from symbolic import python
+from symbolic import accelerations
 
 from benchmarks.front_axle import COUNTED, WITH, WITHOUT, rates, wheel_rate
 
 if TYPE_CHECKING:
-    from kintrafo.generator import Formulation
     from oracle.constraints import Array
 
 SIDES = ("right", "left")
@@ -338,11 +333,11 @@ def test_energy_of_opposite_motion_stays() -> None:
     result = solve_ivp(
         lambda _, y: axle.evaluate("rhs", y), (0.0, 0.15), start, "DOP853", rtol=1e-12, atol=1e-12
     )
-    oracle = Oracle(declaration.MODELS[0], given)
-    energies = np.array([oracle.energy(motion_of(axle, y)) for y in result.y.T])
+    built = Built(declaration.MODELS[0], front_axle, given)
+    energies = np.array([built.oracle.energy(built.motion(y, None)) for y in result.y.T])
     twist = axle.signal("bar_angle", result.y.T)
     stored = 0.5 * given["bar_rate"] * twist**2
-    swing = energies[0] - oracle.energy(motion_of(axle, axle.design_state))
+    swing = energies[0] - built.oracle.energy(built.motion(axle.design_state, None))
     # the integrator's tolerance, over some hundred steps
     assert np.ptp(energies) < 1e-9 * swing
     assert stored.max() > 0.33 * swing
@@ -362,7 +357,7 @@ def test_halves_of_the_bar_may_have_mass() -> None:
     at = Compared.of(1)
     state, inputs = at.state[0], at.inputs[0]
     named = dict(zip(at.axle.input_names, map(float, inputs), strict=True))
-    motion = motion_of(System(front_axle, given), state, inputs)
+    motion = Built(declaration.MODELS[0], front_axle, given).motion(state, inputs)
     oracle = Oracle(model, given).reduced(motion, named, {"y": named["rack_acceleration"]})
     values = dict(zip(at.axle.state_names, map(float, state), strict=True)) | named
     found = accelerations(model, given, values)
@@ -388,7 +383,7 @@ def test_a_free_rack_couples_the_sides() -> None:
     at = Compared.of(2)
     state, inputs = at.state[0], at.inputs[0]
     named = dict(zip(at.axle.input_names, map(float, inputs), strict=True)) | {"rack_force": 200.0}
-    motion = motion_of(at.axle, state, inputs)
+    motion = Built(prescribed, front_axle, at.axle.parameters).motion(state, inputs)
     oracle = Oracle(model, given).reduced(motion, named, {})
     values = dict(zip(at.axle.state_names, map(float, state), strict=True)) | named
     values |= {"beta9": named["rack_position"], "beta9_rate": named["rack_velocity"]}
@@ -396,35 +391,6 @@ def test_a_free_rack_couples_the_sides() -> None:
     scale = np.abs(oracle.accelerations).max()
     np.testing.assert_allclose(found, oracle.accelerations, rtol=0.0, atol=1e-11 * scale)
     assert np.abs(oracle.mass_matrix[4, :4]).min() > 1e-3  # the rack moves both sides
-
-
-def accelerations(
-    model: Formulation, given: dict[str, float], values: dict[str, float]
-) -> list[float]:
-    """Derive the accelerations of a model and evaluate them, without its other functions."""
-    mechanism = model.mechanism
-    constants = ConstantStage(
-        tuple(sp.Symbol(p.name) for p in mechanism.parameters),
-        derived={sp.Symbol(n): value for n, value in mechanism.derived.items()},
-    )
-    program = Program(constants)
-    dynamics = Dynamics(InMotion.of(program, CataloguePlan.of(model)))
-    function = program.function("rhs", "", dict(dynamics.accelerations))
-    prepare = constants.function([function])
-    known = dict(zip(prepare.labels, python(prepare)(given), strict=True))
-    return [float(a) for a in python(function)(known | values)]
-
-
-def motion_of(axle: System, state: Array, inputs: Array | None = None) -> Motion:
-    """Return poses and twists of all bodies as the model computes them, the ground first."""
-    place, turn, velocity = (
-        axle.evaluate(name, state, inputs) for name in ("positions", "orientations", "velocities")
-    )
-    return Motion(
-        np.concatenate((np.zeros((1, 3)), place)),
-        np.concatenate((np.eye(3)[None], turn)),
-        np.concatenate((np.zeros((1, 6)), np.roll(velocity, 3, axis=1))),
-    )
 
 
 # -- simulation ------------------------------------------------------------------------------------
