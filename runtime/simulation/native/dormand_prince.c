@@ -38,12 +38,16 @@ typedef struct {
 static int begin_anew(worker *w, double time, double length)
 {
     method *m = w->own;
-    memcpy(m->state, w->y, (size_t)w->problem->state_count * sizeof *m->state);
+    size_t size = (size_t)w->problem->state_count * sizeof *m->state;
+    memcpy(m->state, w->y, size);
+    if (w->rates_known) {
+        memcpy(m->rates, m->rates + (STAGES - 1) * w->problem->state_count, size);
+    }
     memset(&m->counted, 0, sizeof m->counted);
     m->time = m->reached = time;
     m->next = fabs(length);
     m->error = 0.0;
-    m->fresh = 1;
+    m->fresh = !w->rates_known;
     m->fitted = 0;
     return 0;
 }

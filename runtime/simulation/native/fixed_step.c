@@ -56,11 +56,14 @@ int kt_fixed_begin(worker *w, double time, double length)
     size_t size = (size_t)w->problem->state_count * sizeof *m->state;
     m->elsewhere = memcmp(m->end_state, w->y, size) != 0;
     memcpy(m->state, w->y, size);
+    if (w->rates_known) {
+        memcpy(m->rates, m->end_rates, size);
+    }
     memset(&m->counted, 0, sizeof m->counted);
     m->times.time = m->times.reached = m->times.origin = time;
     m->times.since = 0;
     m->times.next = fabs(length);
-    m->fresh = 1;
+    m->fresh = !w->rates_known;
     m->fitted = 0;
     return 0;
 }

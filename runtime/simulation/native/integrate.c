@@ -601,8 +601,11 @@ int kt_advance(kt_motion *w, const double *state, const double *inputs, const do
 {
     kt_result *r = w->result;
     size_t size = (size_t)w->problem->state_count * sizeof *state;
+    size_t held = (size_t)w->problem->input_count * sizeof *inputs;
     int goes_on = r->time == times[0] && r->output.rows && !memcmp(r->state, state, size);
-    memcpy(w->inputs, inputs, (size_t)w->problem->input_count * sizeof *inputs);
+    w->rates_known = goes_on && w->steady && !memcmp(w->inputs, inputs, held);
+    w->steady = !w->problem->spline_count;
+    memcpy(w->inputs, inputs, held);
     memcpy(r->state, state, size);
     r->time = w->start = times[0];
     w->end = times[1];
@@ -616,6 +619,7 @@ int kt_advance(kt_motion *w, const double *state, const double *inputs, const do
     }
     double first = w->options->first_step > 0.0 ? w->options->first_step : fabs(times[1] - times[0]);
     int outcome = begin_anew(w, times[0], first) ? KT_FAILED : KT_DONE;
+    w->rates_known = 0;
     outcome = outcome == KT_DONE ? run(w, times, 2, 0, goes_on) : outcome;
     if (outcome != KT_DONE) {
         r->output.rows = 0; /* nothing goes on from here */

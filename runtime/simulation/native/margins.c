@@ -1,5 +1,7 @@
 #include "margins.h"
 
+#include "number.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,7 +49,7 @@ int kt_steady(const kt_margins *m)
 
 int kt_changes(const kt_margins *m, double next)
 {
-    double little = KT_LITTLE / fmax(next, 1.0);
+    double little = KT_LITTLE / greater(next, 1.0);
     for (int i = 0; i < m->count; ++i) {
         double now = m->now[i], change = fabs(now - m->before[i]);
         int calm = change <= little * now && now > KT_NOTHING * m->greatest[i];
@@ -73,7 +75,7 @@ void kt_reach(kt_margins *m)
 {
     for (int i = 0; i < m->count; ++i) {
         m->before[i] = m->now[i];
-        m->greatest[i] = fmax(m->greatest[i], m->now[i]);
+        m->greatest[i] = greater(m->greatest[i], m->now[i]);
     }
 }
 

@@ -1,5 +1,7 @@
 /* Co-Simulation: steps of a solver from one communication point to the next. */
 #include "unit.h"
+
+#include "number.h"
 #include "worker.h"
 
 #include <math.h>
@@ -216,7 +218,7 @@ static void lay_splines(unit *u, double time, double end)
 /* Give the inputs the values that they have come to. */
 static void move_inputs(unit *u, double length)
 {
-    for (int i = 0; i < u->course_count; ++i) {
+    for (int i = 0; u->problem.spline_count && i < u->course_count; ++i) {
         const ku_course *course = &u->courses[i];
         double d[KU_ORDERS];
         if (!derivatives_of(course, d)) {
@@ -275,7 +277,6 @@ static int integrate(unit *u, double end)
     const double times[2] = {*u->now.time, end};
     /* all steps have one length, or the first one that which was planned */
     u->options.first_step = *u->now.step > 0.0 ? *u->now.step : *u->now.next;
-    lay_splines(u, times[0], end);
     int outcome = kt_advance(u->motion, u->now.state, u->now.inputs, times);
     *u->now.time = u->result.time;
     memcpy(u->now.state, u->result.state, (size_t)km_this.states * sizeof *u->now.state);
@@ -289,7 +290,7 @@ void ku_begin_anew(unit *u) { u->result.output.rows = 0; }
 int ku_step(unit *u, double time, double length)
 {
     double now = *u->now.time;
-    if (!(fabs(time - now) <= RESOLVED * fmax(1.0, fabs(now)))) {
+    if (!(fabs(time - now) <= RESOLVED * greater(1.0, fabs(now)))) {
         return ku_say(u, KU_ERROR, "the step begins at %.12g s, and the instance is at %.12g s.", time, now);
     }
     if (!(length > 0.0 && isfinite(length) && time + length > now)) {
@@ -300,6 +301,7 @@ int ku_step(unit *u, double time, double length)
     }
     double end = time + length;
     int outcome = KT_DONE;
+    lay_splines(u, now, end);
     if (km_this.states) {
         outcome = integrate(u, end);
     } else {

@@ -508,26 +508,30 @@ static int can_be_set(const unit *u, unsigned reference, double value)
     return 0;
 }
 
-static void set(unit *u, unsigned reference, double value)
+/* Set a variable; return whether its value was another one. */
+static int set(unit *u, unsigned reference, double value)
 {
     int place;
+    double *at = u->now.step;
     switch (ku_find(reference, &place)) {
     case KU_STATE:
-        u->now.state[place] = value;
+        at = &u->now.state[place];
         *u->now.next = 0.0;
         break;
     case KU_INPUT:
-        u->now.inputs[place] = value;
+        at = &u->now.inputs[place];
         break;
     case KU_PARAMETER:
-        u->now.parameters[place] = value;
+        at = &u->now.parameters[place];
         *u->now.ready = 0.0;
         break;
     default:
-        *u->now.step = value;
         *u->now.ready = 0.0;
         break;
     }
+    int changed = memcmp(at, &value, sizeof value) != 0;
+    *at = value;
+    return changed;
 }
 
 int ku_set(unit *u, const unsigned *references, size_t count, const double *values)
@@ -537,11 +541,14 @@ int ku_set(unit *u, const unsigned *references, size_t count, const double *valu
             return KU_ERROR;
         }
     }
+    int changed = 0;
     for (size_t i = 0; i < count; ++i) {
-        set(u, references[i], values[i]);
+        changed |= set(u, references[i], values[i]);
     }
-    ku_forget(u);
-    ku_begin_anew(u);
+    if (changed) {
+        ku_forget(u);
+        ku_begin_anew(u);
+    }
     return KU_OK;
 }
 
