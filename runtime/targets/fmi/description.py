@@ -9,13 +9,21 @@ from typing import Any
 
 from ..emitted import Emitted
 
-STEP = "solver.step"
-"""The length of all steps in Co-Simulation; zero for steps whose error is controlled."""
-
-_STEP_MEANING = (
-    "length of all steps of the classical method of Runge and Kutta in Co-Simulation; zero for the "
-    "method of Dormand and Prince, whose steps follow the tolerance"
-)
+_SOLVER = {
+    "solver.step": (
+        "s",
+        math.inf,
+        "length of all steps of Co-Simulation; zero for the method of Dormand and Prince, whose "
+        "steps follow the tolerance",
+    ),
+    "solver.implicit": (
+        "1",
+        1.0,
+        "method of steps of one length: 0 for the classical method of Runge and Kutta, 1 for the "
+        "linearly implicit method RODASP, for stiff equations",
+    ),
+}
+"""Parameters of the solver in Co-Simulation: unit, greatest value, meaning."""
 
 
 @dataclass(frozen=True)
@@ -141,7 +149,7 @@ class ModelDescription:
         """All variables, in the order of their references."""
         groups = (
             self._time, self._states, self._rates, self._inputs, self._outputs, self._events,
-            self._parameters, self._step,
+            self._parameters, self._solver,
         )  # fmt: skip
         found: list[Variable] = []
         for group in groups:
@@ -166,7 +174,7 @@ class ModelDescription:
     @property
     def parameters(self) -> Sequence[Variable]:
         """The parameters of the model."""
-        return [v for v in self.variables if v.causality == "parameter" and v.name != STEP]
+        return [v for v in self.variables if v.causality == "parameter" and v.name not in _SOLVER]
 
     @property
     def outputs(self) -> Sequence[Variable]:
@@ -250,10 +258,14 @@ class ModelDescription:
             for k, (name, entry) in enumerate(self.manifest["parameters"].items())
         ]  # fmt: skip
 
-    def _step(self, first: int) -> list[Variable]:
+    def _solver(self, first: int) -> list[Variable]:
         return [
-            Variable(first, STEP, _STEP_MEANING, "s", "parameter", "fixed", "exact", 0.0, least=0.0)
-        ]
+            Variable(
+                first + k, name, meaning, unit, "parameter", "fixed", "exact", 0.0, least=0.0,
+                most=most,
+            )
+            for k, (name, (unit, most, meaning)) in enumerate(_SOLVER.items())
+        ]  # fmt: skip
 
     # -- numbers --------------------------------------------------------------------------------
 

@@ -22,7 +22,8 @@ _CORE = ("dead_points.c", "derivatives.c", "model.h", "steps.c", "unit.c", "unit
 _NATIVE = (
     "dormand_prince.c", "dormand_prince.h", "eigenvalues.c", "eigenvalues.h", "fixed_step.c",
     "fixed_step.h", "integrate.c", "integrate.h", "margins.c", "margins.h", "number.h", "pieces.h",
-    "polynomial.h", "powers.h", "rk4.c", "roots.c", "roots.h", "trust.h", "worker.h",
+    "polynomial.h", "powers.h", "rk4.c", "rodasp.c", "rodasp.h", "roots.c", "roots.h", "trust.h",
+    "worker.h",
 )  # fmt: skip
 
 

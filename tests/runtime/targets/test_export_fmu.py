@@ -311,11 +311,11 @@ def test_parameters_that_cannot_move_alone_are_refused(tmp_path):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-@pytest.mark.parametrize("step", [0.0, 1e-4])
-def test_steps_follow_the_motion(unit, version, step):
-    """Of both methods: errors of Dormand and Prince by the tolerance, of RK4 by its step."""
+@pytest.mark.parametrize(("step", "implicit"), [(0.0, 0.0), (1e-4, 0.0), (1e-4, 1.0)])
+def test_steps_follow_the_motion(unit, version, step, implicit):
+    """Errors of Dormand and Prince are by the tolerance, of RK4 and RODASP by the step."""
     instance = unit("reference_car", version).instance()
-    wheel = {"beta1_rate": 0.3, "solver.step": step}
+    wheel = {"beta1_rate": 0.3, "solver.step": step, "solver.implicit": implicit}
     assert instance.initialise(tolerance=1e-12, **wheel) == OK
     times = np.linspace(0.0, 0.3, 31)
     found = [instance.get("beta1", "tyre_force")]
@@ -573,6 +573,8 @@ def test_parameters_are_those_that_are_set(unit, version):
             "the ends crank_pin and rocker_pin of coupler coincide",
         ),
         ({"solver.step": -1.0}, "solver.step = -1 s: a finite number of 0 s or more"),
+        ({"solver.implicit": 0.5}, "solver.implicit = 0.5: 0 or 1 is needed"),
+        ({"solver.implicit": 1.0}, "solver.implicit = 1 needs fixed steps: give solver.step"),
     ],
 )
 def test_parameters_out_of_range(unit, version, values, words):

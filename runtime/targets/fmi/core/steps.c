@@ -18,7 +18,7 @@ enum { MOST_STEPS = 10000000 };
 
 const kt_solver *kt_solver_of(int method)
 {
-    return method == KT_RK4 ? &kt_rk4 : &kt_dormand_prince;
+    return method == KT_RK4 ? &kt_rk4 : method == KT_RODASP ? &kt_rodasp : &kt_dormand_prince;
 }
 
 /* -- memory ----------------------------------------------------------------------------------- */
@@ -57,6 +57,14 @@ static int find_usual_margins(unit *u)
 
 static void find_courses(unit *u);
 
+static int method_of(const unit *u)
+{
+    if (*u->now.step == 0.0) {
+        return KT_DORMAND_PRINCE;
+    }
+    return *u->now.implicit == 0.0 ? KT_RK4 : KT_RODASP;
+}
+
 int ku_open_steps(unit *u)
 {
     const km_model *m = &km_this;
@@ -80,7 +88,7 @@ int ku_open_steps(unit *u)
         .spline_count = m->inputs,
     };
     u->options = (kt_options){
-        .method = *u->now.step > 0.0 ? KT_RK4 : KT_DORMAND_PRINCE,
+        .method = method_of(u),
         .rtol = *u->now.tolerance, .atol = u->tolerances, .max_step = *u->now.step,
         .max_steps = MOST_STEPS,
     };
@@ -258,8 +266,16 @@ static int explain(unit *u, int outcome)
         return status;
     }
     if (outcome == KT_UNSTABLE) {
-        return ku_say(u, KU_DISCARD, "solver.step = %g s is not stable at %.9g s: %.3g s at most are.",
-                      *u->now.step, time, r->longest_step);
+        return ku_say(u, KU_DISCARD,
+                      "solver.step = %g s is too long for stability at %.9g s: give %.3g s or less, or set "
+                      "solver.implicit to 1.", *u->now.step, time, r->longest_step);
+    }
+    if (outcome == KT_JUMPS || outcome == KT_SINGULAR_STEP) {
+        return ku_say(u, KU_DISCARD,
+                      "solver.implicit = 1 does not suit the motion at %.9g s: %s. Set solver.implicit to 0 and shorten "
+                      "solver.step, or set both to 0.", time,
+                      outcome == KT_JUMPS ? "rates jump to and fro within its steps"
+                                          : "the linear equations of a step have no unique solution");
     }
     if (outcome == KT_TOO_MANY_STEPS) {
         return ku_say(u, KU_DISCARD, "the solver has taken %d steps, the most of one communication step.",

@@ -90,6 +90,7 @@ static int lay_out(ku_numbers *n, double *at)
     n->tolerance = at++;
     n->next = at++;
     n->step = at++;
+    n->implicit = at++;
     n->parameters = at;
     at += m->parameters;
     n->state = at;
@@ -105,7 +106,7 @@ static int lay_out(ku_numbers *n, double *at)
 static size_t number_count(void)
 {
     const km_model *m = &km_this;
-    return 6 + (size_t)m->parameters + (size_t)m->states + (size_t)KU_ORDERS * m->inputs;
+    return 7 + (size_t)m->parameters + (size_t)m->states + (size_t)KU_ORDERS * m->inputs;
 }
 
 static size_t size_of_tangents(void)
@@ -301,6 +302,24 @@ static int inertia_is_possible(const unit *u)
     return 1;
 }
 
+static int solver_is_possible(const unit *u)
+{
+    double step = *u->now.step, implicit = *u->now.implicit;
+    if (!(step >= 0.0 && isfinite(step))) {
+        ku_say(u, KU_ERROR, "solver.step = %g s: a finite number of 0 s or more is needed.", step);
+    } else if (implicit != 0.0 && implicit != 1.0) {
+        ku_say(u, KU_ERROR, "solver.implicit = %g: 0 or 1 is needed.", implicit);
+    } else if (implicit != 0.0 && step == 0.0) {
+        ku_say(u, KU_ERROR, "solver.implicit = 1 needs fixed steps: give solver.step a length above 0 s.");
+    } else if (step > 0.0 && km_this.states && !km_this.jacobian) {
+        ku_say(u, KU_ERROR, "solver.step = %g s: methods with fixed steps need the Jacobian of the equations, which "
+               "were derived without it. Set solver.step to 0 s.", step);
+    } else {
+        return 1;
+    }
+    return 0;
+}
+
 int ku_ready(unit *u)
 {
     const km_model *m = &km_this;
@@ -312,10 +331,7 @@ int ku_ready(unit *u)
             return KU_ERROR;
         }
     }
-    if (!(*u->now.step >= 0.0 && isfinite(*u->now.step))) {
-        return ku_say(u, KU_ERROR, "solver.step = %g s: a finite number of 0 s or more is needed.", *u->now.step);
-    }
-    if (!inertia_is_possible(u)) {
+    if (!solver_is_possible(u) || !inertia_is_possible(u)) {
         return KU_ERROR;
     }
     int failed = m->prepare(u->now.parameters, u->constants);
@@ -395,7 +411,7 @@ enum ku_block ku_find(unsigned reference, int *place)
 {
     const km_model *m = &km_this;
     const int sizes[KU_NOTHING] = {
-        1, m->states, m->states, m->inputs, m->signals, m->events, m->parameters, 1,
+        1, m->states, m->states, m->inputs, m->signals, m->events, m->parameters, 1, 1,
     };
     unsigned left = reference;
     for (int block = 0; block < KU_NOTHING; ++block) {
@@ -462,6 +478,9 @@ static int get(unit *u, unsigned reference, double *value)
     case KU_STEP:
         *value = *u->now.step;
         break;
+    case KU_IMPLICIT:
+        *value = *u->now.implicit;
+        break;
     default:
         return ku_say(u, KU_ERROR, "there is no variable with the value reference %u.", reference);
     }
@@ -491,8 +510,9 @@ static int can_be_set(const unit *u, unsigned reference, double value)
         ku_say(u, KU_ERROR,
                "parameter %s is fixed: it can be set before initialization mode is left, not later.",
                m->parameter[place].name);
-    } else if (block == KU_STEP && !setting_up) {
-        ku_say(u, KU_ERROR, "solver.step can be set before initialization mode is left, not later.");
+    } else if ((block == KU_STEP || block == KU_IMPLICIT) && !setting_up) {
+        ku_say(u, KU_ERROR, "solver.%s can be set before initialization mode is left, not later.",
+               block == KU_STEP ? "step" : "implicit");
     } else if (block == KU_STATE && !setting_up && ku_mode(u) != KU_EVENTS
                && ku_mode(u) != KU_CONTINUOUS) {
         ku_say(u, KU_ERROR, "state %s can be set before initialization mode is left, not later.",
@@ -512,8 +532,9 @@ static int can_be_set(const unit *u, unsigned reference, double value)
 static int set(unit *u, unsigned reference, double value)
 {
     int place;
-    double *at = u->now.step;
-    switch (ku_find(reference, &place)) {
+    double *at;
+    enum ku_block block = ku_find(reference, &place);
+    switch (block) {
     case KU_STATE:
         at = &u->now.state[place];
         *u->now.next = 0.0;
@@ -526,6 +547,7 @@ static int set(unit *u, unsigned reference, double value)
         *u->now.ready = 0.0;
         break;
     default:
+        at = block == KU_STEP ? u->now.step : u->now.implicit;
         *u->now.ready = 0.0;
         break;
     }

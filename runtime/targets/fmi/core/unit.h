@@ -50,7 +50,7 @@ typedef struct {
     double *all; /* what follows, behind each other */
     int count;
     double *time, *mode, *ready, *tolerance, *next;
-    double *parameters, *state, *inputs, *slopes, *step;
+    double *parameters, *state, *inputs, *slopes, *step, *implicit;
 } ku_numbers;
 
 struct unit {
@@ -80,7 +80,8 @@ struct unit {
 
 /* Value references: blocks behind each other, in this order. */
 enum ku_block {
-    KU_TIME, KU_STATE, KU_RATE, KU_INPUT, KU_SIGNAL, KU_EVENT, KU_PARAMETER, KU_STEP, KU_NOTHING
+    KU_TIME, KU_STATE, KU_RATE, KU_INPUT, KU_SIGNAL, KU_EVENT, KU_PARAMETER, KU_STEP, KU_IMPLICIT,
+    KU_NOTHING
 };
 
 /* -- life ------------------------------------------------------------------------------------- */
