@@ -1,18 +1,30 @@
 """What an export takes: files, seconds, and communication steps above their arithmetic.
 
-``make benchmark-export`` measures the units of the reference car, called from C.
+``make benchmark-export`` measures the units of the reference car, called from C and by FMPy, and
+its right-hand side in JAX.
 """
 
+import importlib.util
+import math
 import os
 import re
 import subprocess
 import time
 import zipfile
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from itertools import islice
+from multiprocessing import get_context
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated
 
+import jax
+import numpy as np
 import typer
+from fmpy import read_model_description
+from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi3 import FMU3Slave
 from kintrafo import CompilerError, Model, equilibrium, export_model
 from kintrafo.core.folders import VARIABLE
 from kintrafo.systems.compile.compiler import FLAGS, find_compiler
@@ -24,6 +36,9 @@ from .report import environment, fill_page, machine_line, markdown_table
 CAR = "reference_car"
 DRIVER = Path(__file__).with_name("export_steps.c")
 VERSIONS = {2: "guid", 3: "instantiationToken"}
+# a step of the solver each [s], as in export_steps.c; so many by FMPy
+LENGTH, STEPS = 1e-5, 2000
+STATES = 100_000
 
 
 def written(folder: Path) -> dict[int, tuple[float, float, int]]:
@@ -83,6 +98,74 @@ def steps(folder: Path, rounds: int) -> list[float]:
     return [float(number) for number in said.split()]
 
 
+def by_fmpy(folder: Path, rounds: int) -> list[float]:
+    """Return what a step takes that FMPy calls, in each version [us]."""
+    found = []
+    for version, kind in ((2, FMU2Slave), (3, FMU3Slave)):
+        place = str(folder / f"fmi{version}")
+        known = read_model_description(place)
+        name = known.coSimulation.modelIdentifier
+        unit = kind(guid=known.guid, unzipDirectory=place, modelIdentifier=name)
+        unit.instantiate()
+        if version == 2:
+            unit.setupExperiment()
+        unit.enterInitializationMode()
+        unit.exitInitializationMode()
+        times = iter(LENGTH * k for k in range(STEPS * rounds))
+        found.append(1e6 * min(_seconds(unit.doStep, times) for _ in range(rounds)))
+        unit.freeInstance()
+    return found
+
+
+def _seconds(step: Callable[..., object], times: Iterator[float]) -> float:
+    begin = time.process_time()
+    for now in islice(times, STEPS):
+        step(currentCommunicationPoint=now, communicationStepSize=LENGTH)
+    return (time.process_time() - begin) / STEPS
+
+
+def in_jax(folder: Path, rounds: int) -> str:
+    """Return what a right-hand side takes by jax.ffi, state by state and in lanes."""
+    compiler = find_compiler()
+    assert compiler is not None
+    code, command = folder / "c", compiler.command[0]
+    name = Model(CAR).equations.NAME
+    ends = ("", "_derivatives", "_values", "_ffi", "_lanes")
+    files = [str(code / f"{name}{end}.c") for end in ends]
+    found = []
+    for flags in ([], [f"-D{name.upper()}_LANES", "-march=native"]):
+        library = folder / f"jax_{len(flags)}.so"
+        headers = ["-isystem", jax.ffi.include_dir()]
+        made = [command, *FLAGS, *flags, "-shared", *headers, *files, "-o", str(library), "-lm"]
+        subprocess.run(made, check=True)
+        # functions are registered once in a process
+        with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+            found.append(pool.submit(_by_jax, code / f"{name}_ffi.py", library, rounds).result())
+    one, lanes = found
+    return (
+        f"A right-hand side by `jax.ffi` takes {one:.0f} ns state by state, and {lanes:.0f} ns in "
+        "lanes."
+    )
+
+
+def _by_jax(script: Path, library: Path, rounds: int) -> float:
+    """Return what one of many right-hand sides takes [ns]."""
+    jax.config.update("jax_enable_x64", True)
+    spec = importlib.util.spec_from_file_location("car", script)
+    assert spec is not None
+    assert spec.loader is not None
+    car = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(car)
+    car.load(library)
+    states, rates = np.tile(car.STATE, (STATES, 1)), jax.jit(car.rhs)
+    best = math.inf
+    for _ in range(rounds + 1):
+        begin = time.process_time()
+        rates(states, car.INPUTS).block_until_ready()
+        best = min(best, time.process_time() - begin)
+    return 1e9 * best / STATES
+
+
 def run(
     page: Annotated[Path | None, typer.Option(help="Page of docs/ with the table.")] = None,
     *,
@@ -95,23 +178,29 @@ def run(
             os.environ[VARIABLE] = str(folder / "cache")  # nothing is compiled yet
         files = written(folder)
         both = with_windows(folder)
-        bare, *taken, memory = steps(folder, 1 if quick else 30)
+        rounds = 1 if quick else 500
+        bare, *taken, memory = steps(folder, rounds)
+        called = by_fmpy(folder, rounds // 10 + 1)
+        lanes = in_jax(folder, rounds // 10 + 1)
     rows = [
         (
             f"{version}.0", f"{size / 1e3:.0f}", f"{first:.1f}", f"{again:.2f}",
-            f"{bare:.2f}", f"{one:.2f}", f"{one - bare:.2f}",
+            f"{bare:.2f}", f"{one:.2f}", f"{one - bare:.2f}", f"{python:.1f}",
         )
-        for (version, (first, again, size)), one in zip(files.items(), taken, strict=True)
+        for (version, (first, again, size)), one, python in zip(
+            files.items(), taken, called, strict=True
+        )
     ]  # fmt: skip
     header = (
         "FMI", "kB", "written, compiling [s]", "written again [s]",
-        "arithmetic of a step [µs]", "`DoStep` [µs]", "above it [µs]",
+        "arithmetic of a step [µs]", "`DoStep` [µs]", "above it [µs]", "by FMPy [µs]",
     )  # fmt: skip
     blocks = {
         "export": markdown_table(header, rows),
         "windows": both,
         "instances": f"1,000 instances take {memory:.1f} MB.",
-        "machine": machine_line(environment()).replace("Processor time on", "Measured on"),
+        "lanes": lanes,
+        "machine": machine_line(environment()),
     }
     Console().print(Markdown("\n\n".join(blocks.values())))
     if page is not None:

@@ -19,7 +19,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { STEPS = 20000, INSTANCES = 1000 };
+enum { STEPS = 2000, INSTANCES = 1000 };
 
 #define LENGTH 1.0e-5 /* s: one step of the solver each */
 #define JOINED(a, b) a##b
@@ -28,7 +28,7 @@ enum { STEPS = 20000, INSTANCES = 1000 };
 static double now(void)
 {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return (double)t.tv_sec + 1.0e-9 * (double)t.tv_nsec;
 }
 

@@ -35,6 +35,7 @@ def _prescribed() -> Formulation:
 def compiled(folder: Path, *flags: str) -> Path:
     """Compile all C files of a folder that need no other library into a program."""
     program = folder.with_suffix(".exe")
-    files = sorted(str(file) for file in folder.glob("*.c") if not file.stem.endswith("_ffi"))
+    others = ("_ffi", "_lanes")
+    files = sorted(str(file) for file in folder.glob("*.c") if not file.stem.endswith(others))
     subprocess.run([*CC, *flags, *files, "-o", str(program), "-lm"], check=True)
     return program

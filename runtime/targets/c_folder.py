@@ -3,11 +3,14 @@
 from collections.abc import Iterable, Mapping
 from contextlib import ExitStack, suppress
 from importlib.metadata import version
+from importlib.resources import files as resources
 from pathlib import Path
 from typing import Any
 
 from ..core.errors import InputError
 from ..core.files import Paths, as_input_errors, replacing
+from ..simulation import lanes
+from ..simulation.lanes.own import HEADERS, READER
 from .casadi_external import externals
 from .emitted import Emitted
 from .jax_ffi import handlers
@@ -23,6 +26,7 @@ _TEMPLATES = {
     "{name}_casadi.c": "casadi.c.jinja",
     "{name}_ffi.c": "ffi.c.jinja",
     "{name}_ffi.py": "ffi.py.jinja",
+    "{name}_lanes.c": "lanes.c.jinja",
     "CMakeLists.txt": "CMakeLists.txt.jinja",
     "README.txt": "README.txt.jinja",
 }
@@ -70,12 +74,22 @@ def write(emitted: Emitted, path: Path, *, force: bool, read: Paths) -> Path:
 
 def files(emitted: Emitted) -> dict[str, str]:
     """Return the files of the folder, by name."""
-    templates, known = environment("c_files"), _known(emitted)
+    templates, headers = environment("c_files"), _of_lanes(emitted)
+    known = _known(emitted) | {"lanes": [*headers]}
     made = {
         name.format(name=emitted.name): templates.get_template(template).render(known)
         for name, template in _TEMPLATES.items()
     }
-    return {**emitted.sources, **made}
+    return {**emitted.sources, **headers, **made}
+
+
+def _of_lanes(emitted: Emitted) -> dict[str, str]:
+    """Return the headers by which emitted equations are ones about vectors."""
+    named = {"lanes.h": READER} | {name: name for name in HEADERS}
+    if not _iterating(emitted.manifest):
+        del named["follow.h"]  # which follows loops without a closed form
+    here = resources(lanes)
+    return {name: (here / file).read_text(encoding="utf-8") for name, file in named.items()}
 
 
 def _known(emitted: Emitted) -> dict[str, Any]:
@@ -84,7 +98,7 @@ def _known(emitted: Emitted) -> dict[str, Any]:
     compiled = emitted.compiled()
     costs = {"prepare": manifest["prepare"]["operations"]}
     costs |= {name: entry["operations"] for name, entry in compiled.items()}
-    iterating = [n for n, f in manifest["functions"].items() if "iterates" in f]
+    functions = ["prepare", "design_state", "rhs", "signals", "bounded", "margins"]
     return {
         "name": emitted.name,
         "upper": emitted.name.upper(),
@@ -99,13 +113,18 @@ def _known(emitted: Emitted) -> dict[str, Any]:
         "described_inputs": list(manifest["inputs"].items()),
         "described_signals": list(manifest["signals"].items()),
         "costs": list(costs.items()),
-        "iterates": _stages_of(iterating, manifest),
+        "iterates": _stages_of(_iterating(manifest), manifest),
+        "renamed": [*functions, *(f"rhs_{held}" for held in manifest["held_variants"])],
         "stack": _stack(costs.values()),
         "externals": externals(emitted),
         "handlers": handlers(emitted),
         "steps": STEPS,
         "step": STEP,
     }
+
+
+def _iterating(manifest: Mapping[str, Any]) -> list[str]:
+    return [name for name, function in manifest["functions"].items() if "iterates" in function]
 
 
 def _numbered(names: Iterable[str], values: Iterable[float]) -> list[tuple[str, float]]:

@@ -23,7 +23,8 @@ def _made(emitted: Emitted, name: str) -> Iterator[dict[str, Any]]:
     results = {each: emitted.result(each) for each in FUNCTIONS[name]}
     there = all(found is not None and found.length for found in results.values())
     derivatives = tuple(results) if there else ()
-    yield _handler(emitted, name) | {"derivatives": derivatives, "doc": described["doc"]}
+    more = {"derivatives": derivatives, "doc": described["doc"], "wide": True}
+    yield _handler(emitted, name) | more
     for each in derivatives:
         yield _handler(emitted, each)
 
@@ -39,4 +40,5 @@ def _handler(emitted: Emitted, name: str) -> dict[str, Any]:
         "start": found.start,
         "count": found.length,
         "shape": tuple(emitted.manifest["functions"][name]["shape"]),
+        "wide": False,
     }

@@ -13,7 +13,7 @@ from .options import OF_WIDTH, SCHEDULED
 
 _HERE = Path(__file__).parent
 # what reads emitted equations as ones about vectors, and the headers beside it
-_READER, HEADERS = "model.c", ("follow.h", "vectors.h")
+READER, HEADERS = "model.c", ("follow.h", "vectors.h")
 
 
 def is_own(equations: ModuleType) -> bool:
@@ -52,8 +52,8 @@ def library_of(equations: ModuleType, width: int, part: str = "") -> Path:
         with appearing(target) as temporary:
             for text in (*_included(folder), *map(_HERE.joinpath, HEADERS)):
                 (temporary / text.name).write_bytes(text.read_bytes())
-            reader = temporary / f"_{_READER}"  # a model may be called model, but not _model
-            reader.write_bytes((_HERE / _READER).read_bytes())
+            reader = temporary / f"_{READER}"  # a model may be called model, but not _model
+            reader.write_bytes((_HERE / READER).read_bytes())
             compiler.build([reader], temporary / library)
             seal(temporary, target.name)
     refuse_foreign(target)
@@ -82,5 +82,5 @@ def _included(folder: Path) -> Iterator[Path]:
 
 def _digest() -> str:
     """Return a hash of what reads equations as ones about vectors."""
-    texts = b"\0".join((_HERE / name).read_bytes() for name in (_READER, *HEADERS))
+    texts = b"\0".join((_HERE / name).read_bytes() for name in (READER, *HEADERS))
     return hashlib.sha256(texts).hexdigest()

@@ -13,14 +13,18 @@ _SOLVER = {
     "solver.step": (
         "s",
         math.inf,
-        "length of all steps of Co-Simulation; zero for the method of Dormand and Prince, whose "
-        "steps follow the tolerance",
+        (
+            "fixed step of Co-Simulation; zero for the method of Dormand and Prince, whose steps "
+            "follow the tolerance"
+        ),
     ),
     "solver.implicit": (
         "1",
         1.0,
-        "method of steps of one length: 0 for the classical method of Runge and Kutta, 1 for the "
-        "linearly implicit method RODASP, for stiff equations",
+        (
+            "method with the fixed step: 0 for the classical method of Runge and Kutta, 1 for the "
+            "linearly implicit method RODASP, for stiff equations"
+        ),
     ),
 }
 """Parameters of the solver in Co-Simulation: unit, greatest value, meaning."""

@@ -144,7 +144,7 @@ def test_nothing_is_half_written(tmp_path):
         kintrafo.export_model(system, folder, "c")
     assert [file.name for file in folder.iterdir()] == ["four_bar.h"]
     kintrafo.export_model(system, folder, "c", force=True)
-    assert len([*folder.iterdir()]) == 12
+    assert len([*folder.iterdir()]) == 15
     kintrafo.export_model(system, folder, "c")
 
 

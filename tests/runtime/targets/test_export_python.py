@@ -21,6 +21,7 @@ from kintrafo.generator.backends.jax.dialect import JAX
 from kintrafo.generator.backends.numpy.dialect import NUMPY
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
+from kintrafo.simulation.lanes.options import OF_WIDTH
 from kintrafo.systems.compile.compiler import find_compiler
 
 CLOSED, OPEN = "four_bar", {"crank_pin_y": 0.3}  # a crank that reaches beyond the dead point
@@ -217,6 +218,16 @@ def jax():
         found.config.update(name, False)
 
 
+def library_for_jax(jax, folder, library, *flags):
+    """Return the compiled functions of a folder of C, with lanes if they are asked for."""
+    ends = ["", "_derivatives", "_values", "_ffi", *(["_lanes"] if flags else [])]
+    files = [str(folder / f"four_bar{end}.c") for end in ends]
+    headers = ["-isystem", jax.ffi.include_dir()]
+    made = [*CC, *flags, "-shared", "-fPIC", *headers, *files, "-o", str(library), "-lm"]
+    subprocess.run(made, check=True)
+    return library
+
+
 def test_jax_has_the_values_and_derivatives_of_c(jax, module_of):
     system, module = system_of(CLOSED), module_of(CLOSED, "jax")
     constants = jax.jit(module.prepare)(module.parameters())
@@ -256,12 +267,7 @@ def test_jax_calls_the_compiled_c(jax, tmp_path):
     """Values and derivatives, forward and backward, have the bits of the C."""
     system = kintrafo.System(system_named(CLOSED).equations, OPEN)
     folder = kintrafo.export_model(system, tmp_path / "c", "c")
-    ends = ("", "_derivatives", "_values", "_ffi")
-    files = [str(folder / f"four_bar{end}.c") for end in ends]
-    library = tmp_path / "four_bar.so"
-    headers = ["-isystem", jax.ffi.include_dir()]
-    made = [*CC, "-shared", "-fPIC", *headers, *files, "-o", str(library), "-lm"]
-    subprocess.run(made, check=True)
+    library = library_for_jax(jax, folder, tmp_path / "four_bar.so")
     module = loaded(folder / "four_bar_ffi.py")
     assert system.input_names == module.INPUT_NAMES
     with pytest.raises(RuntimeError, match=r"call load\(...\) with the library of four_bar_ffi.c"):
@@ -292,6 +298,55 @@ def test_jax_calls_the_compiled_c(jax, tmp_path):
     jax.config.update("jax_enable_x64", False)
     with pytest.raises(TypeError, match="four_bar needs double precision"):
         module.rhs(states, inputs)
+
+
+@pytest.mark.skipif(not OF_WIDTH or find_compiler() is None, reason="no lanes")
+@pytest.mark.parametrize("lanes", [[], ["-DFOUR_BAR_LANES"], ["-DFOUR_BAR_LANES", "-march=native"]])
+def test_jax_takes_many_states_and_parameters_at_a_time(jax, tmp_path, lanes):
+    """Lanes, of any width, and the rows that are left have the bits of the C, under vmap, too."""
+    system = system_named(CLOSED)
+    # a target of jax.ffi is registered once for all: each of them has a name of its own
+    folder = kintrafo.export_model(system, tmp_path / "c", "c")
+    library = library_for_jax(jax, folder, tmp_path / "four_bar.so", *lanes)
+    script = folder / "four_bar_ffi.py"
+    targets = script.read_text().replace("target, jax", f'target + "{len(lanes)}", jax')
+    calls = 'ffi_call(f"{NAME}_ffi_{name}'
+    script.write_text(targets.replace(calls, calls + str(len(lanes))))
+    module = loaded(script)
+    module.load(library)
+    random = np.random.default_rng(8)
+    count = 2 * 8 + 3
+    states = system.design_state + 0.05 * random.standard_normal((count, 2))
+    inputs = random.standard_normal((count, 1))
+    sets = np.tile(module.PARAMETERS, (count, 1))
+    sets[:, module.PARAMETER_NAMES.index("crank_mass")] *= random.uniform(0.5, 2.0, count)
+    sets[5, module.PARAMETER_NAMES.index("crank_mass")] = np.nan
+    constants = jax.vmap(module.prepare)(sets)
+    assert np.isnan(constants[5]).all()
+    for name in ("rhs", "signals"):
+        function = getattr(module, name)
+        found = jax.jit(jax.vmap(function))(states, inputs, constants)
+        assert np.isnan(found[5]).all()
+        for row in {*range(count)} - {5}:
+            other = kintrafo.System(
+                system.equations, dict(zip(module.PARAMETER_NAMES, sets[row], strict=True))
+            )
+            wanted = other.evaluate(name, states[row], inputs[row])
+            assert np.array_equal(constants[row], other.constants)
+            assert np.array_equal(found[row], wanted), (name, row)
+    # each state with each parameter set: nothing is repeated, and each row has its own
+    cross = jax.vmap(jax.vmap(module.rhs, (0, 0, None)), (None, None, 0))(states, inputs, constants)
+    other_way = module.rhs(states, inputs, constants[:, None])
+    assert cross.shape == (count, count, 2)
+    assert np.array_equal(cross, other_way, equal_nan=True)
+    aligned = np.arange(count)
+    assert np.array_equal(
+        cross[aligned, aligned], module.rhs(states, inputs, constants), equal_nan=True
+    )
+    with pytest.raises(TypeError, match="no derivatives by constants and parameters"):
+        jax.grad(lambda c: module.rhs(states[0], inputs[0], c)[1])(constants[0])
+    with pytest.raises(ValueError, match="cannot be differentiated"):
+        jax.grad(lambda p: module.prepare(p)[0])(sets[0])
 
 
 def test_jax_refuses_single_precision_and_other_shapes(jax, module_of):
