@@ -92,7 +92,7 @@ int main(int count, char **given)
         fmi2Reset(c);
         initialise(c);
         values[0] = -1.0;
-        fmi2SetReal(c, &references[variables - 2], 1, values);
+        fmi2SetReal(c, &references[variables - 3], 1, values);
         fmi2ExitInitializationMode(c);
         fmi2FreeInstance(c);
     }

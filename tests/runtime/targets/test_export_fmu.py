@@ -446,6 +446,30 @@ def test_steps_of_an_importer_do_not_pass_a_dead_point(unit, version, torque, ra
         instance.free()
 
 
+def test_a_motion_from_rest_near_a_dead_point(unit):
+    """A spring that is short pulls away from it, a long one pushes into it."""
+    equations = system_named("four_bar").equations
+    at = -1.2319890578876  # the crank's dead point [rad]
+    for free, beside in ((0.3, 1e-6), (0.9, 1e-3), (0.9, 1e-4)):
+        values = SHORT | {"spring_free_length": free}
+        system = kintrafo.System(equations, values)
+        state, ends = system.state(crank_angle=at + beside), 0.1
+        if free == 0.9:
+            with pytest.raises(kintrafo.SimulationError) as refused:
+                kintrafo.simulate(system, (0.0, ends), state)
+            ends = refused.value.time
+        for length in (1e-3, 4e-3):
+            instance = unit("four_bar", 2).instance("ModelExchange")
+            assert instance.initialise(crank_angle=state[0], **parameters(values)) == OK
+            assert integrated(instance, 0.1, length) == pytest.approx(ends, abs=1.5 * length)
+            instance.free()
+    instance = unit("four_bar", 2).instance("ModelExchange")
+    assert instance.initialise(crank_angle=at + 1e-13, **parameters(SHORT)) == OK
+    assert integrated(instance, 0.1, 1e-3) == 1e-3
+    assert "begins in a dead point: the loop ground" in instance.said
+    instance.free()
+
+
 @pytest.mark.parametrize("version", VERSIONS)
 def test_events_have_indicators(unit, version):
     known = unit("reference_car", version)

@@ -35,33 +35,47 @@ static int any_singular(void)
     return 0;
 }
 
-/* Move states, and inputs whose rates are inputs, along the motion; return the status word of the rates. */
-static int move(unit *u, double lapse, double *state, double *inputs)
+/* Move inputs whose rates are inputs. */
+static void move_inputs(double lapse, double *inputs)
 {
     const km_model *m = &km_this;
-    int word = m->rates(u->constants, state, inputs, u->way.rates);
-    for (int i = 0; i < m->states; ++i) {
-        state[i] += lapse * u->way.rates[i];
-    }
     for (int i = 0; i < m->inputs; ++i) {
         if (m->input[i].derivative_of >= 0) {
             inputs[m->input[i].derivative_of] += lapse * inputs[i];
         }
     }
-    return word;
 }
 
-/* Evaluate the margins of a point and of the two points that follow; return whether there are any. */
+/* Evaluate the state of a motion, from some rates on, and its margins after a lapse. */
+static void put_ahead(unit *u, double lapse, const double *state, const double *rates, double *margins)
+{
+    const km_model *m = &km_this;
+    for (int i = 0; i < m->states; ++i) {
+        u->way.ahead[i] = state[i] + lapse * rates[i];
+    }
+    m->margins(u->constants, u->way.ahead, u->way.inputs_ahead, margins);
+}
+
+/*
+ * Evaluate the margins of a point and of the motion after one lapse and two; return whether there are any. By the
+ * rules of Heun and of the midpoint, both are exact where accelerations are steady, also at rest.
+ */
 static int look(unit *u, double lapse, const double *state, const double *inputs, double *margins)
 {
     const km_model *m = &km_this;
-    int word = 0;
-    memcpy(u->way.ahead, state, (size_t)m->states * sizeof *state);
+    double *first = u->way.rates, *second = u->way.rates_ahead;
     memcpy(u->way.inputs_ahead, inputs, (size_t)m->inputs * sizeof *inputs);
-    for (int k = 0; k < 3 && !word; ++k) {
-        m->margins(u->constants, u->way.ahead, u->way.inputs_ahead, margins + k * m->guards);
-        word = k < 2 ? move(u, lapse, u->way.ahead, u->way.inputs_ahead) : 0;
+    m->margins(u->constants, state, inputs, margins);
+    int word = m->rates(u->constants, state, inputs, first);
+    move_inputs(lapse, u->way.inputs_ahead);
+    put_ahead(u, lapse, state, first, margins + m->guards); /* for the rates there */
+    word |= m->rates(u->constants, u->way.ahead, u->way.inputs_ahead, second);
+    for (int i = 0; i < m->states; ++i) {
+        first[i] = 0.5 * (first[i] + second[i]);
     }
+    put_ahead(u, lapse, state, first, margins + m->guards);
+    move_inputs(lapse, u->way.inputs_ahead);
+    put_ahead(u, 2.0 * lapse, state, second, margins + 2 * m->guards);
     return !word;
 }
 
@@ -75,11 +89,35 @@ static ku_height height_of(const double *margins, int guard, double lapse)
     return (ku_height){height, speed, (0.5 * second - speed * speed) / height};
 }
 
+/*
+ * A motion that begins at rest near zero, and is accelerated towards it: its speed says nothing at the begin of the
+ * step, its acceleration says that zero lies within. Behind zero the true height is negative, so that speed and
+ * acceleration at the end have the other sign; tell whether they explain the change of the speed better so.
+ */
+static int fell(ku_height before, ku_height now, double step)
+{
+    double ahead = before.height + step * (before.speed + 0.5 * step * before.acceleration);
+    double as_turned = now.speed - before.speed - 0.5 * step * (before.acceleration + now.acceleration);
+    double as_passed = -now.speed - before.speed - 0.5 * step * (before.acceleration - now.acceleration);
+    return ahead < 0.0 && now.speed > 0.0 && fabs(as_passed) < fabs(as_turned);
+}
+
 static int passed(ku_height before, ku_height now, double step)
 {
     int near = before.speed < 0.0 && before.height < -WITHIN * step * before.speed;
     double greater = fmax(fmax(before.acceleration, now.acceleration), 0.0);
-    return near && now.speed - before.speed > EXPLAINED * step * greater;
+    return (near && now.speed - before.speed > EXPLAINED * step * greater) || fell(before, now, step);
+}
+
+void ku_usual_margins(unit *u, double *usual)
+{
+    const km_model *m = &km_this;
+    memset(u->way.inputs_ahead, 0, (size_t)m->inputs * sizeof *u->way.inputs_ahead);
+    m->design_state(u->now.parameters, u->way.ahead);
+    m->margins(u->constants, u->way.ahead, u->way.inputs_ahead, usual);
+    for (int i = 0; i < m->guards; ++i) {
+        usual[i] = isfinite(usual[i]) ? fabs(usual[i]) : 0.0;
+    }
 }
 
 /* Remember where the way goes on from. */
@@ -89,7 +127,22 @@ void ku_mark(unit *u)
     u->way.time = *u->now.time;
     memcpy(u->way.state, u->now.state, (size_t)m->states * sizeof *u->now.state);
     memcpy(u->way.inputs, u->now.inputs, (size_t)m->inputs * sizeof *u->now.inputs);
-    u->way.known = 1;
+    u->way.known = u->way.begins = 1;
+}
+
+/* Tell whether a step has passed the dead point of a guard, or the motion begins in it, and report that. */
+static int ended(const unit *u, int guard, const double *before, const double *now, double lapse, double step)
+{
+    const char *meaning = km_this.guard[guard].meaning;
+    if (u->way.begins && !(before[guard] > KT_NOTHING * u->way.usual[guard])) {
+        ku_say(u, KU_WARNING, "the motion begins in a dead point: %s. Begin beside it, or use Co-Simulation.", meaning);
+        return 1;
+    }
+    if (!passed(height_of(before, guard, lapse), height_of(now, guard, lapse), step)) {
+        return 0;
+    }
+    ku_say(u, KU_WARNING, "the motion ends between %.9g s and %.9g s: %s.", u->way.time, *u->now.time, meaning);
+    return 1;
 }
 
 int ku_completed(unit *u, int *over)
@@ -102,16 +155,16 @@ int ku_completed(unit *u, int *over)
     if (status != KU_OK || !any_singular()) {
         return status;
     }
+    if (u->way.begins) {
+        ku_usual_margins(u, u->way.usual);
+    }
     if (u->way.known && step > 0.0 && look(u, lapse, u->now.state, u->now.inputs, now)
         && look(u, lapse, u->way.state, u->way.inputs, before)) {
         for (int i = 0; i < m->guards && !*over; ++i) {
-            *over = is_singular(i) && passed(height_of(before, i, lapse), height_of(now, i, lapse), step);
-            if (*over) {
-                ku_say(u, KU_WARNING, "the motion ends between %.9g s and %.9g s: %s.", u->way.time,
-                       *u->now.time, m->guard[i].meaning);
-            }
+            *over = is_singular(i) && ended(u, i, before, now, lapse, step);
         }
     }
     ku_mark(u);
+    u->way.begins = 0;
     return KU_OK;
 }

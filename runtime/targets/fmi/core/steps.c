@@ -36,25 +36,6 @@ static int make_memory(unit *u)
     return u->splines && u->breaks && u->coefficients && u->usual && u->tolerances && u->courses;
 }
 
-/* The margins at the design position: the size of the numbers in them. */
-static int find_usual_margins(unit *u)
-{
-    const km_model *m = &km_this;
-    double *state = calloc((size_t)m->states + 1, sizeof *state);
-    double *inputs = calloc((size_t)m->inputs + 1, sizeof *inputs);
-    int found = state && inputs;
-    if (found) {
-        m->design_state(u->now.parameters, state);
-        m->margins(u->constants, state, inputs, u->usual);
-        for (int i = 0; i < m->guards; ++i) {
-            u->usual[i] = isfinite(u->usual[i]) ? fabs(u->usual[i]) : 0.0;
-        }
-    }
-    free(state);
-    free(inputs);
-    return found;
-}
-
 static void find_courses(unit *u);
 
 static int method_of(const unit *u)
@@ -69,9 +50,10 @@ int ku_open_steps(unit *u)
 {
     const km_model *m = &km_this;
     ku_close_steps(u);
-    if (!make_memory(u) || !find_usual_margins(u)) {
+    if (!make_memory(u)) {
         return ku_say(u, KU_ERROR, "there is no memory for the solver.");
     }
+    ku_usual_margins(u, u->usual);
     find_courses(u);
     if (!m->states) {
         return KU_OK;

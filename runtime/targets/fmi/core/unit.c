@@ -139,7 +139,7 @@ static size_t size_of_all(void)
     const km_model *m = &km_this;
     size_t n = (size_t)m->states;
     return number_count() + (size_t)m->constants + n + m->signals + m->guards + n * n + m->linearised
-        + m->events + 3 * n + 2 * (size_t)m->inputs + 6 * (size_t)m->guards
+        + m->events + 4 * n + 2 * (size_t)m->inputs + 7 * (size_t)m->guards
         + size_of_tangents() + 1;
 }
 
@@ -174,11 +174,13 @@ unit *ku_open(const char *label, const char *token, int co_simulation, int loggi
     u->before = u->linearised + m->linearised;
     u->way.state = u->before + m->events;
     u->way.rates = u->way.state + m->states;
-    u->way.ahead = u->way.rates + m->states;
+    u->way.rates_ahead = u->way.rates + m->states;
+    u->way.ahead = u->way.rates_ahead + m->states;
     u->way.inputs = u->way.ahead + m->states;
     u->way.inputs_ahead = u->way.inputs + m->inputs;
     u->way.margins = u->way.inputs_ahead + m->inputs;
-    lay_out_tangents(&u->tangents, u->way.margins + 6 * m->guards);
+    u->way.usual = u->way.margins + 6 * m->guards;
+    lay_out_tangents(&u->tangents, u->way.usual + m->guards);
     if (!token || strcmp(token, km_token()) != 0) {
         ku_say(u, KU_ERROR,
                "the token of the model description is not that of this library, which is %s: they are "

@@ -31,9 +31,9 @@ typedef struct {
 
 /* Model Exchange: the point that the last step came to, and room to look at how the margins go on. */
 typedef struct {
-    int known;
+    int known, begins; /* the point is there; it is where the motion begins */
     double time;
-    double *state, *inputs, *rates, *ahead, *inputs_ahead, *margins;
+    double *state, *inputs, *rates, *rates_ahead, *ahead, *inputs_ahead, *margins, *usual;
 } ku_way;
 
 /* Values with a direction behind them, and how rates and signals change along it. */
@@ -149,6 +149,9 @@ int ku_update(unit *u, int *over);
 /* A step of the importer has come to its end; `over` says whether it has passed a dead point. */
 int ku_completed(unit *u, int *over);
 void ku_mark(unit *u);
+
+/* Evaluate the margins at the design position: the size of the numbers in them. */
+void ku_usual_margins(unit *u, double *usual);
 
 /* -- saved instances -------------------------------------------------------------------------- */
 
