@@ -51,6 +51,23 @@ WALKS: dict[str, dict[str, str | None]] = {
             "generator/declare/forces/joint_force.py", ("JointForce", "Push")
         ),
     },
+    "A joint": {
+        "generator/declare/joints.py": source("generator/declare/joints.py")
+        + '''
+
+@declared
+@dataclass(frozen=True)
+class Pivot(Revolute):
+    """A hinge, by another name."""
+
+    kind: ClassVar[str] = "pivot"
+''',
+        "generator/declare/__init__.py": source(
+            "generator/declare/__init__.py",
+            ("    Revolute,\n", "    Pivot,\n    Revolute,\n"),
+            ('    "Revolute",\n', '    "Pivot",\n    "Revolute",\n'),
+        ),
+    },
     "A back end": {
         "generator/backends/plain/__init__.py": source("generator/backends/numpy/__init__.py"),
         "generator/backends/plain/dialect.py": source("generator/backends/numpy/dialect.py"),
@@ -123,8 +140,10 @@ class BenchAssembly(CornerAssembly):
 FOUND = """
 import sys
 import kintrafo
-from dataclasses import replace
+from dataclasses import fields, replace
+from kintrafo.generator import Pivot
 from kintrafo.generator.backends import files
+from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.closed_forms.catalogue import CATALOGUE
 from kintrafo.generator.declare.forces import KINDS as FORCES
 from kintrafo.generator.equations.outputs import generate
@@ -153,6 +172,25 @@ spring, torque = model.mechanism.forces
 pushed = replace(model.mechanism, forces=(spring, push(torque.joint, torque.input)))
 derived = generate(replace(model, mechanism=pushed))
 assert "crank_torque" in files.manifest(derived)
+
+# a joint like a hinge needs no other file: the crank turns on it as on the hinge
+pivots = [
+    Pivot(**{f.name: getattr(joint, f.name) for f in fields(joint)})
+    for joint in model.mechanism.joints[:1]
+]
+swap = dict(zip(model.mechanism.joints, pivots))
+assert pivots[0].kind == "pivot"
+turned = replace(
+    model.mechanism,
+    joints=(*pivots, *model.mechanism.joints[1:]),
+    forces=(spring, push(pivots[0], torque.input)),
+    coordinates=tuple(
+        replace(c, joint=swap.get(c.joint, c.joint)) for c in model.mechanism.coordinates
+    ),
+)
+independent = tuple(swap.get(joint, joint) for joint in model.independent)
+same = generate(replace(model, mechanism=turned, independent=independent))
+assert operations_of(same.emitted["rhs"]) == operations_of(derived.emitted["rhs"])
 
 # a back end writes the functions of a mechanism of a user's own
 texts = files.own_files(derived, None)
