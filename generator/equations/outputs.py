@@ -177,7 +177,7 @@ def generate(
     parameter_derivatives
         Also those by parameters: along a direction, and of weighted sums.
     show
-        Called with what is being done, in a few words.
+        Called with a short description of the present step.
     """
     progress("finding the loops and how they close")
     derivation = _Builder(formulation, derivatives=derivatives, notify=progress).build()

@@ -122,7 +122,8 @@ def as_dict(dataset: xr.Dataset) -> dict[str, Any]:
     -------
     dict
         ``coordinates`` and ``variables``, each by name: ``units``, ``long_name``, ``sign``,
-        ``dimensions`` and ``values``. What is over names has a variable for each.
+        ``dimensions`` and ``values``. A variable over a dimension of names becomes a variable for
+        each name.
     """
     with Validator("export") as given:
         given.dataset(dataset)

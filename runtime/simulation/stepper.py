@@ -61,10 +61,10 @@ class Stepper:
     length : float
         Length of a step [s]; a stepper keeps it.
     state : ndarray, shape (number of state elements,)
-        State now. `step` writes into it: copy what is to be kept.
+        Present state. `step` writes into this array: copy values that are to be kept.
     inputs : ndarray, shape (number of inputs,)
         Inputs of the next step, in the order of ``model.input_names``. State and inputs may be
-        written to; what is assigned to them is copied into the same array.
+        written to; assigned values are copied into the same array.
 
     Raises
     ------
@@ -73,13 +73,13 @@ class Stepper:
 
     Notes
     -----
-    Inputs are steady within a step. An input whose rate is an input moves by it instead: with
-    ``rack_velocity`` the rack goes on from where it is, in this step and the next ones.
+    Inputs are constant within a step. An input whose rate is also an input is integrated: with a
+    ``rack_velocity`` the rack moves on from its position, in this step and the next ones.
 
     A step passes the checks of `kintrafo.simulate`, with the same errors: stability of 'RK4',
-    loops that cannot close, dead points. What the model does not describe, such as a strut that is
-    longer than its stops allow, is no error: `kintrafo.Simulation.validity` says it of a motion,
-    and the signals show it here. No memory is allocated by a step.
+    loops that cannot close, dead points. A state that the model does not describe, such as a strut
+    longer than its stops allow, is not an error: `kintrafo.Simulation.validity` reports it for a
+    motion, and for a stepper the signals show it. No memory is allocated by a step.
 
     Examples
     --------

@@ -26,7 +26,7 @@ class System:
     Parameters
     ----------
     equations : module
-        One of `kintrafo.generated`, or what `kintrafo.compile` returns.
+        A module of `kintrafo.generated`, or the result of `kintrafo.compile`.
     parameters : mapping, optional
         Values by name, SI units, instead of the declared defaults.
 
@@ -37,7 +37,7 @@ class System:
     parameters : dict
         Value of every parameter, SI units.
     constants : ndarray
-        What the compiled functions take for these parameters.
+        Constants of the compiled functions for these parameters.
     design_state : ndarray
         State at the design position, at rest.
 

@@ -67,7 +67,7 @@ def topology(model: str | ModuleType = "macpherson") -> Topology:
     Parameters
     ----------
     model : str or module, optional
-        Name of a module of `kintrafo.generated`, or what `kintrafo.compile` returns.
+        Name of a module of `kintrafo.generated`, or the result of `kintrafo.compile`.
 
     Returns
     -------

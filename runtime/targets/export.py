@@ -47,16 +47,16 @@ def export_model(
     system : System, Model, AxleModel or RigidAxleModel
         With compiled equations.
     path : str or pathlib.Path
-        What to write: a folder for 'c', a file that ends in ``.fmu`` for 'fmu', in
-        ``.py`` for 'casadi' and 'jax'.
+        Path to write: a folder for 'c', a file that ends in ``.fmu`` for 'fmu', in ``.py`` for
+        'casadi' and 'jax'.
     to : {'c', 'fmu', 'casadi', 'jax'}
         'c': plain C99 without dependencies, with a CMake file and an example. 'fmu': a functional
         mock-up unit for Model Exchange and Co-Simulation. 'casadi': a Python module of functions
         of CasADi. 'jax': one of functions over arrays of JAX. Both are derived anew, for which the
         packages of the extra "generator" are needed.
     state : array_like, optional
-        Where it starts; the design position at rest by default. The inputs of a state of
-        `equilibrium` come with it.
+        State at the start; by default the design position at rest. A state of `equilibrium`
+        contains its inputs.
     inputs : mapping, optional
         Values that inputs start with, by name, SI units; zero, or those of the state, by default.
     force : bool, optional
@@ -70,12 +70,12 @@ def export_model(
     Returns
     -------
     pathlib.Path
-        What was written, which is there only when it is complete.
+        Path of the written file or folder, which appears only when it is complete.
 
     Raises
     ------
     InputError
-        If an argument cannot be used, or what is there must not be replaced; of 'casadi' and
+        If an argument cannot be used, or an existing file must not be replaced; for 'casadi' and
         'jax', if the equations iterate.
     MissingPackageError
         If equations must be derived, and the packages for that are not installed.

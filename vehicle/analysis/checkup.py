@@ -64,7 +64,7 @@ class AxleFacts:
     Attributes
     ----------
     heading : str
-        What the axle is called.
+        Title of the axle.
     values : dict of str to float
         At design, by the columns of `kintrafo.characteristics`, SI units; those that are known. Of
         a rigid axle also ``reach_down`` and ``reach_up`` [m], ``heave_at_rest`` [m],
@@ -89,11 +89,11 @@ class Checkup:
         The wheels that move by themselves: that of a corner; of an axle both, or one where the
         other is its mirror image; none of a rigid axle.
     axle : AxleFacts or None
-        What both wheels have together; None of a corner.
+        Results for both wheels together; None for a corner.
     problems : tuple of str
-        What keeps it from working, or is almost surely a mistake.
+        Errors, and almost certain mistakes.
     notes : tuple of str
-        What works but is unusual.
+        Unusual values.
     """
 
     wheels: tuple[WheelFacts, ...]
@@ -103,7 +103,7 @@ class Checkup:
 
 
 def checkup(subject: Any) -> Checkup:
-    """Look at a corner, an axle or a rigid axle.
+    """Return a summary of a corner, an axle or a rigid axle, with problems and notes.
 
     Parameters
     ----------

@@ -41,22 +41,22 @@ def compare(
     subjects : mapping of str to Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
         Two or more with a common motion, by the names of their curves.
     along : array_like, shape (n,), optional
-        What varies, as of `kintrafo.characteristics.over` [m] or [rad]; by default the usual range,
-        as far as all of them go.
+        Positions as in `kintrafo.characteristics.over` [m] or [rad]; by default the usual range
+        that all of them reach.
     over : str, optional
-        The motion; by default 'travel', of axles 'bump'. Where nothing says how the steering wheel
-        of one of them moves its rack, 'steer' goes over the rack for all.
+        The motion; by default 'travel', of axles 'bump'. If one of them has no steering ratio,
+        'steer' is over the rack for all.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
-        With it, their compliance on the bushes of their files comes too, over wheel travel: what
-        holds the wheels under loads, see `kintrafo.compliance.linear`.
+        Support of the wheels under loads, see `kintrafo.compliance.linear`; the result then also
+        has the compliance on the bushes of the files, over wheel travel.
     progress : callable, optional
         Called with the part that is done, up to 1.
 
     Returns
     -------
     xarray.Dataset
-        As that of `kintrafo.characteristics.over`, with the further dimension ``data_set``; what
-        not all of them have is left out.
+        As in `kintrafo.characteristics.over`, with the further dimension ``data_set``. It contains
+        the characteristics that all of them have.
 
     Raises
     ------
@@ -202,7 +202,8 @@ class Difference:
     Attributes
     ----------
     name, data_set : str
-        Characteristic, as in a flat table, and what is compared with the first one.
+        Characteristic, as in a flat table, and the name of the suspension that is compared with the
+        first one.
     first, other : float
         Both values at the design position, or another; NaN where they are not defined.
     largest : float

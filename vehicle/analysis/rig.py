@@ -47,14 +47,12 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     ``rack_position [mm]``, and characteristics, such as ``toe [deg]`` or ``wheel_rate [N/mm]``, by
     their names in kintrafo; over wheel travel compliance, too, ``toe_by_lateral [deg/kN]``. Of an
     axle they are over ``wheel_travel`` of both wheels, ``roll_angle [deg]``, ``rack_position`` or
-    ``steering_wheel_angle [deg]``, and what each wheel has ends in ``_left`` or ``_right``,
-    ``toe_left [deg]``.
-    Columns of other names are left out. How names and units may be written, `kintrafo.core.tables`
-    says: ``Wheel Travel (mm)`` is the same, and units may be in a row or comment of their own.
-    Rows may be in any order, and a
-    position may be there more than once, as of a loop with friction. A cell may be empty. Where
-    both positions are there, one must be the same in all rows, to 0.1 mm: the suspension is held
-    there, at its mean.
+    ``steering_wheel_angle [deg]``, and names of characteristics of a wheel end in ``_left`` or
+    ``_right``, ``toe_left [deg]``. Columns of other names are left out. `kintrafo.core.tables`
+    describes the spellings of names and units: ``Wheel Travel (mm)`` is the same, and units may be
+    in a separate row or comment. Rows may be in any order, and a position may be there more than
+    once, as of a loop with friction. A cell may be empty. Where both positions are there, one must
+    be the same in all rows, to 0.1 mm: the suspension is held there, at its mean.
 
     Parameters
     ----------
@@ -149,7 +147,7 @@ def beside(
     name : str, optional
         That of the measurement.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
-        What held the wheels when compliance was measured, see `kintrafo.compliance.linear`.
+        Support of the wheels when compliance was measured, see `kintrafo.compliance.linear`.
 
     Returns
     -------

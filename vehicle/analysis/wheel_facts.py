@@ -67,7 +67,7 @@ class WheelFacts:
     Attributes
     ----------
     title : str
-        What its suspension is called.
+        Title of the suspension.
     side : str
         'left' or 'right'.
     geometry : dict
@@ -81,9 +81,9 @@ class WheelFacts:
     equilibrium : RestFacts or None
         None if there is no stable one.
     problems : tuple of str
-        What keeps the suspension from working, or is almost surely a mistake.
+        Errors, and almost certain mistakes.
     notes : tuple of str
-        What works but is unusual.
+        Unusual values.
     """
 
     title: str

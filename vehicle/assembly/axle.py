@@ -133,7 +133,7 @@ class AxleAssembly(HeldAssembly):
 
     @property
     def own_sections(self) -> Mapping[str, Any]:
-        """What its own file says."""
+        """Data of its own file."""
         axle = self.axle
         found = {
             "anti_roll_bar": axle.bar,

@@ -73,15 +73,15 @@ def model_of(
     wheel_loads: bool = False,
     progress: Callable[[str], None] | None = None,
 ) -> AnyModel:
-    """Return the equations of motion of what a file describes, in which all mass counts.
+    """Return the equations of motion of a suspension, an axle or a car, in which all mass counts.
 
     Parameters
     ----------
     subject : Suspension, Axle, WholeAxle or Car
     wheel_loads : bool, optional
-        Whether what acts on the wheels are inputs.
+        Whether loads on the wheels are inputs.
     progress : callable, optional
-        Called with what is being done, in a few words, where equations are derived.
+        Called with a short description of the present step, if equations are derived.
 
     Raises
     ------

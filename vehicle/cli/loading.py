@@ -33,7 +33,7 @@ def model_of(file: str, *, wheel_loads: bool = False) -> "AnyModel":
     file : str
         Path of a TOML file, or name of a packaged data set.
     wheel_loads
-        Whether what acts on the wheels are inputs.
+        Whether loads on the wheels are inputs.
     """
     from ..assembly.of import model_of as of_subject
     from ..files.loading import load

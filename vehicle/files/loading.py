@@ -24,13 +24,13 @@ def load(path_or_name: str | Path) -> Suspension | Axle | WholeAxle | Car:
     Returns
     -------
     Suspension, Axle, WholeAxle or Car
-        A suspension of one wheel, two of them with what couples them, an axle without sides, such
-        as a `RigidAxle`, or a body on axles.
+        A suspension of one wheel, an axle of two suspensions, an axle without sides, such as a
+        `RigidAxle`, or a body on axles.
 
     Raises
     ------
     InputError
-        If the file cannot be read, or nothing can be like this; it lists everything that is wrong.
+        If the file cannot be read, or its data are impossible; the message lists all problems.
 
     Examples
     --------

@@ -25,24 +25,24 @@ class Model(System):
     free_rack : bool, optional
         False: the rack follows a prescribed motion; arm, knuckle and wheel carry mass, as in the
         paper. True: the rack is a third degree of freedom driven by a force, and every moving body
-        carries mass. For a suspension that has more than the paper's, these equations are derived
-        and compiled when they are first needed, as by `kintrafo.compile`.
+        carries mass. For a suspension with more elements than the paper's, these equations are
+        derived and compiled when they are first needed, as by `kintrafo.compile`.
     wheel_loads : bool, optional
-        True: what a road, a drive shaft and a brake do to the wheel are further inputs, which add
-        to the load of the tyre; axes are those of the tyre (ISO 8855: forward, left, up).
-        ``contact_force_x``, ``_y``, ``_z`` at the lowest point of the wheel and ``center_force_*``
-        at its centre [N], ``wheel_moment_*``, and about the spin axis ``shaft_torque`` from the
-        chassis and ``hub_torque`` from the carrier [N m], positive as the wheel rolls forward.
-        These equations are derived and compiled when they are first needed.
+        True: loads of a road, a drive shaft and a brake on the wheel are further inputs, which are
+        added to the force of the tyre's spring; axes are those of the tyre (ISO 8855: forward,
+        left, up). ``contact_force_x``, ``_y``, ``_z`` at the lowest point of the wheel and
+        ``center_force_*`` at its centre [N], ``wheel_moment_*``, and about the spin axis
+        ``shaft_torque`` from the chassis and ``hub_torque`` from the carrier [N m], positive as the
+        wheel rolls forward. These equations are derived and compiled when they are first needed.
 
     Attributes
     ----------
     suspension : Suspension
     equations : module
-        One of `kintrafo.generated`, the shortest that has everything that the suspension has; or
-        compiled for this.
+        A module of `kintrafo.generated`, the shortest one with all elements of the suspension; or
+        equations compiled for it.
     names : Names
-        What these equations call the coordinates that every suspension has.
+        Names of the coordinates of every suspension in these equations.
     parameters, constants, design_state
         As of `System`.
 

@@ -40,7 +40,7 @@ class WholeAxleModel(System):
     axle : WholeAxle, str or Path
         The data, or the name of a packaged data set or path of a TOML file.
     wheel_loads : bool, optional
-        Whether what acts on the wheels are inputs, as in `Model`, after ``right_`` and ``left_``.
+        Whether loads on the wheels are inputs, as in `Model`, after ``right_`` and ``left_``.
         These equations are derived and compiled when they are first needed.
 
     Attributes

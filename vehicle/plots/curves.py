@@ -225,7 +225,7 @@ def check_formats(paths: Sequence[str | Path] = (), formats: Sequence[str] = ())
 def grouped(dataset: xr.Dataset, goals: Sequence[Goal] = ()) -> dict[str, tuple[Hashable, ...]]:
     """Return the variables that belong on one page, by the name of their group.
 
-    What does not vary is left out, unless nothing varies, or there are goals about it.
+    Constant variables are left out, unless all are constant, or a goal is about them.
 
     Parameters
     ----------

@@ -82,21 +82,21 @@ def write(
         The file to write, whose name ends in ``.html``; it appears when it is complete. Folders
         are made.
     title : str, optional
-        Heading of the page; by default it says what the suspension is.
+        Heading of the page; by default a description of the suspension.
     chapters : sequence of Chapter, optional
         Further chapters: see `kintrafo.report.axle_chapter`, `loads_chapter`,
         `compliance_chapter` and `elastokinematics_chapter`.
     without : collection of str, optional
         Characteristics that are left out: of a rear axle those that only a front axle has.
     goals : sequence of Target and Limit, optional
-        From `kintrafo.variation.goals`: they are marked in the charts that they are about, and the
-        page names those of which no chart has anything, see `kintrafo.report.goals_chapter`. Of a
-        side of an axle they may be those of the axle.
+        From `kintrafo.variation.goals`: they are marked in the charts of their characteristics, and
+        the page lists those that are in no chart, see `kintrafo.report.goals_chapter`. Of a side of
+        an axle they may be those of the axle.
     motion : Simulation, optional
-        Of a mechanism that is no suspension, the motion to be played; by default a second from the
-        design position at rest, without inputs.
+        For a mechanism that is not a suspension, the motion to be played; by default one second
+        from the design position at rest, without inputs.
     progress : callable, optional
-        Called with a few words on what is being done.
+        Called with a short description of the present step.
     force : bool, optional
         Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional

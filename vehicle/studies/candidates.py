@@ -84,7 +84,7 @@ class Candidates:
 
     @property
     def evaluations(self) -> int:
-        """How many suspensions were looked at."""
+        """Number of evaluated suspensions."""
         return len(self._values)
 
     @property

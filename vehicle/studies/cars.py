@@ -51,12 +51,11 @@ def cars(
     Parameters
     ----------
     suspension : Suspension, Axle or RigidAxle
-        What they are otherwise.
+        The nominal subject, from which the cars differ.
     values : mapping or xarray.Dataset
-        What they have of their own, by place as in `sensitivity` but without ``*``:
-        ``hardpoints.ball_joint.z``, in the unit of the file for people (mm, deg, N/m). Rows of
-        numbers are over the dimension ``car``; of a dataset, all combinations along its dimensions
-        are cars.
+        Values of each car, by place as in `sensitivity` but without ``*``:
+        ``hardpoints.ball_joint.z``, in the display unit (mm, deg, N/m). Rows of numbers are over
+        the dimension ``car``; of a dataset, all combinations along its dimensions are cars.
     over, positions, names, held, progress
         As of `sensitivity`. Travel counts from each car's own design position.
     reductions : sequence of str, optional
@@ -68,8 +67,8 @@ def cars(
     -------
     xarray.Dataset
         Over the dimensions of the cars and the positions: the characteristics, or instead of each
-        ``..._min`` and so on; and ``reason``, empty where a car has curves. Cars that cannot be
-        built, or do not reach all positions, are NaN and say why.
+        ``..._min`` and so on; and ``reason``, empty for a car with curves. Cars that cannot be
+        built, or do not reach all positions, have NaN and a reason.
 
     Raises
     ------
@@ -78,9 +77,9 @@ def cars(
 
     Notes
     -----
-    Cars are evaluated together, some hundred at a time. What is found is that of one by one but for
-    rounding: some 1e-12 of a curve, as the arm's angle is found to its last digits by other steps.
-    Cars at the end of their reach, or beyond, are looked at one by one.
+    Cars are evaluated together, some hundred at a time. The results agree with those of single cars
+    to rounding, some 1e-12 of a curve. Cars at the end of their reach, or beyond, are evaluated one
+    by one.
 
     Examples
     --------

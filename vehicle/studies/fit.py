@@ -93,7 +93,7 @@ class Fit:
     message : str
         What there is to say about it.
     evaluations : int
-        How many suspensions were looked at.
+        Number of evaluated suspensions.
     """
 
     suspension: Subject
@@ -118,7 +118,7 @@ def fit(
     held: WheelSupport = "height",
     progress: Callable[[float], None] | None = None,
 ) -> Fit:
-    """Find which errors of the input file explain curves that were measured.
+    """Return the errors of the input file that explain measured curves.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ def fit(
     held : {'height', 'tyre', 'spring', 'locked'}, optional
         What held the wheel when compliance was measured, see `kintrafo.compliance.linear`.
     progress : callable, optional
-        Called after every step of the solver with the cost that is left, as a part of that at the
+        Called after every step of the solver with the remaining cost, as a fraction of that at the
         start.
 
     Returns

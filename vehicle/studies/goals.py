@@ -154,7 +154,7 @@ def read(path: str | Path) -> dict[str, Any]:
 
 
 def limits(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> list[Limit]:
-    """Read limits by themselves, for a picture: as those of `tolerance` and `optimise`.
+    """Return limits for a picture, as those of `tolerance` and `optimise`.
 
     Parameters
     ----------
@@ -176,7 +176,7 @@ def goals(described: Mapping[str, Any], ways: Sequence[str] = OF_CORNERS) -> lis
     described : mapping
         From `read`; other sections are left to others.
     ways : sequence of str, optional
-        What they may be over, and the first of them where they do not say it: ``travel`` and
+        Motions that goals may be over; the first one is the default: ``travel`` and
         ``rack``, or of an axle, also a rigid one, ``bump``, ``roll``, ``left`` and ``right``.
 
     Returns
@@ -232,9 +232,9 @@ class Verdict:
     kind : str
         'target' or 'limit'.
     met : bool
-        Whether all of its positions are within the limit, or off by no more than what matters.
+        Whether all of its positions are within the limit, or within ``within`` of the target.
     beyond : float
-        By how much the worst position is beyond that, SI units; negative where there is room.
+        Deviation of the worst position beyond that, SI units; negative within it.
     at : float
         That position [m]; over roll [rad].
     """

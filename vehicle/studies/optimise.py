@@ -46,13 +46,12 @@ class Optimum:
     targets : tuple of TargetValue
     limits : tuple of Limit
     success : bool
-        Whether the solver has come to its end and all limits are kept. Targets may be missed, as
-        little as it can be.
+        Whether the solver converged and all limits are kept. Targets may be missed.
     message : str
-        What there is to say about it: limits that are not kept, targets that are missed by more
-        than what matters, values that are at the ends of their ranges or move nothing.
+        Limits that are not kept, targets that are missed by more than ``within``, values at the
+        ends of their ranges or without effect.
     evaluations : int
-        How many suspensions were looked at.
+        Number of evaluated suspensions.
     """
 
     suspension: Subject
@@ -74,18 +73,18 @@ def optimise(
     *,
     progress: Callable[[float], None] | None = None,
 ) -> Optimum:
-    """Move values of the input file until characteristics come to their targets.
+    """Return values of the input file that bring characteristics to their targets.
 
-    The sum of the squared deviations becomes as small as it can, each in parts of what matters of
-    it (``within``); limits are kept. Of several solutions that are equally good, the one that moves
-    values least is taken.
+    The sum of the squared deviations, each relative to its ``within``, is minimised subject to the
+    limits. Of several solutions of equal quality, the one with the smallest changes of values is
+    returned.
 
     Parameters
     ----------
     suspension : Suspension, Axle or RigidAxle
     free : mapping of str to float
-        How far values may move to either side, in the unit of the input file for people (mm, deg,
-        N/m, ...), by their places as `sensitivity` takes them. Everything else stays.
+        Largest change of values to either side, in display units (mm, deg, N/m, ...), by their
+        places as in `sensitivity`. All other values are constant.
     targets : mapping
         By characteristic: ``at_mm``, positions; ``value``, one for all or one for each; ``within``,
         a deviation that matters; ``over``, 'travel' or 'rack'. In mm and display units. Or a
@@ -94,7 +93,7 @@ def optimise(
     limits : mapping, optional
         By characteristic: ``at_mm``, ``least``, ``most``, ``over``, or a list of several such.
     progress : callable, optional
-        Called after every step of the solver with the cost that is left, as a part of that at the
+        Called after every step of the solver with the remaining cost, as a fraction of that at the
         start.
 
     Returns
@@ -112,7 +111,7 @@ def optimise(
     -----
     Without limits by SciPy's ``least_squares`` (trust region, reflected at the bounds), with limits
     by SLSQP from there. Derivatives are differences of neighbours, of a hardpoint 0.5 mm to either
-    side. Moving a value over all of its range counts as a hundredth of what matters.
+    side. A change of a value over its whole range counts as a hundredth of ``within``.
 
     Examples
     --------

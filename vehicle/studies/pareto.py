@@ -67,7 +67,7 @@ class Front:
     message : str
         What there is to say about it.
     evaluations : int
-        How many suspensions were looked at.
+        Number of evaluated suspensions.
     """
 
     dataset: xr.Dataset
@@ -125,7 +125,7 @@ def pareto(
     seed: int = 1,
     progress: Callable[[float], None] | None = None,
 ) -> Front:
-    """Find values of the input file that are as good as can be in several objectives.
+    """Return the Pareto front of several objectives by values of the input file.
 
     Objectives that contradict each other have no best suspension, but many of which none is better
     in all of them: their Pareto front, among which an engineer chooses.

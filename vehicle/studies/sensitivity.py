@@ -62,7 +62,7 @@ def sensitivity(
     held: WheelSupport | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
-    """Return the derivatives of characteristics by values of the input file.
+    """Return the derivatives of characteristics with respect to values of the input file.
 
     Parameters
     ----------
@@ -71,15 +71,15 @@ def sensitivity(
         The values: section and key with dots between them, such as ``hardpoints.ball_joint.z``. A
         point or a section represents all of its numbers, ``*`` for anything.
     over : {'travel', 'rack', 'bump', 'roll', 'left', 'right'}, optional
-        What varies along the curves. Of a corner ``travel``, by default, or ``rack``; of axles and
-        rigid axles ``bump`` (both wheels), by default, or one of the last three.
+        Motion along the curves. Of a corner ``travel``, by default, or ``rack``; of axles and rigid
+        axles ``bump`` (both wheels), by default, or one of the last three.
     positions : array_like, optional
         Wheel travel, or displacement of the rack [m], or roll [rad]; by default the usual range.
     names : sequence of str, optional
         Characteristics; by default all.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
         Instead of characteristics, compliance by the names of `kintrafo.compliance.linear`, over
-        wheel travel, the wheels held like that, see there; bushes of the file may vary, too.
+        wheel travel, with this support of the wheels; bushes of the file may vary, too.
     progress : callable, optional
         Called with the part that is done, up to 1.
 
@@ -95,8 +95,8 @@ def sensitivity(
     Raises
     ------
     InputError
-        If a place or a characteristic is not known, or the suspension cannot do what was asked
-        with neighbouring values of either side of one that is named in full.
+        If a place or a characteristic is not known, or the suspension has no result for the
+        neighbouring values on either side of a value that is named in full.
 
     Notes
     -----

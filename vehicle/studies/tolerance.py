@@ -57,12 +57,11 @@ def tolerance(
     ----------
     suspension : Suspension, Axle or RigidAxle
     tolerances : mapping of str to float
-        How far values are off to either side, in the unit of the input file for people (mm, deg,
-        N/m, ...), by their places as `sensitivity` takes them. Of several that name a value the
-        last counts.
+        Tolerance of values to either side, in display units (mm, deg, N/m, ...), by their places as
+        in `sensitivity`. Of several entries that name a value the last one applies.
     distribution : {'normal', 'uniform'}, optional
-        Of each value: normal with a third of the tolerance as standard deviation, so that three in
-        a thousand are off by more, or anything within the tolerance alike.
+        Distribution of each value: normal with a third of the tolerance as standard deviation, so
+        that three in a thousand deviate by more, or uniform within the tolerance.
     correlation : array_like, shape (values, values), optional
         Of the values, in the order of the file, where they do not vary independently; of the
         normal distribution only.

@@ -57,11 +57,11 @@ class TyreFit:
         Over ``coefficient``: ``value``, its ``start``, ``standard_error`` and the bounds ``least``
         and ``most``; over two of them ``correlation`` of their errors.
     residuals : dict of str to ndarray
-        What is left of each force: measured less computed [N, N m].
+        Residual of each force: measured less computed [N, N m].
     at_bounds : tuple of str
         Coefficients that ended at a bound.
     left_out : tuple of str
-        Coefficients that the data do not determine and that were not asked for.
+        Coefficients that the data do not determine and that were not named.
     success : bool
     message : str
         Of the search.
@@ -100,20 +100,20 @@ def fit(
     data : str, pathlib.Path or mapping
         A CSV file with columns such as ``load_N``, ``slip_angle_deg``, ``slip``, ``camber_deg``,
         ``pressure_bar``, ``fx_N``, ``fy_N``, ``mz_Nm``; or arrays of these names without units, in
-        SI units. Axes and signs are those of `Tyre.evaluate`; what is missing of a state is zero,
-        or that of the tyre.
+        SI units. Axes and signs are those of `Tyre.evaluate`; missing quantities of a state are
+        zero, or those of the tyre.
     start : MagicFormula
-        Where the search begins; it has everything that is not fitted, such as sizes and nominal
-        load.
+        Tyre at the start of the search, with all data that are not fitted, such as dimensions and
+        nominal load.
     coefficients : iterable of str, optional
-        What is fitted. Unless given: those of the forces that are there, as far as the data
-        determine them.
+        Coefficients to fit. By default: those of the measured forces, as far as the data determine
+        them.
     bounds : mapping of str to (float, float), optional
         Least and greatest value of coefficients; others have usual ones.
     accuracy : mapping of str to float, optional
-        How well each force is measured [N, N m]: what a residual is divided by, with which standard
-        errors are computed. Unless given, a tenth of what the force varies by, and standard errors
-        are those that the residuals show.
+        Standard deviation of each measured force [N, N m], by which residuals are divided and
+        standard errors are computed. By default a tenth of the range of the force, with standard
+        errors by the residuals.
 
     Returns
     -------
@@ -122,8 +122,8 @@ def fit(
     Raises
     ------
     InputError
-        If the data cannot be read, or do not determine coefficients that were asked for: with
-        their names, and those that they cannot be distinguished from.
+        If the data cannot be read, or do not determine named coefficients; the message has their
+        names, and the coefficients that they cannot be distinguished from.
 
     Examples
     --------

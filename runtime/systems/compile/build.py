@@ -45,10 +45,11 @@ def compile_mechanism(
 ) -> ModuleType:
     """Derive the equations of a mechanism and return them as a compiled module.
 
-    What was compiled before is taken from a cache, as long as declaration, generator and compiler
-    are the same. A declaration with a class of your own, such as a force, is derived at each call,
-    since its code may have changed; it is compiled only where something else comes out. What was
-    damaged in the cache is found before it is loaded, reported as a warning, and made again.
+    Compiled mechanisms are kept in a cache, and used again as long as declaration, generator and
+    compiler are the same. A declaration with a class of your own, such as a force, is derived at
+    each call, since its code may have changed; it is compiled only if the equations differ. Damaged
+    files in the cache are detected before they are loaded, reported as a warning, and compiled
+    again.
 
     Parameters
     ----------
@@ -57,7 +58,7 @@ def compile_mechanism(
         mechanism alone, a model with all bodies massive and the first independent coordinates is
         made from which every loop closes in closed form.
     name : str, optional
-        Which model or mechanism, where the file has several.
+        Name of the model or mechanism, if the file has several.
     backend : {'auto', 'c', 'numpy'}, optional
         'c': compiled by the C compiler of this machine, which ``CC`` and ``CFLAGS`` may name.
         'numpy': the same program over NumPy arrays, slower. 'auto': C where there is a compiler.
@@ -65,25 +66,25 @@ def compile_mechanism(
         Also exact derivatives with respect to parameters, states and inputs, for
         `System.derivative` and `System.gradient`: some six times as much code.
     folder : str or Path, optional
-        Where compiled mechanisms are kept; by default what the environment variable
-        ``KINTRAFO_CACHE`` names, or else the user's cache folder. What is in it is run, so that
-        it must be the user's own, and no other user may write there.
+        Folder of compiled mechanisms; by default that of the environment variable
+        ``KINTRAFO_CACHE``, or else the user's cache folder. Its contents are executed, so that it
+        must belong to the user, and no other user may write there.
     progress : callable, optional
-        Called with what is being done, in a few words: what of it, how much there is, and, of what
-        takes more than ten seconds, how long it takes. Without it, that is shown on standard error
-        where this is a terminal.
+        Called with a description of the present step: its name, its size, and its remaining time if
+        that is more than ten seconds. By default the description is shown on standard error if this
+        is a terminal.
 
     Returns
     -------
     module
-        With the interface of those of `kintrafo.generated`: functions over arrays of states, names,
-        units and meanings. `kintrafo.System` puts numbers to it.
+        Module with the interface of those of `kintrafo.generated`: functions over arrays of states,
+        names, units and meanings. `kintrafo.System` adds values of parameters.
 
     Raises
     ------
     InputError
         If the file cannot be run or an argument is not known; if the folder cannot be written, or
-        what is in it cannot be loaded; if another user owns it, or can write there.
+        its files cannot be loaded; if another user owns it, or can write there.
     MechanismError
         If the declaration contradicts itself, or a loop does not close in closed form.
     CompilerError
@@ -249,7 +250,7 @@ def build(
     name : str, optional
         What the folder will be called; by default what it is called now.
     report : callable, optional
-        Called with what is being done, in a few words.
+        Called with a short description of the present step.
     """
     from ...generator.backends.files import own_files
 

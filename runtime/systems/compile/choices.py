@@ -34,7 +34,7 @@ def proposals(
         A declaration, or a Python file with one at its top level. What a model prescribes stays
         prescribed; its own choice of independent joints does not count.
     name : str, optional
-        Which model or mechanism, where the file has several.
+        Name of the model or mechanism, if the file has several.
     seconds : float, optional
         Each of the two searches, without and with iteration, ends after this time [s]; left out,
         when all sets have been tried.

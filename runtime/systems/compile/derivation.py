@@ -30,7 +30,7 @@ def write_derivation(
     path : str or Path
         The file: .tex, beside which four figures are written as PDF, or .md.
     name : str, optional
-        Which model or mechanism, where the file has several.
+        Name of the model or mechanism, if the file has several.
     force : bool, optional
         Whether files that kintrafo did not write are replaced.
 

@@ -69,26 +69,26 @@ def over(
         wheels in parallel), 'roll', 'left' and 'right' (one wheel, the other one at design); of a
         steered axle also 'steer' and 'rack'. By default the first of these.
     along : array_like, shape (n,), optional
-        What varies: heights of wheel centres above design or displacements of the rack [m], roll
-        angles of the body, positive with the right side down, or angles of the steering wheel,
-        positive to the left [rad]. By default the usual range, as far as the wheels go: 80 mm of
-        travel and 60 mm of the rack to either side, 4 deg of roll.
+        Positions of the motion: heights of wheel centres above design or displacements of the rack
+        [m], roll angles of the body, positive with the right side down, or angles of the steering
+        wheel, positive to the left [rad]. By default the usual range, as far as the wheels go: 80
+        mm of travel and 60 mm of the rack to either side, 4 deg of roll.
     extent : SweepRange, optional
-        How far the motion goes, where that is not the usual.
+        Ends of the motion that differ from the usual range.
     travel : float, optional
-        Where the rack moves: height of the wheel centres above design [m].
+        Height of the wheel centres above design [m], for a motion of the rack.
     rack_position : float, optional
-        Where the wheels move: displacement of the rack [m].
+        Displacement of the rack [m], for a motion of the wheels.
 
     Returns
     -------
     xarray.Dataset
         Over ``wheel_travel`` [m], ``roll_angle`` [rad], ``steering_wheel_angle`` [rad] or
-        ``rack_position`` [m]; of an axle, what each wheel has also over ``wheel``. The motion
-        'steer' goes over the rack where nothing says how the steering wheel moves it. SI units;
-        each variable carries ``units``, ``long_name``, ``definition``, ``sign`` and the display
-        unit as ``display_units`` and ``display_factor``. What needs data of the vehicle that are
-        not given is left out.
+        ``rack_position`` [m]; of an axle, characteristics of the wheels also over ``wheel``. The
+        motion 'steer' is over the rack if the file has no steering ratio. SI units; each variable
+        carries ``units``, ``long_name``, ``definition``, ``sign`` and the display unit as
+        ``display_units`` and ``display_factor``. Characteristics that need missing data of the
+        vehicle are left out.
 
     Raises
     ------

@@ -36,7 +36,7 @@ def combined(
     under : {'lateral', 'braking', 'recession', 'aligning'}
         As of `nonlinear`.
     amounts : array_like, shape (m,)
-        How great the load is, of either sign [N], [N m].
+        Amounts of the load, of either sign [N], [N m].
     travel : array_like, shape (n,), optional
         Heights of the wheel centres with rigid joints above design, of an axle in parallel [m]; by
         default the usual range.
@@ -57,8 +57,8 @@ def combined(
 
     Notes
     -----
-    The equilibria of `nonlinear` at many travels: what bushes do under a load depends on where
-    the suspension is, and on the vertical force there.
+    The equilibria of `nonlinear` at many travels: the deflection of bushes under a load depends on
+    where the suspension is, and on the vertical force there.
 
     Examples
     --------

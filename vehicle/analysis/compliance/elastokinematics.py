@@ -75,16 +75,16 @@ def elastokinematics(
     ----------
     subject : Suspension, Model, Axle or RigidAxle
     bushings : mapping, optional
-        In the place of those of the file, as `linear` takes them; besides, ``axial_curve`` and
-        ``radial_curve`` in the place of stiffnesses, ``{"mm": [...], "N": [...]}``.
+        Bushes instead of those of the file, as in `linear`; ``axial_curve`` and ``radial_curve``
+        are allowed instead of stiffnesses, ``{"mm": [...], "N": [...]}``.
     motion : str, optional
         Of the rig: 'travel' of a corner, or its 'rack'; 'bump', 'roll', 'left', 'right' or 'steer'
         of an axle; by default the first of these.
     along : array_like, shape (n,), optional
         Wheel travels [m] or roll angles [rad]; for 'steer' angles of the steering wheel [rad], or
-        displacements of the rack [m] where nothing says how the steering wheel moves it. By default
-        the usual range. All are those with rigid joints: the road holds the contacts at the heights
-        where they then are.
+        displacements of the rack [m] if the file has no steering ratio. By default the usual range.
+        All positions are those with rigid joints; the road holds the contacts at the heights of
+        these positions.
     extent : SweepRange, optional
         How far the usual range goes.
     travel : float, optional
@@ -92,9 +92,9 @@ def elastokinematics(
     rack_position : float, optional
         Displacement of the rack in other motions [m].
     hardpoints : {'loaded', 'relaxed'}, optional
-        Whether the hardpoints are where the joints are at design with bushes that carry what the
-        suspension has to carry there, or with bushes that carry nothing. A twisted anti-roll bar
-        loads the bushes at design, too.
+        'loaded': the joints are at the hardpoints under the static load at design. 'relaxed': they
+        are at the hardpoints with unloaded bushes. A twisted anti-roll bar loads the bushes at
+        design, too.
 
     Returns
     -------
@@ -119,9 +119,9 @@ def elastokinematics(
 
     Notes
     -----
-    Equilibrium of all parts at rest by Newton's method in six coordinates a part; displacements
-    may be of any size. Bushes turn with the joint's first part; what resists their torsion or
-    tilting is relaxed at design.
+    The equilibrium of all parts is found by Newton's method in six coordinates of each part;
+    displacements may be of any size. Bushes turn with the first part of the joint; torsion and
+    tilting stiffnesses are relaxed at design.
 
     Examples
     --------

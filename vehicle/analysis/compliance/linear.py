@@ -51,25 +51,25 @@ def linear(
     ----------
     subject : Suspension, Model, Axle or RigidAxle
     bushings : mapping, optional
-        In the place of those of the file. By hardpoint: ``axial_N_per_mm`` along its axis and
-        ``radial_N_per_mm`` across it, one number or two; what is left out is rigid. ``axis``, by
-        default that of the arm's bearings, of the strut, the tie rod or the wheel; at other ball
-        joints it must be given. ``radial_axis``, the direction of the first of two radial numbers.
-        Both in chassis axes at design; they turn with the part that is nearer to the chassis. In
-        the place of stiffnesses ``axial_curve`` and ``radial_curve``, of which the slope at zero
-        counts. At ``wheel_center``, the bearing, ``tilt_Nm_per_deg`` about all axes across the spin
-        axis. ``rack``: its ``axial_N_per_mm``, how stiff the steering holds the rack. Of an axle
-        they are those of one side, that whose points the anti-roll bar has (``side`` of the file,
-        or the right one), and the other side has their image. Of a rigid axle the hardpoints are
-        the names of rods with ``_chassis`` or ``_axle`` behind them.
+        Bushes instead of those of the file. By hardpoint: ``axial_N_per_mm`` along its axis and
+        ``radial_N_per_mm`` across it, one number or two; directions that are left out are rigid.
+        ``axis``, by default that of the arm's bearings, of the strut, the tie rod or the wheel; at
+        other ball joints it must be given. ``radial_axis``, the direction of the first of two
+        radial numbers. Both in chassis axes at design; they turn with the part that is nearer to
+        the chassis. Instead of stiffnesses ``axial_curve`` and ``radial_curve``, whose slope at
+        zero counts. At ``wheel_center``, the bearing, ``tilt_Nm_per_deg`` about all axes across the
+        spin axis. ``rack``: its ``axial_N_per_mm``, the stiffness of the steering at the rack. For
+        an axle they are the bushes of one side, the one with the points of the anti-roll bar
+        (``side`` of the file, or the right one); the other side has the mirror image. For a rigid
+        axle the hardpoints are the names of rods with the ending ``_chassis`` or ``_axle``.
     travel : array_like, shape (n,), optional
         Heights of the wheel centres above design [m]; by default the usual range.
     rack_position : float, optional
         Displacement of the rack [m].
     held : {'height', 'tyre', 'spring', 'locked'}, optional
-        What holds each wheel, besides an anti-roll bar: the contact of the rigid wheel stays at its
-        height; or the pad beneath its tyre does, so that the wheel goes up and down as the tyre
-        deflects; spring and stops, as on a rig that keeps the vertical force; or a locked spring.
+        Support of each wheel, besides an anti-roll bar. 'height': the contact of the rigid wheel
+        stays at its height. 'tyre': the pad under the tyre does, and the tyre deflects. 'spring':
+        spring and stops, as on a rig that keeps the vertical force. 'locked': the spring is locked.
 
     Returns
     -------
@@ -77,13 +77,14 @@ def linear(
         Over ``wheel`` and ``wheel_travel``: toe, camber and displacement by a lateral force inward,
         a braking force, a rearward force at the wheel centre and an aligning torque,
         ``toe_by_lateral`` and so on; of an axle by loads of the same size on both wheels,
-        ``..._parallel`` and ``..._opposed``. Where the file has the tyre's rates along these
-        forces, ``patch_displacement_by_...``: the wheel's at the contact and what the stationary
-        tyre deflects, as the pad of a rig moves. ``flexibility``, displacement and rotation of the
-        contacts by force and moment on the wheels there, tyre axes of each, of shape (n, 6 wheels,
-        6 wheels) [m/N], [rad/N], [m/(N m)], [rad/(N m)]. Of a rigid axle besides, of the line
-        through its wheel centres, ``axle_steer_by_...`` and ``axle_lateral_by_...``, positive to
-        the left, and ``axle_longitudinal_by_...``, positive forward.
+        ``..._parallel`` and ``..._opposed``. If the file has the tyre's rates along these forces,
+        ``patch_displacement_by_...``: displacement of the wheel at the contact plus the deflection
+        of the stationary tyre, which is the displacement of the pad of a rig. ``flexibility``,
+        displacement and rotation of the contacts by force and moment on the wheels there, tyre axes
+        of each, of shape (n, 6 wheels, 6 wheels) [m/N], [rad/N], [m/(N m)], [rad/(N m)]. Of a rigid
+        axle besides, of the line through its wheel centres, ``axle_steer_by_...`` and
+        ``axle_lateral_by_...``, positive to the left, and ``axle_longitudinal_by_...``, positive
+        forward.
 
     Raises
     ------
@@ -94,15 +95,14 @@ def linear(
 
     Notes
     -----
-    By the unit-load theorem: each bush deflects under what it carries of a unit load, and moves the
-    wheel by that times what it carries of another one. What is statically indeterminate, such as
-    the force along the axis of an arm, is shared by least energy. Linear about bushes that are at
-    their hardpoints; what resists their torsion or tilting, and what the static load does in turned
-    bushes, are left out. The force at the contact stays where the wheel's lowest point was. The
-    rack and the anti-roll bar of an axle are elastic parts that both sides load; what the bar
-    carries where it is bent at rest does not stiffen anything here. A rod carries a force along it,
-    so that of its bushes counts how soft they are along the rod. Five rods share forces by least
-    energy at the positions of the four that hold the axle firmest.
+    The method is the unit-load theorem. Statically indeterminate forces, such as that along the
+    axis of an arm, follow from the least energy. The result is linear about bushes that are relaxed
+    at their hardpoints; their torsion and tilting, and the effect of the static load in turned
+    bushes, are left out. The force at the contact acts at the lowest point of the undeflected
+    wheel. The rack and the anti-roll bar of an axle are elastic parts that both sides load; a
+    static load of the bar does not change the stiffness. A rod carries a force along its line, and
+    the compliance of its bushes along the rod counts. Five rods share forces by least energy at the
+    positions of the four that hold the axle firmest.
 
     Examples
     --------

@@ -95,16 +95,16 @@ def nonlinear(
         A lateral force inward or a braking force at the contact, a rearward force at the wheel
         centre, or a torque about the vertical towards toe-out.
     amounts : array_like, shape (n,)
-        How great the load is, of either sign [N], [N m].
+        Amounts of the load, of either sign [N], [N m].
     wheels : {'parallel', 'opposed', 'left', 'right'} or two numbers, optional
-        Of an axle, which wheels have it: as of `linear`, by default 'parallel', or one of them. Or
-        the parts of it that the left and the right wheel have, counted as on one corner:
-        ``[1.0, 0.5]`` under ``lateral`` pushes both inward, the right one with half the force.
+        Of an axle, the loaded wheels: as in `linear`, by default 'parallel', or one of them. Or
+        factors of the load on the left and the right wheel, with the sign of one corner: ``[1.0,
+        0.5]`` under ``lateral`` pushes both inward, the right one with half the force.
     travel, rack_position : float, optional
-        Where the wheels and the rack are before [m], see `elastokinematics`.
+        Wheel travel and rack displacement without the load [m], see `elastokinematics`.
     held : {'height', 'tyre', 'spring', 'locked'}, optional
-        What holds each wheel, see `linear`; an anti-roll bar acts besides; ``tyre``: on a road that
-        stays where the tyre carries the wheel without the load.
+        Support of each wheel, see `linear`, besides an anti-roll bar; 'tyre': on a road at the
+        height at which the tyre carries the wheel without the load.
     hardpoints : {'loaded', 'relaxed'}, optional
         See `elastokinematics`.
 
@@ -113,9 +113,9 @@ def nonlinear(
     xarray.Dataset
         Over ``wheel``, ``data_set`` ('equilibrium', 'linear') and ``load``: ``toe_change`` and
         ``camber_change`` [rad], and ``displacement`` in the direction of a positive force on this
-        wheel by itself [m], all against what is there without the load; ``patch_displacement`` on
-        the stationary tyre where the file has its rate, see `linear`; and ``wheel_load`` [N]. The
-        linear ones are those of `linear`. With an anti-roll bar ``bar_torque`` [N m], positive with
+        wheel [m], all relative to the position without the load; ``patch_displacement`` on the
+        stationary tyre where the file has its rate, see `linear`; and ``wheel_load`` [N]. The data
+        set 'linear' is that of `linear`. With an anti-roll bar ``bar_torque`` [N m], positive with
         the left half turned the farther; of a rigid axle with the left wheel up, and
         ``axle_steer_change`` [rad], ``axle_lateral_change`` and ``axle_longitudinal_change`` [m].
 
@@ -130,15 +130,15 @@ def nonlinear(
 
     Notes
     -----
-    As of `elastokinematics`, with all parts in one equilibrium: the rack is one further part, if it
-    is elastic, and an anti-roll bar has the energy of its twist, which follows from the feet of its
-    drop links in closed form. Forces act at the lowest point of the wheel, wherever it goes, in
-    directions that stay: those of the tyre with rigid joints, without the load. The displacement is
-    that of the point of the wheel that was lowest there, or of its centre.
+    The method is that of `elastokinematics`, with all parts in one equilibrium: an elastic rack is
+    one further part, and an anti-roll bar has the energy of its twist, which follows from the feet
+    of its drop links in closed form. Forces act at the lowest point of the moving wheel, in
+    constant directions: those of the tyre with rigid joints, without the load. The displacement is
+    that of the point of the wheel that was lowest without the load, or of its centre.
 
-    `linear` leaves out that bushes carry the static load in turned directions; with relaxed bushes
-    and no static load, both agree as the load goes to zero, and differ by a part in proportion to
-    it.
+    `linear` leaves out that the forces of bushes turn under the static load. With relaxed bushes
+    and no static load both results agree as the load goes to zero; their relative difference is
+    proportional to the load.
 
     Examples
     --------

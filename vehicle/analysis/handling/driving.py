@@ -41,9 +41,9 @@ def drive(
     Returns
     -------
     HandlingResult
-        ``metrics``: what the standard judges the manoeuvre by, each with unit and meaning;
-        ``curves``: by name datasets over time, and over lateral acceleration or frequency where
-        there are such; ``runs``: its simulations. All are in SI units, signs are those of ISO 8855.
+        ``metrics``: the quantities that the standard defines, each with unit and meaning;
+        ``curves``: datasets by name, over time, lateral acceleration or frequency; ``runs``: the
+        simulations. All are in SI units, signs are those of ISO 8855.
 
     Raises
     ------

@@ -46,22 +46,22 @@ def along(model: System, result: Simulation) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        As of `static`, over ``time`` [s] instead of cases. Besides what acts, ``by`` inertia names
-        minus mass times acceleration and minus the rate of the moment of momentum, so that the sum
-        over each part is zero. An anti-roll bar and its drop links have no mass. ``holding_force``
-        [N] is a vertical force on each wheel that the motion would need besides: none where the
-        equations of motion and the balance of the parts agree. How exact the motion is, the
-        tolerances of the simulation decide. The tyre pushes at the wheel centre, in the plane of
-        the wheel, as in the equations. With ``wheel_loads`` the road acts at the contact, too;
-        ``by`` input are the forces at the centre and the moment on the wheel, ``by`` shaft is its
-        torque. That of the hub is a part of what the bearing carries.
+        As of `static`, over ``time`` [s] instead of cases. Further loads ``by`` inertia are minus
+        mass times acceleration and minus the rate of the moment of momentum, so that the sum over
+        each part is zero. An anti-roll bar and its drop links have no mass. ``holding_force`` [N]
+        is the residual vertical force on each wheel: zero if the equations of motion and the
+        balance of the parts agree. The accuracy of the motion depends on the tolerances of the
+        simulation. The tyre force acts at the wheel centre, in the plane of the wheel, as in the
+        equations. With ``wheel_loads`` the road acts at the contact, too; ``by`` input are the
+        forces at the centre and the moment on the wheel, ``by`` shaft is its torque. The torque of
+        the hub is a part of the load of the bearing.
 
     Raises
     ------
     InputError
         If the result is not a motion of this model.
     PositionError
-        If the motion comes to a dead point, where what is carried has no bound.
+        If the motion comes to a dead point, where loads have no bound.
 
     Examples
     --------

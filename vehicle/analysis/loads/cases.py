@@ -206,7 +206,7 @@ def _cases_of_wheel(
 
 
 def standard_cases(subject: Any) -> dict[str, dict[str, Any]]:
-    """Return the usual load cases, in parts of the static load of each wheel.
+    """Return the standard load cases, as fractions of the static load of each wheel.
 
     Sideways forces push the wheel of a corner inward. In cases of an axle that differ between its
     wheels the right one has the greater load. Forces along x act where what holds the torque of

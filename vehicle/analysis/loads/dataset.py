@@ -207,7 +207,7 @@ def _sum(fields: dict[str, Array], rows: list[int], about: Array) -> tuple[Array
 
 
 def envelope(dataset: xr.Dataset) -> xr.Dataset:
-    """Return the least and the greatest of every load, and in which cases they are.
+    """Return the extremes of every load, and their cases.
 
     Parameters
     ----------

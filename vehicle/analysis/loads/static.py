@@ -39,12 +39,12 @@ def static(
     subject : Suspension, Model, Axle, AxleModel, RigidAxle or RigidAxleModel
     cases : mapping, optional
         By name: ``contact_N`` and ``contact_Nm``, force and moment at the lowest point of the
-        wheel, whose brake holds it; ``center_N`` and ``center_Nm``, at the wheel centre, where what
-        a brake or a final drive on the body takes belongs; all of them three numbers in the axes of
-        the tyre, y to the left. ``contact_g`` and ``center_g`` in parts of the static load.
-        ``rack_mm``; ``travel_mm`` where a wheel is to be at that travel, instead of a vertical
-        force at the contact. Of an axle they count for both wheels; in ``left`` and ``right`` are
-        those of one. By default those of `standard_cases`.
+        wheel, whose brake holds it; ``center_N`` and ``center_Nm``, force and moment at the wheel
+        centre, for torques that a brake or a final drive on the body reacts; all of them three
+        numbers in the axes of the tyre, y to the left. ``contact_g`` and ``center_g`` are fractions
+        of the static load. ``rack_mm``; ``travel_mm``, a given travel of the wheel instead of a
+        vertical force at the contact. For an axle they apply to both wheels; ``left`` and ``right``
+        have those of one wheel. By default those of `standard_cases`.
     static_load : float, optional
         Vertical force on each wheel [N]; by default that of the rest on the road at z = 0.
 
@@ -54,27 +54,27 @@ def static(
         Over ``case``, ``load`` and ``axis``: ``force`` [N] and ``moment`` [N m] about the point at
         which it acts (``at`` [m]), in chassis axes, and ``force_in_part`` and ``moment_in_part`` in
         the axes that the part had at design, when its point was at ``at_in_part`` [m]. Every load
-        says on which ``part`` it is, at which ``point`` and ``by`` whom: what two parts exert on
-        each other is there twice, with both signs. Names of parts and points of an axle that there
-        are twice end in ``_left`` and ``_right``.
+        has the ``part`` on which it acts, its ``point``, and the neighbour ``by`` which it is
+        exerted. Forces between two parts occur twice, with both signs. Parts and points of both
+        sides of an axle end in ``_left`` and ``_right``.
 
         Over ``case``, and of an axle over ``wheel``: ``travel`` [m], ``wheel_load`` [N], and
-        ``holding_force`` [N], the vertical force at the contact that is missing: none, to rounding.
-        ``rack`` [m] where there is one, and ``reason`` where a case cannot be carried. ``residual``
-        [N] and ``residual_moment`` [N m] over ``moving_part`` are what is left of the sums of
-        forces and moments on it: none, to rounding.
+        ``holding_force`` [N], the residual of the vertical force at the contact: zero, to rounding.
+        ``rack`` [m] if the suspension has one, and ``reason`` for a case without equilibrium.
+        ``residual`` [N] and ``residual_moment`` [N m] over ``moving_part`` are the sums of forces
+        and moments on it: zero, to rounding.
 
         ``total_force`` [N] and ``total_moment`` [N m] over ``mount`` are the sums of all loads on
         the chassis at a point to which parts are bolted, moments about that point (``total_at``
-        [m]), and ``total_by`` names what acts; the spring of a strut belongs to the mount of the
+        [m]), and ``total_by`` names the loads; the spring of a strut belongs to the mount of the
         strut.
 
         A rack is held along its axis by ``steering``, and by the chassis, its guide, in all else:
         at ``rack_guide``, where the tie rod of a corner ends, or at the ``rack_middle`` of an axle,
-        whose ``rack_force`` [N] is what the steering exerts along the axis. ``bar_torque`` [N m] is
-        that of an anti-roll bar, positive with the left half turned the farther, or of a rigid axle
-        with the left wheel up; parts of an axle with a bar are ``drop_link_left``, ``_right`` and
-        the ``anti_roll_bar``. A rod of a rigid axle touches the ``beam`` and the chassis at the
+        whose ``rack_force`` [N] is the force of the steering along the axis. ``bar_torque`` [N m]
+        is that of an anti-roll bar, positive with the left half turned the farther, or of a rigid
+        axle with the left wheel up; parts of an axle with a bar are ``drop_link_left``, ``_right``
+        and the ``anti_roll_bar``. A rod of a rigid axle touches the ``beam`` and the chassis at the
         points ``NAME_axle`` and ``NAME_chassis``; ``rod_force`` [N] over ``rod`` is positive where
         it pulls.
 

@@ -25,9 +25,9 @@ class AxleModel(System):
     ----------
     axle : Axle
     progress : callable, optional
-        Called with what is being done, in a few words.
+        Called with a short description of the present step.
     wheel_loads : bool, optional
-        Whether what acts on the wheels are inputs, as in `Model`, after ``right_`` and ``left_``.
+        Whether loads on the wheels are inputs, as in `Model`, after ``right_`` and ``left_``.
 
     Attributes
     ----------

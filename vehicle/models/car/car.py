@@ -55,7 +55,7 @@ class Car(Described):
     Attributes
     ----------
     described : CarFile
-        What its own file says.
+        Data of its own file.
     corner : Suspension or None
         The suspension of a quarter car.
     axles : dict of str to Axle or WholeAxle

@@ -35,7 +35,7 @@ class CarModel(System):
     ----------
     car : Car
     progress : callable, optional
-        Called with what is being done, in a few words.
+        Called with a short description of the present step.
 
     Attributes
     ----------

@@ -35,7 +35,7 @@ class RigidAxleModel(WholeAxleModel):
         Of an axle on five rods those of four of them, from which an equilibrium on bushes begins;
         without it such an axle is refused, as it has no motion with rigid rods.
     wheel_loads : bool, optional
-        Whether what acts on the wheels are inputs, as in `Model`, after ``right_`` and ``left_``.
+        Whether loads on the wheels are inputs, as in `Model`, after ``right_`` and ``left_``.
         These equations are derived and compiled when they are first needed.
 
     Attributes

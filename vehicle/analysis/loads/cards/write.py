@@ -43,7 +43,7 @@ def write_cards(
     force: bool = False,
     inputs: Paths = (),
 ) -> list[Path]:
-    """Write loads for a program of strength: a file for each part, in equilibrium.
+    """Write load cards for a strength program: a file for each part, in equilibrium.
 
     Parameters
     ----------
