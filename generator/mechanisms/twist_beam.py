@@ -25,7 +25,15 @@ from .. import declare as d
 from ..declare.declared import parts
 from ..declare.parameters import Owner
 from ..program.vectors import UNIT_Y
-from .suspension import ROAD_HEIGHT, further_laws, of_rubber, spring_table
+from .suspension import (
+    actuator,
+    damper,
+    further_laws,
+    of_rubber,
+    spring,
+    spring_table,
+    tyre,
+)
 
 PIVOT = d.Point("pivot", (0.42, -0.56, 0.315), "pivot of the arm on the chassis")
 SHEAR_CENTER = d.Point("shear_center", (0.22, 0.0, 0.345), "shear centre of the beam, its middle")
@@ -46,29 +54,10 @@ LIFT = d.Revolute("lift_hinge", CHASSIS, FRAME, axis=d.Line(PIVOT, LEFTWARD))
 TURN = d.Revolute("arm_hinge", FRAME, ARM, axis=d.Line(SHEAR_CENTER, PIVOT))
 BEARING = d.Revolute("bearing", ARM, WHEEL, axis=d.Line(WHEEL_CENTER, SPIN_AXIS))
 
-SPRING = d.LinearSpring(
-    rate=d.SpringRate("spring_rate", 42000.0, "rate of the spring"),
-    free_length=d.Length(
-        "spring_free_length", 0.33, "distance of the seats with the spring force-free"
-    ),
-)
-DAMPER = d.LinearDamper(
-    rate=d.DamperRate("damper_rate", 1500.0, "rate of the damper along its axis")
-)
-ACTUATOR = d.Actuator(
-    input=d.Input(
-        "spring_actuator", "N", "actuator force, positive when it pushes the spring's seats apart"
-    )
-)
-TYRE = d.LinearTyre(
-    name="axle",
-    wheel=d.Wheel(ARM, WHEEL_CENTER, SPIN_AXIS),
-    rate=d.SpringRate("tyre_rate", 210000.0, "radial rate of the tyre"),
-    free_height=d.Displacement(
-        "tyre_free_height", 0.315, "height of the wheel centre at which the tyre is free of force"
-    ),
-    road=ROAD_HEIGHT,
-)
+SPRING = spring(42000.0, 0.33)
+DAMPER = damper(1500.0)
+ACTUATOR = actuator()
+TYRE = tyre("axle", d.Wheel(ARM, WHEEL_CENTER, SPIN_AXIS), 0.315, rate=210000.0)
 OF_A_SIDE = (
     d.ForceElement(
         "spring",
