@@ -15,7 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .. import declare as d
-from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT
+from .suspension import RACK_FORCE, RACK_MOTION, damper, tyre
 
 Place = tuple[float, float, float]
 
@@ -81,19 +81,9 @@ _REPORTED = (
 )
 
 _SPRING_RATE = d.SpringRate("spring_rate", 55000.0, "rate of the spring")
-_DAMPER = d.LinearDamper(
-    rate=d.DamperRate("damper_rate", 3500.0, "rate of the damper along the spring")
-)
+_DAMPER = damper(3500.0, along="the spring")
 _WEIGHT = d.Weight()
-_TYRE = d.LinearTyre(
-    name="rear",
-    wheel=d.Wheel(CARRIER, WHEEL_CENTER, SPIN_AXIS),
-    rate=d.SpringRate("tyre_rate", 200000.0, "radial rate of the tyre"),
-    free_height=d.Displacement(
-        "tyre_free_height", 0.329, "height of the wheel centre at which the tyre is free of force"
-    ),
-    road=ROAD_HEIGHT,
-)
+_TYRE = tyre("rear", d.Wheel(CARRIER, WHEEL_CENTER, SPIN_AXIS), 0.329)
 
 
 def _suspension(

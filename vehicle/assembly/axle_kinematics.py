@@ -7,12 +7,11 @@ import numpy as np
 
 from ...core.errors import InputError
 from ...core.named_types import ArrayLike
-from ...core.vectors import cross
 from ..corner.corner import Array, Corner, Vehicle
 from ..models.axle import Axle
 from ..models.axle.bar import HalfBar
 from ..models.model import Model
-from ..models.points import carried
+from ..models.points import carried, carried_velocity
 from ..models.positions import PositionError, arm_angles, design_height
 from ..models.reach import at_rest, height_and_slope
 from ..models.sides import LEFT, RIGHT, SENSE
@@ -271,10 +270,7 @@ def _turned(model: Model, half: HalfBar, angle: Array, rack: Array) -> tuple[Arr
     states, inputs = at_rest(model, angle, rack)
     foot = carried(model, {"foot": (half.body, half.foot)}, states, inputs)["foot"]
     states, inputs = at_rest(model, angle, rack, arm_rate=1.0)
-    which = model.equations.BODIES.index(half.body)
-    twist = model.evaluate("velocities", states, inputs)[..., which, :]
-    center = model.evaluate("positions", states, inputs)[..., which, :]
-    velocity = twist[..., 3:] + cross(twist[..., :3], foot - center)
+    velocity = carried_velocity(model, half.body, foot, states, inputs)
     turn = half.turn(foot)
     rise = model.signal("wheel_velocity", states, inputs)
     _, lever = half.lever(foot, turn)

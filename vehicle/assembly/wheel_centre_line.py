@@ -9,11 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.named_types import ArrayLike
-from ...core.vectors import cross
 from ..corner.corner import Array
 from ..models.axle import Axle
 from ..models.model import Model
-from ..models.points import carried
+from ..models.points import carried, carried_velocity
 from ..models.positions import arm_angles, design_height
 from ..models.reach import at_rest
 from ..models.sides import LEFT, RIGHT
@@ -88,9 +87,5 @@ def _center(model: Model, travel: Array, rack: float) -> tuple[Array, Array]:
     body = model.suspension.carrier
     at_design = model.suspension.hardpoints.metres(_CENTER)
     place = carried(model, {_CENTER: (body, at_design)}, states, inputs)[_CENTER]
-    which = model.equations.BODIES.index(body)
-    # velocities are linear in the rates: those at unit rate are the derivatives
-    twist = model.evaluate("velocities", states, inputs)[..., which, :]
-    arm = place - model.evaluate("positions", states, inputs)[..., which, :]
-    velocity = twist[..., 3:] + cross(twist[..., :3], arm)
+    velocity = carried_velocity(model, body, place, states, inputs)
     return place, velocity / velocity[..., 2:]

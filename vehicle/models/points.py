@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ...core.columns import spread
 from ...core.named_types import ArrayLike
 from ...core.validator import Validator
-from ...core.vectors import turned
+from ...core.vectors import cross, turned
 from .model import Model
 
 Array = NDArray[np.float64]
@@ -96,6 +96,28 @@ def carried(
         for name, (body, place) in points.items()
         for index in [bodies.index(body)]
     }
+
+
+def carried_velocity(
+    model: Model, body: str, place: Array, states: Array, inputs: Array | None = None
+) -> Array:
+    """Return the velocity of what of a body is at a place, (..., 3) [m/s].
+
+    Parameters
+    ----------
+    model : Model
+    body : str
+    place : ndarray, shape (..., 3)
+        Where it is [m].
+    states, inputs : ndarray
+        As in the compiled module; velocities are linear in their rates, so that those at a unit
+        rate are derivatives.
+    """
+    which = model.equations.BODIES.index(body)
+    twist = model.evaluate("velocities", states, inputs)[..., which, :]
+    arm = place - model.evaluate("positions", states, inputs)[..., which, :]
+    velocity: Array = twist[..., 3:] + cross(twist[..., :3], arm)
+    return velocity
 
 
 def _centers_of_mass(model: Model) -> dict[str, Array]:

@@ -1,17 +1,38 @@
 """Wheels on their bushes over travel and a load at once, as in the combined test of a rig."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from ....core.named_types import ArrayLike
-from ...assembly.by_wheel import of_wheels
+from ....core.validator import Validator
+from ...assembly.by_wheel import WHEEL, of_wheels, wheel_coordinate
+from ...assembly.of import given_assembly
 from ...assembly.quantity import TRAVEL
-from .flexibility import WheelSupport
-from .nonlinear import LOAD, LoadedWheels
-from .on_bushes import CURVES, WHEEL_LOAD, Hardpoints, on_bushes
+from .flexibility import HELD, WheelSupport, refuse_without_rate
+from .nonlinear import (
+    LOAD,
+    amounts_of,
+    load_coordinate,
+    parts_of,
+    under_amounts,
+    unit_load,
+    words_of,
+)
+from .on_bushes import (
+    CURVES,
+    HARDPOINTS,
+    WHEEL_LOAD,
+    Hardpoints,
+    at_height,
+    on_bushes,
+    on_joints,
+    softs_of,
+)
+from .rig_loads import BY_NAME
 
 
 def combined(
@@ -69,27 +90,46 @@ def combined(
     >>> np.rad2deg(found["toe"]).values.round(2).tolist()
     [[-0.22, 0.0, 0.21], [0.06, 0.27, 0.46]]
     """
-    loaded = LoadedWheels.of(
-        "combined",
-        (subject, bushings, under, amounts),
-        travel,
-        several=True,
-        wheels=wheels,
-        rack_position=rack_position,
-        held=held,
-        hardpoints=hardpoints,
-    )
+    with Validator("combined") as given:
+        assembly = given_assembly(given, subject)
+        given.among("under", under, BY_NAME)
+        given.among("held", held, HELD)
+        given.among("hardpoints", hardpoints, HARDPOINTS)
+        rack_position = given.number("rack_position", rack_position, "m")
+        wanted = amounts_of(given, amounts)
+        if travel is not None:
+            travel = given.array("travel", travel, "m", dimensions=[1])
+        if not given.failed:
+            assembly.refuse_holding(given, assembly.usual_motion, 0.0, rack_position)
+            parts = parts_of(given, assembly, under, wheels)
+        softs = softs_of(given, assembly, bushings, hardpoints)
+        if not given.failed:
+            refuse_without_rate(given, held, *assembly.tyres)
+    if travel is None:
+        travel = assembly.usual(assembly.usual_motion, rack=rack_position)
+    travels = np.asarray(travel)
+    load = replace(BY_NAME[under], words=words_of(under, wheels, parts))
+    poses = assembly.poses(assembly.at_travel(travels, rack_position))
+    suspension = on_joints(assembly, poses, softs)
+    base = at_height(suspension, travels)
+    of_each = zip(parts, suspension.wheels, strict=True)
+    unit = np.stack([part * unit_load(load, one) for part, one in of_each], axis=1)
+    states = under_amounts(suspension, base, unit, held, load, wanted)
     moved = [
-        [on_bushes(loaded.on, state, which) for state in loaded.states]
-        for which in range(len(loaded.assembly.wheels))
+        [on_bushes(suspension, state, which) for state in states]
+        for which in range(len(assembly.wheels))
     ]
     dims = (LOAD, TRAVEL.name)
     data = {}
     for quantity, formula in CURVES.items():
         values = [np.stack([formula(one) for one in own]) for own in moved]
         data[quantity.name] = of_wheels(quantity, dims, values)
-    road = np.moveaxis(np.stack([state.road for state in loaded.states]), -1, 0)
+    road = np.moveaxis(np.stack([state.road for state in states]), -1, 0)
     data[WHEEL_LOAD.name] = of_wheels(WHEEL_LOAD, dims, [*road])
-    along = xr.Variable(TRAVEL.name, loaded.travels, TRAVEL.attributes())
-    coordinates = {**loaded.coordinates, TRAVEL.name: along}
-    return xr.Dataset(data, coordinates, loaded.attributes("wheels"))
+    coordinates = {
+        LOAD: load_coordinate(load, wanted),
+        TRAVEL.name: xr.Variable(TRAVEL.name, travels, TRAVEL.attributes()),
+        WHEEL: wheel_coordinate(assembly.wheels),
+    }
+    how = {"held": HELD[held], "hardpoints": HARDPOINTS[hardpoints]}
+    return xr.Dataset(data, coordinates, {"title": f"wheels under {load.words}"} | how)

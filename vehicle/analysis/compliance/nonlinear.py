@@ -1,7 +1,7 @@
 """How far wheels deflect on their bushes under loads of any size, beside first order."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -159,21 +159,29 @@ def nonlinear(
     0.188
     0.0
     """
-    loaded = LoadedWheels.of(
-        "deflection",
-        (subject, bushings, under, amounts),
-        travel,
-        several=False,
-        wheels=wheels,
-        rack_position=rack_position,
-        held=held,
-        hardpoints=hardpoints,
-    )
-    assembly, suspension, load, parts = loaded.assembly, loaded.on, loaded.load, loaded.parts
-    wanted, base, states = loaded.amounts, loaded.base, loaded.states
+    with Validator("deflection") as given:
+        assembly = given_assembly(given, subject)
+        given.among("under", under, BY_NAME)
+        given.among("held", held, HELD)
+        given.among("hardpoints", hardpoints, HARDPOINTS)
+        travel = given.number("travel", travel, "m")
+        rack_position = given.number("rack_position", rack_position, "m")
+        wanted = amounts_of(given, amounts)
+        if not given.failed:
+            assembly.refuse_holding(given, assembly.usual_motion, 0.0, rack_position)
+            parts = parts_of(given, assembly, under, wheels)
+        softs = softs_of(given, assembly, bushings, hardpoints)
+        if not given.failed:
+            refuse_without_rate(given, held, *assembly.tyres)
+    load = replace(BY_NAME[under], words=words_of(under, wheels, parts))
+    at = np.array([travel])
+    suspension = on_joints(assembly, assembly.poses(assembly.at_travel(at, rack_position)), softs)
+    base = at_height(suspension, at)
+    of_each = zip(parts, suspension.wheels, strict=True)
+    unit = np.stack([part * unit_load(load, wheel) for part, wheel in of_each], axis=1)
+    states = under_amounts(suspension, base, unit, held, load, wanted)
     to_first_order = None
-    if loaded.soft:
-        at = loaded.travels
+    if gives_way(softs):
         to_first_order = linear(subject, bushings, at, rack_position=rack_position, held=held)
     straight = _straight(to_first_order, load, parts, wanted)
     data = _changes_of_wheels(
@@ -185,119 +193,13 @@ def nonlinear(
         torque = np.concatenate([suspension.torque_of_bar(state) for state in states])
         words = f"torque of the anti-roll bar, {assembly.BAR_SIGN}"
         data["bar_torque"] = variable(LOAD, torque, words, "N m")
-    coordinates = {DATA_SET: ["equilibrium", "linear"], **loaded.coordinates}
-    return xr.Dataset(data, coordinates, loaded.attributes("deflection"))
-
-
-# -- the equilibria under a load ------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class LoadedWheels:
-    """Wheels on bushes at some travels, under some amounts of a load.
-
-    Attributes
-    ----------
-    assembly : HeldAssembly
-    travels : ndarray, shape (n,)
-        Heights of the wheel centres with rigid joints above design [m].
-    load : RigLoad
-    parts : tuple of float
-        Of it, by wheel.
-    amounts : ndarray, shape (m,)
-    soft : bool
-        Whether anything moves that rigid joints hold.
-    on : ElasticEquilibrium
-    base : ElasticState
-        Without the load.
-    states : list of ElasticState
-        Under each amount.
-    how : mapping of str to str
-        What holds the wheels, and what hardpoints mean, in words.
-    """
-
-    assembly: HeldAssembly
-    travels: Array
-    load: RigLoad
-    parts: tuple[float, ...]
-    amounts: Array
-    soft: bool
-    on: ElasticEquilibrium
-    base: ElasticState
-    states: list[ElasticState]
-    how: Mapping[str, str]
-
-    @classmethod
-    def of(
-        cls,
-        title: str,
-        asked: tuple[Any, Mapping[str, Any] | None, str, ArrayLike],
-        travel: Any,
-        *,
-        several: bool,
-        wheels: str | Sequence[float] | None,
-        rack_position: float,
-        held: WheelSupport,
-        hardpoints: Hardpoints,
-    ) -> "LoadedWheels":
-        """Return the equilibria that a caller asks for.
-
-        Parameters
-        ----------
-        title : str
-            Of what refuses.
-        asked : tuple
-            Subject, bushes, name of the load and its amounts, as of `nonlinear`.
-        travel : float, array_like or None
-            [m]; by default the usual range.
-        several : bool
-            Whether that may be several.
-        wheels, rack_position, held, hardpoints
-            As of `nonlinear`.
-        """
-        subject, bushings, under, amounts = asked
-        with Validator(title) as given:
-            assembly = given_assembly(given, subject)
-            given.among("under", under, BY_NAME)
-            given.among("held", held, HELD)
-            given.among("hardpoints", hardpoints, HARDPOINTS)
-            if travel is not None and several:
-                travel = given.array("travel", travel, "m", dimensions=[1])
-            elif travel is not None:
-                travel = given.number("travel", travel, "m")
-            rack_position = given.number("rack_position", rack_position, "m")
-            wanted = amounts_of(given, amounts)
-            if not given.failed:
-                assembly.refuse_holding(given, assembly.usual_motion, 0.0, rack_position)
-                parts = parts_of(given, assembly, under, wheels)
-            softs = softs_of(given, assembly, bushings, hardpoints)
-            if not given.failed:
-                refuse_without_rate(given, held, *assembly.tyres)
-        if travel is None:
-            travel = assembly.usual(assembly.usual_motion, rack=rack_position)
-        travels = np.atleast_1d(np.asarray(travel))
-        load = replace(BY_NAME[under], words=words_of(under, wheels, parts))
-        poses = assembly.poses(assembly.at_travel(travels, rack_position))
-        suspension = on_joints(assembly, poses, softs)
-        base = at_height(suspension, travels)
-        of_each = zip(parts, suspension.wheels, strict=True)
-        unit = np.stack([part * unit_load(load, wheel) for part, wheel in of_each], axis=1)
-        states = under_amounts(suspension, base, unit, held, load, wanted)
-        how = {"held": HELD[held], "hardpoints": HARDPOINTS[hardpoints]}
-        soft = gives_way(softs)
-        return cls(assembly, travels, load, parts, wanted, soft, suspension, base, states, how)
-
-    @property
-    def coordinates(self) -> dict[str, xr.Variable]:
-        """The coordinates of results: the amounts of the load, and the wheels."""
-        return {
-            LOAD: load_coordinate(self.load, self.amounts),
-            WHEEL: wheel_coordinate(self.assembly.wheels),
-        }
-
-    def attributes(self, what: str) -> dict[str, str]:
-        """Return the attributes of a result, whose title is what under the load."""
-        return {"title": f"{what} under {self.load.words}", **self.how}
+    how = {"held": HELD[held], "hardpoints": HARDPOINTS[hardpoints]}
+    coordinates = {
+        DATA_SET: ["equilibrium", "linear"],
+        LOAD: load_coordinate(load, wanted),
+        WHEEL: wheel_coordinate(assembly.wheels),
+    }
+    return xr.Dataset(data, coordinates, {"title": f"deflection under {load.words}"} | how)
 
 
 # -- which wheels have the load -------------------------------------------------------------------
