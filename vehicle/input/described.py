@@ -1,14 +1,14 @@
 """What a file describes, and what suspensions, axles and cars have in common."""
 
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any, Self
 
 from ...core.errors import InputError
-from ...core.validator import Validator
+from ...core.validator import Validator, shown
 from ..data import data_sets, find
 from ..data.starter import AXLE, AXLES, CAR, CARS, whole_axle_in, whole_axles
 from .messages import is_named
@@ -54,6 +54,41 @@ def check_keys(source: str, name: str, given: Any, words: str) -> None:
     with Validator(source) as checked:
         for key in checked.mapping(name, given, words):
             checked.instance(f"key of {name}", key, str, "a text is needed")
+
+
+def parts_of(
+    described: Any, makers: Mapping[str, Callable[[Any, Path, str], Any]], folder: Path, source: str
+) -> dict[str, Any]:
+    """Return what some keys of a file give, by key; those that are missing are left out.
+
+    Parameters
+    ----------
+    described : Section
+        The file.
+    makers : mapping of str to callable
+        By key: takes its value, the folder of the file and the key, returns what that is.
+    folder : Path
+    source : str
+        The file, for messages.
+
+    Raises
+    ------
+    InputError
+        With the problems of all of them.
+    """
+    found, problems = {}, list[str]()
+    for key, make in makers.items():
+        given = getattr(described, key)
+        if given is None:
+            continue
+        try:
+            found[key] = make(given, folder, key)
+        except InputError as error:
+            named = f"{key} = {shown(given)}" if isinstance(given, str) else key
+            problems += [f"{named}: {problem}" for problem in error.problems]
+    if problems:
+        raise InputError(problems, source)
+    return found
 
 
 class Described:

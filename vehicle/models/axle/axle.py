@@ -13,13 +13,13 @@ from pydantic import ValidationError
 
 from ....core.errors import InputError
 from ....core.suggestions import suggestion
-from ....core.validator import Validator, shown
+from ....core.validator import Validator
 from ....core.vectors import components, unit_vector
 from ....systems.allowed import LengthLimit
 from ...corner.bushes import RACK
 from ...data import data_sets
 from ...data.starter import AXLE, AXLES, not_of_a_suspension, whole_axle_in, whole_axles
-from ...input.described import Described, check_keys, described_by
+from ...input.described import Described, check_keys, described_by, parts_of
 from ...input.messages import messages_of
 from ...input.places import put
 from ...input.vehicle import GravitySection, VehicleSection
@@ -134,7 +134,8 @@ class Axle(Described):
             described = AxleFile(**data)
         except ValidationError as error:
             raise InputError(messages_of(error, AxleFile, data), source) from None
-        sides = _sides_of(described, Path(folder), source)
+        makers = dict.fromkeys(SECTIONS_OF_SIDES, _suspension)
+        sides = parts_of(described, makers, Path(folder), source)
         bar_side = sides["side"].vehicle.side if "side" in sides else RIGHT
         if "side" in sides:
             one = sides["side"]
@@ -365,25 +366,7 @@ def _refuse_other_files(data: Mapping[str, Any], source: str) -> None:
     raise InputError([problem], source)
 
 
-def _sides_of(described: AxleFile, folder: Path, source: str) -> dict[str, Suspension]:
-    """Return the suspensions that are given, by the keys that give them."""
-    found: dict[str, Suspension] = {}
-    problems = []
-    for key in SECTIONS_OF_SIDES:
-        given = getattr(described, key)
-        if given is None:
-            continue
-        try:
-            found[key] = _suspension(given, key, folder)
-        except InputError as error:
-            named = f"{key} = {shown(given)}" if isinstance(given, str) else key
-            problems += [f"{named}: {problem}" for problem in error.problems]
-    if problems:
-        raise InputError(problems, source)
-    return found
-
-
-def _suspension(given: Any, key: str, folder: Path) -> Suspension:
+def _suspension(given: Any, folder: Path, key: str) -> Suspension:
     by_path = isinstance(given, str | Path) and given not in data_sets()
     if by_path and described_by(folder / given) == AXLE:
         raise InputError([f"{given} is itself an axle. Name a hardpoint file."], key)

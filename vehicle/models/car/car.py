@@ -15,7 +15,7 @@ from ....core.errors import InputError
 from ....core.validator import Validator, shown
 from ...data import data_sets
 from ...data.starter import AXLE, AXLES, CAR, CARS, WHOLE_AXLES, whole_axle_in, whole_axles
-from ...input.described import Described, check_keys, described_by
+from ...input.described import Described, check_keys, described_by, parts_of
 from ...input.messages import messages_of
 from ...input.places import put
 from ...input.toml_file import read_toml
@@ -117,7 +117,8 @@ class Car(Described):
             described = CarFile(**data)
         except ValidationError as error:
             raise InputError(messages_of(error, CarFile, data), source) from None
-        parts = _parts_of(described, Path(folder), source)
+        makers = {"corner": Suspension.given, **dict.fromkeys(ENDS, _axle)}
+        parts = parts_of(described, makers, Path(folder), source)
         axles = {end: parts[end] for end in ENDS if end in parts}
         described, tyres = _with_tyres(described, Path(folder), source)
         car = cls(described, parts.get("corner"), axles, tyres)
@@ -339,25 +340,6 @@ class Car(Described):
             for end, tyre in self.tyres.items()
             if tyre.left_out
         ]
-
-
-def _parts_of(described: CarFile, folder: Path, source: str) -> dict[str, Any]:
-    """Return the corner, or the axles, by the keys that give them."""
-    found: dict[str, Any] = {}
-    problems = []
-    for key in _PARTS:
-        given = getattr(described, key)
-        if given is None:
-            continue
-        try:
-            is_corner = key == "corner"
-            found[key] = (Suspension.given if is_corner else _axle)(given, folder, key)
-        except InputError as error:
-            named = f"{key} = {shown(given)}" if isinstance(given, str) else key
-            problems += [f"{named}: {problem}" for problem in error.problems]
-    if problems:
-        raise InputError(problems, source)
-    return found
 
 
 def _with_tyres(described: CarFile, folder: Path, source: str) -> tuple[CarFile, dict[str, Tyre]]:
