@@ -84,7 +84,7 @@ def test_nothing_is_left_out_in_silence() -> None:
     assert "Beyond this chart: limit at 120 mm." in figure_of(page, "camber")
     assert "Beyond this chart: limit at 95 mm." in figure_of(page, "scrub_radius_over_rack")
     assert "Beyond this chart: limit at \u2212130 mm." in figure_of(page, "caster")
-    (words,) = re.findall(r"Not in the charts that move: (.*?)</p>", page)
+    (words,) = re.findall(r"Not in the interactive charts: (.*?)</p>", page)
     # "[deg/kN]" has no letter that HTML writes otherwise
     assert words.startswith("limit: toe angle by a lateral force")
     assert words.endswith("[deg/kN] (held: spring).")

@@ -37,6 +37,6 @@ def compliance_chapter(found: xr.Dataset, goals: Sequence[Goal] = ()) -> Chapter
     names = with_wanted(curves, usual, own)
     title = "Compliance over wheel travel"
     drawn = pictures(curves, names, title, "Compliances over wheel travel", goals=own)
-    words = f"By the unit-load theorem, linear, bushes relaxed: {found.attrs['held']}."
+    words = f"Linear compliance by the unit-load theorem, relaxed bushes: {found.attrs['held']}."
     sheets = compliances(found, "At design"), *compliances_of_beam(found, "At design, the axle")
     return Chapter("Compliance", (words,), sheets, drawn)

@@ -52,8 +52,8 @@ def elastokinematics_chapter(*found: xr.Dataset, goals: Sequence[Goal] = ()) -> 
         drawn += pictures(columns, list(map(str, columns)), title, words, goals=own)
         sheets += deflections(dataset, f"Over {over}")
     hardpoints = found[0].attrs["hardpoints"]
-    words = f"By equilibrium of all parts, however far bushes deflect: {hardpoints}."
-    of_goals = ["Targets and limits are about the curves with rigid joints."] if any(wanted) else []
+    words = f"The curves are equilibria of all parts with deflections of any size: {hardpoints}."
+    of_goals = ["Targets and limits apply to the curves with rigid joints."] if any(wanted) else []
     return Chapter("Elastokinematics", (words, *of_goals), tuple(sheets), tuple(drawn))
 
 

@@ -17,7 +17,7 @@ from .curves import pictures, positions_of, with_wanted
 
 _MEANING = (
     "A target is met if its deviation is at most its tolerance (within) at all of its positions. "
-    "Beyond is by how much more the worst position is off."
+    "The column beyond has the further deviation of the worst position."
 )
 
 

@@ -22,7 +22,7 @@ def sheet_chapter(found: xr.Dataset) -> Chapter:
     with Validator("sheet_chapter") as given:
         given.dataset(found, over=QUANTITY)
     words = (
-        "Kinematic and compliance gradients at design, as a rig's summary has them. Signs are "
+        "Kinematic and compliance gradients at design, as in the summary of a rig. Signs are "
         "those of ISO 8855 (x forward, y left, z up) and of SAE J670 with its z axis down."
     )
     return Chapter("K&C sheet", (words,), tuple(tabulated(found, "")), ())
