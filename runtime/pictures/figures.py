@@ -28,6 +28,7 @@ STYLE: "dict[RcKeyType, Any]" = {
     "lines.linewidth": 1.8,
     "svg.hashsalt": "kintrafo",  # the same identifiers in every file
 }
+_PANEL = (4.1, 2.7)  # width and height [in]
 # Neither date nor version in the files: the same curves make the same bytes.
 METADATA: dict[str, dict[str, Any]] = {
     "png": {"Software": None},
@@ -89,6 +90,12 @@ def written_plainly(figure: Figure) -> Figure:
         text.set_parse_math(False)
         text.set_text("\n".join(map(legible, text.get_text().split("\n"))))
     return figure
+
+
+def small(figure: Figure) -> Figure:
+    """Give a figure of one curve the size of a panel, which a page has several of in a row."""
+    figure.set_size_inches(*_PANEL)
+    return lay_out(figure)
 
 
 def lay_out(figure: Figure) -> Figure:

@@ -32,10 +32,9 @@ if TYPE_CHECKING:
 
 
 NOT_A_CAR = (
-    "this is a whole car, and a suspension or an axle is needed. The commands check, "
-    "characteristics, simulate, ride, drive, sensitivity, tolerance, optimise, pareto and compare "
-    "take a car; for others name the file of its axle or corner. In Python: "
-    'car.axles["front"], car.axles["rear"], car.corner.'
+    "this is a whole car, and a suspension or an axle is needed. Give "
+    'car.axles["front"], car.axles["rear"] or car.corner; at the command line, the file of an axle '
+    "or a corner."
 )
 """Said where something else is needed than a car."""
 
@@ -103,6 +102,16 @@ class Assembly(ABC):
     def design_sections(self) -> dict[str, dict[str, Any]]:
         """The sections of its files, whose numbers studies vary, by what begins their places."""
         return {"": self.subject.to_dict()}
+
+    @property
+    def input_sections(self) -> Mapping[str, Any]:
+        """What its files say, by what begins the names of sections.
+
+        That of a corner; of an axle its own and those of its sides, of two mirror images one.
+        """
+        alone = len(self.wheels) == 1
+        sides = {"" if alone else n: model.suspension for n, model in self.corners.items()}
+        return (sides or {"": self.subject}) | dict(self.own_sections)
 
     @property
     @abstractmethod

@@ -128,6 +128,15 @@ class CarAssembly(Assembly):
         return found | {"": {name: v for name, v in own.items() if name not in self.held_parts}}
 
     @property
+    def input_sections(self) -> dict[str, Any]:
+        """What its files say, by what begins the names of sections."""
+        found: dict[str, Any] = {"": self.car.described}
+        for name, part in self.held_parts.items():
+            for begin, section in part.input_sections.items():
+                found[f"{name} {begin}".strip()] = section
+        return found
+
+    @property
     def body_moves(self) -> bool:
         """It does."""
         return True
@@ -450,6 +459,12 @@ class CarAssembly(Assembly):
                 "in its file, with [tyres]."
             )
             raise InputError([problem], self.heading)
+
+    def riding(self) -> "CarAssembly":
+        """Return the car whose body does not travel, of the same files: itself, if it is one."""
+        if not self.car.drives:
+            return self
+        return CarAssembly(self.car.with_changes({"car": "roll"}))
 
     def require_riding(self) -> None:
         """Refuse a car that drives where its body must not travel.

@@ -137,7 +137,7 @@ class _Rig(NamedTuple):
         """Return what is on the rig at a travel and a place of the rack, and its ends [mm]."""
         from ..assembly.rig import SweepRange
 
-        assembly = assembly_of_file(file)
+        assembly = assembly_of_file(file, "compliance")
         at, rack = where
         if not assembly.steered:
             refuse_options("files with a rack", {"--rack": rack or None})

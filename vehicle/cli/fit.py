@@ -51,7 +51,7 @@ def command(
     from ..analysis import rig
 
     outputs = output.files(file, measured, tolerances, car=output.car)
-    subject = variable_subject(file)
+    subject = variable_subject(file, "fit")
     curves = rig.measured_curves(measured)
     asked = variation.read(tolerances)
     names = among(of, map(str, curves)) if of else None

@@ -1,7 +1,7 @@
 """What a file describes, and its equations."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from ...terminal.console import note, problems
 
@@ -14,15 +14,35 @@ if TYPE_CHECKING:
     from ..studies.evaluation import Subject
 
 
-def assembly_of_file(file: str) -> "Assembly":
-    """Return what a file or a packaged data set describes, as an assembly."""
-    from ..assembly.of import assembly_of
-    from ..files.loading import load
+def assembly_of_file(file: str, held: str | None = None) -> "Assembly":
+    """Return what a file or a packaged data set describes, as an assembly.
 
-    subject = load(file)
+    Parameters
+    ----------
+    file : str
+    held : str, optional
+        The command, where it needs a body that is held: it refuses a car.
+    """
+    from ..assembly.of import assembly_of
+
+    subject = variable_subject(file, held)
     # its equations may have to be derived first
     with problems.status("preparing the equations"):
         return assembly_of(subject)
+
+
+def _refuse_car(car: "Car", file: str, command: str) -> NoReturn:
+    """Refuse a car where a suspension or an axle is needed, and name the files of its parts."""
+    from ...core.errors import InputError
+
+    folder = Path(file).parent
+    beside = [folder / name if (folder / name).is_file() else name for name in car.parts_named]
+    wanted = " or ".join(f"kintrafo {command} {part}" for part in beside)
+    problem = (
+        f"this is the file of a whole car, and {command} is about a suspension or an axle. Give "
+        f"the file of one of its parts: {wanted or f'kintrafo {command} FILE'}."
+    )
+    raise InputError([problem], file)
 
 
 def model_of(file: str, *, wheel_loads: bool = False) -> "AnyModel":
@@ -54,11 +74,15 @@ def note_unused(car: "Car", file: str) -> None:
         note(f"not used: {many} of the files of this car, listed by kintrafo check {file}")
 
 
-def variable_subject(file: str) -> "Subject":
-    """Return what a file describes, whose values studies vary."""
+def variable_subject(file: str, held: str | None = None) -> "Subject":
+    """Return what a file describes, whose values studies vary; `held` as of `assembly_of_file`."""
     from ..files.loading import load
+    from ..models.car import Car
 
-    return load(file)
+    subject = load(file)
+    if held is not None and isinstance(subject, Car):
+        _refuse_car(subject, file, held)
+    return subject
 
 
 def car_of(file: str, *, driving: bool = False) -> "CarAssembly":

@@ -116,7 +116,7 @@ def command(
     from ..analysis.loads.sheets import overview
     from ..assembly.by_wheel import flat
 
-    assembly = assembly_of_file(file)
+    assembly = assembly_of_file(file, "loads")
     described = {} if cases is None else study.read(cases)
     named = described["cases"] if "cases" in described else study.standard_cases(assembly)
     shown = among(case, [*named], "--case") if case else None

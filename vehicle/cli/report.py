@@ -1,6 +1,7 @@
 """``kintrafo report``: one file to send to a colleague."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -8,9 +9,10 @@ from ...terminal.console import problems, say
 from . import goals as wanted
 from .loading import assembly_of_file, system_of
 from .options import Bushes, File, Force, Which, argument, option, refuse_options, refuse_which
+from .outputs import title_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
@@ -32,6 +34,7 @@ EXAMPLES = (
     "kintrafo report my_car.toml --goals goals.toml",
     "kintrafo report reference_axle",
     "kintrafo report rigid_axle --loads",
+    "kintrafo report quarter_car",
     "kintrafo report my_mechanism.py",
 )
 
@@ -60,8 +63,9 @@ def command(
     FILE may be the Python file of a mechanism of your own.
 
     An axle has one side in the 3D view, and a chapter with the results of a rig for both; a rigid
-    axle has drawings, tables and curves. Compliance is included if FILE has bushes, or with
-    --bushes.
+    axle has drawings, tables and curves. A car is shown at rest, over a bump and, if it drives, in
+    a step steer, with curves that follow; its axles have chapters of their own. Compliance is
+    included if FILE has bushes, or with --bushes.
     """
     from ...core.files import refuse
     from ..report import ENDINGS, write, write_chapters
@@ -82,10 +86,17 @@ def command(
         page: dict[str, Any] = {"title": title}
     else:
         assembly = assembly_of_file(file)
+        if assembly.body_moves:
+            refuse_options(
+                "an axle or a suspension", {"--cases": cases, "--bushes": bushes, "--goals": goals}
+            )
         aims = _aims(assembly, goals)
-        with problems.status("tables and curves"):
-            chapters = [*_chapters(assembly, aims, cases, bushes, loads=loads)]
-        moved, page = _page(assembly, title, chapters, aims)
+        with problems.status("tables and curves") as status:
+            chapters = [
+                *_chapters(assembly, aims, cases, bushes, loads=loads, progress=status.update)
+            ]
+        name = f"{title_of(file)}: {assembly.heading}" if assembly.body_moves else None
+        moved, page = _page(assembly, title or name, chapters, aims)
     with problems.status("report") as status:
         if moved is None:
             written = write_chapters(target, **page, force=force, inputs=inputs)
@@ -106,11 +117,11 @@ def _page(
     from ..report.marks import of_shown_side
 
     page: dict[str, Any] = {"title": title, "chapters": chapters}
-    if len(assembly.wheels) == 1:
+    if len(assembly.wheels) == 1 and not assembly.body_moves:
         return assembly.model, page | {"goals": goals}
     heading = title or f"{assembly.heading[:1].upper()}{assembly.heading[1:]}"
     if not assembly.corners:
-        return None, page | {"title": heading, "data": assembly.subject}
+        return None, page | {"title": heading, "data": assembly.input_sections}
     # of two that differ the right one
     side, model = [*assembly.corners.items()][-1]
     return model, page | {
@@ -147,16 +158,52 @@ def _chapters(
     bushes: Path | None,
     *,
     loads: bool,
+    progress: "Callable[[str], None]",
 ) -> "Iterator[Chapter]":
-    """Yield what a rig finds of both wheels, loads, compliance, goals, and the K&C sheet."""
+    """Yield the chapters that an assembly has, then those of its parts on a held body."""
+    from ..report import (
+        axle_chapter,
+        rest_chapter,
+        ride_chapter,
+        steady_turns_chapter,
+        step_steer_chapter,
+    )
+
+    if assembly.body_moves:
+        progress("the car at rest")
+        yield rest_chapter(assembly)
+    if assembly.drives:
+        progress("steady turns and step steer")
+        yield steady_turns_chapter(assembly)
+        yield step_steer_chapter(assembly)
+    if assembly.body_moves:
+        progress("ride")
+        yield ride_chapter(assembly)
+    if len(assembly.wheels) > 1:
+        progress("motions of a rig")
+        yield axle_chapter(assembly, goals)
+    for name, part in assembly.held_parts.items():
+        progress(f"tables and curves {name}".strip())
+        for chapter in _of_held(part, goals, cases, bushes, loads=loads):
+            title = f"{chapter.title}: {name}" if name else chapter.title
+            yield replace(chapter, title=title)
+
+
+def _of_held(
+    assembly: "Assembly",
+    goals: "Sequence[Goal]",
+    cases: Path | None,
+    bushes: Path | None,
+    *,
+    loads: bool,
+) -> "Iterator[Chapter]":
+    """Yield loads, compliance, goals and the K&C sheet of what has a body that is held."""
     from ..analysis import compliance
     from ..analysis import loads as study
     from ..analysis.sheet import sheet
-    from ..report import axle_chapter, goals_chapter, loads_chapter, sheet_chapter
+    from ..report import goals_chapter, loads_chapter, sheet_chapter
 
     described = None if bushes is None else compliance.read_bushes(bushes)
-    if len(assembly.wheels) > 1:
-        yield axle_chapter(assembly, goals)
     if loads or cases is not None:
         of_cases = {} if cases is None else study.read(cases)
         at_rest = of_cases.get("static_load_N")

@@ -32,7 +32,7 @@ def command(
     from ..analysis.sheet import one_page, sheet
 
     outputs = output.files(file, bushes)
-    found = sheet(assembly_of_file(file), bushes_of(file, bushes), held=held)
+    found = sheet(assembly_of_file(file, "sheet"), bushes_of(file, bushes), held=held)
     written = outputs.write_data(found)
     if output.json:
         print_json(export.as_dict(found))

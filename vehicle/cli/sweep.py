@@ -62,7 +62,7 @@ def command(
     from ..assembly.of import model_of
 
     outputs = output.files(file, driven.measured)
-    subject = variable_subject(file)
+    subject = variable_subject(file, "sweep")
     scenario = driven.scenario()
     grid = dict(map(_numbers, values))
     if len(grid) < len(values):

@@ -1,5 +1,7 @@
 """What the wheels of a car do, as curves of each axle: four lines in one panel are a thicket."""
 
+from collections.abc import Iterable
+
 import xarray as xr
 
 from ...core.validator import Validator
@@ -24,9 +26,8 @@ def by_axle(dataset: xr.Dataset) -> xr.Dataset:
     """
     with Validator("by_axle") as given:
         given.dataset(dataset)
-    wheels = [str(name) for name in dataset[WHEEL].values.ravel()]
-    ends = list(dict.fromkeys(name.rpartition("_")[0] for name in wheels))
-    if len(wheels) != len(ends) * len(SIDES) or len(ends) < len(SIDES):
+    ends = _ends(dataset)
+    if not ends:
         return dataset
     found = dataset.drop_vars(WHEEL)
     for name, data in dataset.data_vars.items():
@@ -39,3 +40,23 @@ def by_axle(dataset: xr.Dataset) -> xr.Dataset:
             own.attrs |= {"long_name": f"{end}: {data.attrs.get('long_name', name)}"}
             found[f"{name}_{end}"] = own
     return found
+
+
+def names_by_axle(dataset: xr.Dataset, names: Iterable[str]) -> list[str]:
+    """Return the names that some variables have in what `by_axle` returns, as far as they exist."""
+    ends = _ends(dataset)
+    return [
+        own
+        for name in names
+        if name in dataset
+        for own in (
+            [f"{name}_{end}" for end in ends] if ends and WHEEL in dataset[name].dims else [name]
+        )
+    ]
+
+
+def _ends(dataset: xr.Dataset) -> list[str]:
+    """Return the ends at which there are two wheels; none where there is one axle."""
+    wheels = [str(name) for name in dataset[WHEEL].values.ravel()]
+    ends = list(dict.fromkeys(name.rpartition("_")[0] for name in wheels))
+    return ends if len(wheels) == len(ends) * len(SIDES) and len(ends) > 1 else []

@@ -64,15 +64,22 @@ def write_curves(
     -------
     pathlib.Path
     """
-    along = next(name for name in _SHOWN if name in dataset.dims)
+    along = _along(dataset)
     # what comes first is along the axis: several runs are lines
-    dataset = dataset.transpose(along, ...)
-    moving = {str(name) for name in varying(dataset)}
-    names = [name for name in _SHOWN[along] if name in moving]
-    dataset = for_print(dataset, along)
+    shown, names = for_print(dataset.transpose(along, ...), along), first_names(dataset)
     with rc_context(STYLE):
-        drawn = draw(dataset, names, title=title, alone=False, columns=_COLUMNS)
+        drawn = draw(shown, names, title=title, alone=False, columns=_COLUMNS)
         return save(drawn, path, force=force, inputs=inputs)
+
+
+def first_names(dataset: xr.Dataset) -> list[str]:
+    """Return the names of the curves of a manoeuvre that are looked at first."""
+    moving = {str(name) for name in varying(dataset)}
+    return [name for name in _SHOWN[_along(dataset)] if name in moving]
+
+
+def _along(dataset: xr.Dataset) -> str:
+    return next(name for name in _SHOWN if name in dataset.dims)
 
 
 def for_print(dataset: xr.Dataset, along: str) -> xr.Dataset:

@@ -7,7 +7,11 @@ from .chapters import (
     elastokinematics_chapter,
     goals_chapter,
     loads_chapter,
+    rest_chapter,
+    ride_chapter,
     sheet_chapter,
+    steady_turns_chapter,
+    step_steer_chapter,
 )
 from .page import ENDINGS, write, write_chapters
 
@@ -19,7 +23,11 @@ __all__ = [
     "elastokinematics_chapter",
     "goals_chapter",
     "loads_chapter",
+    "rest_chapter",
+    "ride_chapter",
     "sheet_chapter",
+    "steady_turns_chapter",
+    "step_steer_chapter",
     "write",
     "write_chapters",
 ]

@@ -1,7 +1,7 @@
 """The HTML report: one file that opens anywhere, without a network."""
 
-from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 from importlib import resources
 from importlib.metadata import version
 from pathlib import Path
@@ -22,6 +22,7 @@ from ..analysis.loads.along import is_motion_of
 from ..analysis.paper import SPIN_RATE
 from ..input.section import Section
 from ..models.model import Model
+from ..plots.motion.page import player_script, player_style
 from ..studies.goals import Goal, check_goals
 from .accuracy import GridAccuracy, measure
 from .chapters.chapter import Chapter
@@ -187,7 +188,7 @@ def write_chapters(
     *,
     title: str,
     chapters: Sequence[Chapter],
-    data: Section,
+    data: Mapping[str, Section],
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
@@ -200,8 +201,8 @@ def write_chapters(
     title : str
         Heading of the page.
     chapters : sequence of Chapter
-    data : Section
-        What the input file says.
+    data : mapping of str to Section
+        What the input files say, by what begins the names of sections.
 
     Returns
     -------
@@ -220,8 +221,15 @@ def write_chapters(
         .render(
             title=legible(title),
             version=version("kintrafo"),
-            inputs=input_tables(data),
+            inputs=[
+                replace(table, name=f"{begin} {table.name}".strip())
+                for begin, section in data.items()
+                for table in input_tables(section)
+            ],
             chapters=chapters,
+            moves=any(chapter.players for chapter in chapters),
+            player_script=player_script(),
+            player_style=player_style(),
             style=_asset("report.css"),
         )
     )

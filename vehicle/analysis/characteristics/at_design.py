@@ -27,7 +27,7 @@ def at_design(dataset: xr.Dataset, title: str) -> list[Tabulated]:
     """
     if WHEEL not in dataset.dims:
         return _tables(title, [("at design", ("value",), [*dataset.values()])])
-    wheels = [*map(str, dataset[WHEEL].values)]
+    wheels = [str(name).replace("_", " ") for name in dataset[WHEEL].values]
     data = [*dataset.values()]
     of_wheels = [each for each in data if WHEEL in each.dims]
     of_axle = [each for each in data if WHEEL not in each.dims]

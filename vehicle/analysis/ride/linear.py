@@ -155,12 +155,13 @@ def response(
         own = density(assembly, rows, frequencies, speed, at_reference)
         of_wheels = name in OUTPUTS_OF_WHEELS and len(assembly.wheels) > 1
         dims = (WHEEL, "frequency") if of_wheels else ("frequency",)
-        spectrum_of = variable(dims, own, f"spectrum of {words}", f"({unit})^2/Hz")
+        whole = f"({unit})" if "/" in unit else unit
+        spectrum_of = variable(dims, own, f"spectrum of {words}", f"{whole}^2/Hz")
         spectrum_of.attrs |= _rms(own, frequencies, accelerates=unit == "m/s^2")
         variables[f"{name}_psd"] = spectrum_of
         sizes = np.stack([np.abs(row) for row in rows.values()])
         by_road = f"size of {words} by the height of the road under a wheel"
-        unit_by_road = f"({unit})/m"
+        unit_by_road = f"{whole}/m"
         variables[f"{name}_by_road"] = variable(("road_wheel", *dims), sizes, by_road, unit_by_road)
     coordinates = {
         "frequency": ("frequency", frequencies, {"units": "Hz", "long_name": "frequency"}),

@@ -277,6 +277,12 @@ class Car(Described):
         """The names of the wheels, the left one of an axle first."""
         return WHEELS if self.corner is None else (self.corner.vehicle.side,)
 
+    @property
+    def parts_named(self) -> list[str]:
+        """The names that its file gives to its corner or its axles, as far as they are names."""
+        given = [getattr(self.described, key) for key in _PARTS]
+        return [name for name in given if isinstance(name, str)]
+
     def heading(self) -> str:
         """Return the name of the car."""
         if self.corner is not None:

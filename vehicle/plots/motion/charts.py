@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ....core.quantities import display_of, displayed, heading_of
 from ....pictures.curves import draw, named_values, varying
-from ....pictures.figures import STYLE, image_address, lay_out
+from ....pictures.figures import STYLE, image_address, small
 from ..by_axle import by_axle
 from ..handling import for_print
 
@@ -22,9 +22,7 @@ _SHOWN = (
     "pitch", "roll", "fz_front", "fz_rear", "fy_front", "fy_rear", "load", "load_front",
     "load_rear", "travel", "travel_front", "travel_rear", "road", "road_front", "road_rear",
 )  # fmt: skip
-# Width and height [in], and digits of the greatest value.
-_SIZE = (4.1, 2.7)
-_DIGITS = 4
+_DIGITS = 4  # of the greatest value
 
 
 @dataclass(frozen=True)
@@ -84,9 +82,7 @@ def charts_of(motion: xr.Dataset, rows: NDArray[np.intp]) -> list[Chart]:
 
 
 def _chart(dataset: xr.Dataset, name: str, rows: NDArray[np.intp]) -> Chart:
-    drawn = draw(dataset, [name], alone=False)
-    drawn.set_size_inches(*_SIZE)
-    lay_out(drawn)
+    drawn = small(draw(dataset, [name], alone=False))
     (axes,) = drawn.axes[:1]
     place = axes.get_position()
     data = dataset[name]

@@ -17,7 +17,7 @@ function connect(root) {
   const find = (name) => root.querySelector(`.${name}`);
   const data = JSON.parse(root.querySelector("script").textContent);
   const view = find("scene"), road = find("path"), slider = find("time");
-  const plots = [...root.querySelectorAll(".plot")];
+  const plots = [...root.querySelectorAll(".curve")];
   let index = 0, turn = -38, tilt = 22, nearer = 1, playing = null;
 
   // -- what follows the car ---------------------------------------------------------------------
@@ -58,7 +58,6 @@ function connect(root) {
   }
   function sized(canvas, share) {
     const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = Math.round(share * width);
-    canvas.style.height = `${height}px`;
     canvas.width = ratio * width;
     canvas.height = ratio * height;
     pen = canvas.getContext("2d");
@@ -67,7 +66,7 @@ function connect(root) {
     return [width, height];
   }
   function draw() {
-    [wide, high] = sized(view, view.clientWidth < 600 ? 0.8 : 0.56);
+    [wide, high] = sized(view, view.clientWidth < 600 ? 0.8 : 0.6);
     look();
     ground();
     const items = [...wheels(), ...links(), ...cones()];
@@ -77,7 +76,7 @@ function connect(root) {
     arrows();
     if (data.times.length === 1) return;
     if (road) fromAbove();
-    find("now").textContent = `t = ${data.times[index].toFixed(2)} s    ${data.words[index]}`;
+    find("instant").textContent = `t = ${data.times[index].toFixed(2)} s    ${data.words[index]}`;
     find("seconds").textContent = `${data.times[index].toFixed(2)} s`;
     slider.value = index;
     plots.forEach(follow);
@@ -171,7 +170,7 @@ function connect(root) {
     const every = data.places.concat(data.cones), edge = 4000;
     const [low, top] = [Math.min, Math.max].map((most) => [0, 1].map((k) => every.reduce((m, p) => most(m, p[k]), every[0][k])));
     const [x, y] = [0, 1].map((k) => top[k] - low[k] + 2 * edge);
-    const [width, height] = sized(road, Math.min(Math.max(y / x, 0.06), 0.35));
+    const [width, height] = sized(road, Math.min(Math.max(y / x, 0.06), 0.25));
     const s = Math.min(width / x, height / y);
     const at = (p) => [width / 2 + s * (p[0] - (low[0] + top[0]) / 2), height / 2 - s * (p[1] - (low[1] + top[1]) / 2)];
     const stroke = (places, thick) => {

@@ -7,6 +7,9 @@
 `goals`       targets and limits of characteristics
 `elastokinematics`  what bushes do to the curves over wheel travel
 `sheet`       kinematic and compliance gradients at design
+`rest`        a car at rest, to be looked at
+`ride`        modes and responses of a car, and its motion over a bump
+`handling`    steady turns of a car that drives, and its motion in a step steer
 """
 
 from .axle import axle_chapter
@@ -14,7 +17,10 @@ from .chapter import Chapter
 from .compliance import compliance_chapter
 from .elastokinematics import elastokinematics_chapter
 from .goals import goals_chapter
+from .handling import steady_turns_chapter, step_steer_chapter
 from .loads import loads_chapter
+from .rest import rest_chapter
+from .ride import ride_chapter
 from .sheet import sheet_chapter
 
 __all__ = [
@@ -24,5 +30,9 @@ __all__ = [
     "elastokinematics_chapter",
     "goals_chapter",
     "loads_chapter",
+    "rest_chapter",
+    "ride_chapter",
     "sheet_chapter",
+    "steady_turns_chapter",
+    "step_steer_chapter",
 ]

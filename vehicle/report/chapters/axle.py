@@ -1,4 +1,4 @@
-"""The chapter about an axle, of two corners or rigid: what a rig finds of both wheels."""
+"""The chapter about an axle or a car: characteristics of all wheels over the motions of a rig."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -15,6 +15,7 @@ from ...analysis.checkup import checkup
 from ...assembly.assembly import Assembly
 from ...assembly.by_wheel import WHEEL
 from ...assembly.of import given_assembly
+from ...plots.by_axle import by_axle, names_by_axle
 from ...plots.whole_axle import views
 from ...studies.goals import Goal, check_goals
 from .chapter import Chapter, ChapterPicture
@@ -22,6 +23,16 @@ from .curves import pictures, positions_of, with_wanted
 
 # The curves of each motion; those that an axle does not have are left out.
 _DRAWN = {
+    "heave": (
+        "camber",
+        "steer",
+        "track_change",
+        "wheelbase_change",
+        "roll_center_height",
+        "wheel_rate",
+        "damper_motion_ratio",
+    ),
+    "pitch": ("camber", "steer", "anti_dive", "anti_lift_driven", "anti_lift_braked", "anti_squat"),
     "roll": (
         "roll_moment",
         "roll_stiffness",
@@ -65,11 +76,11 @@ _DRAWN = {
 
 
 def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
-    """Return the chapter of both wheels on a rig; a rigid axle is drawn, too.
+    """Return the chapter of all wheels on a rig; a rigid axle is drawn, too.
 
     Parameters
     ----------
-    axle : Axle, AxleModel, RigidAxle or RigidAxleModel
+    axle : Axle, AxleModel, RigidAxle, RigidAxleModel, Car or CarModel
     goals : sequence of Target and Limit, optional
         From `kintrafo.variation.goals`: those over its motions are drawn into the curves.
 
@@ -83,20 +94,22 @@ def axle_chapter(axle: Any, goals: Sequence[Goal] = ()) -> Chapter:
         If an argument cannot be used.
     """
     with Validator("axle_chapter") as given:
-        assembly = given_assembly(given, axle, "axle")
+        assembly = given_assembly(given, axle, "axle", cars=True)
         if not given.failed and len(assembly.wheels) < 2:
-            given.fail("axle: one wheel has no such chapter. Give an Axle or a RigidAxle.")
+            given.fail("axle: one wheel has no such chapter. Give an Axle, a RigidAxle or a Car.")
         check_goals(given, "goals", goals)
     wanted = {goal.over for goal in goals}
     drawn = [*(m for m in _DRAWN if m in assembly.motions), *["right"] * ("right" in wanted)]
     curves = {m: dataset(assembly, m, positions_of(assembly, m, goals)) for m in drawn}
     words, looks, drawings = _of_a_beam(assembly) if assembly.on_a_beam else ((), (), ())
+    usual = assembly.usual_motion
+    over = assembly.motions[usual].title if assembly.axles else "parallel travel"
     return Chapter(
-        title="The axle",
-        words=(assembly.words, *words),
+        title="Over motions of the body" if assembly.axles else "The axle",
+        words=() if assembly.axles else (assembly.words, *words),
         tables=(
             *looks,
-            *at_design(_not_on_the_page(assembly, curves["bump"]), "Over parallel travel: "),
+            *at_design(_not_on_the_page(assembly, curves[usual]), f"Over {over}: "),
             *_input_data(assembly),
         ),
         pictures=(*drawings, *_pictures(assembly, curves, goals)),
@@ -121,7 +134,7 @@ def _of_a_beam(
 
 def _not_on_the_page(assembly: Assembly, whole: xr.Dataset) -> xr.Dataset:
     """Return what the page does not have: of like sides it has one wheel by itself."""
-    if assembly.on_a_beam or not assembly.symmetric:
+    if assembly.on_a_beam or assembly.axles or not assembly.symmetric:
         return whole
     own = [n for n, data in whole.items() if WHEEL in data.dims and n in KNOWN["travel"]]
     return whole.drop_vars([name for name in own if not str(name).startswith("anti_")])
@@ -145,7 +158,19 @@ def _pictures(
     for motion, found in curves.items():
         own = [goal for goal in goals if goal.over == motion]
         # what the motion goes over, as the rack where no ratio is known, is no curve of it
-        names = with_wanted(found, _DRAWN.get(motion, ()), own)
+        shown, usual = _by_axle(assembly, found, _DRAWN.get(motion, ()))
+        names = with_wanted(shown, usual, own)
         words = assembly.motions[motion].words
         title = words[:1].upper() + words[1:]
-        yield from pictures(found, names, title, f"Curves: {words}", goals=own)
+        yield from pictures(shown, names, title, f"Curves: {words}", goals=own)
+
+
+def _by_axle(
+    assembly: Assembly, found: xr.Dataset, names: Sequence[str]
+) -> tuple[xr.Dataset, Sequence[str]]:
+    """Return curves of a car by axle, front and rear beside each other; others as they are."""
+    if not assembly.axles:
+        return found, names
+    of_axles = [n for n in names if n in found and WHEEL not in found[n].dims]
+    paired = [*(n for n in names if n not in of_axles), *of_axles]
+    return by_axle(found), names_by_axle(found, paired)

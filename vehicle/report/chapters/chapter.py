@@ -1,8 +1,9 @@
-"""A chapter of a report: words, tables and pictures that do not move."""
+"""A chapter of a report: words, tables, pictures, and motions to be played."""
 
 from dataclasses import dataclass
 from typing import Literal
 
+from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from ....core.tabulated import Tabulated
@@ -43,9 +44,15 @@ class Chapter:
         Paragraphs.
     tables : tuple of Tabulated
     pictures : tuple of ChapterPicture
+    panels : tuple of ChapterPicture
+        Small ones, as many beside each other as there is room for.
+    players : tuple of Markup
+        Parts of the page that show a car, see `kintrafo.vehicle.plots.motion.page.player`.
     """
 
     title: str
     words: tuple[str, ...]
-    tables: tuple[Tabulated, ...]
-    pictures: tuple[ChapterPicture, ...]
+    tables: tuple[Tabulated, ...] = ()
+    pictures: tuple[ChapterPicture, ...] = ()
+    panels: tuple[ChapterPicture, ...] = ()
+    players: tuple[Markup, ...] = ()

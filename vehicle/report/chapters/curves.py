@@ -9,7 +9,8 @@ from matplotlib import rc_context
 from numpy.typing import NDArray
 
 from ....core.errors import InputError
-from ....pictures.figures import STYLE
+from ....core.quantities import heading_of
+from ....pictures.figures import STYLE, small
 from ...assembly.assembly import Assembly
 from ...models.sides import SIDES
 from ...plots.curves import figure
@@ -57,6 +58,13 @@ def pictures(
             )  # fmt: skip
             found.append(ChapterPicture.of(drawn, f"{words}{which}"))
     return tuple(found)
+
+
+def small_pictures(dataset: xr.Dataset, names: Sequence[str]) -> tuple[ChapterPicture, ...]:
+    """Return a small picture of each curve, for the panels of a chapter."""
+    with rc_context(STYLE):
+        drawn = [(name, small(figure(dataset, [name], alone=False))) for name in names]
+        return tuple(ChapterPicture.of(one, heading_of(dataset[name])) for name, one in drawn)
 
 
 def with_wanted(dataset: xr.Dataset, usual: Iterable[str], goals: Iterable[Goal]) -> list[str]:

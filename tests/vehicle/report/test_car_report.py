@@ -1,0 +1,113 @@
+"""The report of a car: its chapters, and what of them moves in a browser."""
+
+import json
+import re
+
+import kintrafo
+import numpy as np
+import pytest
+from browser import CHROMIUM, running
+from kintrafo.vehicle.plots.by_axle import by_axle, names_by_axle
+from kintrafo.vehicle.report.chapters import axle, handling
+from xarray import Dataset
+
+WHEELS = ["front_left", "front_right", "rear_left", "rear_right"]
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory):
+    from kintrafo.vehicle import cli
+
+    path = tmp_path_factory.mktemp("car") / "quarter.html"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("sys.argv", ["kintrafo", "report", "quarter_car", str(path)])
+        cli.run()
+    return path
+
+
+def test_a_quarter_car_has_the_chapters_that_apply_to_it(report) -> None:
+    text = report.read_text(encoding="utf-8")
+    titles = re.findall(r"<h2>(.*?)</h2>", text)
+    assert titles == ["The car at rest", "Ride", "K&amp;C sheet: corner", "Input data"]
+    assert report.stat().st_size < 1e6
+    assert not re.findall(r'(?:src|href)="(?!data:|#)', text)
+    assert "<code>[corner tyre]</code>" in text
+
+
+def test_the_car_at_rest_is_drawn_where_it_rests(report) -> None:
+    text = report.read_text(encoding="utf-8")
+    still, moving = (
+        json.loads(data) for data in re.findall(r'application/json">(.*?)</script>', text)
+    )
+    rest = kintrafo.ride.at_rest(kintrafo.load("quarter_car"))
+    assert still["times"] == [0.0]
+    assert still["forces"][0][2] == pytest.approx(float(rest["load"]), abs=1.0)
+    assert len(moving["times"]) == 76
+
+
+def test_curves_of_wheels_are_those_of_each_axle() -> None:
+    motion = Dataset(
+        {"fz": (("wheel", "time"), np.ones((4, 2))), "speed": ("time", [1.0, 2.0])},
+        {"wheel": WHEELS, "time": [0.0, 1.0]},
+    )
+    names = names_by_axle(motion, ["speed", "fz", "not there"])
+    assert names == ["speed", "fz_front", "fz_rear"]
+    assert set(names) <= set(by_axle(motion))
+
+
+def test_a_car_that_cannot_turn_says_why() -> None:
+    car = kintrafo.load("reference_vehicle")
+    for chapter in (handling.steady_turns_chapter(car), handling.step_steer_chapter(car)):
+        assert "does not travel" in chapter.words[0]
+        assert not chapter.players
+
+
+def test_one_wheel_has_no_motions_of_a_rig() -> None:
+    with pytest.raises(kintrafo.InputError, match="one wheel has no such chapter"):
+        axle.axle_chapter(kintrafo.load("quarter_car"))
+
+
+@pytest.mark.parametrize("option", ["--goals", "--cases", "--bushes"])
+def test_what_is_about_an_axle_needs_its_file(kintrafo, option) -> None:
+    code, _, said = kintrafo("report", "quarter_car", option, "some.toml")
+    assert code == 2
+    assert "an axle or a suspension" in said
+
+
+@pytest.mark.parametrize("command", ["loads", "sheet", "compliance"])
+def test_commands_name_the_files_of_a_cars_axles(kintrafo, command) -> None:
+    code, _, said = kintrafo(command, "driving_car")
+    assert code == 2
+    words = " ".join(said.split())
+    assert f"kintrafo {command} reference_axle or kintrafo {command} rear_axle" in words
+
+
+@pytest.mark.browser
+@pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed (apt-get install chromium)")
+@pytest.mark.parametrize("width", [390, 1440])
+def test_the_car_is_played_on_every_width(report, width) -> None:
+    playwright = pytest.importorskip("playwright.sync_api")
+    with playwright.sync_playwright() as driver, running(driver.chromium) as browser:
+        page = browser.new_page(viewport={"width": width, "height": 900})
+        complaints, requests = [], []
+        page.on("console", lambda message: complaints.append(message.text))
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.on("request", lambda request: requests.append(request.url))
+        page.goto(report.as_uri())
+        moving = page.locator("[data-player]").nth(1)
+        moving.locator("input.time").fill("25")
+        assert moving.locator(".instant").inner_text().startswith("t = 1.00 s")
+        cursors = moving.locator(".cursor").evaluate_all("all => all.map((c) => c.style.left)")
+        assert len(cursors) > 3
+        curve = moving.locator(".curve").first
+        curve.scroll_into_view_if_needed()
+        box = curve.bounding_box()
+        page.mouse.click(box["x"] + 0.95 * box["width"], box["y"] + 0.5 * box["height"])
+        assert int(moving.locator("input.time").input_value()) > 65
+        before = moving.locator("canvas").first.evaluate("canvas => canvas.toDataURL()")
+        moving.get_by_text("From above").click()
+        assert moving.locator("canvas").first.evaluate("canvas => canvas.toDataURL()") != before
+        wide = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
+        assert page.evaluate(wide) == 0
+        assert complaints == []
+        assert requests == [report.as_uri()]

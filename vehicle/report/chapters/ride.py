@@ -1,0 +1,97 @@
+"""The chapter about the ride of a car: modes, responses to a rough road, and a bump."""
+
+from typing import Any
+
+import xarray as xr
+from matplotlib import rc_context
+
+from ....core.quantities import long_name
+from ....core.tabulated import Tabulated, significant
+from ....pictures.figures import STYLE
+from ... import roads
+from ...analysis import ride
+from ...analysis.ride.subject import car_assembly
+from ...assembly.by_wheel import WHEEL
+from ...plots.motion.animate import played
+from ...plots.ride import response_figures
+from .chapter import Chapter, ChapterPicture
+
+# A rough road, and the speed on it [m/s].
+_CLASS, _SPEED = "B", 80.0 / 3.6
+# A bump: height, length and place [m], speed over it [m/s], and duration of the motion [s].
+_HEIGHT, _LENGTH, _AT, _SLOWLY, _DURATION = 0.04, 2.0, 2.0, 30.0 / 3.6, 3.0
+
+
+def ride_chapter(subject: Any) -> Chapter:
+    """Return the chapter of the ride of a car: modes, responses, and a bump to be played.
+
+    Parameters
+    ----------
+    subject : Car or CarModel
+        Of one that drives the ride is that of the same files with ``car = "roll"``.
+
+    Returns
+    -------
+    Chapter
+
+    Raises
+    ------
+    InputError, PositionError, SimulationError
+        As of `kintrafo.ride.modes`, `response` and `over`.
+    """
+    whole = car_assembly("ride_chapter", subject, riding=False)
+    assembly = whole.riding()
+    modes, response = ride.modes(assembly), ride.response(assembly, _SPEED, _CLASS)
+    bump = roads.bump(_HEIGHT, _LENGTH, at=_AT, end=_SLOWLY * _DURATION)
+    run = ride.run(assembly, bump, _SLOWLY, duration=_DURATION)
+    with rc_context(STYLE):
+        figures = response_figures(response)
+        panels = tuple(ChapterPicture.of(figure, words) for words, figure in figures.items())
+    words = [
+        "Modes and responses are those of the exact linearisation at rest, without friction.",
+        f"The rough road is of class {_CLASS} of ISO 8608, at {3.6 * _SPEED:g} km/h.",
+        f"The car is shown over {bump.words} at {3.6 * _SLOWLY:g} km/h, from rest.",
+    ]
+    if whole.drives:
+        words.append("The body does not travel here: it heaves, pitches and rolls.")
+    left = [f"Not valid: {text}." for text in run.motion.attrs["not_valid"]]
+    return Chapter(
+        title="Ride",
+        words=(" ".join(words), *left),
+        tables=(_modes(modes), _levels(response)),
+        panels=panels,
+        players=(played(run),),
+    )
+
+
+def _modes(found: xr.Dataset) -> Tabulated:
+    names = [str(name).replace("_", " ") for name in found["mode"].values]
+    columns = [found["frequency"].values, found["damping_ratio"].values]
+    rows = tuple((name, f"{f:.2f}", f"{d:.3f}") for name, f, d in zip(names, *columns, strict=True))
+    return Tabulated("Modes", ("mode", "frequency [Hz]", "damping ratio"), rows)
+
+
+def _levels(response: xr.Dataset) -> Tabulated:
+    """Return the RMS of what the road does, by wheel where there are several."""
+    rows = []
+    for name, data in response.items():
+        for key, words in _RMS.items():
+            if key in data.attrs:
+                unit, factor = _UNITS.get(str(name), ("m/s^2", 1.0))
+                what = long_name(data).removeprefix("spectrum of ")
+                rows += [
+                    (f"{what} [{unit}]", f"{words} {wheel}".strip(), significant(factor * value))
+                    for wheel, value in _by_wheel(data, data.attrs[key])
+                ]
+    return Tabulated("On the rough road", ("", "", "value"), tuple(rows), frozenset({0, 1}))
+
+
+def _by_wheel(data: xr.DataArray, value: Any) -> list[tuple[str, float]]:
+    if WHEEL not in data.dims:
+        return [("", value)]
+    names = [str(name).replace("_", " ") for name in data[WHEEL].values]
+    return list(zip(names, value, strict=True))
+
+
+_RMS = {"rms": "RMS", "weighted_rms": "RMS weighted by W_k of ISO 2631-1"}
+_UNITS = {"load_psd": ("N", 1.0), "travel_psd": ("mm", 1e3)}
