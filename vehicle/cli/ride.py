@@ -25,7 +25,7 @@ EXAMPLES = (
     "kintrafo ride quarter_car --road C --speed 60 --seed 7 -o ride.csv",
     "kintrafo ride quarter_car --bump 20 --bump-length 1 --speed 30 -o bump.csv",
     "kintrafo ride quarter_car --road tracks.csv --contact-length 120",
-    "kintrafo ride quarter_car --bump 30 --bump-length 2 --speed 30 --duration 3 --animate bump.gif",
+    "kintrafo ride quarter_car --bump 20 --speed 20 --duration 3 --animate bump.gif",
     "kintrafo ride quarter_car --kerb 60 --contact-length 120 --speed 15",
 )
 
