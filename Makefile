@@ -137,7 +137,7 @@ front-axle-page: build ## The page of the front axle: operations, wheel rates, a
 	@$(PYTHON) -m benchmarks.front_axle --page docs/mechanisms/composition.md
 
 format-page: build ## The input file's JSON Schema, and its page in docs/
-	@$(PYTHON) -m kintrafo.vehicle.files.schema vehicle/data/suspension.schema.json docs/reference/file-format.md
+	@$(PYTHON) -m kintrafo.vehicle.cli.published vehicle/data/suspension.schema.json docs/reference/file-format.md
 
 benchmark-bits: build ## Which results are the same bits on another processor
 	@$(PYTHON) -m benchmarks.same_bits --page docs/reference/conventions.md

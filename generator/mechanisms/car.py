@@ -195,7 +195,7 @@ def _torque(
     side = tyre.name.removesuffix(f"_{_TYRE}")
     words = "torque of the drive on this wheel, positive forward"
     if standstill is not None:
-        words = "torque of the brake of this wheel as it slips: zero or more"
+        words = "torque of the brake of this wheel as it slips; less than zero is no torque"
     return d.ShaftTorque(
         name=f"{side}_{kind}_moment",
         wheel=tyre.wheel,

@@ -18,7 +18,8 @@ Indices = NDArray[np.intp]
 
 ENDINGS = (".gif", ".html", ".htm")
 _QUICKEST = 50.0  # frames per second: no viewer of GIFs is quicker
-_MOST_FRAMES = 1500
+MOST_FRAMES = 1500
+"""A GIF with more frames is too long for viewers."""
 
 
 def animate(
@@ -113,14 +114,34 @@ def frames(times: Array, fps: float, slower: float = 1.0) -> tuple[Array, Indice
     InputError
         If there are more frames than viewers show.
     """
-    seconds = slower * abs(float(times[-1] - times[0]))
-    count = max(2, round(seconds * fps) + 1)
-    if count > _MOST_FRAMES:
-        least = _MOST_FRAMES / fps / slower
+    count = frames_in(abs(float(times[-1] - times[0])), fps, slower)
+    wanted = np.linspace(times[0], times[-1], count)
+    return wanted, np.abs(times[None, :] - wanted[:, None]).argmin(axis=1)
+
+
+def frames_in(seconds: float, fps: float, slower: float = 1.0) -> int:
+    """Return how many frames a GIF of a motion has.
+
+    Parameters
+    ----------
+    seconds : float
+        Duration of the motion [s].
+    fps : float
+        Frames that are shown per second.
+    slower : float, optional
+        How many times slower than real time it plays.
+
+    Raises
+    ------
+    InputError
+        If there are more frames than viewers show.
+    """
+    count = max(2, round(slower * seconds * fps) + 1)
+    if count > MOST_FRAMES:
+        least = MOST_FRAMES / fps / slower
         words = (
-            f"a GIF of {count} frames is too long for viewers: allowed are {_MOST_FRAMES}. Take "
+            f"a GIF of {count} frames is too long for viewers: allowed are {MOST_FRAMES}. Take "
             f"fewer per second (fps), a motion of at most {least:g} s, or a page (.html)."
         )
         raise InputError([words], "animate")
-    wanted = np.linspace(times[0], times[-1], count)
-    return wanted, np.abs(times[None, :] - wanted[:, None]).argmin(axis=1)
+    return count

@@ -96,7 +96,9 @@ def _of_shaft(
     torque = inputs[shaft.torque.name]
     if shaft.standstill is not None:
         spin = axis @ (motion.twist[wheel, 3:] - motion.twist[other, 3:])
-        torque *= -np.sin(np.arctan2(spin, oracle.parameters[shaft.standstill.name]))
+        torque = -max(torque, 0.0) * np.sin(
+            np.arctan2(spin, oracle.parameters[shaft.standstill.name])
+        )
     total = np.zeros((oracle.size + 1, 6))
     total[wheel, 3:] += torque * axis
     total[other, 3:] -= torque * axis

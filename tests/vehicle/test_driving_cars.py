@@ -66,6 +66,7 @@ def test_tyres_are_files_beside_the_car_or_tables(tmp_path: Any) -> None:
         {"air.drag_area_m2": -0.1},
         {"body.inertia_zz_kg_m2": 0.0},
         {"front.drive.share": 0.5},
+        {"body.inertia_zz_kg_m2": None},
     ],
 )
 def test_what_contradicts_itself_is_refused(changes: dict[str, Any], refused: Any) -> None:
@@ -248,6 +249,24 @@ def test_braking_is_that_of_the_torques(assembly: CarAssembly) -> None:
     # the radius under load changes by 3 mm as the car pitches: 1 %
     assert way == pytest.approx(SPEED**2 / (2.0 * slowing), rel=0.02)
     assert abs(float(found.y[model.state_names.index("body_u"), -1])) < 0.02
+
+
+def test_a_brake_does_not_drive_and_a_locked_wheel_slips_by_one(assembly: CarAssembly) -> None:
+    model, start = assembly.model, assembly.running(SPEED)
+    row, moment = model.input_names.index("rear_left_brake_torque"), "rear_left_brake_moment"
+    acting = np.array(start.inputs)
+    for torque, expected in ((-500.0, 0.0), (0.0, 0.0), (500.0, -500.0)):
+        acting[row] = torque
+        assert float(model.signal(moment, start, acting)) == pytest.approx(expected, abs=0.02)
+    acting[row] = 0.0
+    slopes = model.evaluate("signals_input_jacobian", start, acting)
+    # that to the side on which it acts, also of an open brake
+    assert slopes[model.signal_names.index(moment), row] == pytest.approx(-1.0, abs=1e-4)
+    inputs = dict.fromkeys(assembly.controls.drive(0.0), 0.0) | assembly.controls.brakes(1.0)
+    found = kintrafo.simulate(model, (0.0, 1.0), start, inputs=inputs)
+    slips = np.array([found.signals[f"{wheel}_slip"] for wheel in assembly.wheels])
+    # of the relaxation lengths of these tyres, which do not depend on the load; to the tolerance
+    assert -1.0 - 1e-3 < slips.min() < -0.98
 
 
 def test_a_small_angle_steers_it_like_the_bicycle_model(assembly: CarAssembly) -> None:

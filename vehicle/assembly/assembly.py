@@ -619,6 +619,18 @@ class HeldAssembly(Assembly):
     ) -> tuple[dict[str, PartPoses], dict[str, Array]]:
         """Return its parts in states of its equations, and the rates of these, by suffix."""
 
+    @abstractmethod
+    def parts_with(self, values: Mapping[str, Array], count: int) -> dict[str, PartPoses]:
+        """Return its parts in its own axes, by suffix.
+
+        Parameters
+        ----------
+        values : mapping of str to ndarray
+            States and inputs by their names in its equations, (count,); others are zero.
+        count : int
+            Of positions.
+        """
+
     # -- bushes ------------------------------------------------------------------------------------
 
     @abstractmethod

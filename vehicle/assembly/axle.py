@@ -33,7 +33,7 @@ from .load import RACK as THE_RACK
 from .load import Load
 from .measures.axle import OVER_RACK, OVER_STEERING, OVER_TRAVEL
 from .measures.measure import Measure
-from .part_poses import CornerParts, PartPoses
+from .part_poses import CornerParts, PartPoses, columns_of
 from .quantity import RACK, ROLL, STEERING_WHEEL, TRAVEL, Quantity
 from .rest import settled
 from .rig import RigMotion, RigPosition, SweepRange, WheelReach
@@ -394,6 +394,17 @@ class AxleAssembly(HeldAssembly):
             poses[f"_{side}"] = CornerParts.of(corner, states[:, columns], inputs[:, given])
             rates[f"_{side}"] = by_time[:, columns]
         return poses, rates
+
+    def parts_with(self, values: Mapping[str, Array], count: int) -> dict[str, PartPoses]:
+        """Return the parts of both sides, by the names of states and inputs of the axle."""
+        found: dict[str, PartPoses] = {}
+        for side, corner in self.axle.models.items():
+            states, inputs = (
+                columns_of(values, names, count, f"{side}_")
+                for names in (corner.state_names, corner.input_names)
+            )
+            found[f"_{side}"] = CornerParts.of(corner, states, inputs)
+        return found
 
     def described_bushings(
         self, given: Validator, bushings: Mapping[str, Any] | None

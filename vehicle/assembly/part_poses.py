@@ -262,6 +262,26 @@ class CornerParts:
         return {"wheel": dict(zip(self.model.input_names, self.inputs.T, strict=True))}
 
 
+def columns_of(
+    values: Mapping[str, Array], names: Sequence[str], count: int, prefix: str = ""
+) -> Array:
+    """Return values by name as an array, (count, names); those that are not given are zero.
+
+    Parameters
+    ----------
+    values : mapping of str to ndarray
+        Each (count,).
+    names : sequence of str
+    count : int
+    prefix : str, optional
+        Begins the names in the mapping of what is not shared.
+    """
+    found = np.zeros((count, len(names)))
+    for column, name in zip(found.T, names, strict=True):
+        column[:] = values.get(f"{prefix}{name}", values.get(name, 0.0))
+    return found
+
+
 def forces_along(
     structure: Structure, model: System, states: Array, inputs: Array
 ) -> dict[str, Array]:

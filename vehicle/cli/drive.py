@@ -5,17 +5,17 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from ...core.tabulated import significant
+from ...core.tabulated import significant, whole
 from ...terminal.console import console, print_json, problems, progress_bar, table
 from ...terminal.exits import Exit
 from ..data.starter import manoeuvres
-from .loading import car_of, note_unused
+from .loading import car_of, derived, naming, note_unused
 from .options import OUTPUT, argument, option
-from .outputs import Outputs, PlotOptions, name_files, title_of
+from .outputs import DataOptions, Outputs, PlotOptions, name_files, title_of
 
 if TYPE_CHECKING:
     from rich.table import Table
-    from xarray import DataArray
+    from xarray import DataArray, Dataset
 
     from ..analysis.handling import HandlingResult
     from ..analysis.handling.manoeuvres import AnyManoeuvre
@@ -25,6 +25,7 @@ EXAMPLES = (
     "kintrafo drive driving_car --manoeuvre circle --plot circle.png",
     "kintrafo drive driving_car --manoeuvre double_lane_change --speed 70 -o lane.csv",
     "kintrafo drive driving_car --manoeuvre double_lane_change --animate lane.gif",
+    "kintrafo drive driving_car --manoeuvre braking --loads loads.csv",
     "kintrafo new my_step.toml --template step_steer",
 )
 
@@ -48,6 +49,15 @@ def command(
         Path | None,
         option("Write the motion, in real time: .gif, or .html to play.", "PATH", panel=OUTPUT),
     ] = None,
+    loads: Annotated[
+        list[Path] | None,
+        option(
+            "Write the loads on every part: .csv or .xlsx (mm), .nc, .parquet or .mat. May be "
+            "repeated.",
+            "PATH",
+            panel=OUTPUT,
+        ),
+    ] = None,
     output: PlotOptions,
 ) -> None:
     """Drive a car through a manoeuvre: step steer, circle, lane change, braking, and others.
@@ -56,10 +66,15 @@ def command(
     can be edited; kintrafo new FILE --template NAME writes one that comes with kintrafo. Metrics
     are those of the standards, in the axes of ISO 8855. Data files have the curves over time,
     lateral acceleration or frequency; figures show them, and the path in a file whose name ends in
-    _path; --animate shows the car in motion, with the forces on its tyres.
+    _path; --animate shows the car in motion, with the forces on its tyres; --loads has the forces
+    of all joints, springs and tyres, whose greatest ones are printed.
     """
+    from ...core.errors import InputError
+    from ...core.files import refuse
     from ...datasets import export
     from ..analysis import handling
+    from ..analysis import loads as study
+    from ..plots.motion import ENDINGS
 
     changes = {"speed_km_per_h": speed, "turn": turn}
     chosen = handling.load_manoeuvre(
@@ -68,9 +83,19 @@ def command(
     pages = (*_drawn(chosen), *(("_path",) if chosen.TRAVELS else ()))
     own = () if manoeuvre in manoeuvres() else (manoeuvre,)
     outputs = output.files(file, *own, suffixes=chosen.CURVES, drawn=pages)
+    on_parts = DataOptions(loads, output.force).files(file, *own)
+    further = [*(loads or ()), *([] if animate is None else [animate])]
+    refuse([*outputs.data, *outputs.pages, *further], **outputs.rule)
+    if further and not chosen.TRAVELS:
+        option_of = "--loads" if loads else "--animate"
+        raise InputError([_NOT_SIMULATED], option_of)
     if animate is not None:
-        _refuse_animation(animate, outputs, chosen)
-    assembly = car_of(file, driving=True)
+        refuse([animate], endings=ENDINGS, **outputs.rule)
+    assembly = car_of(file)
+    with naming(file):  # before the equations are derived
+        assembly.require_driving()
+        chosen.check(assembly.car)
+    assembly = derived(assembly)
     with progress_bar(chosen.TITLE) as progress:
         found = handling.drive(assembly, chosen, progress=progress)
     title = f"{title_of(file)}: {found.metrics.attrs['title']}"
@@ -80,30 +105,25 @@ def command(
 
         with problems.status("animation"):
             written.append(written_motion(found, animate, title=title, **outputs.rule))
+    made = _tables(found, title)
+    if loads:
+        with problems.status("loads"):
+            on_every = handling.dynamic_loads(found)
+        sheets = study.workbook(on_every)
+        written += on_parts.write_data(on_every, rows=study.table(on_every), sheets=sheets)
+        made.append(_greatest(on_every, title))
     left = [text for one in found.curves.values() for text in one.attrs.get("not_valid", ())]
     if output.json:
         print_json({"metrics": export.as_dict(found.metrics), "not_valid": left})
     else:
         note_unused(assembly.car, file)
-        for made in _tables(found, title):
-            console.print(made)
+        for each in made:
+            console.print(each)
         name_files(written)
     for text in left:
         problems.print(f"not valid: {text}", style="red", highlight=False, markup=False)
     if left:
         raise typer.Exit(Exit.REFUSED)
-
-
-def _refuse_animation(path: Path, outputs: Outputs, chosen: "AnyManoeuvre") -> None:
-    """Refuse what cannot be written, before computing."""
-    from ...core.errors import InputError
-    from ...core.files import refuse
-    from ..plots.motion import ENDINGS
-
-    refuse([path], endings=ENDINGS, **outputs.rule)
-    if not chosen.TRAVELS:
-        problem = "steady turns are not simulated: there is no motion to show. Leave it out."
-        raise InputError([problem], "--animate")
 
 
 def _drawn(chosen: "AnyManoeuvre") -> tuple[str, ...]:
@@ -156,6 +176,30 @@ _HEADS, _COLUMN = 30, 10
 _OF_TURNS = (
     "steering_wheel_angle", "understeer_gradient", "roll_angle", "sideslip_angle", "drive_torque",
 )  # fmt: skip
+
+
+# Smaller forces are rounding [N].
+_LEAST = 0.5
+_NOT_SIMULATED = "steady turns are not simulated: there is no motion to show. Leave it out."
+
+
+def _greatest(on_every: "Dataset", title: str) -> "Table":
+    """Return a table of the greatest force at every joint, spring and tyre, and when it is."""
+    from ..analysis.loads import peaks
+    from ..analysis.loads.sheets import shown_rows, without_side
+
+    found = peaks(on_every)
+    rows = []
+    for i in shown_rows(on_every):
+        own = found.isel(load=i)
+        names = [str(own[name].values) for name in ("point", "part", "by")]
+        words = [each.replace("_", " ") for each in (names[0], *map(without_side, names[1:]))]
+        forces = (whole(float(force)) for force in own["force"].values)
+        size, when = float(own["force_peak"]), float(own["force_peak_time"])
+        if size >= _LEAST and names[2] != "inertia":
+            rows.append((*words, whole(size), *forces, f"{when:.3f}"))
+    heads = ("at", "on", "by", "greatest force [N]", "x", "y", "z", "at time [s]")
+    return table(f"{title}: loads", heads, rows, words=(0, 1, 2))
 
 
 def _most_columns() -> int:

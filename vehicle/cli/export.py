@@ -9,6 +9,7 @@ from .options import Force, Json, Which, argument, option, refuse_options, refus
 
 if TYPE_CHECKING:
     from ...systems.system import System
+    from ..kinds import Suspension
 
 EXAMPLES = (
     "kintrafo export my_car.toml --to c -o my_car_c",
@@ -63,7 +64,6 @@ def command(
     from ...core.validator import Validator
     from ...targets.export import ENDINGS, export_model
     from ..files.point_table import write_points
-    from ..kinds import Suspension
 
     endings = {**ENDINGS, "points": "_points.csv"}
     with Validator("export") as given:
@@ -74,7 +74,7 @@ def command(
     path = Path(f"{stem}{endings[to]}") if out is None else out
     if to == "points":
         refuse_options("--to fmu", {"--fmi": fmi, "--platform": platform or None})
-        suspension = Suspension.load(file)
+        suspension = _suspension_in(file)
         facts = {"path": str(write_points(suspension, path, force=force, inputs=[file])), "to": to}
     else:
         with problems.status("export"):
@@ -86,6 +86,27 @@ def command(
         print_json(facts)
     else:
         say(f"  {facts['path']}")
+
+
+def _suspension_in(file: str) -> "Suspension":
+    """Return the suspension that a file describes; axles and cars are refused.
+
+    Raises
+    ------
+    InputError
+    """
+    from ...core.errors import InputError
+    from ..files.loading import load
+    from ..kinds import Suspension
+
+    subject = load(file)
+    if not isinstance(subject, Suspension):
+        problem = (
+            f"this is the file of a {subject.heading()}, and a table of hardpoints is that of a "
+            "suspension. Name the file of its side."
+        )
+        raise InputError([problem], file)
+    return subject
 
 
 def _described_by(file: str, model: str | None) -> "System":

@@ -1,5 +1,7 @@
 """What a file describes, and its equations."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -85,14 +87,8 @@ def variable_subject(file: str, held: str | None = None) -> "Subject":
     return subject
 
 
-def car_of(file: str, *, driving: bool = False) -> "CarAssembly":
-    """Return the car that a file describes, its equations derived; others are refused.
-
-    Parameters
-    ----------
-    file : str
-    driving : bool, optional
-        Whether a car that does not drive is refused, before its equations are derived.
+def car_of(file: str) -> "CarAssembly":
+    """Return the car that a file describes, its equations not yet derived; others are refused.
 
     Raises
     ------
@@ -101,12 +97,10 @@ def car_of(file: str, *, driving: bool = False) -> "CarAssembly":
     """
     from ...core.errors import InputError
     from ..assembly.car import CarAssembly
-    from ..assembly.of import model_of as of_subject
     from ..data import data_sets, find
     from ..data.starter import CARS, all_packaged
     from ..files.loading import load
     from ..models.car import Car
-    from ..models.car.equations import CarModel
 
     if file not in all_packaged():
         find(file, data_sets(CARS))  # says which cars there are
@@ -117,15 +111,28 @@ def car_of(file: str, *, driving: bool = False) -> "CarAssembly":
             "needed: quarter_car, or what kintrafo new FILE --car writes."
         )
         raise InputError([problem], file)
-    if driving:
-        try:
-            CarAssembly(subject).require_driving()
-        except InputError as error:
-            raise InputError(error.problems, file) from None
+    return CarAssembly(subject)
+
+
+@contextmanager
+def naming(file: str) -> Iterator[None]:
+    """Let a problem of a car name its file."""
+    from ...core.errors import InputError
+
+    try:
+        yield
+    except InputError as error:
+        raise InputError(error.problems, file) from None
+
+
+def derived(assembly: "CarAssembly") -> "CarAssembly":
+    """Return a car with its equations, which are derived where they are not known."""
+    from ..models.car.equations import CarModel
+
     with problems.status("preparing the equations") as status:
-        model = of_subject(subject, progress=lambda text: status.update(f"the equations: {text}"))
-    assert isinstance(model, CarModel)
-    return CarAssembly(subject, model)
+        car = assembly.car
+        model = CarModel(car, progress=lambda text: status.update(f"the equations: {text}"))
+    return type(assembly)(car, model)
 
 
 def system_of(file: str, name: str | None = None) -> "System":

@@ -9,7 +9,7 @@ import typer
 from ...core.tabulated import significant
 from ...terminal.console import console, print_json, problems, table
 from ...terminal.exits import Exit
-from .loading import car_of, note_unused
+from .loading import car_of, derived, naming, note_unused
 from .options import OUTPUT, argument, option
 from .outputs import PlotOptions, name_files, title_of
 
@@ -108,8 +108,11 @@ def command(
     if animate is not None:
         refuse([animate], endings=ENDINGS, **outputs.rule)
     assembly = car_of(file)
+    with naming(file):
+        assembly.require_riding()
     v = speed / 3.6
     profile, duration = chosen.for_time(assembly, v, duration)
+    assembly = derived(assembly)
     found = {"at_rest": ride.at_rest(assembly), "modes": ride.modes(assembly)}
     if chosen.is_rough and contact_length is None:
         found["linear"] = ride.response(assembly, v, road)

@@ -1,4 +1,4 @@
-"""``kintrafo schema``: the JSON Schema of hardpoint files, for editors."""
+"""``kintrafo schema``: the JSON Schema of input files, for editors."""
 
 from pathlib import Path
 from typing import Annotated
@@ -16,18 +16,20 @@ def command(
     *,
     force: Force = False,
 ) -> None:
-    """Print or write the JSON Schema of the files of suspensions and axles: keys, units, ranges.
+    """Print or write the JSON Schema of input files: keys, units, ranges.
 
-    Editors complete and check hardpoint files with it. Write it beside them, and let their first
-    line be `#:schema ./kintrafo.schema.json`, which TOML language servers understand.
+    Editors complete and check the files of suspensions, axles, cars and manoeuvres with it. Write
+    it beside them, and let their first line be `#:schema ./kintrafo.schema.json`, which TOML
+    language servers understand.
     """
     from ...core.files import refuse, replacing
-    from ..files.schema import schema_text
+    from .published import published
 
+    text, _ = published()
     if path is None:
-        typer.echo(schema_text(), nl=False)
+        typer.echo(text, nl=False)
         return
     refuse([path], force=force, endings=[".json"])
     with replacing(path, force=force) as temporary:
-        temporary.write_text(schema_text(), encoding="utf-8", newline="\n")
+        temporary.write_text(text, encoding="utf-8", newline="\n")
     say(f"  {path}")

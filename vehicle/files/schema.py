@@ -1,12 +1,7 @@
-"""The input file's JSON Schema, for editors, and its reference page.
-
-``python -m kintrafo.vehicle.files.schema SCHEMA PAGE`` writes both.
-"""
+"""The input file's JSON Schema, for editors, and its reference page."""
 
 import json
-import sys
 from collections.abc import Container, Iterable, Iterator, Mapping
-from pathlib import Path
 from typing import Any
 
 from pydantic.json_schema import models_json_schema
@@ -23,6 +18,11 @@ from ..models.axle.file import AxleFile
 from ..models.car.driving import LinearTyreSection
 from ..models.car.file import CarFile
 from ..models.whole_axle import WholeAxle, whole_axle_class
+
+Manoeuvres = Mapping[str, type[Section]]
+
+MANOEUVRE = "manoeuvre"
+"""The key of a file of a manoeuvre, and of no other."""
 
 _LIMITS = {
     "ge": "minimum",
@@ -50,8 +50,8 @@ my_car.toml: 1 problem
 
 Editors that know JSON Schema complete keys, show their meaning and underline errors.
 `kintrafo schema kintrafo.schema.json` writes
-[the schema](../../vehicle/data/suspension.schema.json) of suspensions and axles beside your
-files; the first line
+[the schema](../../vehicle/data/suspension.schema.json) of suspensions, axles, cars and manoeuvres
+beside your files; the first line
 
 ```toml
 #:schema ./kintrafo.schema.json
@@ -134,18 +134,31 @@ _A_LINEAR_TYRE = """\
 approach the friction limit.
 """
 
+_A_MANOEUVRE = """\
+## A manoeuvre
+
+A file of its own for `kintrafo drive`; `kintrafo new FILE --template NAME` writes one. Its line
+`manoeuvre = "..."` names it. See [Handling](../suspension/handling.md).
+"""
+
 _TABLE_HEAD = "| key | unit | allowed | default | meaning |\n|---|---|---|---|---|"
 
 
-def schema() -> dict[str, Any]:
-    """Return the JSON Schema of input files: of suspensions, axles with and without sides, cars.
+def schema(manoeuvres: Manoeuvres) -> dict[str, Any]:
+    """Return the JSON Schema of input files: suspensions, axles, cars and manoeuvres.
+
+    Parameters
+    ----------
+    manoeuvres : mapping of str to type
+        The sections of manoeuvres, by the words for them.
 
     Returns
     -------
     dict
         Every key with its description, its unit as ``x-unit`` and its range. A file with ``axle``
         is that of an axle, one with ``rigid_axle`` that of a rigid one, and so on, one with ``car``
-        that of a car; of others the kind that they name decides which sections there are.
+        that of a car, one with ``manoeuvre`` that of a manoeuvre; of others the kind that they name
+        decides which sections there are.
     """
     whole = _whole_axles()
     models: list[type[Section]] = [
@@ -154,17 +167,22 @@ def schema() -> dict[str, Any]:
         *whole.values(),
         CarFile,
         LinearTyreSection,
+        *manoeuvres.values(),
     ]
     _, made = models_json_schema([(model, "validation") for model in models])
     sections = {name: _with_units(section) for name, section in made["$defs"].items()}
     kinds = {"description": "the kind of suspension", "enum": list(KINDS), "default": DEFAULT}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "suspension, axle or car",
+        "title": "suspension, axle, car or manoeuvre",
         "type": "object",
         "if": {"required": [_AXLE]},
         "then": _reference(AxleFile),
-        "else": _chosen(whole | {CAR: CarFile}, kinds),
+        "else": {
+            "if": {"required": [MANOEUVRE]},
+            "then": _named_manoeuvre(manoeuvres),
+            "else": _chosen(whole | {CAR: CarFile}, kinds),
+        },
         "$defs": sections | {"Bushing": BUSH_SCHEMA},
     }
 
@@ -183,6 +201,16 @@ def _chosen(by_key: Mapping[str, type[Section]], kinds: dict[str, Any]) -> dict[
     for key, model in reversed([*by_key.items()]):
         found = {"if": {"required": [key]}, "then": _reference(model), "else": found}
     return found
+
+
+def _named_manoeuvre(manoeuvres: Manoeuvres) -> dict[str, Any]:
+    """Return the schema of files of manoeuvres: each names the one that it is."""
+    words = {"description": "which manoeuvre this is", "enum": list(manoeuvres)}
+    chosen = [
+        {"if": {"properties": {MANOEUVRE: {"const": name}}}, "then": _reference(model)}
+        for name, model in manoeuvres.items()
+    ]
+    return {"properties": {MANOEUVRE: words}, "allOf": chosen}
 
 
 def _names(kind: str) -> dict[str, Any]:
@@ -220,14 +248,14 @@ def _in_json_schema(part: Any) -> Any:
     return [_in_json_schema(item) for item in part] if isinstance(part, list) else part
 
 
-def schema_text() -> str:
+def schema_text(manoeuvres: Manoeuvres) -> str:
     """Return the schema as it is published."""
-    return json.dumps(schema(), indent=2, ensure_ascii=False) + "\n"
+    return json.dumps(schema(manoeuvres), indent=2, ensure_ascii=False) + "\n"
 
 
-def page_text() -> str:
+def page_text(manoeuvres: Manoeuvres) -> str:
     """Return the reference page: sections of all kinds, then those of each kind."""
-    sections, shared = schema()["$defs"], _shared()
+    sections, shared = schema(manoeuvres)["$defs"], _shared()
     first, *_ = KINDS.values()
     parts = [_HEAD, "## Every suspension\n"]
     parts += _described(sections, first, [name for name in first.model_fields if name in shared])
@@ -250,7 +278,10 @@ def page_text() -> str:
         parts += _described(sections, axle, own)
     parts += [_A_CAR, *_table(sections[CarFile.__name__])]
     parts += _described(sections, CarFile, CarFile.model_fields)
-    parts += [_A_LINEAR_TYRE, *_table(sections[LinearTyreSection.__name__])]
+    parts += [_A_LINEAR_TYRE, *_table(sections[LinearTyreSection.__name__]), _A_MANOEUVRE]
+    for name, manoeuvre in manoeuvres.items():
+        parts += [f"### {name}\n", *_table(sections[manoeuvre.__name__])]
+        parts += _described(sections, manoeuvre, manoeuvre.model_fields, "", "####")
     return "\n".join(parts).rstrip() + "\n"
 
 
@@ -270,7 +301,11 @@ def _shared() -> set[str]:
 
 
 def _described(
-    sections: dict[str, Any], model: type[Section], names: Iterable[str], prefix: str = ""
+    sections: dict[str, Any],
+    model: type[Section],
+    names: Iterable[str],
+    prefix: str = "",
+    level: str = "###",
 ) -> Iterator[str]:
     """Describe sections in a section, each with a table of its keys."""
     required = sections[model.__name__].get("required", [])
@@ -283,9 +318,9 @@ def _described(
         is_body = issubclass(inner, RigidBody)
         also = ", with the keys of every body" if is_body else ""
         meaning = _capital(model.model_fields[name].description)
-        yield f"### [{title}]{optional}\n\n{meaning}{also}.\n"
+        yield f"{level} [{title}]{optional}\n\n{meaning}{also}.\n"
         yield from _table(sections[inner.__name__], RigidBody.model_fields if is_body else ())
-        yield from _described(sections, inner, inner.model_fields, f"{title}.")
+        yield from _described(sections, inner, inner.model_fields, f"{title}.", level)
 
 
 def _table(section: dict[str, Any], known: Container[str] = ()) -> Iterator[str]:
@@ -349,8 +384,3 @@ def _at_most(option: dict[str, Any]) -> str:
 
 def _capital(text: str | None) -> str:
     return (text or "")[:1].upper() + (text or "")[1:]
-
-
-if __name__ == "__main__":
-    Path(sys.argv[1]).write_text(schema_text(), encoding="utf-8", newline="\n")
-    Path(sys.argv[2]).write_text(page_text(), encoding="utf-8", newline="\n")

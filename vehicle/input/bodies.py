@@ -83,7 +83,16 @@ class RigidBody(Section):
             )
             return [problem]
         reason = impossible_inertia(elements)
-        return [f"{names} kg m^2: {reason}. {_REMEDY}"] if reason else []
+        if not reason:
+            return []
+        diagonal = [f"inertia_{name}_kg_m2" for name in ("xx", "yy", "zz")]
+        missing = [key for key in diagonal if key not in self.model_fields_set]
+        if missing:
+            return [
+                f"{key} is missing, and 0 kg m^2 is no body's with the others. Enter it, in kg m^2."
+                for key in missing
+            ]
+        return [f"{names} kg m^2: {reason}. {_REMEDY}"]
 
 
 class TieRod(RigidBody):

@@ -20,6 +20,7 @@ _UNIT_OF_ENDING = {
     "kg_per_m3": "kg/m^3",
     "rad_per_s": "rad/s",
     "GPa": "GPa",
+    "kPa": "kPa",
     "kg": "kg",
     "Nm": "N m",
     "m2": "m^2",

@@ -19,13 +19,14 @@ from ..assembly.by_wheel import WHEEL
 # The drawn curves by their axis: in this order, as far as they are there and vary.
 _SHOWN: Mapping[str, tuple[str, ...]] = {
     "time": (
-        "steering_wheel_angle", "lateral_acceleration", "yaw_rate", "sideslip_angle", "roll_angle",
-        "speed", "longitudinal_acceleration", "pitch_angle", "fz",
+        "steering_wheel_angle", "steering_torque", "lateral_acceleration", "yaw_rate",
+        "sideslip_angle", "roll_angle", "speed", "longitudinal_acceleration", "pitch_angle", "fz",
     ),
     "lateral_acceleration": (
-        "steering_wheel_angle", "steer_angle", "understeer_gradient", "sideslip_angle",
-        "roll_angle", "drive_torque", "slip_angle", "fz", "fy",
+        "steering_wheel_angle", "steering_torque", "steer_angle", "understeer_gradient",
+        "sideslip_angle", "roll_angle", "drive_torque", "slip_angle", "fz", "fy",
     ),
+    "steering_wheel_angle": ("steering_torque", "lifting_torque", "mz", "steer", "fz"),
     "frequency": (
         "yaw_rate_gain", "lateral_acceleration_gain", "sideslip_angle_gain", "yaw_rate_phase",
         "lateral_acceleration_phase", "sideslip_angle_phase",

@@ -153,6 +153,8 @@ class RollingTyre(Force):
             "fx": found.fx,
             "fy": found.fy,
             "fz": load,
+            "mx": found.mx,
+            "my": found.my,
             "mz": found.mz,
             "slip": rolling.longitudinal,
             "slip_angle": sp.atan2(rolling.lateral, sp.Integer(1)),
@@ -268,6 +270,8 @@ class RollingTyre(Force):
             "fx": ("N", "longitudinal force of the road on the tyre, positive forward"),
             "fy": ("N", "lateral force of the road on the tyre, positive to the left"),
             "fz": ("N", "normal force of the road on the tyre"),
+            "mx": ("N m", "overturning moment of the road on the tyre, about its forward axis"),
+            "my": ("N m", "rolling resistance moment of the road on the tyre, positive forward"),
             "mz": ("N m", "aligning moment of the road on the tyre, positive to the left"),
             "slip": ("1", "longitudinal slip that acts, positive in driving"),
             "slip_angle": (

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 import rail_car
 import xarray as xr
+from driving_cars import light_car
 from kintrafo import CarModel, InputError, load
-from kintrafo.vehicle.analysis.handling import circle, load_manoeuvre, responses, steering
+from kintrafo.vehicle.analysis.handling import circle, drive, load_manoeuvre, responses, steering
 from kintrafo.vehicle.analysis.handling.circle import Turns, steering_ratio
 from kintrafo.vehicle.analysis.handling.driven import Sampling, driven
 from kintrafo.vehicle.analysis.handling.drivers import Fixed, HeldTorque, OpenLoop, SpeedHeld
@@ -372,6 +373,25 @@ def test_a_run_is_judged_at_the_times_of_the_standard() -> None:
     assert found["lateral_displacement"] == pytest.approx(2.0 * (beginning + 1.07), rel=1e-6)
 
 
+@pytest.mark.parametrize(("rate", "ratio"), [
+    (-1.0, np.nan),  # turns on to the left: there is no peak to the right, and no limit is kept
+    (0.3, -0.3 / 0.5),  # swings back beyond zero: the ratio has the sign of the yaw rates
+])  # fmt: skip
+def test_the_peak_of_the_yaw_rate_is_one_of_the_way_back(rate, ratio) -> None:
+    course = steering.sine_with_dwell(1.0, 0.7, 0.5)
+    time = np.linspace(0.0, course.end + 2.0, 4001)
+    back = np.interp(time, [0.0, 0.8, 1.0, course.end, course.end + 0.5], [0, 0, 0.5, 0, -0.3])
+    yaw = -back if rate > 0.0 else 0.0 * time - rate
+    motion = xr.Dataset({
+        "steering_wheel_angle": ("time", course.at(time).angle), "yaw_rate": ("time", yaw),
+        "y": ("time", time), "sideslip_angle": ("time", 0 * time), "fz": ("time", 1 + 0 * time),
+    }, {"time": time})  # fmt: skip
+    found = judge(motion, course, 1)
+    assert found["yaw_rate_ratio_1_00"] == pytest.approx(ratio, rel=1e-3, nan_ok=True)
+    judged = load_manoeuvre("sine_with_dwell")._judged([found], np.array([30.0]), 20.0, 1500.0)
+    assert float(judged["fulfilled"][0]) == (0.0 if np.isnan(ratio) else 1.0)
+
+
 # -- files ----------------------------------------------------------------------------------------
 
 
@@ -424,6 +444,19 @@ def test_a_mistake_in_a_manoeuvre_is_named(name, changes, words) -> None:
 def test_what_a_car_cannot_do_is_named(car, name, changes, words) -> None:
     with pytest.raises(InputError, match=re.escape(words)):
         run(car, name, **changes)
+
+
+@pytest.mark.parametrize(("name", "changes", "of_car", "words"), [
+    ("double_lane_change", {"car_width_mm": 1500.0}, {}, "are 1520 mm apart"),
+    ("obstacle_avoidance", {"car_length_mm": 3000.0}, {}, "in front of its rear wheel centres"),
+    ("braking", {}, {"brakes": None}, "[brakes] is missing"),
+    ("coast_down", {}, {"front.drive": None}, "no axle is driven"),
+    ("circle", {}, {"front.side.rack.travel_per_turn_mm": None}, "travel_per_turn_mm is missing"),
+])  # fmt: skip
+def test_a_car_is_checked_before_its_equations_are_derived(name, changes, of_car, words) -> None:
+    model = load_manoeuvre(name, changes)
+    with pytest.raises(InputError, match=re.escape(words)):
+        drive(light_car(**of_car), model)  # whose equations take half a minute
 
 
 def test_a_car_that_stays_straight_stays_straight(car) -> None:

@@ -264,7 +264,7 @@ def test_arguments_that_cannot_be_used(subject: Any) -> None:
     for function in (loads.static, loads.standard_cases):
         with pytest.raises(InputError, match="a RigidAxle is needed"):
             function("rigid_axle")
-    with pytest.raises(InputError, match="AxleModel or RigidAxleModel is needed"):
+    with pytest.raises(InputError, match="RigidAxleModel or CarModel is needed"):
         loads.along(Suspension.load("reference_car"), 3)  # type: ignore[arg-type]
 
 

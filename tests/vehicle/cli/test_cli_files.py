@@ -53,6 +53,7 @@ WRITING = {
     ),
     "simulate --loads of a rigid axle": (["simulate", "rigid_axle", "--loads", "a.csv"], "a.csv"),
     "loads --plot": (["loads", CAR, "--case", "brake", "--plot", "a.png"], "a_brake.png"),
+    "drive --loads": (["drive", "driving_car", "--loads", "a.csv"], "a.csv"),
     "mechanism animate": (["mechanism", "animate", CAR, "a.gif"], "a.gif"),
     "sheet": (["sheet", CAR, "-o", "a.csv"], "a.csv"),
     "compliance": (["compliance", CAR, *SOFT, "--plot", "a.svg"], "a.svg"),
@@ -122,6 +123,14 @@ def test_no_command_writes_over_what_it_did_not_write(kintrafo, tmp_path, comman
     assert "--force" in err
     assert [path.name for path in tmp_path.iterdir()] == [name]
     assert (tmp_path / name).read_text() == "a year of work"
+
+
+@pytest.mark.parametrize("name", ["reference_axle", "twist_beam", "driving_car"])
+def test_points_are_those_of_a_suspension(kintrafo, tmp_path, name):
+    code, out, said = kintrafo("export", name, "--to", "points")
+    assert (code, out) == (2, "")
+    assert "a table of hardpoints is that of a suspension" in " ".join(said.split())
+    assert not list(tmp_path.iterdir())
 
 
 def test_no_file_is_written_twice(kintrafo, tmp_path):

@@ -1,6 +1,9 @@
 """Tables of ``kintrafo ride``: the wheels have a column each, the body has its figures in one."""
 
+from pathlib import Path
+
 import numpy as np
+import pytest
 from as_commands import lines_of
 from kintrafo.vehicle.assembly.by_wheel import WHEEL
 from kintrafo.vehicle.cli import ride
@@ -39,6 +42,25 @@ def test_a_bump_that_no_wheel_meets_is_refused(kintrafo):
     code, _, said = kintrafo("ride", "quarter_car", "--bump", "20", "--under", "left")
     assert code == 2
     assert "wheel on the other side" in said
+
+
+@pytest.mark.parametrize(("words", "said"), [
+    (["driving_car"], 'car = "full" travels'),
+    (["reference_vehicle", "--road", "short.csv"], "the road is 2 m long, and the wheelbase 2.6 m"),
+])  # fmt: skip
+def test_mistakes_are_named_before_equations_are_derived(kintrafo, monkeypatch, words, said):
+    Path("short.csv").write_text(
+        "distance_m,left_height_mm,right_height_mm\n0,0,0\n0.5,0,0\n1,0,0\n1.5,0,0\n2,0,0\n",
+        encoding="utf-8",
+    )
+
+    def derived(assembly):
+        raise AssertionError(f"derives {assembly}")
+
+    monkeypatch.setattr(ride, "derived", derived)
+    code, out, err = kintrafo("ride", *words)
+    assert (code, out) == (2, "")
+    assert said in " ".join(err.split())
 
 
 def test_curves_of_four_wheels_are_drawn():

@@ -10,8 +10,11 @@ from folders import ROOT
 from kintrafo import Axle, Suspension
 from kintrafo.core.errors import InputError
 from kintrafo.vehicle import data
+from kintrafo.vehicle.analysis.handling import MANOEUVRES
 from kintrafo.vehicle.cli import app
+from kintrafo.vehicle.cli.published import published
 from kintrafo.vehicle.data import axles as axle_data
+from kintrafo.vehicle.data.starter import manoeuvres
 from kintrafo.vehicle.files import schema
 from typer.testing import CliRunner
 
@@ -19,9 +22,8 @@ PUBLISHED = resources.files(data).joinpath("suspension.schema.json").read_text(e
 
 
 def test_what_is_published_is_what_the_models_say():
-    assert schema.schema_text() == PUBLISHED, "make format-page writes it anew"
     page = (ROOT / "docs/reference/file-format.md").read_text(encoding="utf-8")
-    assert page == schema.page_text(), "make format-page writes it anew"
+    assert published() == (PUBLISHED, page), "make format-page writes it anew"
 
 
 def test_every_key_is_described_and_every_number_has_a_unit_or_none():
@@ -55,7 +57,7 @@ def read(name):
 
 @pytest.mark.parametrize("name", CARS)
 def test_page_has_a_row_for_every_key_of_a_car(name):
-    page = schema.page_text()
+    page = schema.page_text(MANOEUVRES)
 
     def keys(section):
         for key, value in section.items():
@@ -70,7 +72,7 @@ def test_page_has_a_row_for_every_key_of_a_car(name):
 
 
 def test_what_every_kind_has_is_on_the_page_once():
-    page, _, of_rigid_axles = schema.page_text().partition("## A rigid axle")
+    page, _, of_rigid_axles = schema.page_text(MANOEUVRES).partition("## A rigid axle")
     assert "### [rods.NAME]" in of_rigid_axles
     for section in ("vehicle", "wheel", "rack", "gravity"):
         assert page.count(f"### [{section}]") == 1
@@ -137,6 +139,19 @@ def test_files_of_axles_are_in_it(validator, changes, complaint):
     if changes:
         with pytest.raises(InputError):
             Axle.from_dict(axle | changes)
+
+
+@pytest.mark.parametrize("name", manoeuvres())
+def test_packaged_manoeuvres_are_valid(validator, name):
+    found = tomllib.loads(manoeuvres()[name].read_text(encoding="utf-8"))
+    validator.validate(found)
+    first = next(key for key, value in found.items() if isinstance(value, float))
+    for changes, complaint in (
+        ({"sped": 3.0}, "'sped' was unexpected"),
+        ({"manoeuvre": "step_ster"}, "is not one of"),
+        ({first: -1.0}, "less than"),
+    ):
+        assert any(complaint in error.message for error in validator.iter_errors(found | changes))
 
 
 def test_a_kind_that_there_is_not(validator):

@@ -108,7 +108,7 @@ def test_straight_lines_between_the_points_of_a_damper(name):
         assert force_of("linear", velocity) == pytest.approx(beyond, rel=1e-12)
     told = [f"{force_of(way, -0.7):.0f} N" for way in ("cubic", "linear")]
     assert told == ["-2177 N", "-1986 N"]
-    page = re.sub(r"\s+", " ", page_text())
+    page = re.sub(r"\s+", " ", page_text({}))
     assert "has {} at -0.7 m/s, straight lines have {} there".format(*told) in page
 
 

@@ -75,6 +75,16 @@ def test_a_car_is_seen_in_real_time(result, tmp_path) -> None:
         assert picture.info["duration"] == 40
 
 
+def test_a_long_motion_has_fewer_frames_per_second(result, tmp_path, monkeypatch) -> None:
+    monkeypatch.setitem(animate.__globals__, "MOST_FRAMES", 12)
+    path = animate(result, tmp_path / "long.gif")
+    seconds = float(np.ptp(result.runs[-1].motion["time"].values))
+    with Image.open(path) as picture:
+        assert picture.n_frames <= 12
+        shown = picture.n_frames * picture.info["duration"] / 1e3
+        assert shown == pytest.approx(seconds, abs=2.0 * picture.info["duration"] / 1e3)
+
+
 def test_a_page_has_the_places_of_the_scene(result, scene, tmp_path) -> None:
     text = animate(result, tmp_path / "a.html", title="a </script> car").read_text(encoding="utf-8")
     assert "a </script> car" not in text

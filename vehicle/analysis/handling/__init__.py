@@ -2,11 +2,13 @@
 
 `drive`           a manoeuvre, by name or by its file
 `circle`          steady turns of one speed or one radius
+`dynamic_loads`   the loads on every part in a manoeuvre
 `load_manoeuvre`  what the file of a manoeuvre says
 """
 
 from .driving import circle, drive
+from .dynamic_loads import dynamic_loads
 from .manoeuvres import MANOEUVRES, load_manoeuvre
 from .result import HandlingResult
 
-__all__ = ["MANOEUVRES", "HandlingResult", "circle", "drive", "load_manoeuvre"]
+__all__ = ["MANOEUVRES", "HandlingResult", "circle", "drive", "dynamic_loads", "load_manoeuvre"]

@@ -8,7 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....systems.system import System
+from ...assembly.car import CarAssembly
 from ...assembly.controls import Controls
+from ..loads.on_a_car import rack_force
 from ..run import Run
 from .body_motion import ReferencePoint
 
@@ -44,6 +46,8 @@ class DrivingCar:
         Of the whole car [kg].
     steering_input : str
         The input that the steering wheel moves; its rates are inputs, too.
+    assembly : CarAssembly, optional
+        The car with its linkages; without it forces in them are not known.
     watched : callable, optional
         Called with each `Run` of it.
     """
@@ -60,6 +64,7 @@ class DrivingCar:
     front: float
     mass: float
     steering_input: str = "rack_position"
+    assembly: CarAssembly | None = None
     watched: Callable[[Run], None] | None = None
 
     @property
@@ -105,6 +110,23 @@ class DrivingCar:
         for name, value in self.controls.rack(angle, rate, acceleration).items():
             found[self._places[name]] = value
         return found
+
+    def steering_torque(self, angles: Array, states: Array, inputs: Array) -> Array | None:
+        """Return the torque of the steering wheel, positive to the left, (n,) [N m].
+
+        It does the work that the prescribed motion of the rack needs, without friction; None where
+        the forces in the linkages are not known.
+
+        Parameters
+        ----------
+        angles : ndarray, shape (n,)
+            Of the steering wheel [rad].
+        states, inputs : ndarray, shape (n, states) and (n, inputs)
+        """
+        if self.assembly is None:
+            return None
+        travel: Array = self.controls.rack(angles, np.ones_like(angles))["rack_velocity"]
+        return rack_force(self.assembly, states, inputs) * travel
 
     @cached_property
     def _drive(self) -> Array:

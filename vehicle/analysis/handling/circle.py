@@ -20,6 +20,7 @@ from ...assembly.quantity import Quantity
 from ...models.reach import PositionError
 from .body_motion import QUANTITIES
 from .car import DrivingCar
+from .driven import STEERING_TORQUE
 from .result import HandlingResult, quantity
 from .steady import NoSteadyMotionError, Steady, SteadyCondition, SteadyMotion
 
@@ -38,6 +39,9 @@ _SLOW, _FASTER = 2.0, 1.5
 # The greatest lateral acceleration of most cars is about this one [m/s^2].
 _USUAL = 10.0
 _IMAGINARY = 1e-30
+# Lateral acceleration over which the change of a torque is taken: the next term is of its third
+# power, and rounding of forces 1e-12 over it [m/s^2].
+_STEP = 1e-3
 # Turn of the steering wheel over which a ratio is taken [rad].
 _SMALL = 1e-4
 
@@ -72,10 +76,18 @@ _OF_WHEELS = {
 _UNITS = {"fx": "N", "fy": "N", "fz": "N", "slip": "1"}
 
 
+_OF_TORQUE = {
+    "steering_torque": STEERING_TORQUE,
+    "steering_torque_gradient": (
+        "change of the torque of the steering wheel by lateral acceleration", "N m s^2/m",
+    ),
+}  # fmt: skip
+
+
 def columns_of_turns(wheels: Sequence[str]) -> dict[str, Quantity]:
     """Return the quantities of steady turns, by the names of the columns of a flat table."""
     every = {**_OF_DRIVER, **{name: QUANTITIES[name] for name in _OF_BODY}}
-    every |= {name: (words, _PER) for name, words in _GRADIENTS.items()}
+    every |= {name: (words, _PER) for name, words in _GRADIENTS.items()} | _OF_TORQUE
     found = {name: _column(name, *described) for name, described in every.items()}
     by_wheel = [
         of_wheel(_column(name, words, _UNITS.get(name, "rad")), wheel)
@@ -361,6 +373,8 @@ def _described(
     curves |= {
         name: quantity(along, gradients[name], words, _PER) for name, words in _GRADIENTS.items()
     }
+    torques = _torques(turns.car, steady)
+    curves |= {name: quantity(along, torques[name], *_OF_TORQUE[name]) for name in torques}
     by_turn = [_of_wheels(turns.car, one) for one in steady]
     for name, words in _OF_WHEELS.items():
         rows = np.array([one[name] for one in by_turn]).T
@@ -372,6 +386,8 @@ def _described(
     title = f"steady-state circle, {_words(turns.first)}"
     dataset = xr.Dataset(curves, coordinates, {"title": title})
     metrics = {name: quantity((), gradients[name][0], _GRADIENTS[name], _PER) for name in gradients}
+    for name in torques.keys() - {"steering_torque"}:
+        metrics[name] = quantity((), torques[name][0], *_OF_TORQUE[name])
     metrics["steering_ratio"] = quantity((), ratio, "overall steering ratio, straight ahead", "1")
     if np.isfinite(limit):  # else there may be turns beyond the last one that is asked for
         metrics["greatest_lateral_acceleration"] = quantity(
@@ -433,6 +449,30 @@ def _of_turn(car: DrivingCar, steady: Steady) -> tuple[dict[str, float], dict[st
     changed = by_state @ steady.state_slope + by_input @ steady.input_slope
     slopes["steer_angle"] = float(changed.mean())
     return values, slopes
+
+
+def _torques(car: DrivingCar, steady: Sequence[Steady]) -> dict[str, Array]:
+    """Return the torque of the steering wheel, and its change by lateral acceleration.
+
+    Nothing where the forces in the linkages are not known.
+    """
+    steps = _STEP * np.array([0.0, 1.0, -1.0])[:, None]
+    angles, states, inputs = (
+        np.concatenate([np.atleast_1d(value) + steps * slope for value, slope in rows])
+        for rows in (
+            [
+                (one.unknowns["steering_wheel"], np.array([one.slopes["steering_wheel"]]))
+                for one in steady
+            ],
+            [(one.state, one.state_slope) for one in steady],
+            [(one.inputs, one.input_slope) for one in steady],
+        )
+    )
+    found = car.steering_torque(angles[:, 0], states, inputs)
+    if found is None:
+        return {}
+    here, more, less = found.reshape(-1, 3).T
+    return dict(zip(_OF_TORQUE, (here, (more - less) / (2.0 * _STEP)), strict=True))
 
 
 def _of_wheels(car: DrivingCar, steady: Steady) -> dict[str, Array]:

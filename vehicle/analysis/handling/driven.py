@@ -35,6 +35,9 @@ OF_WHEELS = {
 }
 """Of each wheel: meaning and unit."""
 
+STEERING_TORQUE = ("torque of the steering wheel, positive to the left", "N m")
+"""What it means, and its unit."""
+
 _OF_DRIVER = {
     "steering_wheel_angle": ("steering wheel angle, positive to the left", "rad"),
     "drive_torque": ("torque of all driven wheels together", "N m"),
@@ -181,6 +184,9 @@ def _dataset(car: DrivingCar, rows: list[tuple[float, Array, Array, float, Pedal
     drives, brakes = zip(*pedals, strict=True)
     for name, values in zip(_OF_DRIVER, (angles, drives, brakes), strict=True):
         found[name] = quantity("time", np.array(values), *_OF_DRIVER[name])
+    torque = car.steering_torque(np.array(angles), every, acting)
+    if torque is not None:
+        found["steering_torque"] = quantity("time", torque, *STEERING_TORQUE)
     signals = car.model.evaluate("signals", every, acting)
     for name, described in OF_WHEELS.items():
         found[name] = quantity(

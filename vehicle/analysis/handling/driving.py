@@ -12,7 +12,7 @@ from .circle import steady_turns
 from .manoeuvres import AnyManoeuvre, load_manoeuvre
 from .result import HandlingResult
 from .steady import SteadyCondition
-from .subject import driving_car
+from .subject import car_in, driving_car
 
 if TYPE_CHECKING:
     from ..run import Run
@@ -59,6 +59,9 @@ def drive(
         found = manoeuvre
     else:
         found = load_manoeuvre(manoeuvre, changes)
+    known = car_in(subject)
+    if known is not None and known.drives:
+        found.check(known)
     runs: list[Run] = []
     car = replace(driving_car("drive", subject), watched=runs.append)
     return found.run(car, progress or _nothing)._replace(runs=tuple(runs))

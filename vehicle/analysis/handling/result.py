@@ -45,6 +45,7 @@ _READ = {
     "m": ("m", 1.0),
     "m/s": ("km/h", 3.6),
     "rad s^2/m": ("deg/g", 9.80665 * _DEGREES),
+    "N m s^2/m": ("N m/g", 9.80665),
     "m/(s^2 rad)": ("m/s^2/deg", 1.0 / _DEGREES),
     "rad s": ("deg s", _DEGREES),
 }

@@ -6,6 +6,7 @@ import numpy as np
 
 from ....core.validator import Validator
 from ...assembly.car import CarAssembly
+from ...assembly.controls import Controls
 from ...assembly.equilibrium import equilibrium
 from ...assembly.of import assembly_of
 from ...models.car.car import Car, center_of_gravity, masses
@@ -50,7 +51,38 @@ def driving_car(source: str, subject: Any) -> DrivingCar:
         wheelbase=float(front - rear),
         front=float(front - center[0]),
         mass=sum(mass for mass, _ in masses(car)),
+        assembly=found,
     )
+
+
+def see_controls(car: Car, *, brakes: bool = False) -> None:
+    """Refuse a car whose driver has no steering, drive or brakes.
+
+    Parameters
+    ----------
+    car : Car
+        One that drives.
+    brakes : bool, optional
+        Whether it needs brakes.
+
+    Raises
+    ------
+    InputError
+        That names what is missing in its files.
+    """
+    controls = Controls(car)
+    controls.rack(0.0)
+    controls.drive(0.0)
+    if brakes:
+        controls.brakes(0.0)
+
+
+def car_in(subject: Any) -> Car | None:
+    """Return the car in what a function of this folder is given; None where there is none."""
+    if isinstance(subject, Car):
+        return subject
+    found = getattr(subject, "car", None)
+    return found if isinstance(found, Car) else None
 
 
 _NEEDED = (

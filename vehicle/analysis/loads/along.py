@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 import xarray as xr
@@ -23,7 +24,11 @@ from ...corner.corner import RoadWheel
 from .applied_loads import WHEEL, of_wheel
 from .dataset import loads_of
 from .inertia import PartTwists
+from .on_a_car import of_car
 from .reactions import BalanceEquations
+
+if TYPE_CHECKING:
+    from ...assembly.car import CarAssembly
 
 Array = NDArray[np.float64]
 
@@ -31,7 +36,13 @@ Array = NDArray[np.float64]
 _SAME = 1e-6
 # So many moments are looked at together, for the memory of it.
 _TOGETHER = 5000
-_NEEDED = "a kintrafo.Model, AxleModel or RigidAxleModel is needed: the one that was simulated"
+_DOES_NOT_DRIVE = (
+    'loads along a motion are those of an axle, or of a car with car = "full". Give the axle, or '
+    "the car with that."
+)
+_NEEDED = (
+    "a kintrafo.Model, AxleModel, RigidAxleModel or CarModel is needed: the one that was simulated"
+)
 
 
 def along(model: System, result: Simulation) -> xr.Dataset:
@@ -39,7 +50,7 @@ def along(model: System, result: Simulation) -> xr.Dataset:
 
     Parameters
     ----------
-    model : Model, AxleModel or RigidAxleModel
+    model : Model, AxleModel, RigidAxleModel, or CarModel of a car that drives
         The one that was simulated.
     result : Simulation
 
@@ -54,7 +65,9 @@ def along(model: System, result: Simulation) -> xr.Dataset:
         simulation. The tyre force acts at the wheel centre, in the plane of the wheel, as in the
         equations. With ``wheel_loads`` the road acts at the contact, too; ``by`` input are the
         forces at the centre and the moment on the wheel, ``by`` shaft is its torque. The torque of
-        the hub is a part of the load of the bearing.
+        the hub is a part of the load of the bearing. Axes are those of the body.
+        Of a car that drives they move with it; names have ``front`` or ``rear`` in them, and ``by``
+        road are all forces and moments of a tyre, where the plane of the wheel meets the road.
 
     Raises
     ------
@@ -75,20 +88,37 @@ def along(model: System, result: Simulation) -> xr.Dataset:
     with Validator("along") as given:
         given.instance("model", model, System, _NEEDED)
         if not given.failed:
-            assembly = given_assembly(given, model, "model")
+            assembly = given_assembly(given, model, "model", cars=True)
+        if not given.failed and assembly.body_moves and not assembly.drives:
+            given.fail(f"model: {_DOES_NOT_DRIVE}")
         given.instance("result", result, Simulation, "a result of kintrafo.simulate is needed")
         if not given.failed and not is_motion_of(model, result):
             given.fail(f"result: it is not a motion of this model, {model!r}.")
-    return over_time(partial(in_motion, assembly), result)
+    # what drives is a car, and all others are held
+    find = (
+        partial(of_car, cast("CarAssembly", assembly))
+        if assembly.drives
+        else partial(in_motion, cast("HeldAssembly", assembly))
+    )
+    return over_time(find, result.t, result.y.T, result.inputs)
 
 
-def over_time(find: Callable[[Array, Array], xr.Dataset], result: Simulation) -> xr.Dataset:
+def over_time(
+    find: Callable[[Array, Array], xr.Dataset], times: Array, states: Array, inputs: Array
+) -> xr.Dataset:
     """Return the loads of a motion, from what finds those in some states with their inputs.
 
     Parts of the motion are looked at in as many threads as there are cores: most of it is
     arithmetic over arrays, which does not keep other threads waiting.
+
+    Parameters
+    ----------
+    find : callable
+    times : ndarray, shape (n,)
+        [s]
+    states, inputs : ndarray, shape (n, states) and (n, inputs)
     """
-    size = result.t.size
+    size = times.size
     parts = [slice(begin, begin + _TOGETHER) for begin in range(0, size, _TOGETHER)]
     by_part: dict[int, xr.Dataset] = {}
 
@@ -97,14 +127,12 @@ def over_time(find: Callable[[Array, Array], xr.Dataset], result: Simulation) ->
             _refuse_beyond(2.0 * len(parts) * some[1].nbytes, size)
         by_part.update([some])
 
-    shared_out(
-        lambda rows, _: (rows.start, find(result.y.T[rows], result.inputs[rows])), parts, take
-    )
+    shared_out(lambda rows, _: (rows.start, find(states[rows], inputs[rows])), parts, take)
     found = [by_part[rows.start] for rows in parts]
     data = {
         str(name): _one_after_another([each[name].variable for each in found]) for name in found[0]
     }
-    coordinates = {**found[0].coords, TIME: variable(TIME, result.t, "time", "s")}
+    coordinates = {**found[0].coords, TIME: variable(TIME, times, "time", "s")}
     return xr.Dataset(data, coordinates, {**found[0].attrs, "title": "loads along a motion"})
 
 

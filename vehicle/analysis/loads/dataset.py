@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ....core.quantities import variable
 from ....core.validator import Validator
 from ....core.vectors import cross
+from ....datasets.recording import TIME
 from ...assembly.assembly import HeldAssembly
 from ...assembly.by_wheel import WHEEL, flat, wheel_coordinate
 from ...assembly.coupling import BodyPose
@@ -231,6 +232,39 @@ def envelope(dataset: xr.Dataset) -> xr.Dataset:
             found[key] = getattr(values, end)(CASE).assign_attrs(values.attrs)
             found[f"{key}_case"] = getattr(values, f"idx{end}")(CASE).drop_attrs()
     return xr.Dataset(found, attrs={"title": "envelope of the loads"})
+
+
+def peaks(dataset: xr.Dataset) -> xr.Dataset:
+    """Return the greatest force and moment of every load along a motion, and when they are.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `along`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``load``: ``force_peak`` [N] and ``moment_peak`` [N m] in size, ``force_peak_time`` and
+        ``moment_peak_time`` [s], and over ``axis``, too, the components then, ``force`` and
+        ``moment``.
+    """
+    with Validator("peaks") as given:
+        given.instance("dataset", dataset, xr.Dataset, _NEEDED)
+        _check(given, dataset, TIME)
+    found = {}
+    for name in ("force", "moment"):
+        components = dataset[name].transpose(TIME, LOAD, AXIS)
+        sizes = np.linalg.norm(components.values, axis=-1)
+        when = sizes.argmax(axis=0)
+        unit, rows = str(components.attrs["units"]), np.arange(sizes.shape[1])
+        found[f"{name}_peak"] = variable(LOAD, sizes[when, rows], f"greatest {name}, in size", unit)
+        times = dataset[TIME].values[when]
+        found[f"{name}_peak_time"] = variable(LOAD, times, f"when the {name} is greatest", "s")
+        meaning = f"{name} on the part then, chassis axes"
+        found[name] = variable((LOAD, AXIS), components.values[when, rows], meaning, unit)
+    labels = {name: dataset[name] for name in (LOAD, PART, "point", "by", AXIS)}
+    return xr.Dataset(found, labels, {"title": "greatest loads along a motion"})
 
 
 def table(dataset: xr.Dataset, axes: str = "vehicle") -> xr.Dataset:

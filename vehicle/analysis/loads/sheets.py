@@ -18,8 +18,9 @@ def acts(by: str) -> bool:
 
 
 def without_side(name: str) -> str:
-    """Return a name of an axle without its side."""
-    return name.removesuffix("_left").removesuffix("_right")
+    """Return a name of an axle, or of a car, without its side and its end."""
+    without = name.removesuffix("_left").removesuffix("_right")
+    return without.removesuffix("_front").removesuffix("_rear")
 
 
 def overview(found: xr.Dataset, title: str, parts: Sequence[str] = ()) -> Tabulated:

@@ -37,15 +37,26 @@ def command(
     can be shown, over a road or with inputs: kintrafo.animate(result, "motion.gif").
     """
     from ....core.files import refuse
-    from ....pages.animation import ENDINGS, animate
+    from ....pages.animation import ENDINGS, animate, frames_in
 
     refuse_which(file, model)
     refuse([path], force=force, inputs=[file], endings=ENDINGS)
+    _see_duration(duration)
+    if path.suffix.lower() == ".gif":
+        frames_in(duration, fps, slower)  # before the motion is computed
     with problems.status("motion"):
         result = _motion(file, model, _values(start or []), duration)
         options = {"fps": fps, "slower": slower, "title": title}
         written = animate(result, path, force=force, inputs=[file], **options)  # type: ignore[arg-type]
     say(f"  {written}")
+
+
+def _see_duration(duration: float) -> None:
+    """Refuse a duration that no motion is shown for [s]."""
+    from ....core.validator import Validator
+
+    with Validator("animate") as given:
+        given.number("--duration", duration, "s", above=0.0, below=3600.0)
 
 
 def _values(given: list[str]) -> dict[str, float]:
@@ -71,11 +82,8 @@ def _values(given: list[str]) -> dict[str, float]:
 def _motion(file: str, name: str | None, values: dict[str, float], duration: float) -> "Simulation":
     import numpy as np
 
-    from ....core.validator import Validator
     from ....simulation.simulate import simulate
 
-    with Validator("animate") as given:
-        seconds = given.number("--duration", duration, "s", above=0.0, below=3600.0)
     system = system_of(file, name) if file.endswith(".py") else model_of(file)
-    times = np.linspace(0.0, seconds, max(201, round(500 * min(seconds, 20.0)) + 1))
-    return simulate(system, (0.0, seconds), system.state(**values), t_eval=times)
+    times = np.linspace(0.0, duration, max(201, round(500 * min(duration, 20.0)) + 1))
+    return simulate(system, (0.0, duration), system.state(**values), t_eval=times)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ....core.errors import InputError
 from ....core.files import Paths, refuse, replacing
 from ....core.validator import Validator
-from ....pages.animation import frames
+from ....pages.animation import MOST_FRAMES, frames
 from ...analysis.handling.result import HandlingResult
 from ...analysis.run import Run
 from .charts import charts_of
@@ -22,6 +22,7 @@ ENDINGS = (".gif", ".html", ".htm")
 _FPS = 25.0
 # Positions of a page at most: one for a tenth of a second of a manoeuvre of 100 s.
 _MOST_POSITIONS = 1000
+_ROUNDING = 1e-9
 
 
 def animate(
@@ -45,8 +46,9 @@ def animate(
         What `kintrafo.handling.drive` or `kintrafo.ride.run` returned. Of several simulations of a
         manoeuvre the last one is shown.
     path : str or pathlib.Path
-        Ends in ``.gif``, for an animated picture with 25 frames per second, or ``.html``, for a
-        page to play, stop and turn, with curves that follow.
+        Ends in ``.gif``, for an animated picture with 25 frames per second, fewer of a motion
+        longer than a minute; or ``.html``, for a page to play, stop and turn, with curves that
+        follow.
     title : str, optional
     force : bool, optional
         Whether a file that kintrafo did not write is replaced, see `kintrafo.core.files`.
@@ -60,8 +62,7 @@ def animate(
     Raises
     ------
     InputError
-        If nothing was simulated, as in steady turns; if a GIF would have too many frames; or if the
-        file must not be written.
+        If nothing was simulated, as in steady turns; or if the file must not be written.
     """
     with Validator("animate") as given:
         given.instance("result", result, (HandlingResult, Run), _NEEDED)
@@ -69,11 +70,14 @@ def animate(
     refuse([path], force=force, inputs=inputs, endings=ENDINGS)
     run, cones = _shown(result)
     picture = Path(path).suffix.lower() == ".gif"
-    rows = _frames(run) if not picture else frames(run.motion["time"].values, _FPS)[1]
+    per_second = _per_second(run, MOST_FRAMES if picture else _MOST_POSITIONS)
+    if picture:  # which counts the time of a frame in hundredths of a second
+        per_second = 100.0 / np.ceil(100.0 / per_second - _ROUNDING)
+    rows = frames(run.motion["time"].values, per_second)[1]
     scene = scene_of(run, rows, cones=cones)
     with replacing(path, force=force, inputs=inputs) as temporary:
         if picture:
-            write_gif(temporary, scene, title, _FPS)
+            write_gif(temporary, scene, title, per_second)
         else:
             page = motion_page(scene, charts_of(run.motion, rows), title)
             temporary.write_text(page, encoding="utf-8", newline="\n")
@@ -104,9 +108,13 @@ def _shown(result: HandlingResult | Run) -> tuple[Run, xr.Dataset | None]:
 
 def _frames(run: Run) -> NDArray[np.intp]:
     """Return the outputs that a page shows."""
+    return frames(run.motion["time"].values, _per_second(run, _MOST_POSITIONS))[1]
+
+
+def _per_second(run: Run, most: int) -> float:
+    """Return how many frames are shown per second, so that there are no more than some."""
     times = run.motion["time"].values
-    seconds = float(times[-1] - times[0])
-    return frames(times, min(_FPS, (_MOST_POSITIONS - 1) / max(seconds, 1.0)))[1]
+    return min(_FPS, (most - 1) / max(float(times[-1] - times[0]), 1.0))
 
 
 _NEEDED = "what kintrafo.handling.drive or kintrafo.ride.run returns is needed"

@@ -10,6 +10,7 @@ from .circle import Circle
 from .coast_down import CoastDown
 from .double_lane_change import DoubleLaneChange
 from .loading import MANOEUVRES, AnyManoeuvre, load_manoeuvre
+from .parking import Parking
 from .path_following import PathFollowing
 from .sine_sweep import SineSweep
 from .sine_with_dwell import SineWithDwell
@@ -24,6 +25,7 @@ __all__ = [
     "Circle",
     "CoastDown",
     "DoubleLaneChange",
+    "Parking",
     "PathFollowing",
     "SineSweep",
     "SineWithDwell",

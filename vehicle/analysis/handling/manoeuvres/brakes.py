@@ -5,7 +5,9 @@ from pydantic import Field
 
 from .....core.errors import InputError
 from ....input.section import NonNegative, Positive
+from ....models.car.car import Car
 from ..car import DrivingCar
+from ..subject import see_controls
 from .manoeuvre import Manoeuvre
 
 
@@ -30,6 +32,11 @@ class BrakingManoeuvre(Manoeuvre):
         if (self.pedal or 0.0) > 1.0:
             found.append(f"pedal = {self.pedal:g}: 1 at most is allowed.")
         return found
+
+    def check(self, car: Car) -> None:
+        """Refuse a car that cannot drive it, or has no brakes."""
+        see_controls(car, brakes=True)
+        super().check(car)
 
     def pedal_of(self, car: DrivingCar) -> float:
         """Return the position of the pedal."""

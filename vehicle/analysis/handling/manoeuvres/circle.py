@@ -6,10 +6,12 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from ....input.section import NonNegative, Positive, Section
+from ....models.car.car import Car
 from ..car import DrivingCar
 from ..circle import steady_turns
 from ..result import HandlingResult
 from ..steady import SteadyCondition
+from ..subject import see_controls
 from .manoeuvre import Progress
 
 
@@ -43,6 +45,10 @@ class Circle(Section):
             )
             return [problem]
         return []
+
+    def check(self, car: Car) -> None:
+        """Refuse a car that cannot drive it, before its equations are derived."""
+        see_controls(car)
 
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
         """Return gradients, and curves by lateral acceleration."""

@@ -9,8 +9,10 @@ import xarray as xr
 from numpy.typing import NDArray
 from pydantic import Field
 
+from .....core.errors import InputError
 from ....input.section import Flag, NonNegative, Number, Positive, Section
 from ....input.units import in_metres
+from ....models.car.car import Car
 from ..car import DrivingCar
 from ..circle import Turns, steering_ratio
 from ..drivers import HeldTorque, Observation, PathFollower
@@ -126,6 +128,28 @@ class DoubleLaneChange(TurningManoeuvre):
         narrow = [n for n, one in self.lanes.items() if self._width(one) <= self._car_width]
         found += [f"lanes.{n}: it is narrower than the car, car_width_mm." for n in narrow]
         return found
+
+    def check(self, car: Car) -> None:
+        """Refuse a car that cannot drive it, or is larger than the file says."""
+        super().check(car)
+        centers = np.array([car.wheel_centers[wheel] for wheel in car.wheels])
+        track = float(2.0 * np.abs(centers[:, 1]).max())
+        wheelbase = float(np.ptp(centers[:, 0]))
+        overhang, length = self.front_overhang_mm, self.car_length_mm
+        problems = []
+        if self._car_width < track:
+            problems.append(
+                f"car_width_mm = {self.car_width_mm:g} mm: the wheel centres of this car are "
+                f"{1e3 * track:g} mm apart. Enter the width of the car, without mirrors."
+            )
+        if length - overhang < 1e3 * wheelbase:
+            problems.append(
+                f"car_length_mm = {length:g} mm: with front_overhang_mm = {overhang:g} mm the car "
+                f"ends in front of its rear wheel centres, {1e3 * wheelbase:g} mm behind the front "
+                "ones. Enter the length of the car."
+            )
+        if problems:
+            raise InputError(problems, self.TITLE)
 
     @property
     def _car_width(self) -> float:

@@ -22,18 +22,19 @@ from .circle import Circle
 from .coast_down import CoastDown
 from .double_lane_change import DoubleLaneChange
 from .manoeuvre import Manoeuvre
+from .parking import Parking
 from .path_following import PathFollowing
 from .sine_sweep import SineSweep
 from .sine_with_dwell import SineWithDwell
 from .slowly_increasing_steer import SlowlyIncreasingSteer
 from .step_steer import StepSteer
 
-AnyManoeuvre = Manoeuvre | Circle
+AnyManoeuvre = Manoeuvre | Circle | Parking
 
 _KEY = "manoeuvre"
 _CLASSES: tuple[type[AnyManoeuvre], ...] = (
     StepSteer, SineSweep, SlowlyIncreasingSteer, SineWithDwell, DoubleLaneChange, PathFollowing,
-    StraightBraking, BrakingInTurn, Acceleration, CoastDown, Circle,
+    StraightBraking, BrakingInTurn, Acceleration, CoastDown, Circle, Parking,
 )  # fmt: skip
 
 MANOEUVRES: Mapping[str, type[AnyManoeuvre]] = {

@@ -10,12 +10,14 @@ from pydantic import Field
 
 from .....core.errors import InputError
 from ....input.section import Positive, Section
+from ....models.car.car import Car
 from ..car import DrivingCar
 from ..circle import Turns
 from ..driven import Sampling, driven
 from ..drivers import HeldTorque, Observation, Pushes, SpeedHeld, Steers
 from ..result import HandlingResult, quantity
 from ..steady import NoSteadyMotionError, Steady, SteadyCondition
+from ..subject import see_controls
 
 Progress = Callable[[float], None]
 Number = tuple[float, str, str]
@@ -50,6 +52,20 @@ class Manoeuvre(Section):
             )
             return [problem]
         return []
+
+    def check(self, car: Car) -> None:
+        """Refuse a car that cannot drive it, before its equations are derived.
+
+        Parameters
+        ----------
+        car : Car
+            One that drives.
+
+        Raises
+        ------
+        InputError
+        """
+        see_controls(car)
 
     @abstractmethod
     def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:

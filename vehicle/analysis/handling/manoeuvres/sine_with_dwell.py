@@ -181,7 +181,7 @@ def judge(motion: xr.Dataset, course: SteeringCourse, sense: int) -> dict[str, f
     reversed_at = float(time[np.argmax(steered < 0.0)]) if (steered < 0.0).any() else course.end
     peak = _first_peak(back[time >= reversed_at])
     found = {
-        "yaw_rate_peak": peak,
+        "yaw_rate_peak": peak,  # not a number where the car does not turn back
         "lateral_displacement": sense
         * (at_time(motion, "y", beginning + _DISPLACED) - float(motion["y"][0])),
         "greatest_sideslip_angle": float(np.abs(motion["sideslip_angle"]).max()),
@@ -194,10 +194,14 @@ def judge(motion: xr.Dataset, course: SteeringCourse, sense: int) -> dict[str, f
 
 
 def _first_peak(values: Array) -> float:
-    """Return the first local maximum that is positive; the greatest value where there is none."""
+    """Return the first local maximum that is positive; the greatest value where there is none.
+
+    It is not a number where no value is positive: the car does not turn back.
+    """
     inner = (values[1:-1] > 0.0) & (values[1:-1] >= values[:-2]) & (values[1:-1] > values[2:])
     places = np.flatnonzero(inner)
-    return float(values[1 + places[0]] if places.size else values.max())
+    found = float(values[1 + places[0]] if places.size else values.max())
+    return found if found > 0.0 else np.nan
 
 
 def _axis(amplitudes: Array) -> xr.Variable:

@@ -1,0 +1,248 @@
+"""Loads on the parts of a car in a manoeuvre, against balances that no joint is a part of."""
+
+import kintrafo
+import numpy as np
+import pytest
+from driving_cars import FILE
+from kintrafo.vehicle.analysis.handling import circle, drive, dynamic_loads
+from kintrafo.vehicle.analysis.handling.subject import driving_car
+from kintrafo.vehicle.analysis.loads import along, peaks, static
+from kintrafo.vehicle.analysis.loads.on_a_car import CarInMotion, of_car, rack_force
+from kintrafo.vehicle.assembly.of import assembly_of
+from kintrafo.vehicle.models.car import Car
+from kintrafo.vehicle.models.car.equations import declared
+
+G, UP = 9.81, np.array([0.0, 0.0, 1.0])
+
+
+@pytest.fixture(scope="module")
+def car():
+    return kintrafo.load("driving_car")
+
+
+@pytest.fixture(scope="module")
+def result(car):
+    """A car that is turned into a bend: bodies roll and yaw, wheels spin, the rack moves."""
+    changes = {"lateral_acceleration_m_per_s2": 4.0, "duration_s": 1.3, "start_s": 0.2}
+    return drive(car, "step_steer", changes)
+
+
+@pytest.fixture(scope="module")
+def loads(result):
+    return dynamic_loads(result)
+
+
+@pytest.fixture(scope="module")
+def motion(result):
+    run = result.runs[-1]
+    return CarInMotion(run.car.assembly, run.states, run.inputs)
+
+
+def of_state(motion, letters):
+    names = motion.model.state_names
+    return motion.states[:, [names.index(f"body_{letter}") for letter in letters]]
+
+
+def air(motion):
+    """Force and moment of the air on the body about its centre of mass, axes of the body."""
+    parameters, com = motion.model.parameters, motion.assembly.car.com
+    arm = np.array([parameters[f"air_center_{axis}"] for axis in "xyz"]) - com
+    velocity = of_state(motion, "uvw") + np.cross(of_state(motion, "pqr"), arm)
+    drag, lift = (motion.signals[f"air_{what}"][:, None] for what in ("drag", "lift"))
+    force = -drag * velocity / np.linalg.norm(velocity, axis=1)[:, None] + lift * UP
+    pitching = 0.5 * parameters["air_density"] * parameters["air_pitching"]
+    moment = np.cross(arm, force)
+    moment[:, 1] += pitching * velocity[:, 0] ** 2
+    return force, moment
+
+
+def test_what_the_joints_carry_is_what_the_equations_need(loads) -> None:
+    """Equations in minimal coordinates and the balance of all parts agree."""
+    # rounding of velocities that are differenced, times masses
+    assert np.abs(loads["holding_force"]).max() < 1e-5
+    assert loads["residual"].max() < 1e-5
+    assert loads["residual_moment"].max() < 1e-5
+    assert {"wheel_front_left", "knuckle_rear_right", "rack"} < {*loads["moving_part"].values}
+
+
+def test_forces_on_the_body_move_it(motion, loads) -> None:
+    """Newton and Euler for the body, which is none of the parts that are balanced."""
+    parameters, com = motion.model.parameters, motion.assembly.car.com
+    own = loads.sel(load=loads["part"] == "chassis")
+    forces, moments, at = (own[name].values for name in ("force", "moment", "at"))
+    of_air, about = air(motion)
+    force = forces.sum(axis=1) + of_air - parameters["body_mass"] * G * motion.up
+    about = about + (moments + np.cross(at - com, forces)).sum(axis=1)
+    # what turns the driven wheels turns the body back
+    for suffix, group in motion.axle("front").poses.items():
+        wheel, torque = group.wheels["wheel"], motion.signals[f"front{suffix}_drive_moment"]
+        about -= torque[:, None] * wheel.vehicle.side * wheel.axis
+    rates = motion.model.evaluate("rhs", motion.states, motion.inputs)
+    changed = CarInMotion(motion.assembly, rates, motion.inputs)
+    u, p = of_state(motion, "uvw"), of_state(motion, "pqr")
+    du, dp = of_state(changed, "uvw"), of_state(changed, "pqr")
+    np.testing.assert_allclose(force, parameters["body_mass"] * (du + np.cross(p, u)), atol=1e-4)
+    tensor = np.diag([parameters[f"body_inertia_{axis}{axis}"] for axis in "xyz"])
+    np.testing.assert_allclose(about, dp @ tensor + np.cross(p, p @ tensor), atol=1e-4)
+
+
+def test_at_rest_they_are_those_of_the_axle_under_its_load(car) -> None:
+    model = kintrafo.CarModel(car)
+    rest = kintrafo.equilibrium(model)
+    found = of_car(driving_car("test", car).assembly, np.array([rest]), np.array([rest.inputs]))
+    load = float(model.signal("front_left_fz", rest))
+    alone = static(car.axles["front"], {"rest": {"contact_N": [0.0, 0.0, load]}})
+    for point in ("strut_top", "ball_joint", "tie_rod_outer", "arm_front"):
+        here, there = (
+            np.linalg.norm(each.sel(load=each["point"] == name)["force"].values, axis=-1).max()
+            for each, name in ((found, f"{point}_front_left"), (alone, f"{point}_left"))
+        )
+        # the body leans by some 1e-3 rad in pitch at rest, and that of an axle is level
+        assert here == pytest.approx(there, abs=3e-3 * load)
+
+
+def power_of_wheels(motion):
+    """Power of the road on the wheels, and of the torques of the drive, (n,)."""
+    bodies, total = motion.model.equations.BODIES, 0.0
+    twists = motion.twists.twists
+    turning = twists[:, bodies.index("body"), :3]
+    for end in ("front", "rear"):
+        for suffix, group in motion.axle(end).poses.items():
+            name, wheel = f"{end}{suffix}", group.wheels["wheel"]
+            left, up = wheel.vehicle.side * wheel.axis, motion.up
+            leaning = np.cross(left, up)
+            cosine = np.linalg.norm(leaning, axis=1)[:, None]
+            axes = leaning / cosine, np.cross(up, leaning / cosine), up
+            down = np.cross(left, axes[0])
+            signals = {k: motion.signals[f"{name}_{k}"][:, None] for k in OF_TYRE}
+            along = signals["fx"] * axes[0] + signals["fy"] * axes[1]
+            high = signals["wheel_center_z"]
+            moment = sum(signals[f"m{k}"] * axis for k, axis in zip("xyz", axes, strict=True))
+            moment = moment + np.cross(high / cosine * down, along)
+            lowest = (high + signals["deflection"]) / cosine * down
+            moment += np.cross(lowest, signals["fz"] * up)
+            own = twists[:, bodies.index(f"{name}_wheel")]
+            total += ((along + signals["fz"] * up) * own[:, 3:]).sum(1) + (moment * own[:, :3]).sum(
+                1
+            )
+            if end == "front":  # the reaction is on the body
+                torque = motion.signals[f"{name}_drive_moment"]
+                total += torque * ((own[:, :3] - turning) * left).sum(1)
+    return total
+
+
+OF_TYRE = ("fx", "fy", "fz", "mx", "my", "mz", "deflection", "wheel_center_z")
+
+
+def test_the_steering_does_the_work_that_is_missing(motion) -> None:
+    """The power of all forces is the rate of the kinetic energy: what is left is the rack's."""
+    model, signals = motion.model, motion.signals
+    twists, rates = motion.twists.twists, motion.twists.rates
+    needed = 0.0
+    spinning = model.evaluate("orientations", motion.states, motion.inputs)
+    for i, name in enumerate(model.equations.BODIES):
+        mass = model.parameters.get(f"{name}_mass", 0.0)
+        if not mass:
+            continue
+        turned = motion.body.mT @ spinning[:, i]
+        # of a wheel about its axis at design, of others the tensor of the file
+        tensor = turned @ tensor_of(motion, name) @ turned.mT
+        w, v, dw, dv = (each[:, i, part] for each in (twists, rates) for part in
+                        (slice(0, 3), slice(3, 6)))  # fmt: skip
+        needed += mass * (v * (dv + G * motion.up)).sum(1) + np.einsum(
+            "ni,nij,nj->n", w, tensor, dw
+        )
+    lines = ("front_left_strut", "front_right_strut", "rear_left_spring", "rear_right_spring")
+    given = power_of_wheels(motion) + sum(
+        (signals[f"{line}_spring_force"] + signals[f"{line}_damper_force"])
+        * signals[f"{line}_velocity"]
+        for line in lines
+    )
+    given += signals["front_bar_spring_moment"] * signals["front_bar_angular_velocity"]
+    force, about = air(motion)
+    given += (force * of_state(motion, "uvw")).sum(1) + (about * of_state(motion, "pqr")).sum(1)
+    velocity = motion.inputs[:, model.input_names.index("rack_velocity")]
+    steering = rack_force(motion.assembly, motion.states, motion.inputs) * velocity
+    assert np.abs(steering).max() > 10.0
+    # rounding of powers of 1e5 W whose sum it is
+    np.testing.assert_allclose(steering, needed - given, atol=1e-4)
+
+
+def tensor_of(motion, name):
+    end, _, part = name.partition("_")
+    if name == "body":
+        values = [motion.model.parameters[f"body_inertia_{axis}{axis}"] for axis in "xyz"]
+        return np.diag(values)
+    side, _, part = part.partition("_")
+    group = motion.axle(end).poses[f"_{side}"]
+    return group.masses()[part].tensor
+
+
+def test_the_torque_turns_to_the_side_to_which_the_driver_pushes(result) -> None:
+    run = result.runs[-1]
+    # a car whose tyres have trail is held in a turn to the left by a torque to the left
+    assert float(run.motion["steering_torque"][-1]) > 1.0
+    assert abs(float(run.motion["steering_torque"][0])) < 1e-6
+
+
+@pytest.mark.parametrize("name", ["twist_beam", "rigid_axle"])
+def test_an_axle_without_sides_has_its_parts_in_a_car(name) -> None:
+    """Places of its parts by names of states, and names of its bodies in the car."""
+    held = assembly_of(kintrafo.load(name))
+    states = held.model.design_state[None] + 0.01
+    inputs = np.zeros((1, len(held.model.input_names)))
+    found = held.parts_with(dict(zip(held.model.state_names, states.T, strict=True)), 1)[""]
+    expected = held.in_motion(states, inputs)[0][""]
+    for part, center in expected.centers.items():
+        np.testing.assert_array_equal(found.centers[part], center)
+    rear = {k: v for k, v in kintrafo.load(name).to_dict().items() if k not in ("drive", "vehicle")}
+    com = [-1300.0, 0.0, 585.8 if name == "rigid_axle" else 582.4]
+    car = Car.from_dict(FILE | {"rear": rear, "body": FILE["body"] | {"com_mm": com}})
+    bodies = {body.name for body in declared(car).mechanism.bodies}
+    assert {f"rear_{mass.body}" for mass in found.masses().values()} <= bodies
+
+
+def test_peaks_are_the_greatest_of_all_outputs(loads) -> None:
+    found = peaks(loads)
+    sizes = np.linalg.norm(loads["force"].transpose("time", "load", "axis").values, axis=-1)
+    np.testing.assert_array_equal(found["force_peak"], sizes.max(axis=0))
+    first = sizes[:, 0].argmax()
+    assert float(found["force_peak_time"][0]) == float(loads["time"][first])
+    np.testing.assert_array_equal(found["force"][0], loads["force"].isel(load=0, time=first))
+
+
+def test_a_gradient_of_the_torque_is_its_slope(car) -> None:
+    near = [3.9, 4.0, 4.1]
+    turns = circle(car, speed=20.0, lateral_acceleration=near).curves[""]
+    torque = turns["steering_torque"].values
+    slope = (torque[2] - torque[0]) / 0.2
+    assert float(turns["steering_torque_gradient"][1]) == pytest.approx(slope, rel=1e-3)
+    right = circle(car, speed=20.0, lateral_acceleration=near, turn="right").curves[""]
+    np.testing.assert_allclose(right["steering_torque"], -torque, rtol=1e-6)
+
+
+def test_a_simulation_of_the_equations_has_them_too(car) -> None:
+    assembly = driving_car("test", car).assembly
+    start = assembly.running(15.0)
+    found = kintrafo.simulate(assembly.model, (0.0, 0.1), start)
+    assert np.abs(along(assembly.model, found)["holding_force"]).max() < 1e-5
+    model = kintrafo.CarModel(kintrafo.load("quarter_car"))
+    found = kintrafo.simulate(model, (0.0, 0.01), kintrafo.equilibrium(model))
+    with pytest.raises(kintrafo.InputError, match='a car with car = "full"'):
+        along(model, found)
+
+
+def test_the_command_writes_them_and_prints_the_greatest(kintrafo, tmp_path) -> None:
+    file = tmp_path / "short.toml"
+    file.write_text(
+        'manoeuvre = "braking"\nspeed_km_per_h = 20.0\nuntil_km_per_h = 18.0\n'
+        "deceleration_m_per_s2 = 5.0\nstart_s = 0.05\n",
+        encoding="utf-8",
+    )
+    code, out, _ = kintrafo("drive", "driving_car", "--manoeuvre", file, "--loads", "loads.csv")
+    assert code == 0
+    assert "greatest force" in out
+    assert "ball_joint_front_left" in (tmp_path / "loads.csv").read_text(encoding="utf-8")
+    words = ("--manoeuvre", "circle", "--loads", "loads.csv")
+    code, _, said = kintrafo("drive", "driving_car", *words)
+    assert (code, "not simulated" in said) == (2, True)

@@ -1,0 +1,171 @@
+"""Parking: the torque of the steering wheel of a stationary car.
+
+Two parts add up. The car is lifted and leans as it is steered, which the linkages have exactly: the
+states of rest over the angle. The tyres turn on the road; the Magic Formula tyres here have no turn
+slip, and a law of friction takes its place: a round contact under the inflation pressure p (R. S.
+Sharp and R. Granger, Proc. IMechE D 217, 2003), which slides with the moment
+
+    M = 2/3 mu F_z sqrt(F_z / (pi p))
+
+and is reached along an exponential as the wheel turns on the road (P. R. Dahl, 1968).
+"""
+
+from typing import ClassVar, Literal
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from pydantic import Field
+from scipy.interpolate import CubicSpline
+
+from .....core.errors import InputError, KintrafoError
+from ....assembly.by_wheel import WHEEL, wheel_coordinate
+from ....assembly.equilibrium import equilibrium
+from ....input.section import NonNegative, Positive, Section
+from ....models.car.car import Car
+from ..car import DrivingCar
+from ..driven import STEERING_TORQUE
+from ..result import HandlingResult, quantity
+from ..subject import see_controls
+from .manoeuvre import Progress
+
+Array = NDArray[np.float64]
+
+ALONG = "steering_wheel_angle"
+
+_DESCRIBED = {
+    "steering_torque": STEERING_TORQUE,
+    "lifting_torque": ("part of it that lifts the car and leans it", "N m"),
+    "friction_torque": ("part of it that turns the tyres on the road", "N m"),
+}
+_OF_WHEELS = {
+    "steer": ("steer angle of the wheel to the body, positive to the left", "rad"),
+    "fz": ("vertical force of the road on the tyre", "N"),
+    "mz": ("moment of the wheel on the road as it turns, positive to the left", "N m"),
+}
+
+
+class Parking(Section):
+    """The steering wheel of a stationary car is turned from side to side, slowly."""
+
+    TITLE: ClassVar[str] = "parking"
+    CURVES: ClassVar[tuple[str, ...]] = ("",)
+    TRAVELS: ClassVar[bool] = False
+
+    manoeuvre: Literal["parking"] = Field(description="which manoeuvre this is")
+    largest_deg: Positive = Field(
+        default=360.0, description="steering wheel angle to which it is turned, to both sides"
+    )
+    step_deg: Positive = Field(default=5.0, description="step of the steering wheel angle")
+    friction: NonNegative = Field(
+        default=0.8, description="friction of a tyre that turns on the road; 0: none"
+    )
+    pressure_kPa: Positive = Field(  # noqa: N815 (Pa is the pascal)
+        default=230.0, description="inflation pressure of the steered tyres"
+    )
+    twist_deg: Positive = Field(
+        default=4.0, description="turn of a wheel in which 63 % of its moment of friction is there"
+    )
+
+    def problems(self) -> list[str]:
+        """Say what cannot be."""
+        if self.step_deg > 0.25 * self.largest_deg:
+            least = 0.25 * self.largest_deg
+            return [f"step_deg = {self.step_deg:g} deg: {least:g} deg at most is allowed."]
+        return []
+
+    def check(self, car: Car) -> None:
+        """Refuse a car that cannot be steered, before its equations are derived."""
+        see_controls(car)
+
+    def run(self, car: DrivingCar, progress: Progress) -> HandlingResult:
+        """Return the torque over the angle, and the greatest one."""
+        count = int(np.ceil(self.largest_deg / self.step_deg))
+        angles = np.deg2rad(self.largest_deg) * np.arange(-count, count + 1) / count
+        steer, loads, lifting = self._at_rest(car, angles, progress)
+        slopes = CubicSpline(angles, steer, axis=-1)(angles, 1)
+        # from the middle to the left, to the right and to the left again
+        there = np.arange(-count, count + 1)
+        path = np.concatenate([np.arange(count + 1), there[::-1][1:], there[1:]]) + count
+        moments = self.moments(steer[:, path], loads[:, path])
+        rubbing = (moments * slopes[:, path]).sum(axis=0)
+        values = {
+            "steering_torque": lifting[path] + rubbing,
+            "lifting_torque": lifting[path],
+            "friction_torque": rubbing,
+        }
+        curves = {name: quantity(ALONG, values[name], *words) for name, words in _DESCRIBED.items()}
+        of_wheels = {"steer": steer[:, path], "fz": loads[:, path], "mz": moments}
+        for name, words in _OF_WHEELS.items():
+            curves[name] = quantity((WHEEL, ALONG), of_wheels[name], *words)
+        words = ("steering wheel angle, positive to the left", "rad")
+        coordinates = {
+            ALONG: quantity(ALONG, angles[path], *words),
+            WHEEL: wheel_coordinate(car.steered),
+        }
+        title = f"{self.TITLE}, stationary"
+        found = xr.Dataset(curves, coordinates, {"title": title})
+        metrics = {
+            f"greatest_{name}": quantity((), np.abs(values[name]).max(), f"greatest {words}", "N m")
+            for name, words in _GREATEST.items()
+        }
+        return HandlingResult(xr.Dataset(metrics, attrs={"title": title}), {"": found})
+
+    def moments(self, steer: Array, loads: Array) -> Array:
+        """Return the moments of wheels that turn on the road, positive to the left [N m].
+
+        Parameters
+        ----------
+        steer : ndarray, shape (wheels, n)
+            Steer angles, one after the other; before the first one nothing has turned [rad].
+        loads : ndarray, shape (wheels, n)
+            [N]
+        """
+        sliding = 2.0 / 3.0 * self.friction * loads * np.sqrt(loads / (np.pi * self._pressure))
+        share = np.zeros_like(steer)
+        turned = np.diff(steer, axis=-1)
+        kept = np.exp(-np.abs(turned) / np.deg2rad(self.twist_deg))
+        for i in range(turned.shape[-1]):
+            towards = np.sign(turned[:, i])
+            share[:, i + 1] = towards + (share[:, i] - towards) * kept[:, i]
+        found: Array = share * sliding
+        return found
+
+    @property
+    def _pressure(self) -> float:
+        return 1e3 * self.pressure_kPa
+
+    def _at_rest(
+        self, car: DrivingCar, angles: Array, progress: Progress
+    ) -> tuple[Array, Array, Array]:
+        """Return steer angles and loads of the steered wheels, (wheels, n), and the torque, (n,).
+
+        The tyres carry no forces along the road: the car has come to rest.
+        """
+        racks = car.controls.rack(angles)[car.steering_input]
+        states, inputs = [], []
+        for i, (angle, rack) in enumerate(zip(angles.tolist(), racks.tolist(), strict=True)):
+            try:
+                rest = equilibrium(car.model, rack_position=rack)  # type: ignore[arg-type]
+            except KintrafoError as error:
+                problem = (
+                    f"largest_deg = {self.largest_deg:g} deg: at a steering wheel angle of "
+                    f"{np.rad2deg(angle):.1f} deg the car has no rest: {error}. Choose less."
+                )
+                raise InputError([problem], self.TITLE) from None
+            assert rest.inputs is not None
+            states.append(np.asarray(rest))
+            inputs.append(np.asarray(rest.inputs))
+            progress((i + 1) / angles.size)
+        torque = car.steering_torque(angles, np.array(states), np.array(inputs))
+        assert torque is not None  # of a car from a file
+        signals = car.model.evaluate("signals", np.array(states), np.array(inputs))
+        steer, loads = (signals[:, car.signal_rows(n, car.steered)].T for n in ("steer", "fz"))
+        return steer, loads, torque
+
+
+_GREATEST = {
+    "steering_torque": "torque of the steering wheel, in size",
+    "lifting_torque": "torque that lifts the car, in size",
+    "friction_torque": "torque that turns the tyres on the road, in size",
+}

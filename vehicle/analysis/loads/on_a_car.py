@@ -1,0 +1,301 @@
+"""The loads on every part of a car that drives: Newton and Euler in states of its equations.
+
+An axle is looked at in the axes of the body, in which it moves as on a body that is held. What the
+motion of the body does to it are the accelerations of its parts, weights that are not along the
+third axis, and the forces of tyres that roll.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ....core.quantities import attributes
+from ....core.vectors import cross
+from ....datasets.recording import TIME
+from ....systems.inputs import derived_inputs
+from ...assembly.assembly import HeldAssembly
+from ...assembly.by_wheel import stacked
+from ...assembly.car import CarAssembly
+from ...assembly.coupling import STEERING
+from ...assembly.load import RACK, Load
+from ...assembly.part_poses import CENTER, CONTACT, PartPoses
+from ...corner.corner import RoadWheel
+from ...corner.structure import GROUND
+from ...models.sides import SIDES
+from .applied_loads import WHEEL, of_wheel
+from .dataset import AXIS, LOAD, PART, loads_of
+from .inertia import PartTwists
+from .mounts import ALL, MOUNT
+from .reactions import BalanceEquations
+
+Array = NDArray[np.float64]
+
+# Names that are the same at both ends of a car.
+_SHARED = (*GROUND, "gravity", "inertia", "mass", STEERING, ALL)
+_ALONG = (LOAD, "moving_part", MOUNT, "wheel")
+_AT = ("at", "at_in_part", "total_at")
+
+
+class AxleLoads(NamedTuple):
+    """The loads on an axle in n states of a car, in the axes of the axle's file.
+
+    Attributes
+    ----------
+    assembly : HeldAssembly
+        The axle.
+    poses : dict of str to PartPoses
+        Its parts, by suffix.
+    loads : dict of str to list of Load
+        All on each group, what the joints carry included.
+    holding : list of ndarray
+        By wheel, a vertical force that the motion would need besides, (n,) [N].
+    """
+
+    assembly: HeldAssembly
+    poses: dict[str, PartPoses]
+    loads: dict[str, list[Load]]
+    holding: list[Array]
+
+    def dataset(self) -> xr.Dataset:
+        """Return them over time, as `kintrafo.loads.along` of an axle."""
+        found = loads_of(TIME, self.assembly, self.poses, self.loads)
+        meaning = "vertical force at the wheel that the motion would need besides"
+        held = stacked(TIME, self.holding, attributes(meaning, "N"))
+        return found.assign(holding_force=held)
+
+
+class CarInMotion:
+    """A car that drives, in n states.
+
+    Parameters
+    ----------
+    assembly : CarAssembly
+    states, inputs : ndarray, shape (n, states) and (n, inputs)
+    """
+
+    def __init__(self, assembly: CarAssembly, states: Array, inputs: Array) -> None:
+        self.assembly, self.states, self.inputs = assembly, states, inputs
+        self.model = assembly.model
+        columns = dict(zip(self.model.state_names, states.T, strict=True))
+        self._values = columns | dict(zip(self.model.input_names, inputs.T, strict=True))
+
+    @cached_property
+    def body(self) -> Array:
+        """The rotation of the body from design, (n, 3, 3)."""
+        place = self.model.equations.BODIES.index("body")
+        found: Array = self.model.evaluate("orientations", self.states, self.inputs)[:, place]
+        return found
+
+    @cached_property
+    def up(self) -> Array:
+        """The upward axis of the world in the axes of the body, (n, 3)."""
+        return self.body[:, 2]
+
+    @cached_property
+    def signals(self) -> dict[str, Array]:
+        """The signals of its equations, (n,)."""
+        return self.model.signals(self.states, self.inputs)
+
+    @cached_property
+    def twists(self) -> PartTwists:
+        """How its parts move in the world, in components along the axes of the body."""
+        by_time = self.model.evaluate("rhs", self.states, self.inputs)
+        names, derived = self.model.input_names, derived_inputs(self.model.equations.INPUTS)
+        rates = np.zeros_like(self.inputs)
+        sources = {e["derivative_of"]: n for n, e in self.model.equations.INPUTS.items()}
+        for name in {*derived.values(), *derived}:
+            if name in sources:
+                rates[:, names.index(name)] = self.inputs[:, names.index(sources[name])]
+        found = PartTwists.of(self.model, self.states, self.inputs, by_time, rates)
+        return replace(found, twists=self._seen(found.twists), rates=self._seen(found.rates))
+
+    def _seen(self, twists: Array) -> Array:
+        """Return pairs of vectors, (n, parts, 6), in components along the axes of the body."""
+        pairs = twists.reshape(*twists.shape[:-1], 2, 3)
+        found: Array = np.einsum("nji,npkj->npki", self.body, pairs)
+        return found.reshape(twists.shape)
+
+    def axle(self, end: str) -> AxleLoads:
+        """Return the loads on the axle at an end.
+
+        Raises
+        ------
+        PositionError
+            Where the motion comes to a dead point.
+        """
+        axle, begin = self.assembly.held[end], f"{end}_"
+        own = (begin, "rack_") if end == "front" else (begin,)  # elsewhere it is fixed to the body
+        values = {
+            name.removeprefix(begin): value
+            for name, value in self._values.items()
+            if name.startswith(own)
+        }
+        poses = axle.parts_with(values, len(self.states))
+        acting = axle.acting(poses)
+        loads: dict[str, list[Load]] = {}
+        holding: list[Array] = []
+        for suffix, group in poses.items():
+            known = [self._leaning(load) for load in acting[suffix]]
+            known += [*self._on_wheels(end, suffix, group), *self._inertia(end, suffix, group)]
+            equations = BalanceEquations(group)
+            unknowns = equations.solve(equations.applied(known))
+            loads[suffix] = [*equations.carried(unknowns), *known]
+            holding += [*unknowns[:, -len(group.wheels) :].T]
+        return AxleLoads(axle, poses, loads, holding)
+
+    def _leaning(self, load: Load) -> Load:
+        """Return a load that acts by itself: a weight is along the upward axis of the world."""
+        if load.by != "gravity":
+            return load
+        return replace(load, force=load.force[..., 2:] * self.up)
+
+    def _inertia(self, end: str, suffix: str, group: PartPoses) -> Iterator[Load]:
+        """Yield what the acceleration of each part takes."""
+        begin = f"{end}{suffix}_"
+        names = tuple(name.removeprefix(begin) for name in self.twists.bodies)
+        twists = replace(self.twists, bodies=names)
+        for part, mass in group.masses().items():
+            yield twists.load(part, mass, group.turned[part], group.centers[part])
+
+    def _on_wheels(self, end: str, suffix: str, group: PartPoses) -> Iterator[Load]:
+        """Yield the forces of the road, and torques whose reaction is on the body."""
+        for part, wheel in group.wheels.items():
+            side = (suffix or part).rpartition("_")[2]
+            yield from of_wheel(part, [*self._on_wheel(end, f"{end}_{side}", wheel)])
+
+    def _on_wheel(self, end: str, name: str, wheel: RoadWheel) -> Iterator[Load]:
+        """Yield the loads on a wheel in the equations of the tyre, see `generator.RollingTyre`."""
+        left, up = wheel.vehicle.side * wheel.axis, self.up
+        leaning = cross(left, up)
+        cosine = np.linalg.norm(leaning, axis=-1)
+        forward = leaning / cosine[:, None]
+        across = cross(up, forward)
+        down = cross(left, forward)
+        axes = np.stack([forward, across, up], axis=1)
+        forces, moments = (
+            np.stack([self.signals[f"{name}_{what}{axis}"] for axis in "xyz"], axis=-1)
+            for what in ("f", "m")
+        )
+        # the normal force acts at the lowest point, all else where the plane meets the road
+        road = self._values[self.assembly.names_of(name).road]
+        height = self.signals[f"{name}_wheel_center_z"] - road
+        below = (self.signals[f"{name}_deflection"] / cosine)[:, None]
+        lower = cross(below * down, forces[:, 2:] * up)
+        at = wheel.center + (height / cosine)[:, None] * down
+        force, moment = (np.einsum("na,nai->ni", each, axes) for each in (forces, moments))
+        yield Load(WHEEL, CONTACT, "road", force, moment + lower, at)
+        torque = self._by_shaft(end, name)
+        if torque is not None:
+            nothing = np.zeros(3)
+            yield Load(WHEEL, CENTER, "shaft", nothing, torque[:, None] * left, wheel.center)
+
+    def _by_shaft(self, end: str, name: str) -> Array | None:
+        """Return the torque on a wheel whose reaction is on the body; None where there is none.
+
+        That of a brake or a motor on the carrier is a part of what the bearing carries.
+        """
+        axle = self.assembly.held[end]
+        kinds = {"brake": axle.torque_on("brakes"), "drive": axle.torque_on("drive")}
+        torques = [
+            self.signals[f"{name}_{kind}_moment"]
+            for kind, on in kinds.items()
+            if on == "body" and f"{name}_{kind}_moment" in self.signals
+        ]
+        return np.sum(torques, axis=0) if torques else None
+
+
+def rack_force(assembly: CarAssembly, states: Array, inputs: Array) -> Array:
+    """Return the force of the steering on the rack along its axis, (n,) [N].
+
+    Parameters
+    ----------
+    assembly : CarAssembly
+        Of a car that drives, with a rack.
+    states, inputs : ndarray, shape (n, states) and (n, inputs)
+    """
+    front = CarInMotion(assembly, states, inputs).axle("front")
+    axes = [group.rack_axis for group in front.poses.values() if group.rack_axis is not None]
+    others = [load for own in front.loads.values() for load in own if load.part == RACK]
+    return -sum((load.force @ axes[0] for load in others), np.zeros(len(states)))
+
+
+def of_car(assembly: CarAssembly, states: Array, inputs: Array) -> xr.Dataset:
+    """Return the loads in some states of a car that drives, (n, states), as over time."""
+    motion = CarInMotion(assembly, states, inputs)
+    return _together(
+        {
+            end: _named(motion.axle(end).dataset(), end, assembly.car.origins[end])
+            for end in assembly.held
+        }
+    )
+
+
+def _named(found: xr.Dataset, end: str, origin: float) -> xr.Dataset:
+    """Return the loads of an axle by the names that they have in a car, in its axes.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+    end : str
+    origin : float
+        x of the origin of the axle's axes in those of the car [m].
+    """
+    names = {
+        key: [_name(str(name), end) for name in found[key].values]
+        for key in (PART, "point", "by", "moving_part", MOUNT)
+    }
+    wheels = [f"{end}_{side}" for side in found[WHEEL].values]
+    rows = zip(names[PART], names["point"], names["by"], strict=True)
+    labels = {
+        LOAD: [f"{part} at {point} by {by}" for part, point, by in rows],
+        **{key: (LOAD, names[key]) for key in (PART, "point", "by")},
+        "moving_part": names["moving_part"],
+        MOUNT: names[MOUNT],
+        WHEEL: found[WHEEL].copy(data=np.array(wheels)),
+    }
+    moved = {}
+    for name in _AT:
+        shift = xr.DataArray([origin, 0.0, 0.0], dims=AXIS)
+        moved[name] = (
+            (found[name] + shift).transpose(*found[name].dims).assign_attrs(found[name].attrs)
+        )
+    by = [
+        ", ".join(_name(one, end) for one in str(text).split(", "))
+        for text in found["total_by"].values
+    ]
+    moved["total_by"] = found["total_by"].copy(data=np.array(by))
+    own = {name: f"{end}_{name}" for name in ("bar_torque", "rack_force") if name in found}
+    return found.assign(moved).rename(own).assign_coords(labels)
+
+
+def _name(name: str, end: str) -> str:
+    if name in _SHARED and (name != RACK or end == "front"):
+        return name
+    stem, _, side = name.rpartition("_")
+    return f"{stem}_{end}_{side}" if side in SIDES else f"{name}_{end}"
+
+
+def _together(found: Mapping[str, xr.Dataset]) -> xr.Dataset:
+    """Return the loads of both axles as those of the car."""
+    parts = list(found.values())
+    every = dict.fromkeys(str(name) for one in parts for name in one.variables)
+    data = {name: _joined([one[name].variable for one in parts if name in one]) for name in every}
+    rules = dict.fromkeys(rule for one in parts for rule in one.attrs["rules"].split("; ") if rule)
+    joined = xr.Dataset(data, attrs={"rules": "; ".join(rules)})
+    return joined.set_coords([name for name in parts[0].coords if name in joined])
+
+
+def _joined(variables: Sequence[xr.Variable]) -> xr.Variable:
+    """Return variables of axles behind each other, along what each axle has of its own."""
+    along = [name for name in _ALONG if name in variables[0].dims]
+    first = variables[0]
+    if not along:
+        return first
+    values = [one.transpose(*first.dims).values for one in variables]
+    joined = np.concatenate(values, axis=first.dims.index(along[0]))
+    return xr.Variable(first.dims, joined, first.attrs)
