@@ -66,11 +66,17 @@ def test_tyres_are_files_beside_the_car_or_tables(tmp_path: Any) -> None:
         {"air.drag_area_m2": -0.1},
         {"body.inertia_zz_kg_m2": 0.0},
         {"front.drive.share": 0.5},
-        {"body.inertia_zz_kg_m2": None},
     ],
 )
 def test_what_contradicts_itself_is_refused(changes: dict[str, Any], refused: Any) -> None:
     refused(kintrafo.InputError, lambda: light_car(**changes))
+
+
+@pytest.mark.parametrize("key", ["inertia_zz_kg_m2", "inertia_xx_kg_m2"])
+def test_a_missing_moment_of_inertia_is_named(key: str) -> None:
+    body = {name: value for name, value in FILE["body"].items() if name != key}
+    with pytest.raises(kintrafo.InputError, match=rf"\[body\] {key} is missing"):
+        Car.from_dict(FILE | {"body": body})
 
 
 def on_a_rigid_axle() -> dict[str, Any]:
